@@ -1,0 +1,251 @@
+//! What is asked and what counts as right: one self-contained file.
+//!
+//! Pure data. Who asks is `ask`, who compares is `judge`.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use glam::Vec3;
+use protocol::{Interval, Question, packed};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The six things to write, in lecture order.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Task {
+    /// `Camera::sample_ray`
+    Camera,
+    /// `Triangle::hit`
+    Triangle,
+    /// `Sphere::hit`
+    Sphere,
+    /// `BBox::hit`
+    #[serde(rename = "bbox")]
+    BBox,
+    /// `Bvh::build`
+    Build,
+    /// `Bvh::hit`
+    Traverse,
+}
+
+impl Task {
+    /// All tasks, in lecture order.
+    pub const ALL: [Task; 6] = [
+        Task::Camera,
+        Task::Triangle,
+        Task::Sphere,
+        Task::BBox,
+        Task::Build,
+        Task::Traverse,
+    ];
+
+    /// What the command line and files call it.
+    pub fn id(self) -> &'static str {
+        match self {
+            Task::Camera => "camera",
+            Task::Triangle => "triangle",
+            Task::Sphere => "sphere",
+            Task::BBox => "bbox",
+            Task::Build => "build",
+            Task::Traverse => "traverse",
+        }
+    }
+
+    /// What people read.
+    pub fn title(self) -> &'static str {
+        match self {
+            Task::Camera => "Task 1: camera rays",
+            Task::Triangle => "Task 2: triangles",
+            Task::Sphere => "Task 2: spheres",
+            Task::BBox => "Task 3: boxes",
+            Task::Build => "Task 3: building a BVH",
+            Task::Traverse => "Task 3: walking a BVH",
+        }
+    }
+
+    /// The file of a submission that holds it.
+    pub fn file(self) -> &'static str {
+        match self {
+            Task::Camera => "camera.rs",
+            Task::Triangle => "triangle.rs",
+            Task::Sphere => "sphere.rs",
+            Task::BBox => "bbox.rs",
+            Task::Build | Task::Traverse => "bvh.rs",
+        }
+    }
+
+    /// The points that all its items add up to.
+    pub fn points(self) -> u32 {
+        match self {
+            Task::Camera | Task::Sphere => 15,
+            Task::Triangle | Task::Build | Task::Traverse => 20,
+            Task::BBox => 10,
+        }
+    }
+}
+
+impl fmt::Display for Task {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.id())
+    }
+}
+
+/// A whole exam: 100 points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Exam {
+    /// The version of this format.
+    pub schema: u32,
+    /// Such as `practice`.
+    pub id: String,
+    /// What is asked, in the order of asking: an item comes after those that it needs.
+    pub items: Vec<Item>,
+}
+
+/// One idea, asked in several ways.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Item {
+    /// The task's id, a dot, and a name: `sphere.from_inside`.
+    pub id: String,
+    /// What must hold, in words: the feedback.
+    pub title: String,
+    /// Whose points it counts for.
+    pub task: Task,
+    /// What it is worth.
+    pub points: u32,
+    /// Where to look if it is wrong; one or two sentences for students.
+    pub hint: String,
+    /// Items of other tasks without which this one says nothing of its own task.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub needs: Vec<String>,
+    /// What is asked. Every one must be right: the item's points are those of the worst.
+    pub questions: Vec<Asked>,
+}
+
+/// A question and its key.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Asked {
+    /// What the probe is told.
+    pub question: Question,
+    /// What it is never told.
+    pub key: Key,
+}
+
+/// What counts as right for one question.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Key {
+    /// To `Camera`: a ray for each sample.
+    Rays {
+        /// What is compared.
+        judged: Vec<RayPart>,
+        /// The direction of each; every ray starts at the origin, with range `[0, ∞)`.
+        #[serde(with = "packed")]
+        directions: Vec<Vec3>,
+    },
+    /// To `Shapes`, `Traverse`, `BuildAndTraverse` with a list of rays: all must be right.
+    Hits {
+        /// What is compared, beside whether there is a hit at all.
+        judged: Vec<Part>,
+        /// For each ray.
+        #[serde(with = "packed")]
+        hits: Vec<Option<Hit>>,
+    },
+    /// To `BBox`: the times inside, for each shot.
+    Spans {
+        /// For each shot.
+        #[serde(with = "packed")]
+        spans: Vec<Option<Interval>>,
+    },
+    /// To `Build`: the tree's structure, and its cost if one is given.
+    Tree {
+        /// Of the best partition at every node, by an exact sweep that stops at the same leaf
+        /// size: C_trav = C_isect = 1, areas divided by the root's.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        sweep_cost: Option<f64>,
+    },
+    /// To `Shapes`, `Traverse`, `BuildAndTraverse` with a view: partial credit by counting.
+    FirstHits {
+        /// What is right for each position.
+        #[serde(with = "packed")]
+        hits: Vec<Option<Surface>>,
+        /// What is right as well, at positions where a neighbour less than 1/1000 of a pixel away
+        /// sees something else.
+        #[serde(with = "packed")]
+        also: Vec<(u32, Option<Surface>)>,
+    },
+    /// To `Radiance`.
+    Radiance {
+        /// Linear red, green and blue, row by row from the bottom.
+        #[serde(with = "packed")]
+        pixels: Vec<Vec3>,
+        /// The most pixels that may be off by more than 1 %.
+        allowed: u32,
+    },
+}
+
+/// What can be compared of a camera's ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RayPart {
+    /// It starts at (0, 0, 0).
+    Origin,
+    /// It goes the right way, whatever its length.
+    Direction,
+    /// Its direction has length one.
+    UnitLength,
+    /// It counts from 0 to ∞.
+    Range,
+}
+
+/// What can be compared of a hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Part {
+    /// `Trace::distance`
+    Distance,
+    /// `Trace::position`
+    Position,
+    /// `Trace::normal`, after normalising.
+    Normal,
+    /// That `Trace::normal` has length one.
+    UnitNormal,
+    /// `Trace::uv`, u modulo 1.
+    Uv,
+    /// `Trace::origin`
+    Origin,
+    /// `Trace::material`
+    Material,
+}
+
+/// The true answer to one ray of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Hit {
+    /// Along the ray.
+    pub distance: f32,
+    /// The point there.
+    pub position: Vec3,
+    /// The surface normal there, of length one.
+    pub normal: Vec3,
+    /// The texture coordinates there.
+    pub uv: glam::Vec2,
+    /// The material of what was hit.
+    pub material: u32,
+}
+
+/// The true answer at one position of a picture: depth, normal, texture coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Surface {
+    /// Along the ray.
+    pub depth: f32,
+    /// The surface normal there, of length one.
+    pub normal: Vec3,
+    /// The texture coordinates there.
+    pub uv: glam::Vec2,
+}

@@ -1,0 +1,2 @@
+//! Grades a path-tracing submission.
+pub mod exam;

@@ -1,0 +1,2 @@
+//! Grades a submission.
+fn main() {}

@@ -1,0 +1,2 @@
+//! Writes all that is generated.
+fn main() {}

@@ -1,0 +1,10 @@
+//! All that students are given: scenes, random numbers, the path tracer, pictures, and the probe
+//! that answers the grader.
+//!
+//! Nothing here solves a task. What students write is reached through the one seam in
+//! [`submission`].
+
+pub mod attempt;
+pub mod math;
+pub mod probe;
+pub mod submission;

@@ -1,0 +1,101 @@
+//! The process that holds a submission and answers the grader's questions.
+//!
+//! It is told questions, never what counts as right, and nothing that it says of itself earns a
+//! point: exit code, output and claims are diagnosis only.
+
+use std::fs::File;
+use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::process::ExitCode;
+use std::thread;
+
+use protocol::wire::{self, WireError};
+use protocol::{Answer, Question};
+
+use crate::attempt::keep_panics_quiet;
+use crate::submission::Submission;
+
+/// The stack that a submission's recursion may use.
+pub const STACK_BYTES: usize = 64 << 20;
+
+/// The longest question that is taken; the grader is trusted, so this only guards a slip.
+const LONGEST_QUESTION: usize = 256 << 20;
+
+/// Answers questions until there are no more.
+pub fn main(submission: &dyn Submission) -> ExitCode {
+    let (questions, answers) = match claim_standard_streams() {
+        Ok(streams) => streams,
+        Err(error) => {
+            eprintln!("probe: can not take over the standard streams: {error}");
+            return ExitCode::from(3);
+        }
+    };
+    keep_panics_quiet();
+    let served = thread::scope(|scope| {
+        thread::Builder::new()
+            .name("submission".to_owned())
+            .stack_size(STACK_BYTES)
+            .spawn_scoped(scope, || serve(submission, questions, answers))
+            .map(|thread| thread.join().unwrap_or(Err(WireError::Ended)))
+    });
+    match served {
+        Ok(Ok(())) => ExitCode::SUCCESS,
+        Ok(Err(error)) => {
+            eprintln!("probe: {error}");
+            ExitCode::from(3)
+        }
+        Err(error) => {
+            eprintln!("probe: can not start a thread: {error}");
+            ExitCode::from(3)
+        }
+    }
+}
+
+/// Answers each question in turn. Answers are held back while more questions are waiting, so that
+/// a batch costs one switch between the processes.
+fn serve(
+    submission: &dyn Submission,
+    questions: impl Read,
+    answers: impl Write,
+) -> Result<(), WireError> {
+    let mut questions = BufReader::with_capacity(1 << 16, questions);
+    let mut answers = BufWriter::with_capacity(1 << 16, answers);
+    loop {
+        if questions.buffer().is_empty() {
+            answers.flush()?;
+        }
+        let frame = match wire::read(&mut questions, LONGEST_QUESTION) {
+            Err(WireError::Ended) => return Ok(()),
+            read => read?,
+        };
+        let answer = match frame.decode()? {
+            Question::Done => Answer::Done,
+            question => submission.answer(&question),
+        };
+        wire::write(&mut answers, frame.nonce, &answer)?;
+    }
+}
+
+/// Moves the grader's pipes away from standard input and output. What a submission prints then
+/// goes to standard error, and what it tries to read is at its end.
+#[cfg(unix)]
+fn claim_standard_streams() -> io::Result<(File, File)> {
+    use std::os::fd::AsFd;
+
+    let questions = io::stdin().as_fd().try_clone_to_owned()?;
+    let answers = io::stdout().as_fd().try_clone_to_owned()?;
+    // A pipe whose other end is closed: no file is opened, so this also works in a sandbox.
+    let (nothing, _) = rustix::pipe::pipe()?;
+    rustix::stdio::dup2_stdin(nothing)?;
+    rustix::stdio::dup2_stdout(io::stderr())?;
+    Ok((File::from(questions), File::from(answers)))
+}
+
+/// Elsewhere the pipes stay where they are: a submission that prints spoils its own answers.
+#[cfg(windows)]
+fn claim_standard_streams() -> io::Result<(File, File)> {
+    use std::os::windows::io::AsHandle;
+
+    let questions = io::stdin().as_handle().try_clone_to_owned()?;
+    let answers = io::stdout().as_handle().try_clone_to_owned()?;
+    Ok((File::from(questions), File::from(answers)))
+}

@@ -1,0 +1,94 @@
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// The numbers from `min` to `max`, both ends included; empty if `min > max`.
+///
+/// Used for distances along a ray, in units of its (unit) direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// The smallest number in the interval.
+    pub min: f32,
+    /// The largest number in the interval; may be `f32::INFINITY`.
+    pub max: f32,
+}
+
+impl Interval {
+    /// All that lies ahead: `[0, ∞)`.
+    pub const AHEAD: Interval = Interval {
+        min: 0.0,
+        max: f32::INFINITY,
+    };
+
+    /// The interval from `min` to `max`.
+    pub const fn new(min: f32, max: f32) -> Self {
+        Interval { min, max }
+    }
+
+    /// Whether `t` lies in the interval; never true of NaN.
+    pub fn contains(&self, t: f32) -> bool {
+        self.min <= t && t <= self.max
+    }
+
+    /// Whether no number lies in the interval (also if an end is NaN).
+    pub fn is_empty(&self) -> bool {
+        // Not `min > max`: a NaN must make the interval empty.
+        !matches!(
+            self.min.partial_cmp(&self.max),
+            Some(std::cmp::Ordering::Less | std::cmp::Ordering::Equal)
+        )
+    }
+}
+
+// JSON has no infinity: in text an unbounded end is `null`. The binary form is two floats.
+
+impl Serialize for Interval {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if serializer.is_human_readable() {
+            let end = |t: f32| t.is_finite().then_some(t);
+            (end(self.min), end(self.max)).serialize(serializer)
+        } else {
+            (self.min, self.max).serialize(serializer)
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Interval {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        if deserializer.is_human_readable() {
+            let (min, max) = <(Option<f32>, Option<f32>)>::deserialize(deserializer)?;
+            Ok(Interval {
+                min: min.unwrap_or(f32::NEG_INFINITY),
+                max: max.unwrap_or(f32::INFINITY),
+            })
+        } else {
+            let (min, max) = <(f32, f32)>::deserialize(deserializer)?;
+            Ok(Interval { min, max })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ends_belong_to_it() {
+        let interval = Interval::new(1.0, 2.0);
+        assert!(interval.contains(1.0) && interval.contains(2.0));
+        assert!(!interval.contains(0.999) && !interval.contains(2.001));
+    }
+
+    #[test]
+    fn nan_is_nowhere() {
+        assert!(!Interval::AHEAD.contains(f32::NAN));
+        assert!(Interval::new(f32::NAN, 1.0).is_empty());
+        assert!(!Interval::new(1.0, 1.0).is_empty());
+    }
+
+    #[test]
+    fn an_unbounded_end_survives_json() {
+        let text = serde_json::to_string(&Interval::AHEAD).unwrap();
+        assert_eq!(text, "[0.0,null]");
+        let back: Interval = serde_json::from_str(&text).unwrap();
+        assert_eq!(back, Interval::AHEAD);
+    }
+}

@@ -1,0 +1,27 @@
+//! The words that both towers of this project speak: the grader, which asks, and a submission's
+//! probe, which answers.
+//!
+//! Plain data only: nothing here knows how a ray meets a sphere. What may travel is a [`Question`]
+//! and its [`Answer`]; how they travel is in [`wire`].
+
+pub mod answer;
+mod interval;
+pub mod packed;
+pub mod question;
+mod ray;
+mod shape;
+mod trace;
+mod tree;
+mod vertex;
+mod view;
+pub mod wire;
+
+pub use answer::{Answer, Outcome, Panic};
+pub use interval::Interval;
+pub use question::Question;
+pub use ray::Ray;
+pub use shape::Shape;
+pub use trace::Trace;
+pub use tree::{Tree, TreeNode};
+pub use vertex::Vertex;
+pub use view::{OFFSETS, PinholeCamera, Rays, Sample, Samples, View, every_pixel};

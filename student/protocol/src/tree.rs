@@ -1,0 +1,38 @@
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// One node of a [`Tree`]: a leaf if and only if `l == r`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TreeNode {
+    /// The smallest corner of the node's box.
+    pub min: Vec3,
+    /// The largest corner of the node's box.
+    pub max: Vec3,
+    /// In a leaf, the place of its first primitive; not read elsewhere.
+    pub start: u32,
+    /// In a leaf, the number of its primitives; not read elsewhere.
+    pub size: u32,
+    /// In an interior node, the place of one child.
+    pub l: u32,
+    /// In an interior node, the place of the other child.
+    pub r: u32,
+}
+
+impl TreeNode {
+    /// Whether the node is a leaf.
+    pub fn is_leaf(&self) -> bool {
+        self.l == self.r
+    }
+}
+
+/// A bounding volume hierarchy, as data. The primitives that `start` and `size` count are listed
+/// beside it: as shapes in a question, as materials (`order`) in an answer.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tree {
+    /// The nodes, in any order.
+    pub nodes: Vec<TreeNode>,
+    /// The place of the node where everything starts.
+    pub root: u32,
+    /// The material of each primitive, in the order that the leaves count.
+    pub order: Vec<u32>,
+}

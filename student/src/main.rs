@@ -1,0 +1,12 @@
+//! Draws a scene: `cargo render scenes/cornell-box.json`.
+
+use std::process::ExitCode;
+
+// solution
+// starter: use student::world::Student;
+use student::world::Student;
+// end solution
+
+fn main() -> ExitCode {
+    framework::cli::main(&Student)
+}

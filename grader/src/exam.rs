@@ -2,7 +2,6 @@
 //!
 //! Pure data. Who asks is `ask`, who compares is `judge`.
 
-use std::collections::BTreeMap;
 use std::fmt;
 
 use glam::Vec3;
@@ -164,6 +163,8 @@ pub enum Key {
     },
     /// To `Build`: the tree's structure, and its cost if one is given.
     Tree {
+        /// What is compared, beside that the nodes form a tree at all.
+        judged: Vec<TreePart>,
         /// Of the best partition at every node, by an exact sweep that stops at the same leaf
         /// size: C_trav = C_isect = 1, areas divided by the root's.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -221,6 +222,23 @@ pub enum Part {
     Origin,
     /// `Trace::material`
     Material,
+}
+
+/// What can be asked of a tree. Each part is judged by itself, on boxes that the judge computes
+/// where it needs right ones, so that one mistake costs once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TreePart {
+    /// Every primitive is in exactly one leaf.
+    Partition,
+    /// Every box holds all primitives below its node.
+    Contains,
+    /// No box exceeds the union of the primitives below by more than 1e-4 of its diagonal.
+    Tight,
+    /// No leaf holds more than `max_leaf_size` primitives.
+    LeafSize,
+    /// No node with at most `max_leaf_size` primitives was split.
+    Stops,
 }
 
 /// The true answer to one ray of a table.

@@ -5,6 +5,12 @@
 //! [`submission`].
 
 pub mod attempt;
+pub mod film;
+mod frame;
+pub mod integrator;
+pub mod light;
 pub mod math;
 pub mod probe;
+pub mod sampler;
+pub mod scene;
 pub mod submission;

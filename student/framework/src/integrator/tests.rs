@@ -1,0 +1,283 @@
+//! Truths that any integrator must reproduce, on worlds made here: no submission is at hand.
+
+use glam::{UVec2, Vec2, Vec3, uvec2, vec2, vec3};
+use protocol::{Answer, Question, Ray, Shape, Trace, Tree};
+
+use super::{Integrator, Sampling, Tally, radiance};
+use crate::scene::Scene;
+use crate::submission::{Submission, World};
+
+/// Spheres only, by a formula of our own; `spoil` is applied to every answer.
+struct Balls {
+    spoil: fn(Trace) -> Trace,
+}
+
+const HONEST: Balls = Balls {
+    spoil: |trace| trace,
+};
+
+struct BallsWorld {
+    shapes: Vec<Shape>,
+    film: UVec2,
+    spoil: fn(Trace) -> Trace,
+}
+
+impl Submission for Balls {
+    fn world(&self, scene: &Scene) -> Box<dyn World> {
+        Box::new(BallsWorld {
+            shapes: scene.shapes.clone(),
+            film: scene.camera.lens.film,
+            spoil: self.spoil,
+        })
+    }
+
+    fn answer(&self, _: &Question) -> Answer {
+        Answer::Done
+    }
+}
+
+impl World for BallsWorld {
+    /// A field of view of 90° on a square sensor.
+    fn camera_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
+        let place = (pixel.as_vec2() + offset) / self.film.as_vec2() * 2.0 - 1.0;
+        Ray::new(Vec3::ZERO, place.extend(-1.0))
+    }
+
+    fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let meet = |shape: &Shape| meet(shape, ray);
+        let nearest = self.shapes.iter().map(meet).fold(None, Trace::nearer);
+        nearest.map(self.spoil)
+    }
+
+    fn tree(&self) -> Tree {
+        Tree::default()
+    }
+}
+
+/// Geometrically: the closest approach to the centre, then half a chord to either side.
+fn meet(shape: &Shape, ray: &Ray) -> Option<Trace> {
+    let Shape::Sphere {
+        center,
+        radius,
+        material,
+    } = *shape
+    else {
+        return None;
+    };
+    let along = (center - ray.origin).dot(ray.dir);
+    let miss = (center - ray.origin) - along * ray.dir;
+    let half_chord = (radius * radius - miss.length_squared()).max(0.0).sqrt();
+    let times = [along - half_chord, along + half_chord];
+    let touches = miss.length() <= radius;
+    let distance = times
+        .into_iter()
+        .find(|&t| ray.range.contains(t) && touches)?;
+    let position = ray.at(distance);
+    Some(Trace {
+        distance,
+        position,
+        normal: (position - center) / radius,
+        uv: Vec2::ZERO,
+        origin: ray.origin,
+        material,
+    })
+}
+
+fn scene(environment: f32, materials: &str, shapes: &str) -> Scene {
+    let text = format!(
+        r#"{{
+            "camera": {{ "vertical_fov": 90, "film": [8, 8],
+                "position": [0, 0, 0], "look_at": [0, 0, -1], "up": [0, 1, 0] }},
+            "environment": [{environment}, {environment}, {environment}],
+            "materials": {{ {materials} }},
+            "shapes": [ {shapes} ]
+        }}"#
+    );
+    Scene::from_text(&text).expect("a scene")
+}
+
+fn sampling(samples: u32, bounces: u32) -> Sampling {
+    Sampling {
+        film: uvec2(8, 8),
+        samples,
+        bounces,
+        seed: 1,
+    }
+}
+
+const GREY: &str = r#""grey": { "lambertian": { "albedo": [0.5, 0.5, 0.5] } }"#;
+const WHITE: &str = r#""white": { "lambertian": { "albedo": [1, 1, 1] } }"#;
+const GLASS: &str = r#""glass": { "glass": { "ior": 1.5 } }"#;
+const LAMP: &str = r#""lamp": { "emitter": { "radiance": [1, 1, 1] } }"#;
+
+fn ball(z: f32, radius: f32, material: &str) -> String {
+    format!(
+        r#"{{ "sphere": {{ "center": [0, 0, {z}], "radius": {radius}, "material": "{material}" }} }}"#
+    )
+}
+
+#[test]
+fn in_a_furnace_a_white_ball_can_not_be_seen() {
+    // Light 1 from everywhere, and nothing is lost: every pixel is 1.
+    let scene = scene(1.0, WHITE, &ball(-3.0, 2.0, "white"));
+    let pixels = radiance(&HONEST, &scene, &sampling(4, 4));
+    assert!(pixels.iter().all(|pixel| *pixel == Vec3::ONE), "{pixels:?}");
+}
+
+#[test]
+fn in_a_furnace_glass_can_not_be_seen() {
+    let scene = scene(1.0, GLASS, &ball(-3.0, 2.0, "glass"));
+    let pixels = radiance(&HONEST, &scene, &sampling(4, 200));
+    assert!(pixels.iter().all(|pixel| *pixel == Vec3::ONE), "{pixels:?}");
+}
+
+#[test]
+fn in_a_furnace_a_grey_ball_gives_back_its_albedo() {
+    let scene = scene(1.0, GREY, &ball(-3.0, 2.0, "grey"));
+    let pixels = radiance(&HONEST, &scene, &sampling(4, 4));
+    // In the middle of the picture there is only the ball, and nothing to scatter twice.
+    assert_eq!(pixels[8 * 4 + 4], Vec3::splat(0.5));
+}
+
+#[test]
+fn inside_a_grey_shell_that_surrounds_a_lamp_light_is_a_geometric_series() {
+    // All that leaves the lamp is caught by the shell. Behind the lamp's own share, each bounce
+    // passes half on: what the shell shows is the same everywhere, but for the lamp's shadow of
+    // itself, which is small.
+    let shapes = [ball(0.0, 10.0, "grey"), ball(5.0, 0.1, "lamp")].join(",");
+    let scene = scene(0.0, &format!("{GREY}, {LAMP}"), &shapes);
+    let mean = |bounces| {
+        let pixels = radiance(&HONEST, &scene, &sampling(400, bounces));
+        pixels.iter().map(|pixel| pixel.x).sum::<f32>() / pixels.len() as f32
+    };
+    // Inside a sphere every scattering spreads light evenly, so from the second bounce on the
+    // terms are: power · albedoⁿ / (π · area of the shell).
+    let term = |n: i32| {
+        let power_over_pi = 4.0 * std::f32::consts::PI * 0.01;
+        power_over_pi * 0.5_f32.powi(n) / (4.0 * std::f32::consts::PI * 100.0)
+    };
+    let second = mean(2) - mean(1);
+    assert!(
+        (second / term(2) - 1.0).abs() < 0.03,
+        "{second} for {}",
+        term(2)
+    );
+    let rest = mean(12) - mean(2);
+    let truth: f32 = (3..=12).map(term).sum();
+    assert!((rest / truth - 1.0).abs() < 0.03, "{rest} for {truth}");
+}
+
+#[test]
+fn a_large_lamp_lights_a_ball_as_the_closed_form_says() {
+    let shapes = [ball(-3.0, 1.0, "grey"), ball(7.0, 5.0, "lamp")].join(",");
+    let scene = scene(0.0, &format!("{GREY}, {LAMP}"), &shapes);
+    // The pixel in the middle of a large film sees no more than the ball's near pole.
+    let narrow = Sampling {
+        film: uvec2(101, 101),
+        ..sampling(2000, 1)
+    };
+    let scene = scene.on_film(narrow.film);
+    let world = HONEST.world(&scene);
+    let integrator = Integrator::new(&scene, world.as_ref(), narrow);
+    let middle = integrator.pixel(uvec2(50, 50), &mut Tally::default());
+    // Albedo · sin² of the lamp's half angle, seen from z = −2.
+    let truth = 0.5 * (5.0_f32 / 9.0).powi(2);
+    assert!(
+        (middle.x / truth - 1.0).abs() < 0.01,
+        "{middle} for {truth}"
+    );
+}
+
+#[test]
+fn a_lamp_in_a_mirror_is_as_bright_as_the_lamp() {
+    let mirror = r#""mirror": { "mirror": { "reflectance": [0.5, 0.5, 0.5] } }"#;
+    let shapes = [ball(-3.0, 1.0, "mirror"), ball(30.0, 25.0, "lamp")].join(",");
+    let scene = scene(0.0, &format!("{mirror}, {LAMP}"), &shapes);
+    let narrow = Sampling {
+        film: uvec2(101, 101),
+        ..sampling(4, 1)
+    };
+    let pixels = radiance(&HONEST, &scene, &narrow);
+    assert_eq!(pixels[101 * 50 + 50], Vec3::splat(0.5));
+}
+
+#[test]
+fn without_bounces_only_what_shines_is_seen() {
+    let shapes = [ball(-3.0, 1.0, "grey"), ball(7.0, 5.0, "lamp")].join(",");
+    let scene = scene(0.25, &format!("{GREY}, {LAMP}"), &shapes);
+    let pixels = radiance(&HONEST, &scene, &sampling(1, 0));
+    assert_eq!(pixels[8 * 4 + 4], Vec3::ZERO);
+    assert_eq!(pixels[0], Vec3::splat(0.25));
+}
+
+#[test]
+fn the_first_pixel_is_at_the_bottom_left() {
+    let low_and_left =
+        r#"{ "sphere": { "center": [-3, -3, -3], "radius": 1, "material": "lamp" } }"#;
+    let scene = scene(0.0, LAMP, low_and_left);
+    let pixels = radiance(&HONEST, &scene, &sampling(16, 0));
+    assert!(pixels[0].x > 0.5, "bottom left: {}", pixels[0]);
+    let others = [pixels[7], pixels[8 * 7], pixels[8 * 7 + 7]];
+    assert_eq!(others, [Vec3::ZERO; 3]);
+}
+
+#[test]
+fn an_answer_that_is_no_number_spoils_its_path_and_is_counted() {
+    let scene = scene(1.0, GREY, &ball(-3.0, 2.0, "grey"));
+    let bad: [fn(Trace) -> Trace; 4] = [
+        |trace| Trace {
+            position: Vec3::NAN,
+            ..trace
+        },
+        |trace| Trace {
+            normal: Vec3::ZERO,
+            ..trace
+        },
+        |trace| Trace {
+            uv: vec2(f32::INFINITY, 0.0),
+            ..trace
+        },
+        |trace| Trace {
+            material: 77,
+            ..trace
+        },
+    ];
+    for spoil in bad {
+        let world = Balls { spoil }.world(&scene);
+        let integrator = Integrator::new(&scene, world.as_ref(), sampling(3, 4));
+        let mut tally = Tally::default();
+        assert_eq!(integrator.pixel(uvec2(4, 4), &mut tally), Vec3::ZERO);
+        assert_eq!(
+            tally,
+            Tally {
+                rays: 3,
+                spoiled: 3
+            }
+        );
+    }
+}
+
+#[test]
+fn a_normal_of_any_length_is_as_good() {
+    let scene = scene(1.0, GLASS, &ball(-3.0, 2.0, "glass"));
+    let long = Balls {
+        spoil: |trace| Trace {
+            normal: trace.normal * 3.0,
+            ..trace
+        },
+    };
+    let honest = radiance(&HONEST, &scene, &sampling(2, 4));
+    let pixels = radiance(&long, &scene, &sampling(2, 4));
+    let close = |(a, b): (&Vec3, &Vec3)| a.abs_diff_eq(*b, 1e-3);
+    assert!(honest.iter().zip(&pixels).all(close));
+}
+
+#[test]
+fn the_epsilon_grows_with_the_scene() {
+    let near = scene(0.0, GREY, &ball(-3.0, 2.0, "grey"));
+    assert_eq!(near.extent(), 5.0);
+    let moved = vec3(0.0, 0.0, 50.0);
+    let mut far = near.clone();
+    far.camera.placement.position = moved;
+    assert_eq!(far.extent(), 50.0);
+}

@@ -1,0 +1,131 @@
+//! Random numbers that depend on what they are for, not on what was drawn before.
+//!
+//! A running stream would let one wrong hit shift every later number of its path, and the picture
+//! of an almost right submission would look nothing like the reference's. Here each number is a
+//! hash of (seed, pixel, sample, bounce, purpose): the same place in the same path gets the same
+//! number in every submission, on every machine, in every order of evaluation.
+
+use glam::{UVec2, Vec2, vec2};
+
+/// What a random number decides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// The place in the pixel.
+    Pixel,
+    /// Which light is asked.
+    Light,
+    /// The place on that light.
+    PlaceOnLight,
+    /// The direction in which a matte surface scatters.
+    Direction,
+    /// Whether glass reflects or refracts.
+    ReflectOrRefract,
+}
+
+/// All random numbers of one path.
+#[derive(Clone, Copy, Debug)]
+pub struct Sampler {
+    key: u64,
+}
+
+impl Sampler {
+    /// The random numbers of the `sample`-th path through a pixel.
+    pub fn new(seed: u64, pixel: UVec2, sample: u32) -> Self {
+        let pixel = u64::from(pixel.y) << 32 | u64::from(pixel.x);
+        let key = mix(mix(mix(seed) ^ pixel) ^ u64::from(sample));
+        Sampler { key }
+    }
+
+    /// A number in `[0, 1)`.
+    pub fn one(&self, bounce: u32, purpose: Purpose) -> f32 {
+        self.pair(bounce, purpose).x
+    }
+
+    /// Two independent numbers, each in `[0, 1)`.
+    pub fn pair(&self, bounce: u32, purpose: Purpose) -> Vec2 {
+        let place = u64::from(bounce) << 32 | purpose as u64;
+        let bits = mix(self.key ^ place);
+        vec2(unit((bits >> 32) as u32), unit(bits as u32))
+    }
+}
+
+/// One step of SplitMix64: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
+/// Generators", OOPSLA 2014, with Stafford's constants ("mix13").
+///
+/// A bijection in which each bit of the input flips about half of the output's bits: nested, it
+/// hashes words one after the other, at three multiplications and shifts each, without tables.
+fn mix(word: u64) -> u64 {
+    let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    word ^ (word >> 31)
+}
+
+/// The upper 24 bits as a fraction. All 32 would round up to 1, which is not in `[0, 1)`.
+fn unit(bits: u32) -> f32 {
+    (bits >> 8) as f32 * (1.0 / 16_777_216.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::uvec2;
+
+    use super::*;
+
+    #[test]
+    fn the_same_place_in_the_same_path_gets_the_same_numbers() {
+        let sampler = Sampler::new(7, uvec2(3, 4), 5);
+        let early = sampler.pair(2, Purpose::Direction);
+        sampler.one(0, Purpose::Light);
+        assert_eq!(sampler.pair(2, Purpose::Direction), early);
+        let again = Sampler::new(7, uvec2(3, 4), 5);
+        assert_eq!(again.pair(2, Purpose::Direction), early);
+    }
+
+    #[test]
+    fn these_numbers_stay_the_same_for_good() {
+        // Keys of exams are recorded with them.
+        let pair = Sampler::new(1, uvec2(2, 3), 4).pair(5, Purpose::PlaceOnLight);
+        assert_eq!(pair * 16_777_216.0, vec2(4_298_788.0, 7_366_984.0));
+    }
+
+    #[test]
+    fn the_hash_is_the_published_one() {
+        // The first number of SplitMix64 from seed 0.
+        assert_eq!(mix(0), 0xe220_a839_7b1d_cdaf);
+    }
+
+    #[test]
+    fn each_of_the_five_words_counts() {
+        let base = Sampler::new(1, uvec2(2, 3), 4).pair(5, Purpose::Light);
+        let others = [
+            Sampler::new(2, uvec2(2, 3), 4).pair(5, Purpose::Light),
+            Sampler::new(1, uvec2(3, 2), 4).pair(5, Purpose::Light),
+            Sampler::new(1, uvec2(2, 3), 5).pair(5, Purpose::Light),
+            Sampler::new(1, uvec2(2, 3), 4).pair(4, Purpose::Light),
+            Sampler::new(1, uvec2(2, 3), 4).pair(5, Purpose::Pixel),
+        ];
+        assert!(others.iter().all(|other| *other != base), "{others:?}");
+    }
+
+    #[test]
+    fn the_largest_number_is_below_one() {
+        assert!(unit(u32::MAX) < 1.0);
+        assert_eq!(unit(0), 0.0);
+    }
+
+    #[test]
+    fn ten_thousand_pairs_fill_the_square_evenly() {
+        let pairs = (0..10_000).map(|n| {
+            let pixel = uvec2(n % 100, n / 100);
+            Sampler::new(0, pixel, 0).pair(0, Purpose::Pixel)
+        });
+        let mut cells = [0_u32; 16];
+        for pair in pairs {
+            let cell = (pair * 4.0).as_uvec2();
+            cells[(4 * cell.y + cell.x) as usize] += 1;
+        }
+        // 625 each, with a standard deviation of 24.
+        assert!(cells.iter().all(|n| n.abs_diff(625) < 120), "{cells:?}");
+    }
+}

@@ -1,0 +1,170 @@
+//! Who looks, from where.
+
+use glam::{Mat3, UVec2, Vec3};
+use protocol::{PinholeCamera, Ray};
+use serde::Deserialize;
+
+use super::{LONGEST_SIDE, number};
+
+/// A camera and its place in the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "CameraInFile")]
+pub struct Camera {
+    /// What the submission's `Camera` is made of.
+    pub lens: PinholeCamera,
+    /// From the camera's space to the world's.
+    pub placement: Placement,
+    /// Whether the author chose the sensor's shape, so that it does not follow the film's.
+    pub fixed_aspect: bool,
+}
+
+/// A camera's place: a rotation, then a translation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Where the camera is, in world space.
+    pub position: Vec3,
+    /// The camera's x, y and z in world space, as columns; it looks down −z, with y up.
+    pub axes: Mat3,
+}
+
+impl Camera {
+    /// See [`Scene::on_film`](super::Scene::on_film).
+    pub(super) fn on_film(self, film: UVec2) -> Camera {
+        let aspect_ratio = if self.fixed_aspect {
+            self.lens.aspect_ratio
+        } else {
+            aspect_of(film)
+        };
+        Camera {
+            lens: PinholeCamera {
+                aspect_ratio,
+                film,
+                ..self.lens
+            },
+            ..self
+        }
+    }
+}
+
+impl Placement {
+    /// A ray of the camera's in world space. Its direction keeps its length.
+    pub fn to_world(&self, ray: &Ray) -> Ray {
+        Ray {
+            origin: self.position + self.axes * ray.origin,
+            dir: self.axes * ray.dir,
+            range: ray.range,
+        }
+    }
+}
+
+/// `camera` in a scene file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CameraInFile {
+    /// The full angle from bottom to top, in degrees.
+    #[serde(deserialize_with = "number::positive")]
+    vertical_fov: f32,
+    /// The number of pixels, across and up.
+    film: [u32; 2],
+    /// The sensor's width divided by its height; without it, the film's.
+    #[serde(default, deserialize_with = "number::optional")]
+    aspect_ratio: Option<f32>,
+    #[serde(deserialize_with = "number::triple")]
+    position: Vec3,
+    #[serde(deserialize_with = "number::triple")]
+    look_at: Vec3,
+    /// What shall point upward in the picture; need not be at a right angle to the view.
+    #[serde(deserialize_with = "number::triple")]
+    up: Vec3,
+}
+
+/// What is wrong with a camera whose numbers are fine one by one.
+#[derive(Debug, thiserror::Error)]
+enum CameraError {
+    #[error("a film of {0} x {1} pixels: each side must be from 1 to {LONGEST_SIDE}")]
+    Film(u32, u32),
+    #[error("`vertical_fov` is {0}: degrees, below 180")]
+    FieldOfView(f32),
+    #[error("`look_at` is the camera's own `position`: move one of them")]
+    LooksAtItself,
+    #[error("`up` is along the view: turn it")]
+    UpAlongTheView,
+}
+
+impl TryFrom<CameraInFile> for Camera {
+    type Error = CameraError;
+
+    fn try_from(file: CameraInFile) -> Result<Self, CameraError> {
+        let [width, height] = file.film;
+        let side = 1..=LONGEST_SIDE;
+        if !side.contains(&width) || !side.contains(&height) {
+            return Err(CameraError::Film(width, height));
+        }
+        if file.vertical_fov >= 180.0 {
+            return Err(CameraError::FieldOfView(file.vertical_fov));
+        }
+        let view = (file.look_at - file.position).try_normalize();
+        let forward = view.ok_or(CameraError::LooksAtItself)?;
+        // Both have length one, so this is the sine of the angle between them.
+        let across = forward.cross(file.up.normalize_or_zero());
+        if across.length() < 1e-4 {
+            return Err(CameraError::UpAlongTheView);
+        }
+        let right = across.normalize();
+
+        let film = UVec2::new(width, height);
+        Ok(Camera {
+            lens: PinholeCamera {
+                vertical_fov: file.vertical_fov,
+                aspect_ratio: file.aspect_ratio.unwrap_or(aspect_of(film)),
+                film,
+            },
+            placement: Placement {
+                position: file.position,
+                axes: Mat3::from_cols(right, right.cross(forward), -forward),
+            },
+            fixed_aspect: file.aspect_ratio.is_some(),
+        })
+    }
+}
+
+fn aspect_of(film: UVec2) -> f32 {
+    film.x as f32 / film.y as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{uvec2, vec3};
+
+    use super::*;
+
+    fn camera(extra: &str) -> Camera {
+        let text = format!(
+            r#"{{ "vertical_fov": 90, "film": [4, 2], {extra}
+                 "position": [1, 2, 3], "look_at": [5, 2, 3], "up": [1, 1, 0] }}"#
+        );
+        serde_json::from_str(&text).expect("a camera")
+    }
+
+    #[test]
+    fn its_axes_follow_from_where_it_looks() {
+        let ray = camera("")
+            .placement
+            .to_world(&Ray::new(Vec3::ZERO, vec3(0.0, 1.0, -1.0)));
+        assert_eq!(ray.origin, vec3(1.0, 2.0, 3.0));
+        let forward_and_up = vec3(1.0, 1.0, 0.0).normalize();
+        assert!(ray.dir.abs_diff_eq(forward_and_up, 1e-6), "{ray:?}");
+        // Looking along +x with y up, +z is to the right.
+        let right = camera("").placement.axes.x_axis;
+        assert!(right.abs_diff_eq(Vec3::Z, 1e-6), "{right}");
+    }
+
+    #[test]
+    fn the_sensor_follows_the_film_unless_its_shape_is_given() {
+        assert_eq!(camera("").lens.aspect_ratio, 2.0);
+        assert_eq!(camera("").on_film(uvec2(3, 3)).lens.aspect_ratio, 1.0);
+        let fixed = camera(r#""aspect_ratio": 1.5,"#).on_film(uvec2(3, 3));
+        assert_eq!(fixed.lens.aspect_ratio, 1.5);
+        assert_eq!(fixed.lens.film, uvec2(3, 3));
+    }
+}

@@ -1,0 +1,188 @@
+//! Meshes in OBJ files, read by `tobj`.
+//!
+//! It names no lines in its errors and lets NaN pass, so what can be wrong is looked for first.
+
+use std::path::Path;
+
+use glam::{Vec2, Vec3};
+
+use super::error::{Place, Problem, SceneError, text_of};
+use super::mesh::{Face, Mesh};
+
+/// The mesh in a file.
+pub(super) fn load(path: &Path) -> Result<Mesh, Problem> {
+    let text = text_of(path).map_err(in_mesh)?;
+    parse(&text).map_err(|error| in_mesh(error.inside(path)))
+}
+
+fn in_mesh(error: SceneError) -> Problem {
+    Problem::Mesh(Box::new(error))
+}
+
+/// All triangles of an OBJ text; faces of more corners become fans.
+fn parse(text: &str) -> Result<Mesh, SceneError> {
+    check(text)?;
+    let options = tobj::LoadOptions {
+        triangulate: true,
+        ignore_points: true,
+        ignore_lines: true,
+        ..tobj::LoadOptions::default()
+    };
+    // Materials are the scene's: a library that the file names is not looked for.
+    let no_library = |_: &Path| Ok(Default::default());
+    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_library)
+        .map_err(|error| SceneError::at(None, Problem::Obj(error.to_string())))?;
+
+    let mut mesh = Mesh::default();
+    for model in models {
+        let first = mesh.positions.len();
+        mesh.positions.extend(triples(&model.mesh.positions));
+        let normals: Vec<Vec3> = triples(&model.mesh.normals).collect();
+        let (uvs, _) = model.mesh.texcoords.as_chunks::<2>();
+        let face = |i: usize| Face {
+            corners: three(&model.mesh.indices, i).map(|corner| first + corner),
+            uv: match model.mesh.texcoord_indices.is_empty() {
+                true => [Vec2::ZERO, Vec2::X, Vec2::Y],
+                false => three(&model.mesh.texcoord_indices, i).map(|k| Vec2::from(uvs[k])),
+            },
+            normals: (!model.mesh.normal_indices.is_empty())
+                .then(|| three(&model.mesh.normal_indices, i).map(|k| normals[k])),
+        };
+        mesh.faces
+            .extend((0..model.mesh.indices.len() / 3).map(face));
+    }
+    match mesh.faces.is_empty() {
+        true => Err(SceneError::at(None, no_faces())),
+        false => Ok(mesh),
+    }
+}
+
+fn no_faces() -> Problem {
+    Problem::Obj("holds no faces (lines that begin with `f`): is it a mesh?".to_owned())
+}
+
+fn triples(numbers: &[f32]) -> impl Iterator<Item = Vec3> {
+    numbers.as_chunks::<3>().0.iter().copied().map(Vec3::from)
+}
+
+fn three(indices: &[u32], face: usize) -> [usize; 3] {
+    [0, 1, 2].map(|corner| indices[3 * face + corner] as usize)
+}
+
+/// The kinds of lines that faces count, in the order in which a corner names them.
+const COUNTED: [(&str, &str); 3] = [("v", "position"), ("vt", "uv"), ("vn", "normal")];
+
+/// Looks at the numbers of positions, texture coordinates and normals, and at the faces' indices.
+fn check(text: &str) -> Result<(), SceneError> {
+    let count = |kind: &str| text.lines().filter(|line| first_word(line) == kind).count();
+    let totals = COUNTED.map(|(kind, _)| count(kind));
+    let mut so_far = [0; 3];
+    for (number, line) in (1..).zip(text.lines()) {
+        let kind = first_word(line);
+        let words = || line.split_whitespace().skip(1);
+        let checked = if let Some(i) = COUNTED.iter().position(|(known, _)| *known == kind) {
+            so_far[i] += 1;
+            words().try_for_each(number_is_finite)
+        } else if kind == "f" {
+            words().try_for_each(|corner| corner_exists(corner, totals, so_far))
+        } else {
+            Ok(())
+        };
+        let failed = |words| {
+            let place = Some(Place::new(text, number, 0));
+            SceneError::at(place, Problem::Obj(words))
+        };
+        checked.map_err(failed)?;
+    }
+    Ok(())
+}
+
+fn first_word(line: &str) -> &str {
+    line.split_whitespace().next().unwrap_or("")
+}
+
+fn number_is_finite(word: &str) -> Result<(), String> {
+    match word.parse::<f32>() {
+        Ok(number) if number.is_finite() => Ok(()),
+        Ok(_) | Err(_) => Err(format!("`{word}` is not a finite number")),
+    }
+}
+
+/// `corner` is such as `7`, `7/1`, `7//3` or `7/1/3`; a negative index counts back from here.
+fn corner_exists(corner: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<(), String> {
+    for (i, index) in corner.split('/').enumerate() {
+        if index.is_empty() {
+            continue;
+        }
+        let (Some((_, name)), Ok(place)) = (COUNTED.get(i), index.parse::<i64>()) else {
+            return Err(format!(
+                "`{corner}` is not a corner, such as 7, 7/1, 7//3 or 7/1/3"
+            ));
+        };
+        let exists = match place {
+            1.. => place.unsigned_abs() <= totals[i] as u64,
+            0 => false,
+            ..0 => place.unsigned_abs() <= so_far[i] as u64,
+        };
+        if !exists {
+            let there_are = totals[i];
+            return Err(format!(
+                "there is no {name} {place}: they count from 1 to {there_are}"
+            ));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn problem(text: &str) -> String {
+        parse(text).expect_err("it is refused").to_string()
+    }
+
+    const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+    #[test]
+    fn a_face_without_normals_is_flat_and_a_square_is_two_triangles() {
+        let mesh = parse(&format!("{CORNERS}f 1 2 3 4\n")).expect("a square");
+        assert_eq!(mesh.faces.len(), 2);
+        assert!(mesh.faces.iter().all(|face| face.normals.is_none()));
+    }
+
+    #[test]
+    fn normals_and_texture_coordinates_are_the_corners_own() {
+        let attributes = "vt 0.5 0.25\nvn 0 0 1\nvn 1 0 0\n";
+        let mesh = parse(&format!("{CORNERS}{attributes}f 1/1/1 2/1/2 -2/-1/-2\n")).expect("valid");
+        let face = mesh.faces[0];
+        assert_eq!(face.normals, Some([Vec3::Z, Vec3::X, Vec3::Z]));
+        assert_eq!(face.uv, [Vec2::new(0.5, 0.25); 3]);
+    }
+
+    #[test]
+    fn an_index_out_of_range_is_told_with_its_line() {
+        let error = problem(&format!("{CORNERS}f 1 2 5\n"));
+        assert!(
+            error.contains(":5: there is no position 5: they count from 1 to 4"),
+            "{error}"
+        );
+        let error = problem(&format!("{CORNERS}f 1//1 2//1 3//1\n"));
+        assert!(error.contains("there is no normal 1"), "{error}");
+        assert!(problem(&format!("{CORNERS}f 0 1 2\n")).contains("no position 0"));
+        assert!(problem(&format!("{CORNERS}f 1 2 -5\n")).contains("no position -5"));
+    }
+
+    #[test]
+    fn what_is_no_number_is_told_with_its_line() {
+        assert!(problem("v 0 nan 0\n").contains(":1: `nan` is not a finite number"));
+        assert!(problem("v 0 1e99 0\n").contains("`1e99` is not"));
+        assert!(problem(&format!("{CORNERS}f a b c\n")).contains("`a` is not a corner"));
+    }
+
+    #[test]
+    fn a_mesh_without_faces_is_no_mesh() {
+        assert!(problem("").contains("holds no faces"));
+        assert!(problem(CORNERS).contains("holds no faces"));
+    }
+}

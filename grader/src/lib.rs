@@ -1,2 +1,34 @@
-//! Grades a path-tracing submission.
+//! Grades a path-tracing submission: builds it, asks it, judges its answers, writes a score.
+//!
+//! Student code runs in a *probe*, a process that is told questions and never what counts as
+//! right. Points come only from comparing its answers here.
+//!
+//! Floors, from the ground up; each imports only from below:
+//!
+//! | floor | modules |
+//! |---|---|
+//! | the job | [`grade`], [`replay`] |
+//! | one exam | [`examine`], [`verdict`], [`report`] |
+//! | its steps | [`build`], [`ask`], [`judge`] |
+//! | data | [`exam`], [`exam_file`], [`submission`], [`given`], [`score`] |
+//! | the machine | [`workspace`], [`sandbox`], [`capture`] |
+
+pub mod ask;
+pub mod build;
+pub mod capture;
+pub mod cli;
+pub mod describe;
+pub mod error;
 pub mod exam;
+pub mod exam_file;
+pub mod examine;
+pub mod given;
+pub mod grade;
+pub mod judge;
+pub mod report;
+pub mod sandbox;
+pub mod score;
+pub mod submission;
+pub mod tame;
+pub mod verdict;
+pub mod workspace;

@@ -1,2 +1,36 @@
-//! Grades a submission.
-fn main() {}
+//! `cargo grade`: one submission, one score.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use grader::cli::Arguments;
+use grader::error::Error;
+use grader::grade::grade;
+use grader::report;
+use grader::score::Score;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    run(&arguments).unwrap_or_else(|error| {
+        anstream::eprintln!("error: {error}");
+        ExitCode::from(error.exit_code())
+    })
+}
+
+fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
+    if arguments.schema {
+        anstream::println!("{:#}", Score::schema().as_value());
+        return Ok(ExitCode::SUCCESS);
+    }
+    let graded = grade(arguments)?;
+    anstream::print!("{}", report::text::report(&graded.score, arguments.task));
+    if let Some(file) = &graded.file {
+        anstream::println!("  {}", file.display());
+    }
+    let required = arguments.require.unwrap_or(0);
+    Ok(if graded.score.points < required {
+        ExitCode::from(1)
+    } else {
+        ExitCode::SUCCESS
+    })
+}

@@ -90,24 +90,9 @@ impl Bvh {
     ///   by the formula above is taken.
     /// - No primitives: no nodes, or one leaf of size 0.
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
-        // solution
-        // starter: // Not written yet: a list, and no tree. Pictures appear, slowly.
-        // starter: let _ = max_leaf_size;
-        // starter: Bvh::from_nodes(primitives, Vec::new(), 0)
-        let mut builder = Builder {
-            items: (0..)
-                .zip(&primitives)
-                .map(|(index, primitive)| Item::new(index, primitive.bbox()))
-                .collect(),
-            nodes: Vec::with_capacity(2 * primitives.len()),
-            max_leaf_size: max_leaf_size.max(1),
-        };
-        if !primitives.is_empty() {
-            builder.node(0, primitives.len());
-        }
-        let ordered = builder.items.iter().map(|item| primitives[item.index]);
-        Bvh::from_nodes(ordered.collect(), builder.nodes, 0)
-        // end solution
+        // Not written yet: a list, and no tree. Pictures appear, slowly.
+        let _ = max_leaf_size;
+        Bvh::from_nodes(primitives, Vec::new(), 0)
     }
 
     /// The closest of all the places where the ray meets a primitive within `ray.range`.
@@ -120,213 +105,13 @@ impl Bvh {
     /// - The closest hit need not be in the first leaf: boxes overlap.
     /// - A tree may be 60 levels deep, or have no nodes.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        // solution
-        // starter: // Not written yet: asks every primitive, however far from the ray.
-        // starter: let traces = self.primitives.iter().map(|primitive| primitive.hit(ray));
-        // starter: traces.fold(None, Trace::nearer)
-        let root = self.nodes.get(self.root)?;
-        root.bbox.hit(ray, ray.range)?;
-
-        // What is left of the ray shrinks to the closest hit, in a copy.
-        let mut ray = *ray;
-        let mut closest = None;
-        self.visit(root, &mut ray, &mut closest);
-        closest
-        // end solution
+        // Not written yet: asks every primitive, however far from the ray.
+        let traces = self.primitives.iter().map(|primitive| primitive.hit(ray));
+        traces.fold(None, Trace::nearer)
     }
-    // solution
-    // starter: // Room for helpers of your own.
-
-    /// Looks for a hit below `node`, whose box the ray is known to meet.
-    fn visit(&self, node: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
-        if node.is_leaf() {
-            for primitive in &self.primitives[node.start..node.start + node.size] {
-                if let Some(trace) = primitive.hit(ray) {
-                    ray.range.max = trace.distance;
-                    *closest = Some(trace);
-                }
-            }
-            return;
-        }
-
-        let (l, r) = (&self.nodes[node.l], &self.nodes[node.r]);
-        match (l.bbox.hit(ray, ray.range), r.bbox.hit(ray, ray.range)) {
-            (None, None) => {}
-            (Some(_), None) => self.visit(l, ray, closest),
-            (None, Some(_)) => self.visit(r, ray, closest),
-            (Some(in_l), Some(in_r)) => {
-                let (first, second, second_begins) = if in_l.min <= in_r.min {
-                    (l, r, in_r.min)
-                } else {
-                    (r, l, in_l.min)
-                };
-                self.visit(first, ray, closest);
-                if second_begins <= ray.range.max {
-                    self.visit(second, ray, closest);
-                }
-            }
-        }
-    }
-    // end solution
-}
-// solution
-// starter:
-
-/// What building needs to know of a primitive.
-struct Item {
-    index: usize,
-    bbox: BBox,
-    center: glam::Vec3,
+    // Room for helpers of your own.
 }
 
-impl Item {
-    fn new(index: usize, bbox: BBox) -> Self {
-        let center = bbox.center();
-        Item {
-            index,
-            bbox,
-            center,
-        }
-    }
-}
-
-/// The part of a node's items whose centers lie in one slice along an axis.
-#[derive(Clone, Copy)]
-struct Bucket {
-    bbox: BBox,
-    count: usize,
-}
-
-impl Bucket {
-    const EMPTY: Bucket = Bucket {
-        bbox: BBox::EMPTY,
-        count: 0,
-    };
-
-    fn join(&mut self, other: Bucket) {
-        self.bbox.enclose(other.bbox);
-        self.count += other.count;
-    }
-
-    /// Its share of the cost, but for the constants: S · N.
-    fn cost(&self) -> f32 {
-        self.bbox.surface_area() * self.count as f32
-    }
-}
-
-/// A partition: the items whose bucket along `axis` is below `bucket` go to one side.
-struct Split {
-    axis: usize,
-    bucket: usize,
-    cost: f32,
-}
-
-/// Equal slices of the range of the items' centers along one axis.
-struct Slices {
-    axis: usize,
-    min: f32,
-    scale: f32,
-}
-
-impl Slices {
-    const COUNT: usize = 16;
-
-    /// The slices along `axis`, unless all centers coincide there.
-    fn new(centers: &BBox, axis: usize) -> Option<Self> {
-        let (min, max) = (centers.min[axis], centers.max[axis]);
-        let scale = Self::COUNT as f32 / (max - min);
-        // An extent so small that its inverse overflows is as good as none.
-        (max > min && scale.is_finite()).then_some(Slices { axis, min, scale })
-    }
-
-    /// The one place that says which bucket an item is in: counting and partitioning must agree.
-    fn bucket(&self, item: &Item) -> usize {
-        let slice = (item.center[self.axis] - self.min) * self.scale;
-        (slice as usize).min(Self::COUNT - 1)
-    }
-}
-
-struct Builder {
-    items: Vec<Item>,
-    nodes: Vec<Node>,
-    max_leaf_size: usize,
-}
-
-impl Builder {
-    /// Builds the node over `items[start..end]`, which are not none; returns its place.
-    fn node(&mut self, start: usize, end: usize) -> usize {
-        let mut bbox = BBox::EMPTY;
-        let mut centers = BBox::EMPTY;
-        for item in &self.items[start..end] {
-            bbox.enclose(item.bbox);
-            centers.enclose_point(item.center);
-        }
-
-        let place = self.nodes.len();
-        self.nodes.push(Node::leaf(bbox, start, end - start));
-        if end - start > self.max_leaf_size {
-            let middle = start + self.partition(start, end, &centers);
-            let l = self.node(start, middle);
-            let r = self.node(middle, end);
-            self.nodes[place] = Node::interior(bbox, l, r);
-        }
-        place
-    }
-
-    /// Reorders `items[start..end]` by the cheapest split; returns how many come first.
-    fn partition(&mut self, start: usize, end: usize, centers: &BBox) -> usize {
-        let items = &mut self.items[start..end];
-        let splits = (0..3).filter_map(|axis| cheapest_split(items, centers, axis));
-        let Some(split) = splits.min_by(|a, b| a.cost.total_cmp(&b.cost)) else {
-            return items.len() / 2; // All centers coincide.
-        };
-        let slices = Slices::new(centers, split.axis).expect("it was split along this axis");
-
-        // As `std::partition` does: the first side grows by swapping.
-        let mut first = 0;
-        for i in 0..items.len() {
-            if slices.bucket(&items[i]) < split.bucket {
-                items.swap(first, i);
-                first += 1;
-            }
-        }
-        first
-    }
-}
-
-/// The cheapest partition between two buckets along one axis, if there is any: binned SAH, after
-/// Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007, section 3.
-///
-/// Of C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect only S_A · N_A + S_B · N_B
-/// differs between the partitions of one node.
-fn cheapest_split(items: &[Item], centers: &BBox, axis: usize) -> Option<Split> {
-    let slices = Slices::new(centers, axis)?;
-    let mut buckets = [Bucket::EMPTY; Slices::COUNT];
-    for item in items {
-        buckets[slices.bucket(item)].join(Bucket {
-            bbox: item.bbox,
-            count: 1,
-        });
-    }
-
-    // From the right: what all the buckets from here on would cost as one child.
-    let mut right_costs = [0.0; Slices::COUNT];
-    let mut right = Bucket::EMPTY;
-    for i in (1..Slices::COUNT).rev() {
-        right.join(buckets[i]);
-        right_costs[i] = right.cost();
-    }
-
-    // From the left: the other child. The outermost buckets are never empty, so neither is a side.
-    let mut left = Bucket::EMPTY;
-    let costs = (1..Slices::COUNT).map(|bucket| {
-        left.join(buckets[bucket - 1]);
-        let cost = left.cost() + right_costs[bucket];
-        Split { axis, bucket, cost }
-    });
-    costs.min_by(|a, b| a.cost.total_cmp(&b.cost))
-}
-// end solution
 
 #[cfg(test)]
 mod tests {
@@ -347,7 +132,7 @@ mod tests {
         (0..count).map(ball).collect()
     }
 
-    // starter: #[ignore = "task 3: not written yet"]
+    #[ignore = "task 3: not written yet"]
     #[test]
     fn every_primitive_is_in_one_leaf_and_no_leaf_is_too_large() {
         let bvh = Bvh::build(row(10), 2);
@@ -356,7 +141,7 @@ mod tests {
         assert_eq!(leaves.iter().map(|leaf| leaf.size).sum::<usize>(), 10);
     }
 
-    // starter: #[ignore = "task 3: not written yet"]
+    #[ignore = "task 3: not written yet"]
     #[test]
     fn of_a_row_of_balls_the_nearest_is_hit() {
         let bvh = Bvh::build(row(10), 1);
@@ -366,7 +151,7 @@ mod tests {
         assert_eq!(trace.material, 9);
     }
 
-    // starter: #[ignore = "task 3: not written yet"]
+    #[ignore = "task 3: not written yet"]
     #[test]
     fn a_box_that_is_missed_is_not_entered() {
         // The leaf lies: its ball is far outside its box.

@@ -42,15 +42,7 @@ impl Camera {
     ///   `[0, 1)`, is the place in it: (0.5, 0.5) is its middle.
     /// - The ray's `dir` has length one and its `range` is `[0, ∞)`, as [`Ray::new`] makes them.
     pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
-        // solution
-        // starter: todo!("task 1, camera: which ray of {self:?} passes through {pixel} + {offset}?")
-        let height = 2.0 * framework::math::tan(0.5 * self.vertical_fov.to_radians());
-        let sensor = Vec2::new(self.aspect_ratio * height, height);
-
-        // From [0, 1] across the film to [-1/2, 1/2] across the sensor.
-        let place = (pixel.as_vec2() + offset) / self.film.as_vec2() - 0.5;
-        Ray::new(glam::Vec3::ZERO, (place * sensor).extend(-1.0))
-        // end solution
+        todo!("task 1, camera: which ray of {self:?} passes through {pixel} + {offset}?")
     }
 }
 
@@ -67,7 +59,7 @@ mod tests {
         film: uvec2(8, 4),
     };
 
-    // starter: #[ignore = "task 1: not written yet"]
+    #[ignore = "task 1: not written yet"]
     #[test]
     fn the_middle_of_the_film_is_straight_ahead() {
         let ray = WIDE.sample_ray(uvec2(4, 2), vec2(0.0, 0.0));
@@ -75,7 +67,7 @@ mod tests {
         assert!(ray.dir.abs_diff_eq(vec3(0.0, 0.0, -1.0), 1e-5), "{ray:?}");
     }
 
-    // starter: #[ignore = "task 1: not written yet"]
+    #[ignore = "task 1: not written yet"]
     #[test]
     fn the_first_pixel_starts_at_the_bottom_left_corner() {
         let ray = WIDE.sample_ray(uvec2(0, 0), vec2(0.0, 0.0));
@@ -83,7 +75,7 @@ mod tests {
         assert!(ray.dir.abs_diff_eq(corner.normalize(), 1e-5), "{ray:?}");
     }
 
-    // starter: #[ignore = "task 1: not written yet"]
+    #[ignore = "task 1: not written yet"]
     #[test]
     fn the_offset_moves_within_the_pixel() {
         // Half a pixel is 1/4 of the sensor's plane, across and up.

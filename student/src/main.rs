@@ -2,10 +2,7 @@
 
 use std::process::ExitCode;
 
-// solution
-// starter: use student::world::Student;
 use student::world::Student;
-// end solution
 
 fn main() -> ExitCode {
     framework::cli::main(&Student)

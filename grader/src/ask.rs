@@ -1,0 +1,304 @@
+//! Asking a probe: questions go in, answers come out, and nothing that happens there can hold the
+//! grader up.
+
+use std::fmt;
+use std::io::{BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use protocol::wire::{self, Frame, WireError};
+use protocol::{Answer, Question};
+
+use crate::capture::Capture;
+use crate::sandbox::{Ending, Limits, Process};
+
+/// How much is kept of what a submission prints.
+const KEPT: usize = 64 << 10;
+/// How often a probe that is silent is looked at.
+const TICK: Duration = Duration::from_millis(10);
+/// How long the last words of a probe that has ended may take to arrive.
+const LAST_WORDS: Duration = Duration::from_millis(200);
+
+// What Rust's runtime says on its way out.
+const STACK_OVERFLOW: &str = "has overflowed its stack";
+const OUT_OF_MEMORY: &str = "memory allocation of ";
+const RUNTIME_WORDS: [&str; 3] = [STACK_OVERFLOW, OUT_OF_MEMORY, "fatal runtime error"];
+
+/// What one item may use.
+#[derive(Clone, Copy, Debug)]
+pub struct Budget {
+    /// CPU time, which is what counts.
+    pub cpu: Duration,
+}
+
+impl Budget {
+    /// Wall time is only a back-stop: on a machine under load it says nothing of the code.
+    pub fn wall(self) -> Duration {
+        4 * self.cpu + Duration::from_secs(5)
+    }
+}
+
+/// Why there is no answer. Every one costs the item, and the probe.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// The item's time is over.
+    TimedOut(Budgeted),
+    /// Memory ran out.
+    OutOfMemory,
+    /// The process ended.
+    Crashed(Crash),
+    /// What came is no answer to what was asked.
+    Protocol(String),
+}
+
+/// Which time was over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Budgeted {
+    /// So much CPU time was used.
+    Cpu(Duration),
+    /// It waited for so long without using its CPU time.
+    Wall(Duration),
+}
+
+/// How a process ended before it had answered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Crash {
+    /// It recursed until its stack was full.
+    StackOverflow,
+    /// It left by itself.
+    Exited(i32),
+    /// The system ended it.
+    Signal(i32),
+}
+
+/// A running probe.
+#[derive(Debug)]
+pub struct Probe {
+    process: Process,
+    questions: Sender<Vec<u8>>,
+    /// The longest frame to take next, for the thread that reads.
+    limits: Sender<usize>,
+    frames: Receiver<Result<Frame, WireError>>,
+    output: Capture,
+}
+
+/// Starts probes of one submission.
+#[derive(Clone, Debug)]
+pub struct Launcher {
+    /// The program.
+    pub program: PathBuf,
+}
+
+impl Launcher {
+    /// Address space of a probe, of which 64 MiB are stack.
+    const MEMORY: u64 = 1 << 30;
+    /// No honest item comes near, and a probe serves many: items are judged by their own time.
+    const LIFETIME: Duration = Duration::from_secs(3600);
+
+    /// Starts a process that waits for its first question.
+    pub fn start(&self) -> std::io::Result<Probe> {
+        let folder = self.program.parent().unwrap_or(Path::new("."));
+        let mut command = Command::new(&self.program);
+        command.env_clear();
+        let limits = Limits {
+            memory: Self::MEMORY,
+            cpu: Self::LIFETIME,
+            file: 0,
+        };
+        let mut process = Process::start(&mut command, folder, limits)?;
+        let mut stdin = process.child.stdin.take().expect("it is piped");
+        let stdout = process.child.stdout.take().expect("it is piped");
+        let stderr = process.child.stderr.take().expect("it is piped");
+
+        // A thread for each direction: a probe that never reads must not block our writing.
+        let (questions, to_write) = channel::<Vec<u8>>();
+        thread::spawn(move || {
+            for frame in to_write {
+                if stdin
+                    .write_all(&frame)
+                    .and_then(|()| stdin.flush())
+                    .is_err()
+                {
+                    return; // Whoever waits for the answer sees that it ended.
+                }
+            }
+        });
+        let (limits, to_read) = channel::<usize>();
+        let (answered, frames) = channel();
+        thread::spawn(move || {
+            let mut stdout = BufReader::with_capacity(1 << 16, stdout);
+            for limit in to_read {
+                let frame = wire::read(&mut stdout, limit);
+                let ended = frame.is_err();
+                if answered.send(frame).is_err() || ended {
+                    return;
+                }
+            }
+        });
+        Ok(Probe {
+            process,
+            questions,
+            limits,
+            frames,
+            output: Capture::start(stderr, KEPT),
+        })
+    }
+}
+
+impl Probe {
+    /// Asks all questions at once and takes the answers as they come. After a fault the probe is
+    /// of no more use.
+    pub fn ask<'a>(
+        &mut self,
+        questions: impl IntoIterator<Item = &'a Question>,
+        budget: Budget,
+    ) -> Result<Vec<Answer>, Fault> {
+        // The last one asks nothing: bytes that came before its answer were not asked for.
+        let questions = questions.into_iter().chain([&Question::Done]);
+        let mut nonces = Vec::new();
+        for question in questions {
+            let nonce = nonce();
+            let frame = wire::encode(nonce, question)
+                .map_err(|error| Fault::Protocol(format!("can not be asked: {error}")))?;
+            nonces.push(nonce);
+            // If a thread has gone, the frame that it should have read is missed below.
+            self.limits.send(question.largest_answer()).ok();
+            self.questions.send(frame).ok();
+        }
+
+        let watch = Watch {
+            began: Instant::now(),
+            cpu_then: self.process.cpu_time(),
+            budget,
+        };
+        let mut answers = Vec::with_capacity(nonces.len());
+        for nonce in nonces {
+            let frame = self.frame(&watch)?;
+            if frame.nonce != nonce {
+                return Err(Fault::Protocol("an answer to no question".to_owned()));
+            }
+            answers.push(frame.decode().map_err(protocol_fault)?);
+        }
+        match answers.pop() {
+            Some(Answer::Done) => Ok(answers),
+            _ => Err(Fault::Protocol("an answer of another kind".to_owned())),
+        }
+    }
+
+    /// Ends the probe. What the submission has printed, the beginning of it, without the
+    /// runtime's own last words.
+    pub fn finish(mut self) -> String {
+        self.process.kill();
+        self.output.settle(LAST_WORDS);
+        let words = self.output.head();
+        let lines = words
+            .lines()
+            .filter(|line| !RUNTIME_WORDS.iter().any(|words| line.contains(words)));
+        lines.collect::<Vec<_>>().join("\n")
+    }
+
+    fn frame(&mut self, watch: &Watch) -> Result<Frame, Fault> {
+        loop {
+            match self.frames.recv_timeout(TICK) {
+                Ok(Ok(frame)) => return Ok(frame),
+                Ok(Err(WireError::Ended | WireError::Io(_)))
+                | Err(RecvTimeoutError::Disconnected) => return Err(self.post_mortem()),
+                Ok(Err(error)) => return Err(protocol_fault(error)),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            if let Some(over) = watch.over(self.process.cpu_time()) {
+                self.process.kill();
+                return Err(Fault::TimedOut(over));
+            }
+            // A child of the probe may hold the pipe open: do not wait for its end.
+            if self.process.ending().is_some() {
+                return match self.frames.recv_timeout(LAST_WORDS) {
+                    Ok(Ok(frame)) => Ok(frame),
+                    Ok(Err(_)) | Err(_) => Err(self.post_mortem()),
+                };
+            }
+        }
+    }
+
+    /// Why the probe ended. Its words are diagnosis only: no verdict here earns a point.
+    fn post_mortem(&mut self) -> Fault {
+        // It may have closed its pipe and live on.
+        let deadline = Instant::now() + LAST_WORDS;
+        while self.process.ending().is_none() && Instant::now() < deadline {
+            thread::sleep(Duration::from_millis(1));
+        }
+        let ending = self.process.kill();
+        self.output.settle(LAST_WORDS);
+        let words = self.output.head();
+        match ending {
+            Some(Ending::Code(code)) => Fault::Crashed(Crash::Exited(code)),
+            // The runtime's own words, on its way out.
+            Some(Ending::Signal(_)) if words.contains(STACK_OVERFLOW) => {
+                Fault::Crashed(Crash::StackOverflow)
+            }
+            Some(Ending::Signal(_)) if words.contains(OUT_OF_MEMORY) => Fault::OutOfMemory,
+            Some(Ending::Signal(signal)) => Fault::Crashed(Crash::Signal(signal)),
+            None => Fault::Crashed(Crash::Signal(0)),
+        }
+    }
+}
+
+/// When the item was asked, and what it may use.
+struct Watch {
+    began: Instant,
+    cpu_then: Option<Duration>,
+    budget: Budget,
+}
+
+impl Watch {
+    fn over(&self, cpu_now: Option<Duration>) -> Option<Budgeted> {
+        let cpu = cpu_now.zip(self.cpu_then);
+        let cpu = cpu.map(|(now, then)| now.saturating_sub(then));
+        if cpu.is_some_and(|used| used >= self.budget.cpu) {
+            return Some(Budgeted::Cpu(self.budget.cpu));
+        }
+        let wall = self.budget.wall();
+        (self.began.elapsed() >= wall).then_some(Budgeted::Wall(wall))
+    }
+}
+
+/// Nothing that a submission could know or guess.
+fn nonce() -> u64 {
+    getrandom::u64().expect("the system has random numbers")
+}
+
+fn protocol_fault(error: WireError) -> Fault {
+    Fault::Protocol(error.to_string())
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Fault::TimedOut(Budgeted::Cpu(limit)) => write!(
+                f,
+                "stopped after {} s of computing: an endless loop?",
+                limit.as_secs_f64()
+            ),
+            Fault::TimedOut(Budgeted::Wall(limit)) => write!(
+                f,
+                "stopped after {} s: is it waiting for something?",
+                limit.as_secs_f64()
+            ),
+            Fault::OutOfMemory => f.write_str("out of memory: does something grow without end?"),
+            Fault::Crashed(Crash::StackOverflow) => {
+                f.write_str("the stack overflowed: recursion without end?")
+            }
+            Fault::Crashed(Crash::Exited(code)) => write!(
+                f,
+                "the program ended (exit code {code}) before it had answered"
+            ),
+            Fault::Crashed(Crash::Signal(signal)) => {
+                write!(f, "the program was ended by signal {signal}")
+            }
+            Fault::Protocol(why) => write!(f, "what came back is no answer: {why}"),
+        }
+    }
+}

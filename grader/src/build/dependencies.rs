@@ -1,0 +1,200 @@
+//! What every submission is linked with: `glam`, `protocol`, and `framework` as the probe needs
+//! it. Compiled once per toolchain by cargo, locked, into the grader's own cache.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::build::toolchain::Toolchain;
+use crate::workspace::Workspace;
+
+/// The crates that a submission may name.
+const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
+/// Changes when this module makes something else of the same sources.
+const RECIPE: &str = "1";
+
+/// Where the compiled dependencies lie.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Dependencies {
+    /// The rlib of each crate that a submission may name.
+    pub externs: BTreeMap<String, PathBuf>,
+    /// The folder with the crates that those need.
+    pub folder: PathBuf,
+}
+
+/// The dependencies can not be made: our fault, or the machine's.
+#[derive(Debug, thiserror::Error)]
+pub enum NoDependencies {
+    /// The cache can not be used.
+    #[error("can not use {path}: {source}")]
+    Io {
+        /// What was touched.
+        path: PathBuf,
+        /// The system's words.
+        source: io::Error,
+    },
+    /// Cargo failed; it has said why.
+    #[error(
+        "cargo could not build student/framework (its words are above); the first run needs the network once"
+    )]
+    Cargo,
+    /// Cargo said nothing of a crate that we need.
+    #[error("cargo built no {0}: is student/framework as it was handed out?")]
+    Nothing(String),
+}
+
+impl Dependencies {
+    /// Those in the cache, or newly made ones.
+    pub fn prepare(workspace: &Workspace, toolchain: &Toolchain) -> Result<Self, NoDependencies> {
+        let key = key(workspace, toolchain)?;
+        let cache = workspace.grade().join("dependencies").join(&key[..16]);
+        let record = cache.join("dependencies.json");
+        if let Some(ready) = read(&record) {
+            return Ok(ready);
+        }
+
+        fs::create_dir_all(&cache).map_err(at(&cache))?;
+        let lock_path = cache.join("lock");
+        let lock = File::create(&lock_path).map_err(at(&lock_path))?;
+        lock.lock().map_err(at(&lock_path))?;
+        // Somebody else may have made them while we waited.
+        if let Some(ready) = read(&record) {
+            return Ok(ready);
+        }
+        let made = make(workspace, toolchain, &cache.join("target"))?;
+        let text = serde_json::to_vec_pretty(&made).expect("paths are text");
+        fs::write(&record, text).map_err(at(&record))?;
+        Ok(made)
+    }
+}
+
+fn at(path: &Path) -> impl FnOnce(io::Error) -> NoDependencies {
+    let path = path.to_owned();
+    move |source| NoDependencies::Io { path, source }
+}
+
+fn read(record: &Path) -> Option<Dependencies> {
+    let ready: Dependencies = serde_json::from_slice(&fs::read(record).ok()?).ok()?;
+    ready
+        .externs
+        .values()
+        .all(|rlib| rlib.is_file())
+        .then_some(ready)
+}
+
+/// What the compiled dependencies follow from: the compiler, the lock file, the sources.
+fn key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, NoDependencies> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(RECIPE.as_bytes());
+    hasher.update(toolchain.fingerprint().as_bytes());
+    let mut files = vec![workspace.root().join("Cargo.lock")];
+    for folder in ["protocol", "framework"] {
+        let folder = workspace.student().join(folder);
+        files.push(folder.join("Cargo.toml"));
+        sources(&folder.join("src"), &mut files)?;
+    }
+    for file in files {
+        let name = file.strip_prefix(workspace.root()).unwrap_or(&file);
+        hasher.update(name.as_os_str().as_encoded_bytes());
+        let text = fs::read(&file).map_err(at(&file))?;
+        hasher.update(&(text.len() as u64).to_le_bytes());
+        hasher.update(&text);
+    }
+    Ok(hasher.finalize().to_hex().to_string())
+}
+
+fn sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), NoDependencies> {
+    let entries = fs::read_dir(folder).map_err(at(folder))?;
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            sources(&path, files)?;
+        } else {
+            files.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// Runs cargo: without the network if that is enough.
+fn make(
+    workspace: &Workspace,
+    toolchain: &Toolchain,
+    target: &Path,
+) -> Result<Dependencies, NoDependencies> {
+    eprintln!("Preparing what submissions are built with; this happens once.");
+    let run = |offline: bool| {
+        let mut cargo = Command::new(&toolchain.cargo);
+        cargo
+            .args(["build", "--package", "framework", "--no-default-features"])
+            .args([
+                "--release",
+                "--locked",
+                "--message-format=json-render-diagnostics",
+            ])
+            .args(offline.then_some("--offline"))
+            .arg("--target-dir")
+            .arg(target)
+            .current_dir(workspace.root())
+            .stderr(if offline {
+                Stdio::null()
+            } else {
+                Stdio::inherit()
+            });
+        // The same flags for everyone, whatever this shell or folder says.
+        cargo
+            .env("CARGO_ENCODED_RUSTFLAGS", "")
+            .env_remove("RUSTC_WRAPPER")
+            .env_remove("RUSTC_WORKSPACE_WRAPPER")
+            .env("RUSTC", &toolchain.rustc)
+            .env("CARGO_INCREMENTAL", "0")
+            .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "2")
+            .env("CARGO_PROFILE_RELEASE_DEBUG", "false")
+            .env("CARGO_PROFILE_RELEASE_LTO", "false")
+            .env("CARGO_PROFILE_RELEASE_PANIC", "unwind");
+        cargo.output().map_err(at(&toolchain.cargo))
+    };
+    let mut output = run(true)?;
+    if !output.status.success() {
+        output = run(false)?;
+    }
+    if !output.status.success() {
+        return Err(NoDependencies::Cargo);
+    }
+    from_messages(&String::from_utf8_lossy(&output.stdout))
+}
+
+/// Finds the rlibs in cargo's messages, one JSON value a line.
+fn from_messages(messages: &str) -> Result<Dependencies, NoDependencies> {
+    let rlibs: BTreeMap<String, PathBuf> = messages
+        .lines()
+        .filter_map(|line| serde_json::from_str::<Value>(line).ok())
+        .filter(|message| message["reason"] == "compiler-artifact")
+        .filter_map(|message| {
+            let files = message["filenames"].as_array()?;
+            let rlib = files
+                .iter()
+                .filter_map(Value::as_str)
+                .find(|file| file.ends_with(".rlib"))?;
+            Some((message["target"]["name"].as_str()?.to_owned(), rlib.into()))
+        })
+        .collect();
+
+    let mut externs = BTreeMap::new();
+    for name in EXTERNS {
+        let rlib = rlibs
+            .get(name)
+            .ok_or_else(|| NoDependencies::Nothing(name.to_owned()))?;
+        externs.insert(name.to_owned(), rlib.clone());
+    }
+    // Those of a path dependency lie beside `deps/`, the others in it.
+    let deps = externs["glam"].parent().map(Path::to_owned);
+    let folder = deps.ok_or_else(|| NoDependencies::Nothing("deps folder".to_owned()))?;
+    Ok(Dependencies { externs, folder })
+}

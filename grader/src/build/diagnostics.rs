@@ -1,0 +1,86 @@
+//! What the compiler says, in its own typed form.
+
+use serde::Deserialize;
+
+use crate::given::TASK_FILES;
+
+/// One message of `rustc --error-format=json`.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Diagnostic {
+    message: String,
+    level: String,
+    #[serde(default)]
+    spans: Vec<Span>,
+    #[serde(default)]
+    children: Vec<Diagnostic>,
+    #[serde(default)]
+    rendered: Option<String>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+struct Span {
+    file_name: String,
+    is_primary: bool,
+}
+
+/// All errors among the compiler's messages; warnings are a matter between it and the student.
+pub fn errors(messages: &str) -> Vec<Diagnostic> {
+    messages
+        .lines()
+        .filter_map(|line| serde_json::from_str::<Diagnostic>(line).ok())
+        .filter(|diagnostic| diagnostic.level.starts_with("error"))
+        .collect()
+}
+
+impl Diagnostic {
+    /// Which of the five files has to be mended: the one that the error is in. An error in a given
+    /// file is told of the file that it points to for an explanation ("method not found for this
+    /// struct").
+    pub fn blamed(&self) -> Option<&'static str> {
+        let primary = self.spans.iter().filter(|span| span.is_primary);
+        let secondary = self.spans.iter().filter(|span| !span.is_primary);
+        let explaining = self.children.iter().flat_map(|child| &child.spans);
+        primary
+            .chain(secondary)
+            .chain(explaining)
+            .find_map(|span| TASK_FILES.iter().find(|file| file.name == span.file_name))
+            .map(|file| file.name)
+    }
+
+    /// The whole message, as the compiler prints it.
+    pub fn text(&self) -> &str {
+        self.rendered.as_deref().unwrap_or(&self.message).trim_end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(spans: &str, children: &str) -> Option<&'static str> {
+        let line = format!(
+            r#"{{"message":"m","level":"error","spans":[{spans}],"children":[{children}],"rendered":"r"}}"#
+        );
+        errors(&line)[0].blamed()
+    }
+
+    const IN_SPHERE: &str = r#"{"file_name":"sphere.rs","is_primary":true}"#;
+    const IN_WORLD: &str = r#"{"file_name":"world.rs","is_primary":true}"#;
+
+    #[test]
+    fn the_file_with_the_error_is_blamed() {
+        assert_eq!(one(IN_SPHERE, ""), Some("sphere.rs"));
+    }
+
+    #[test]
+    fn an_error_in_a_given_file_is_told_of_what_it_points_to() {
+        let child = r#"{"message":"defined here","level":"note","spans":[{"file_name":"bvh.rs","is_primary":true}]}"#;
+        assert_eq!(one(IN_WORLD, child), Some("bvh.rs"));
+        assert_eq!(one(IN_WORLD, ""), None);
+    }
+
+    #[test]
+    fn warnings_and_noise_are_passed_over() {
+        assert!(errors("{\"message\":\"m\",\"level\":\"warning\"}\nnot json").is_empty());
+    }
+}

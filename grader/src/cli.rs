@@ -1,0 +1,52 @@
+//! The command line, as data.
+
+use std::path::PathBuf;
+
+use clap::Parser;
+
+use crate::exam::Task;
+
+/// Grades a path-tracing submission: builds it, asks it, judges its answers, writes a score.
+///
+/// Exit codes: 0 graded, whatever the score; 1 graded, and below --require; 2 the command line,
+/// the submission's place or the exam is at fault; 3 the grader itself is.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "cargo grade", bin_name = "cargo grade", version)]
+pub struct Arguments {
+    /// The folder with the five files (at its top, in src/, or in student/src/); default: student
+    pub submission: Option<PathBuf>,
+
+    /// The exam to ask, - for standard input; default: the practice exam
+    #[arg(long, value_name = "FILE")]
+    pub exam: Option<PathBuf>,
+
+    /// Where to write score.json; default: target/grade/<submission>
+    #[arg(long, value_name = "FOLDER")]
+    pub out: Option<PathBuf>,
+
+    /// Exit with 1 if there are fewer points
+    #[arg(long, value_name = "POINTS")]
+    pub require: Option<u32>,
+
+    /// Ask one task only, and write no score
+    #[arg(long, value_name = "TASK", value_parser = task)]
+    pub task: Option<Task>,
+
+    /// Ask one question again, such as sphere.from_inside#7, and show all of its answer
+    #[arg(long, value_name = "ITEM#N", conflicts_with_all = ["task", "require", "out"])]
+    pub replay: Option<String>,
+
+    /// CPU time that an item may use, in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=600))]
+    pub cpu_limit: u64,
+
+    /// Print the schema of score.json, and do nothing else
+    #[arg(long)]
+    pub schema: bool,
+}
+
+fn task(text: &str) -> Result<Task, String> {
+    let known = || Task::ALL.map(Task::id).join(", ");
+    let task = Task::ALL.into_iter().find(|task| task.id() == text);
+    task.ok_or_else(|| format!("the tasks are {}", known()))
+}

@@ -1,0 +1,202 @@
+//! Questions and values in words and numbers, for whoever reads a report.
+
+use std::fmt::Write;
+
+use glam::{Vec2, Vec3};
+use protocol::{Interval, Question, Ray, Rays, Shape, Trace};
+
+/// Six digits that count, without needless zeros.
+pub fn number(value: f32) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return match value {
+            _ if value.is_nan() => "NaN".to_owned(),
+            _ if value == f32::INFINITY => "∞".to_owned(),
+            _ if value == f32::NEG_INFINITY => "-∞".to_owned(),
+            _ => "0".to_owned(),
+        };
+    }
+    let magnitude = value.abs().log10().floor();
+    if !(-5.0..7.0).contains(&magnitude) {
+        return format!("{value:.5e}");
+    }
+    let decimals = (5.0 - magnitude).clamp(0.0, 9.0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// A point, a vector or a colour.
+pub fn point(value: Vec3) -> String {
+    let [x, y, z] = value.to_array().map(number);
+    format!("({x}, {y}, {z})")
+}
+
+/// Texture coordinates.
+pub fn uv(value: Vec2) -> String {
+    format!("({}, {})", number(value.x), number(value.y))
+}
+
+/// A range or times.
+pub fn interval(value: Interval) -> String {
+    format!("[{}, {}]", number(value.min), number(value.max))
+}
+
+/// What `BBox::hit` returns.
+pub fn span(value: Option<Interval>) -> String {
+    value.map_or("None".to_owned(), interval)
+}
+
+/// Where a ray hits.
+pub fn hit_at(distance: f32) -> String {
+    format!("a hit at distance {}", number(distance))
+}
+
+/// A ray, and the part of it that counts where that is not all that lies ahead.
+pub fn ray(ray: &Ray) -> String {
+    let mut text = format!("ray from {} toward {}", point(ray.origin), point(ray.dir));
+    if ray.range != Interval::AHEAD {
+        write!(text, " within {}", interval(ray.range)).expect("text takes text");
+    }
+    text
+}
+
+/// All that `Trace` holds, a line each.
+pub fn trace(value: Option<&Trace>) -> String {
+    value.map_or("no hit".to_owned(), |trace| {
+        format!(
+            "distance {}, position {}, normal {}, uv {}, material {}",
+            number(trace.distance),
+            point(trace.position),
+            point(trace.normal),
+            uv(trace.uv),
+            trace.material
+        )
+    })
+}
+
+/// One element of a question: what was asked.
+pub fn element(question: &Question, element: usize) -> String {
+    match question {
+        Question::Camera { camera, samples } => {
+            let samples = samples.on(camera.film);
+            let place = samples.get(element).map_or(String::new(), |sample| {
+                format!(", pixel {} + {}", sample.pixel, uv(sample.offset))
+            });
+            format!(
+                "camera of {}° and aspect {}, film {}{place}",
+                number(camera.vertical_fov),
+                number(camera.aspect_ratio),
+                camera.film,
+            )
+        }
+        Question::Shapes { shapes, rays } => format!("{}; {}", nth_ray(rays, element), all(shapes)),
+        Question::BBox { min, max, shots } => {
+            let shot = shots.get(element).map_or(String::new(), |(shot, times)| {
+                format!("{}, times {}; ", ray(shot), interval(*times))
+            });
+            format!("{shot}box {} to {}", point(*min), point(*max))
+        }
+        Question::Build {
+            shapes,
+            max_leaf_size,
+        } => format!(
+            "a tree over {}, leaves of at most {max_leaf_size}",
+            all(shapes)
+        ),
+        Question::Traverse {
+            shapes,
+            nodes,
+            root,
+            rays,
+        } => format!(
+            "{}; the exam's own tree of {} nodes, root {root}, over {}",
+            nth_ray(rays, element),
+            nodes.len(),
+            all(shapes)
+        ),
+        Question::BuildAndTraverse {
+            shapes,
+            max_leaf_size,
+            rays,
+        } => format!(
+            "{}; your own tree over {}, leaves of at most {max_leaf_size}",
+            nth_ray(rays, element),
+            all(shapes)
+        ),
+        Question::Radiance { film, samples, .. } => {
+            let (x, y) = (element as u32 % film.x, element as u32 / film.x);
+            format!(
+                "a path-traced picture of {}×{} pixels, {samples} samples; pixel ({x}, {y})",
+                film.x, film.y
+            )
+        }
+        Question::Done => String::new(),
+    }
+}
+
+fn nth_ray(rays: &Rays, element: usize) -> String {
+    let text = rays.to_vec().get(element).map_or(String::new(), ray);
+    match rays {
+        Rays::List(_) => text,
+        Rays::View(view) => {
+            let pixel = element / protocol::OFFSETS.len();
+            let (x, y) = (pixel as u32 % view.film.x, pixel as u32 / view.film.x);
+            format!("pixel ({x}, {y}) of a picture, {text}")
+        }
+    }
+}
+
+/// Shapes, if they are few; else how many.
+fn all(shapes: &[Shape]) -> String {
+    match shapes {
+        [one] => shape(one),
+        _ => format!("{} primitives", shapes.len()),
+    }
+}
+
+fn shape(shape: &Shape) -> String {
+    match *shape {
+        Shape::Triangle { vertices, .. } => {
+            let [p0, p1, p2] = vertices.map(|vertex| point(vertex.position));
+            format!("triangle {p0} {p1} {p2}")
+        }
+        Shape::Facet { corners, .. } => {
+            let [p0, p1, p2] = corners.map(point);
+            format!("triangle {p0} {p1} {p2}")
+        }
+        Shape::Sphere { center, radius, .. } => {
+            format!(
+                "sphere around {} of radius {}",
+                point(center),
+                number(radius)
+            )
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_six_digits_that_count() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (1.0, "1"),
+            (0.1, "0.1"),
+            (1234.5678, "1234.57"),
+            (100.0, "100"),
+            (-0.000123456, "-0.000123456"),
+            (1e20, "1.00000e20"),
+            (1e-12, "1.00000e-12"),
+            (f32::NAN, "NaN"),
+            (f32::NEG_INFINITY, "-∞"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
+}

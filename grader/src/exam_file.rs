@@ -1,0 +1,185 @@
+//! Reading exam files: from disk, from standard input, or the practice exam that this program was
+//! built with. A file that can not be asked is refused before anything is.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use protocol::Question;
+
+use crate::exam::{Exam, Item, Key};
+
+/// The version of the format that is read.
+const SCHEMA: u32 = 1;
+/// The longest exam file, in bytes; ours have about 3,000,000.
+const LONGEST_FILE: u64 = 64 << 20;
+
+const PRACTICE: &str = include_str!("../exams/practice.json");
+
+/// An exam, and the name of its bytes.
+#[derive(Clone, Debug)]
+pub struct ExamFile {
+    /// What is asked.
+    pub exam: Exam,
+    /// Of the file's bytes, in hexadecimal.
+    pub hash: String,
+}
+
+/// Why an exam can not be used.
+#[derive(Debug, thiserror::Error)]
+pub enum BadExam {
+    /// The file can not be read.
+    #[error("can not read the exam {path}: {source}")]
+    Io {
+        /// Which.
+        path: PathBuf,
+        /// The system's words.
+        source: io::Error,
+    },
+    /// The file is longer than any exam.
+    #[error("the exam {0} is longer than 64 MiB")]
+    TooLong(PathBuf),
+    /// The file is not JSON, or not an exam.
+    #[error("the exam {path}, {source}; `cargo author exam --seed S` writes a good one")]
+    Json {
+        /// Which.
+        path: PathBuf,
+        /// Line and column, and what is wrong there.
+        source: serde_json::Error,
+    },
+    /// The file is an exam that can not be asked.
+    #[error("the exam {path}: {problem}; `cargo author exam --seed S` writes a good one")]
+    Problem {
+        /// Which.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+}
+
+/// Reads the exam at `path`, from standard input for `-`; without a path, the practice exam.
+pub fn load(path: Option<&Path>) -> Result<ExamFile, BadExam> {
+    let path = match path {
+        None => return parse(Path::new("practice.json"), PRACTICE.as_bytes()),
+        Some(path) => path,
+    };
+    let mut bytes = Vec::new();
+    let read = match path.to_str() {
+        Some("-") => io::stdin().take(LONGEST_FILE + 1).read_to_end(&mut bytes),
+        Some(_) | None => fs::File::open(path)
+            .and_then(|file| file.take(LONGEST_FILE + 1).read_to_end(&mut bytes)),
+    };
+    read.map_err(|source| BadExam::Io {
+        path: path.to_owned(),
+        source,
+    })?;
+    if bytes.len() as u64 > LONGEST_FILE {
+        return Err(BadExam::TooLong(path.to_owned()));
+    }
+    parse(path, &bytes)
+}
+
+fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, BadExam> {
+    let exam: Exam = serde_json::from_slice(bytes).map_err(|source| BadExam::Json {
+        path: path.to_owned(),
+        source,
+    })?;
+    if let Some(problem) = problem(&exam) {
+        return Err(BadExam::Problem {
+            path: path.to_owned(),
+            problem,
+        });
+    }
+    Ok(ExamFile {
+        exam,
+        hash: blake3::hash(bytes).to_hex()[..32].to_owned(),
+    })
+}
+
+/// What is wrong with an exam, if anything is.
+fn problem(exam: &Exam) -> Option<String> {
+    if exam.schema != SCHEMA {
+        return Some(format!(
+            "its format is version {}, and this grader reads version {SCHEMA}",
+            exam.schema
+        ));
+    }
+    if exam.items.is_empty() {
+        return Some("it has no items".to_owned());
+    }
+    let mut earlier = BTreeSet::new();
+    for item in &exam.items {
+        if let Some(problem) = item_problem(item, &earlier) {
+            return Some(format!("item {}: {problem}", item.id));
+        }
+        earlier.insert(item.id.as_str());
+    }
+    None
+}
+
+fn item_problem(item: &Item, earlier: &BTreeSet<&str>) -> Option<String> {
+    if !item.id.starts_with(&format!("{}.", item.task)) {
+        return Some(format!("its id does not begin with `{}.`", item.task));
+    }
+    if earlier.contains(item.id.as_str()) {
+        return Some("there is another of this id".to_owned());
+    }
+    if let Some(needed) = item.needs.iter().find(|id| !earlier.contains(id.as_str())) {
+        return Some(format!(
+            "it needs `{needed}`, which does not come before it"
+        ));
+    }
+    if item.points == 0 || item.questions.is_empty() {
+        return Some("it has no points, or no questions".to_owned());
+    }
+    let misfit = |(number, asked): (usize, &crate::exam::Asked)| {
+        let (fits, keys) = fit(&asked.question, &asked.key);
+        let count = asked.question.count();
+        match (fits, keys == count) {
+            (false, _) => Some(format!("question {number} and its key are of two kinds")),
+            (true, false) => Some(format!(
+                "question {number} asks {count} times, and its key answers {keys}"
+            )),
+            (true, true) => None,
+        }
+    };
+    (1..).zip(&item.questions).find_map(misfit)
+}
+
+/// Whether a key is one to this question, and how many elements it answers.
+fn fit(question: &Question, key: &Key) -> (bool, usize) {
+    use protocol::Rays;
+
+    match (key, question) {
+        (Key::Rays { directions, .. }, Question::Camera { .. }) => (true, directions.len()),
+        (
+            Key::Hits { hits, .. },
+            Question::Shapes { .. } | Question::Traverse { .. } | Question::BuildAndTraverse { .. },
+        ) => (true, hits.len()),
+        (
+            Key::FirstHits { hits, also },
+            Question::Shapes { rays, .. }
+            | Question::Traverse { rays, .. }
+            | Question::BuildAndTraverse { rays, .. },
+        ) => {
+            let inside = also.iter().all(|(place, _)| (*place as usize) < hits.len());
+            (matches!(rays, Rays::View(_)) && inside, hits.len())
+        }
+        (Key::Spans { spans }, Question::BBox { .. }) => (true, spans.len()),
+        (Key::Tree { .. }, Question::Build { .. }) => (true, 1),
+        (Key::Radiance { pixels, .. }, Question::Radiance { film, .. }) => {
+            let all = film.x as usize * film.y as usize;
+            (pixels.len() == all, 1)
+        }
+        (
+            Key::Rays { .. }
+            | Key::Hits { .. }
+            | Key::FirstHits { .. }
+            | Key::Spans { .. }
+            | Key::Tree { .. }
+            | Key::Radiance { .. },
+            _,
+        ) => (false, 0),
+    }
+}

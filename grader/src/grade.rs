@@ -1,0 +1,156 @@
+//! The main job, from a command line to a score.
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use crate::ask::Budget;
+use crate::build::{Build, Builder};
+use crate::cli::Arguments;
+use crate::error::Error;
+use crate::exam::{Exam, Item, Task};
+use crate::exam_file::{self, ExamFile};
+use crate::examine::examine;
+use crate::report;
+use crate::score::{
+    BuildReport, ExamName, FileReport, Isolation, SCHEMA, Score, TaskScore, Timings,
+};
+use crate::submission::Submission;
+use crate::verdict::{self, Outcome};
+use crate::workspace::Workspace;
+
+/// A submission's score, and where it was written, if it was.
+#[derive(Debug)]
+pub struct Graded {
+    /// The score.
+    pub score: Score,
+    /// The score file.
+    pub file: Option<PathBuf>,
+}
+
+/// Loads the exam, collects the submission, builds it, asks, judges, scores.
+pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
+    let workspace = Workspace::find()?;
+    let exam = exam_file::load(arguments.exam.as_deref())?;
+    let submission = collect(arguments, &workspace)?;
+
+    let began = Instant::now();
+    let build = Builder::prepare(&workspace)?.build(&submission)?;
+    let built = Instant::now();
+
+    let asked = restricted(&exam.exam, arguments.task);
+    let mut score = blank(&exam, &asked, &submission, &build);
+    score.timings.build_ms = millis(built - began);
+    // One task's points are no score.
+    let file = arguments
+        .task
+        .is_none()
+        .then(|| score_file(arguments, &workspace, &submission));
+    examine(&asked, &build, budget(arguments), &mut score, |score| {
+        let mut score = score.clone();
+        score.timings.exam_ms = millis(built.elapsed());
+        match &file {
+            Some(path) => report::json::write(&score, path).map_err(|source| Error::Report {
+                path: path.clone(),
+                source,
+            }),
+            None => Ok(()),
+        }
+    })?;
+    score.timings.exam_ms = millis(built.elapsed());
+    Ok(Graded { score, file })
+}
+
+/// The submission that the command line names.
+pub fn collect(arguments: &Arguments, workspace: &Workspace) -> Result<Submission, Error> {
+    let folder = match &arguments.submission {
+        Some(path) => workspace.resolve(path),
+        None => workspace.student(),
+    };
+    Ok(Submission::collect(&folder)?)
+}
+
+/// What an item may use.
+pub fn budget(arguments: &Arguments) -> Budget {
+    Budget {
+        cpu: Duration::from_secs(arguments.cpu_limit),
+    }
+}
+
+fn score_file(arguments: &Arguments, workspace: &Workspace, submission: &Submission) -> PathBuf {
+    let folder = match &arguments.out {
+        Some(folder) => folder.clone(),
+        None => workspace.grade().join(&submission.name),
+    };
+    folder.join("score.json")
+}
+
+/// The items of one task, and those that they rest on.
+fn restricted(exam: &Exam, task: Option<Task>) -> Exam {
+    let Some(task) = task else {
+        return exam.clone();
+    };
+    let of_task = |item: &&Item| item.task == task;
+    let needed: Vec<&String> = exam
+        .items
+        .iter()
+        .filter(of_task)
+        .flat_map(|item| &item.needs)
+        .collect();
+    let items = exam.items.iter();
+    Exam {
+        items: items
+            .filter(|item| item.task == task || needed.contains(&&item.id))
+            .cloned()
+            .collect(),
+        ..exam.clone()
+    }
+}
+
+/// A score with nothing asked yet.
+fn blank(file: &ExamFile, exam: &Exam, submission: &Submission, build: &Build) -> Score {
+    let task_score = |task: Task| {
+        let items = exam.items.iter().filter(|item| item.task == task);
+        let items: Vec<_> = items
+            .map(|item| verdict::item_score(item, &Outcome::Pending))
+            .collect();
+        TaskScore {
+            id: task,
+            title: task.title().to_owned(),
+            points: 0,
+            max_points: items.iter().map(|item| item.max_points).sum(),
+            items,
+            printed: None,
+        }
+    };
+    let not_compiled = build.not_compiled.iter().map(|(file, why)| FileReport {
+        file: (*file).to_owned(),
+        message: verdict::file_message(file, why),
+    });
+    let tasks: Vec<TaskScore> = Task::ALL
+        .into_iter()
+        .map(task_score)
+        .filter(|task| !task.items.is_empty())
+        .collect();
+    Score {
+        schema: SCHEMA,
+        submission: submission.name.clone(),
+        exam: ExamName {
+            id: exam.id.clone(),
+            hash: file.hash.clone(),
+        },
+        isolation: Isolation::None,
+        complete: false,
+        points: 0,
+        max_points: tasks.iter().map(|task| task.max_points).sum(),
+        tasks,
+        build: BuildReport {
+            not_compiled: not_compiled.collect(),
+            notes: submission.notes.clone(),
+        },
+        timings: Timings::default(),
+    }
+}
+
+fn millis(duration: Duration) -> u64 {
+    u64::try_from(duration.as_millis()).unwrap_or(u64::MAX)
+}

@@ -1,0 +1,87 @@
+//! The path-traced picture, paired: the framework drew every random number from the same stream
+//! as when the key was recorded, so no noise has to be forgiven.
+
+use glam::Vec3;
+use protocol::Outcome;
+
+use crate::describe;
+use crate::judge::{Failure, How, Judgement, Share};
+
+/// A pixel is off if a channel differs by more than this part of its brightest channel.
+const RELATIVE: f32 = 0.01;
+/// What is darker than this is compared as if it were this bright.
+const DARKEST: f32 = 0.01;
+
+pub(super) fn judge(pixels: &[Vec3], allowed: u32, answer: &Outcome<Vec<Vec3>>) -> Judgement {
+    let fail = |element, how, count| {
+        Judgement::wrong(Failure {
+            element,
+            how,
+            count,
+        })
+    };
+    let got = match answer {
+        Outcome::Value(got) => got,
+        Outcome::Panicked(panic) => return fail(0, How::Panicked(panic.clone()), None),
+        Outcome::GivenUp => return Judgement::protocol("given up"),
+    };
+    if got.len() != pixels.len() {
+        return Judgement::protocol("another number of pixels than asked for");
+    }
+    let off: Vec<usize> = (0..pixels.len())
+        .filter(|&i| !is_close(got[i], pixels[i]))
+        .collect();
+    if off.len() <= allowed as usize {
+        return Judgement::RIGHT;
+    }
+    let how = How::Wrong {
+        what: "radiance".to_owned(),
+        got: describe::point(got[off[0]]),
+        wanted: describe::point(pixels[off[0]]),
+    };
+    let judgement = fail(off[0], how, Some((off.len(), pixels.len())));
+    Judgement {
+        share: if off.len() * 20 <= pixels.len() {
+            Share::HALF
+        } else {
+            Share::NONE
+        },
+        ..judgement
+    }
+}
+
+fn is_close(got: Vec3, wanted: Vec3) -> bool {
+    let error = (got - wanted).abs();
+    let limit = RELATIVE * wanted.max_element().max(DARKEST);
+    // Each by itself: the largest of numbers with a NaN among them may be a number.
+    error.x <= limit && error.y <= limit && error.z <= limit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with(n: usize, wrong: Vec3) -> Outcome<Vec<Vec3>> {
+        let mut pixels = vec![Vec3::ONE; 100];
+        pixels[..n].fill(wrong);
+        Outcome::Value(pixels)
+    }
+
+    #[test]
+    fn a_few_pixels_may_be_off_and_some_more_cost_half() {
+        let key = vec![Vec3::ONE; 100];
+        let share = |n| judge(&key, 2, &with(n, Vec3::ZERO)).share;
+        assert_eq!(share(2), Share::ALL);
+        assert_eq!(share(3), Share::HALF);
+        assert_eq!(share(6), Share::NONE);
+    }
+
+    #[test]
+    fn one_percent_is_forgiven_and_nan_is_not() {
+        let key = vec![Vec3::ONE; 100];
+        let share = |wrong| judge(&key, 2, &with(100, wrong)).share;
+        assert_eq!(share(Vec3::splat(1.009)), Share::ALL);
+        assert_eq!(share(Vec3::new(1.0, 1.0, f32::NAN)), Share::NONE);
+        assert_eq!(share(Vec3::splat(f32::INFINITY)), Share::NONE);
+    }
+}

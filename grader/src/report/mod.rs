@@ -1,0 +1,4 @@
+//! What people and programs read: each format a function of the score.
+
+pub mod json;
+pub mod text;

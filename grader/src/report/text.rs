@@ -1,0 +1,189 @@
+//! The report on a terminal: for a student, at 80 columns.
+
+use std::fmt::{self, Write};
+
+use anstyle::{AnsiColor, Style};
+
+use crate::exam::Task;
+use crate::score::{ItemScore, Score, TaskScore, Verdict};
+
+const WIDTH: usize = 80;
+const BAR: usize = 20;
+/// The most lines that are shown of a compiler's message.
+const COMPILER_LINES: usize = 20;
+
+const STRONG: Style = Style::new().bold();
+const FAINT: Style = Style::new().dimmed();
+const GOOD: Style = AnsiColor::Green.on_default();
+const PART: Style = AnsiColor::Yellow.on_default();
+const BAD: Style = AnsiColor::Red.on_default();
+
+/// The whole report, with colours: the stream that takes it drops them where they do not belong.
+/// With `only`, that task alone.
+pub fn report(score: &Score, only: Option<Task>) -> String {
+    let mut text = String::new();
+    write_report(&mut text, score, only).expect("text takes text");
+    text
+}
+
+fn write_report(out: &mut String, score: &Score, only: Option<Task>) -> fmt::Result {
+    let shown = |task: &&TaskScore| only.is_none_or(|only| only == task.id);
+    let tasks: Vec<&TaskScore> = score.tasks.iter().filter(shown).collect();
+
+    writeln!(out)?;
+    if only.is_none() {
+        headline(out, score)?;
+    }
+    for task in &tasks {
+        task_line(out, task)?;
+    }
+    for file in &score.build.not_compiled {
+        compiler(out, &file.message)?;
+    }
+    for task in &tasks {
+        let mut failing = task
+            .items
+            .iter()
+            .filter(|item| item.points < item.max_points);
+        if let Some(first) = failing.next() {
+            item(out, first)?;
+            let more = failing.count();
+            again(out, task, more)?;
+        }
+        if let Some(printed) = &task.printed {
+            printed_lines(out, task, printed)?;
+        }
+    }
+    for note in &score.build.notes {
+        writeln!(out, "\n{FAINT}  note: {note}{FAINT:#}")?;
+    }
+    writeln!(out)
+}
+
+fn headline(out: &mut String, score: &Score) -> fmt::Result {
+    let title = format!("  {}, {} exam", score.submission, score.exam.id);
+    let points = format!("{} / {}", score.points, score.max_points);
+    let gap = WIDTH.saturating_sub(2 + title.chars().count() + points.len());
+    writeln!(out, "{STRONG}{title}{:gap$}{points}{STRONG:#}\n", "")
+}
+
+fn task_line(out: &mut String, task: &TaskScore) -> fmt::Result {
+    let style = style(task.points, task.max_points);
+    let filled = (BAR as u32 * task.points) / task.max_points.max(1);
+    let bar: String = (0..BAR as u32)
+        .map(|i| if i < filled { '█' } else { '·' })
+        .collect();
+    let (passed, all) = (passed(task), task.items.len());
+    writeln!(
+        out,
+        "  {:24} {style}{bar}{style:#}  {:>3} / {:<3} {FAINT}{passed:>5} of {all} passed{FAINT:#}",
+        task.title, task.points, task.max_points,
+    )
+}
+
+fn passed(task: &TaskScore) -> usize {
+    let passed = |item: &&ItemScore| item.verdict == Verdict::Pass;
+    task.items.iter().filter(passed).count()
+}
+
+fn style(points: u32, max_points: u32) -> Style {
+    match points {
+        0 => BAD,
+        _ if points == max_points => GOOD,
+        _ => PART,
+    }
+}
+
+fn compiler(out: &mut String, message: &str) -> fmt::Result {
+    writeln!(out)?;
+    for line in message.lines().take(COMPILER_LINES) {
+        writeln!(out, "  {BAD}│{BAD:#} {line}")?;
+    }
+    if message.lines().count() > COMPILER_LINES {
+        writeln!(out, "  {BAD}│{BAD:#} …")?;
+    }
+    Ok(())
+}
+
+fn item(out: &mut String, item: &ItemScore) -> fmt::Result {
+    let style = style(item.points, item.max_points);
+    let words = item.verdict.words();
+    writeln!(
+        out,
+        "\n  {style}{words}{style:#}  {STRONG}{}{STRONG:#}  {FAINT}{}{FAINT:#}",
+        item.title, item.id
+    )?;
+    if !item.message.is_empty() {
+        row(out, "", &item.message)?;
+    }
+    if let Some(evidence) = &item.evidence {
+        row(out, "asked", &evidence.asked)?;
+        row(out, "got", &evidence.got)?;
+        row(out, "wanted", &evidence.wanted)?;
+    }
+    if let Some(hint) = &item.hint {
+        row(out, "hint", hint)?;
+    }
+    Ok(())
+}
+
+/// A label and its text, wrapped within the width, later lines indented.
+fn row(out: &mut String, label: &str, text: &str) -> fmt::Result {
+    const INDENT: usize = 12;
+    let mut lines = wrap(text, WIDTH - INDENT).into_iter();
+    let first = lines.next().unwrap_or_default();
+    writeln!(out, "    {FAINT}{label:<7}{FAINT:#} {first}")?;
+    lines.try_for_each(|line| writeln!(out, "{:INDENT$}{line}", ""))
+}
+
+fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines = Vec::new();
+    for paragraph in text.lines() {
+        let mut line = String::new();
+        for word in paragraph.split_whitespace() {
+            let room = line.chars().count() + 1 + word.chars().count() <= width;
+            if !line.is_empty() && !room {
+                lines.push(std::mem::take(&mut line));
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line.push_str(word);
+        }
+        lines.push(line);
+    }
+    lines
+}
+
+fn again(out: &mut String, task: &TaskScore, more: usize) -> fmt::Result {
+    let more = match more {
+        0 => String::new(),
+        1 => "; 1 more item of this task is not passed".to_owned(),
+        more => format!("; {more} more items of this task are not passed"),
+    };
+    writeln!(
+        out,
+        "    {FAINT}again   cargo grade --task {}{more}{FAINT:#}",
+        task.id
+    )
+}
+
+fn printed_lines(out: &mut String, task: &TaskScore, printed: &str) -> fmt::Result {
+    const MOST: usize = 5;
+    writeln!(out, "\n  {FAINT}printed during {}:{FAINT:#}", task.title)?;
+    for line in printed.lines().take(MOST) {
+        writeln!(out, "  {FAINT}│{FAINT:#} {line}")?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::wrap;
+
+    #[test]
+    fn lines_are_broken_between_words() {
+        assert_eq!(wrap("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrap("a\nlonger-than-that", 4), ["a", "longer-than-that"]);
+    }
+}

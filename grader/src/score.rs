@@ -1,0 +1,223 @@
+//! The score file: what everyone reads, from a terminal to a learning platform. Its schema is
+//! published by `cargo grade --schema`.
+//!
+//! The same submission, exam and toolchain give the same bytes, but for `timings`, `isolation`.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::exam::Task;
+
+/// The version of this format.
+pub const SCHEMA: u32 = 1;
+
+/// One submission, graded.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Score {
+    /// The version of this format: 1.
+    pub schema: u32,
+    /// The submission's name.
+    pub submission: String,
+    /// What was asked.
+    pub exam: ExamName,
+    /// How submissions were kept apart from this machine.
+    pub isolation: Isolation,
+    /// Whether everything has been asked. False in a file that is still being written, or whose
+    /// grader was stopped.
+    pub complete: bool,
+    /// The sum over all tasks.
+    pub points: u32,
+    /// The most points that could be had.
+    pub max_points: u32,
+    /// In lecture order.
+    pub tasks: Vec<TaskScore>,
+    /// What the compiler and the grader had to say of the files.
+    pub build: BuildReport,
+    /// How long it took. Not reproducible.
+    pub timings: Timings,
+}
+
+/// Which exam this is.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ExamName {
+    /// Such as `practice`.
+    pub id: String,
+    /// Of the exam file's bytes.
+    pub hash: String,
+}
+
+/// How submissions were kept apart from the machine, from best to none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Isolation {
+    /// Limits on time and memory only: for one's own work.
+    None,
+}
+
+/// One task's items.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct TaskScore {
+    /// Which.
+    pub id: Task,
+    /// What people read.
+    pub title: String,
+    /// The sum over its items.
+    pub points: u32,
+    /// The most points that could be had.
+    pub max_points: u32,
+    /// In the order of asking.
+    pub items: Vec<ItemScore>,
+    /// What the submission printed while it was asked, the beginning of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub printed: Option<String>,
+}
+
+/// One item, judged.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ItemScore {
+    /// Such as `sphere.from_inside`.
+    pub id: String,
+    /// What must hold, in words.
+    pub title: String,
+    /// What it earned.
+    pub points: u32,
+    /// What it is worth.
+    pub max_points: u32,
+    /// What became of it.
+    #[serde(flatten)]
+    pub verdict: Verdict,
+    /// For students: what happened, in a sentence. Empty if all is well.
+    pub message: String,
+    /// For students: where to look. Only where something is wrong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hint: Option<String>,
+    /// For students: the first thing that went wrong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub evidence: Option<Evidence>,
+    /// Files beside this one that show it.
+    pub pictures: Vec<String>,
+    /// For staff only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub staff: Option<String>,
+}
+
+/// What was asked, what came, what should have come.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Evidence {
+    /// Which question of the item, counted from 1: `cargo grade --replay ITEM#NUMBER`.
+    pub number: usize,
+    /// The question.
+    pub asked: String,
+    /// The submission's answer.
+    pub got: String,
+    /// The right one.
+    pub wanted: String,
+}
+
+/// What became of one item.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(tag = "verdict", rename_all = "snake_case")]
+pub enum Verdict {
+    /// All points.
+    Pass,
+    /// Some points.
+    Partial,
+    /// An answer that is not right.
+    Wrong,
+    /// The code panicked.
+    Panicked,
+    /// The code is not written yet.
+    Unimplemented,
+    /// No answer in time.
+    TimedOut,
+    /// The code used more memory than there is.
+    OutOfMemory,
+    /// The process ended.
+    Crashed,
+    /// What came back was no answer.
+    Protocol,
+    /// The file does not compile, or is not there.
+    NotCompiled,
+    /// It rests on another task, which earned nothing.
+    Blocked {
+        /// The item that it needs.
+        by: String,
+    },
+    /// Not asked yet.
+    Pending,
+}
+
+impl Verdict {
+    /// What people read.
+    pub fn words(&self) -> &'static str {
+        match self {
+            Verdict::Pass => "passed",
+            Verdict::Partial => "in part",
+            Verdict::Wrong => "wrong",
+            Verdict::Panicked => "panicked",
+            Verdict::Unimplemented => "not written yet",
+            Verdict::TimedOut => "out of time",
+            Verdict::OutOfMemory => "out of memory",
+            Verdict::Crashed => "crashed",
+            Verdict::Protocol => "no answer",
+            Verdict::NotCompiled => "not compiled",
+            Verdict::Blocked { .. } => "blocked",
+            Verdict::Pending => "not asked yet",
+        }
+    }
+}
+
+/// What the compiler and the grader had to say of the files.
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+pub struct BuildReport {
+    /// The files in whose place the starter's was taken.
+    pub not_compiled: Vec<FileReport>,
+    /// What is worth knowing and costs nothing.
+    pub notes: Vec<String>,
+}
+
+/// One file that could not be used.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct FileReport {
+    /// Such as `sphere.rs`.
+    pub file: String,
+    /// The compiler's first error in it, or why there is no text.
+    pub message: String,
+}
+
+/// How long it took, in milliseconds.
+#[derive(Clone, Copy, Debug, Default, Serialize, JsonSchema)]
+pub struct Timings {
+    /// From files to a probe.
+    pub build_ms: u64,
+    /// Asking and judging.
+    pub exam_ms: u64,
+}
+
+impl Score {
+    /// All items, in the order of asking.
+    pub fn items(&self) -> impl Iterator<Item = &ItemScore> {
+        self.tasks.iter().flat_map(|task| &task.items)
+    }
+
+    /// Puts a line in the place of the one with the same id.
+    pub fn record(&mut self, line: ItemScore) {
+        let mut items = self.tasks.iter_mut().flat_map(|task| &mut task.items);
+        if let Some(place) = items.find(|item| item.id == line.id) {
+            *place = line;
+        }
+    }
+
+    /// Adds up.
+    pub fn total(&mut self) {
+        for task in &mut self.tasks {
+            task.points = task.items.iter().map(|item| item.points).sum();
+        }
+        self.points = self.tasks.iter().map(|task| task.points).sum();
+    }
+
+    /// The schema of the score file.
+    pub fn schema() -> schemars::Schema {
+        schemars::schema_for!(Score)
+    }
+}

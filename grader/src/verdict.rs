@@ -1,0 +1,175 @@
+//! From what became of an item to its line in the score: pure.
+
+use crate::ask::Fault;
+use crate::build::NotCompiled;
+use crate::describe;
+use crate::exam::Item;
+use crate::judge::{Failure, How, Judgement, Share};
+use crate::score::{Evidence, ItemScore, Score, Verdict};
+use crate::tame::tame;
+
+/// The most characters of a student's or compiler's text in a message.
+const LONGEST: usize = 2_000;
+
+/// What became of one item.
+#[derive(Clone, Debug)]
+pub enum Outcome<'a> {
+    /// Not asked yet.
+    Pending,
+    /// Its file is not part of the program.
+    NotCompiled(&'a NotCompiled),
+    /// No answer.
+    Fault(Fault),
+    /// Not asked, because other items of the task had run out of time.
+    GivenUp(Fault),
+    /// An answer to each question, judged.
+    Answered(Vec<Judgement>),
+}
+
+/// The item's line in the score.
+pub fn item_score(item: &Item, outcome: &Outcome) -> ItemScore {
+    let mut score = ItemScore {
+        id: item.id.clone(),
+        title: item.title.clone(),
+        points: 0,
+        max_points: item.points,
+        verdict: Verdict::Pending,
+        message: String::new(),
+        hint: None,
+        evidence: None,
+        pictures: Vec::new(),
+        staff: None,
+    };
+    match outcome {
+        Outcome::Pending => {}
+        Outcome::NotCompiled(why) => {
+            score.verdict = Verdict::NotCompiled;
+            score.message = not_compiled(item, why);
+        }
+        Outcome::Fault(fault) => {
+            score.verdict = verdict_of(fault);
+            score.message = fault.to_string();
+        }
+        Outcome::GivenUp(fault) => {
+            score.verdict = verdict_of(fault);
+            score.message = "not asked: other items of this task had run out of time".to_owned();
+        }
+        Outcome::Answered(judgements) => answered(item, judgements, &mut score),
+    }
+    score
+}
+
+fn not_compiled(item: &Item, why: &NotCompiled) -> String {
+    match why {
+        NotCompiled::Unreadable(unreadable) => unreadable.to_string(),
+        NotCompiled::Lacks(part) => {
+            format!(
+                "{} has no `{part}`, which other files call",
+                item.task.file()
+            )
+        }
+        NotCompiled::Error(_) => format!("{} does not compile", item.task.file()),
+        NotCompiled::Compiler(_) => "the submission does not compile".to_owned(),
+    }
+}
+
+/// What the compiler said, or why there was nothing to compile.
+pub fn file_message(file: &str, why: &NotCompiled) -> String {
+    match why {
+        NotCompiled::Unreadable(unreadable) => unreadable.to_string(),
+        NotCompiled::Lacks(part) => format!("{file} has no `{part}`, which other files call"),
+        NotCompiled::Error(text) | NotCompiled::Compiler(text) => tame(text, LONGEST),
+    }
+}
+
+fn verdict_of(fault: &Fault) -> Verdict {
+    match fault {
+        Fault::TimedOut(_) => Verdict::TimedOut,
+        Fault::OutOfMemory => Verdict::OutOfMemory,
+        Fault::Crashed(_) => Verdict::Crashed,
+        Fault::Protocol(_) => Verdict::Protocol,
+    }
+}
+
+fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
+    let share = judgements.iter().map(|judgement| judgement.share).min();
+    let share = share.unwrap_or(Share::NONE);
+    score.points = share.of(item.points);
+    if share == Share::ALL {
+        score.verdict = Verdict::Pass;
+        return;
+    }
+    score.hint = Some(item.hint.clone());
+
+    // Of the worst question: that is the one that the points are those of.
+    let worst = judgements
+        .iter()
+        .enumerate()
+        .find(|(_, j)| j.share == share);
+    let Some((question, failure)) = worst.and_then(|(i, j)| Some((i, j.failure.as_ref()?))) else {
+        score.verdict = Verdict::Protocol;
+        return;
+    };
+    let partial = |verdict| match score.points {
+        0 => verdict,
+        _ => Verdict::Partial,
+    };
+    let (verdict, got, wanted) = match &failure.how {
+        How::Wrong { what, got, wanted } => {
+            score.message = message(what, failure);
+            (partial(Verdict::Wrong), got.clone(), wanted.clone())
+        }
+        How::Panicked(panic) if panic.is_unimplemented() => {
+            score.verdict = Verdict::Unimplemented;
+            score.message = format!("not written yet ({})", tame(&panic.place, LONGEST));
+            score.hint = None;
+            return;
+        }
+        How::Panicked(panic) => {
+            let (place, words) = (&panic.place, &panic.message);
+            score.message = tame(&format!("panicked at {place}: {words}"), LONGEST);
+            let panicked = partial(Verdict::Panicked);
+            (panicked, "a panic".to_owned(), "an answer".to_owned())
+        }
+        How::Protocol(why) => {
+            score.verdict = Verdict::Protocol;
+            score.message = format!("what came back is no answer: {why}");
+            return;
+        }
+    };
+    score.verdict = verdict;
+    let before: usize = item.questions[..question]
+        .iter()
+        .map(|asked| asked.question.count())
+        .sum();
+    score.evidence = Some(Evidence {
+        number: before + failure.element + 1,
+        asked: describe::element(&item.questions[question].question, failure.element),
+        got,
+        wanted,
+    });
+}
+
+fn message(what: &str, failure: &Failure) -> String {
+    match failure.count {
+        Some((wrong, of)) if of > 1 => format!("{wrong} of {of} are wrong; the first: {what}"),
+        Some(_) | None => format!("wrong: {what}"),
+    }
+}
+
+/// Items that rest on others, which earned nothing, and did not pass by themselves either.
+pub fn block(item: &Item, others: &Score, score: &mut ItemScore) {
+    if score.points > 0 || matches!(score.verdict, Verdict::NotCompiled | Verdict::Pending) {
+        return;
+    }
+    let needed = item.needs.iter().find(|id| {
+        let needed = others.items().find(|other| other.id == **id);
+        needed.is_some_and(|needed| needed.points == 0)
+    });
+    if let Some(by) = needed {
+        score.verdict = Verdict::Blocked { by: by.clone() };
+        score.message = format!("rests on {by}: mend that first");
+        score.hint = None;
+        score.evidence = None;
+    }
+}

@@ -1,0 +1,59 @@
+//! Where the project lies on this machine, and where the grader may write.
+
+use std::env;
+use std::path::{Path, PathBuf};
+
+/// The folder that holds `student/` and the lock file.
+#[derive(Clone, Debug)]
+pub struct Workspace {
+    root: PathBuf,
+}
+
+/// There is no workspace to be found.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "can not find the assignment's folder (the one with student/framework): run the command inside it"
+)]
+pub struct NoWorkspace;
+
+impl Workspace {
+    /// The workspace around the current folder, else the one that this program was built in.
+    pub fn find() -> Result<Self, NoWorkspace> {
+        let here = env::current_dir().unwrap_or_default();
+        let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        here.ancestors()
+            .chain([built_in.as_path()])
+            .find(|folder| {
+                folder.join("student/framework/Cargo.toml").is_file()
+                    && folder.join("Cargo.lock").is_file()
+            })
+            .and_then(|folder| folder.canonicalize().ok())
+            .map(|root| Workspace { root })
+            .ok_or(NoWorkspace)
+    }
+
+    /// The folder itself.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// Students' own work.
+    pub fn student(&self) -> PathBuf {
+        self.root.join("student")
+    }
+
+    /// All that the grader writes unless told otherwise: reports, and what it keeps for the next
+    /// run. `cargo clean` takes it away.
+    pub fn grade(&self) -> PathBuf {
+        self.root.join("target/grade")
+    }
+
+    /// The path as given if it exists from the current folder, else from the workspace's.
+    pub fn resolve(&self, path: &Path) -> PathBuf {
+        if path.exists() {
+            path.to_owned()
+        } else {
+            self.root.join(path)
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Draws a scene: `cargo render scenes/cornell-box.json`.
+
+use std::process::ExitCode;
+
+use student::world::Student;
+
+fn main() -> ExitCode {
+    framework::cli::main(&Student)
+}

@@ -74,6 +74,12 @@ impl<'a> Integrator<'a> {
         }
     }
 
+    /// Positions less than this apart are the same to an `f32`.
+    #[cfg(feature = "cli")]
+    pub(crate) fn epsilon(&self) -> f32 {
+        self.epsilon
+    }
+
     /// The mean of all paths through a pixel.
     pub fn pixel(&self, pixel: UVec2, tally: &mut Tally) -> Vec3 {
         let mut sum = Vec3::ZERO;

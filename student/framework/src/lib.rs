@@ -5,6 +5,8 @@
 //! [`submission`].
 
 pub mod attempt;
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod film;
 mod frame;
 pub mod integrator;
@@ -14,3 +16,5 @@ pub mod probe;
 pub mod sampler;
 pub mod scene;
 pub mod submission;
+#[cfg(feature = "cli")]
+mod view;

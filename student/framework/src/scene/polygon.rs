@@ -6,8 +6,8 @@ use serde::Deserialize;
 
 use super::number;
 
-/// How far a point may be from the plane of the others, as a share of the polygon's size. Measured
-/// rooms (the Cornell box) are flat to about this much.
+/// How far a point may be from the plane of the others, as a share of the polygon's size: room for
+/// rounded coordinates, not for a bend that can be seen.
 const FLAT: f32 = 1e-3;
 
 /// A flat, convex outline, counter-clockwise around its normal.

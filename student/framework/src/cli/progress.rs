@@ -1,0 +1,61 @@
+//! How far a picture is, and what it took.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use glam::UVec2;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::integrator::Tally;
+
+/// A bar on the terminal, with the time left and the rays per second. Where standard error is no
+/// terminal, nothing is shown.
+pub(super) struct Progress {
+    bar: ProgressBar,
+    rays: AtomicU64,
+    started: Instant,
+}
+
+impl Progress {
+    pub(super) fn new(rows: u32) -> Self {
+        let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {eta} left  {msg}")
+            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        Progress {
+            bar: ProgressBar::new(u64::from(rows)).with_style(style),
+            rays: AtomicU64::new(0),
+            started: Instant::now(),
+        }
+    }
+
+    /// One more row is there.
+    pub(super) fn row(&self, tally: Tally) {
+        let rays = self.rays.fetch_add(tally.rays, Ordering::Relaxed) + tally.rays;
+        self.bar.set_message(rate(rays, self.started.elapsed()));
+        self.bar.inc(1);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// The line at the end.
+pub(super) fn summary(path: &Path, size: UVec2, tally: Tally, time: Duration) -> String {
+    format!(
+        "{}: {} x {}, {:.1} s, {:.1} Mrays, {}",
+        path.display(),
+        size.x,
+        size.y,
+        time.as_secs_f64(),
+        tally.rays as f64 * 1e-6,
+        rate(tally.rays, time),
+    )
+}
+
+fn rate(rays: u64, time: Duration) -> String {
+    let seconds = time.as_secs_f64().max(1e-9);
+    format!("{:.2} Mrays/s", rays as f64 * 1e-6 / seconds)
+}

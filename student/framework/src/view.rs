@@ -1,0 +1,200 @@
+//! Pictures of what rays meet first: not light, but the answers themselves.
+
+use glam::Vec3;
+use protocol::{Trace, Tree};
+
+/// What a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum View {
+    /// The scene, lit.
+    Shaded,
+    /// `Trace::normal`: x, y, z from −1 to 1 as red, green, blue.
+    Normals,
+    /// `Trace::distance`: the nearest is white, the farthest almost black.
+    Depth,
+    /// `Trace::uv`: the fractions of u and v as red and green.
+    Uv,
+    /// How many boxes of the tree hold the place that is met, from blue to red, and a tint of its
+    /// own for each leaf.
+    Bvh,
+}
+
+/// The picture of the first hits, pixel by pixel; `Shaded` has none of its own and is left black.
+/// What is missed, or is not finite, is black.
+pub fn picture(view: View, hits: &[Option<Trace>], tree: &Tree, epsilon: f32) -> Vec<Vec3> {
+    let each = |colour: &dyn Fn(&Trace) -> Vec3| {
+        let pixel = |hit: &Option<Trace>| hit.as_ref().map_or(Vec3::ZERO, colour);
+        let pixels = hits.iter().map(pixel);
+        let finite = |pixel: Vec3| if pixel.is_finite() { pixel } else { Vec3::ZERO };
+        pixels.map(finite).collect()
+    };
+    match view {
+        View::Shaded => vec![Vec3::ZERO; hits.len()],
+        View::Normals => each(&|hit| hit.normal.normalize() * 0.5 + 0.5),
+        View::Uv => each(&|hit| (hit.uv - hit.uv.floor()).extend(0.0)),
+        View::Depth => {
+            let distances = hits.iter().flatten().map(|hit| hit.distance);
+            let finite = distances.filter(|distance| distance.is_finite());
+            let (near, far) = finite.fold((f32::INFINITY, 0.0_f32), |(near, far), distance| {
+                (near.min(distance), far.max(distance))
+            });
+            // All at one distance: all white.
+            let span = (far - near).max(f32::MIN_POSITIVE);
+            each(&|hit| Vec3::splat(1.0 - 0.95 * (hit.distance - near) / span))
+        }
+        View::Bvh => {
+            let around: Vec<Around> = hits
+                .iter()
+                .map(|hit| hit.map_or(Around::default(), |hit| around(tree, hit.position, epsilon)))
+                .collect();
+            let most = around.iter().map(|around| around.boxes).max().unwrap_or(0);
+            let colour = |around: &Around| tint(around.leaf) * heat(around.boxes, most);
+            let show = |(hit, around): (&Option<Trace>, &Around)| match hit {
+                Some(_) => colour(around),
+                None => Vec3::ZERO,
+            };
+            hits.iter().zip(&around).map(show).collect()
+        }
+    }
+}
+
+/// What of a tree is around a point.
+#[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
+struct Around {
+    /// The nodes whose boxes hold the point.
+    boxes: u32,
+    /// The place of one of the leaves among them.
+    leaf: u32,
+}
+
+/// Descends into each box that holds `point`, give or take `epsilon`. No ray is followed: that is
+/// for the submission to do. The tree may be nonsense; then as much of it is seen as can be.
+fn around(tree: &Tree, point: Vec3, epsilon: f32) -> Around {
+    let mut found = Around::default();
+    let mut waiting = vec![tree.root];
+    // In a tree each node is met once: whoever meets more has met a circle.
+    for _ in 0..tree.nodes.len() {
+        let Some(place) = waiting.pop() else { break };
+        let Some(node) = tree.nodes.get(place as usize) else {
+            continue;
+        };
+        let below = point.cmplt(node.min - epsilon);
+        let above = point.cmpgt(node.max + epsilon);
+        if (below | above).any() {
+            continue;
+        }
+        found.boxes += 1;
+        if node.is_leaf() {
+            found.leaf = place;
+        } else {
+            waiting.extend([node.r, node.l]);
+        }
+    }
+    found
+}
+
+/// From blue, for few, over green to red, for the most.
+fn heat(count: u32, most: u32) -> Vec3 {
+    const STOPS: [Vec3; 4] = [
+        Vec3::new(0.15, 0.25, 0.85),
+        Vec3::new(0.1, 0.75, 0.65),
+        Vec3::new(0.95, 0.85, 0.2),
+        Vec3::new(0.9, 0.15, 0.1),
+    ];
+    let along = count as f32 / most.max(1) as f32 * 3.0;
+    let stop = (along as usize).min(2);
+    STOPS[stop].lerp(STOPS[stop + 1], along - stop as f32)
+}
+
+/// A brightness for each leaf that sets it off from its neighbours: steps of the golden ratio
+/// never come near each other soon.
+fn tint(leaf: u32) -> f32 {
+    let step = (f64::from(leaf) * 0.618_033_988_749_895).fract();
+    0.55 + 0.45 * step as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{Vec2, vec3};
+    use protocol::TreeNode;
+
+    use super::*;
+
+    fn node(min: f32, max: f32, l: u32, r: u32) -> TreeNode {
+        TreeNode {
+            min: Vec3::splat(min),
+            max: Vec3::splat(max),
+            start: 0,
+            size: 1,
+            l,
+            r,
+        }
+    }
+
+    fn hit(distance: f32) -> Option<Trace> {
+        Some(Trace {
+            distance,
+            position: Vec3::splat(distance),
+            normal: Vec3::Y * 2.0,
+            uv: Vec2::new(1.25, -0.25),
+            origin: Vec3::ZERO,
+            material: 0,
+        })
+    }
+
+    fn two_leaves() -> Tree {
+        Tree {
+            nodes: vec![
+                node(2.0, 4.0, 0, 0),
+                node(0.0, 4.0, 2, 0),
+                node(0.0, 3.0, 2, 2),
+            ],
+            root: 1,
+            order: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn boxes_around_a_point_are_counted() {
+        let boxes = |point: f32| around(&two_leaves(), Vec3::splat(point), 0.0).boxes;
+        assert_eq!(
+            [boxes(1.0), boxes(2.5), boxes(3.5), boxes(5.0)],
+            [2, 3, 2, 0]
+        );
+        let leaf = |point: f32| around(&two_leaves(), Vec3::splat(point), 0.0).leaf;
+        assert_eq!([leaf(1.0), leaf(3.5)], [2, 0]);
+    }
+
+    #[test]
+    fn a_tree_that_bites_its_tail_comes_to_an_end() {
+        let mut tree = two_leaves();
+        tree.nodes[0] = node(0.0, 9.0, 1, 1);
+        tree.nodes[2] = node(0.0, 9.0, 1, 7);
+        assert!(around(&tree, Vec3::ONE, 0.0).boxes <= 3);
+        assert_eq!(around(&Tree::default(), Vec3::ONE, 0.0), Around::default());
+    }
+
+    #[test]
+    fn the_nearest_is_white_and_a_miss_is_black() {
+        let hits = [hit(2.0), None, hit(4.0), hit(f32::NAN)];
+        let pixels = picture(View::Depth, &hits, &Tree::default(), 0.0);
+        assert_eq!(pixels[0], Vec3::ONE);
+        assert_eq!(pixels[1], Vec3::ZERO);
+        assert!(pixels[2].abs_diff_eq(Vec3::splat(0.05), 1e-6));
+        assert_eq!(pixels[3], Vec3::ZERO);
+    }
+
+    #[test]
+    fn normals_and_uv_become_colours() {
+        let pixels = |view| picture(view, &[hit(1.0)], &Tree::default(), 0.0);
+        assert_eq!(pixels(View::Normals), [vec3(0.5, 1.0, 0.5)]);
+        assert_eq!(pixels(View::Uv), [vec3(0.25, 0.75, 0.0)]);
+    }
+
+    #[test]
+    fn without_a_tree_all_is_one_leaf() {
+        let pixels = picture(View::Bvh, &[hit(1.0), hit(2.0)], &Tree::default(), 0.0);
+        assert_eq!(pixels[0], pixels[1]);
+        assert_ne!(pixels[0], Vec3::ZERO);
+    }
+}

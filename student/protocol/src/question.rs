@@ -31,6 +31,7 @@ pub enum Question {
         rays: Rays,
     },
     /// `BBox::hit`, once for each ray and its times.
+    #[serde(rename = "bbox")]
     BBox {
         /// The smallest corner of the box.
         min: Vec3,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Parser;
 
 use crate::exam::Task;
+use crate::place::Place;
 
 /// Grades a path-tracing submission: builds it, asks it, judges its answers, writes a score.
 ///
@@ -34,7 +35,7 @@ pub struct Arguments {
 
     /// Ask one question again, such as sphere.from_inside#7, and show all of its answer
     #[arg(long, value_name = "ITEM#N", conflicts_with_all = ["task", "require", "out"])]
-    pub replay: Option<String>,
+    pub replay: Option<Place>,
 
     /// CPU time that an item may use, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=600))]

@@ -62,11 +62,88 @@ pub const GIVEN_FILES: [(&str, &str); 3] = [
 pub const MAIN: (&str, &str) = ("main.rs", include_str!("../starter/main.rs"));
 
 impl TaskFile {
+    /// The given methods that `text` does not hold as they were handed out: worth a note.
+    pub fn changed(&self, text: &str) -> Vec<&'static str> {
+        let text = squeezed(text);
+        let mut changed = Vec::new();
+        for (name, method) in given_methods(self.starter) {
+            if !text.contains(&squeezed(method)) {
+                changed.push(name);
+            }
+        }
+        changed
+    }
+
     /// The tasks whose points depend on this file.
     pub fn tasks(&self) -> impl Iterator<Item = Task> {
         let name = self.name;
         Task::ALL
             .into_iter()
             .filter(move |task| task.file() == name)
+    }
+}
+
+/// The methods that stand complete in a starter file: name, and text from signature to brace.
+fn given_methods(starter: &'static str) -> Vec<(&'static str, &'static str)> {
+    const END: &str = "\n    }\n";
+    let code = starter.split("#[cfg(test)]").next().unwrap_or(starter);
+    let starts = code
+        .match_indices("\n    pub fn ")
+        .map(|(start, _)| start + 1);
+    starts
+        .filter_map(|start| {
+            let method = &code[start..start + code[start..].find(END)? + END.len()];
+            let name = method.trim_start().strip_prefix("pub fn ")?;
+            let name = &name[..name.find('(')?];
+            let to_write = ["sample_ray", "hit", "build"].contains(&name);
+            (!to_write).then_some((name, method))
+        })
+        .collect()
+}
+
+/// Without white space: formatting is no change.
+fn squeezed(text: &str) -> String {
+    text.split_whitespace().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn given_methods_are_found_and_stubs_are_not() {
+        let names = |file: &TaskFile| -> Vec<&str> {
+            given_methods(file.starter)
+                .iter()
+                .map(|(name, _)| *name)
+                .collect()
+        };
+        let [camera, _, sphere, ..] = TASK_FILES;
+        assert_eq!(names(&camera), ["new"]);
+        assert_eq!(names(&sphere), ["new", "bbox", "uv"]);
+    }
+
+    #[test]
+    fn a_given_method_that_was_changed_is_named() {
+        let [_, _, sphere, ..] = TASK_FILES;
+        assert!(sphere.changed(sphere.starter).is_empty());
+        assert!(
+            sphere
+                .changed(&sphere.starter.replace("    ", "  "))
+                .is_empty()
+        );
+        let changed = sphere.starter.replace("/ PI", "/ 3.0");
+        assert_eq!(sphere.changed(&changed), ["uv"]);
+    }
+
+    #[test]
+    fn what_a_file_needs_is_in_the_starter() {
+        for file in TASK_FILES {
+            let lacking = file
+                .needed
+                .iter()
+                .find(|part| !file.starter.contains(**part));
+            assert_eq!(lacking, None, "{}", file.name);
+        }
     }
 }

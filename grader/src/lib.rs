@@ -10,7 +10,7 @@
 //! | the job | [`grade`], [`replay`] |
 //! | one exam | [`examine`], [`verdict`], [`report`] |
 //! | its steps | [`build`], [`ask`], [`judge`] |
-//! | data | [`exam`], [`exam_file`], [`submission`], [`given`], [`score`] |
+//! | data | [`exam`], [`exam_file`], [`place`], [`submission`], [`given`], [`score`] |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`] |
 
 pub mod ask;
@@ -25,6 +25,8 @@ pub mod examine;
 pub mod given;
 pub mod grade;
 pub mod judge;
+pub mod place;
+pub mod replay;
 pub mod report;
 pub mod sandbox;
 pub mod score;

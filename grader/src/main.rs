@@ -6,6 +6,7 @@ use clap::Parser;
 use grader::cli::Arguments;
 use grader::error::Error;
 use grader::grade::grade;
+use grader::replay::replay;
 use grader::report;
 use grader::score::Score;
 
@@ -20,6 +21,10 @@ fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     if arguments.schema {
         anstream::println!("{:#}", Score::schema().as_value());
+        return Ok(ExitCode::SUCCESS);
+    }
+    if let Some(place) = &arguments.replay {
+        anstream::print!("{}", replay(arguments, place)?);
         return Ok(ExitCode::SUCCESS);
     }
     let graded = grade(arguments)?;

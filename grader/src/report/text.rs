@@ -47,8 +47,7 @@ fn write_report(out: &mut String, score: &Score, only: Option<Task>) -> fmt::Res
             .filter(|item| item.points < item.max_points);
         if let Some(first) = failing.next() {
             item(out, first)?;
-            let more = failing.count();
-            again(out, task, more)?;
+            again(out, task, first, failing.count())?;
         }
         if let Some(printed) = &task.printed {
             printed_lines(out, task, printed)?;
@@ -155,17 +154,28 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-fn again(out: &mut String, task: &TaskScore, more: usize) -> fmt::Result {
-    let more = match more {
-        0 => String::new(),
-        1 => "; 1 more item of this task is not passed".to_owned(),
-        more => format!("; {more} more items of this task are not passed"),
-    };
+fn again(out: &mut String, task: &TaskScore, item: &ItemScore, more: usize) -> fmt::Result {
+    let (label, id) = ("again", task.id);
     writeln!(
         out,
-        "    {FAINT}again   cargo grade --task {}{more}{FAINT:#}",
-        task.id
-    )
+        "    {FAINT}{label:<7} cargo grade --task {id}{FAINT:#}"
+    )?;
+    if let Some(evidence) = &item.evidence {
+        let (label, number) = ("", evidence.number);
+        writeln!(
+            out,
+            "    {FAINT}{label:<7} cargo grade --replay {}#{number}{FAINT:#}",
+            item.id
+        )?;
+    }
+    match more {
+        0 => Ok(()),
+        1 => writeln!(out, "    {FAINT}and 1 more item of this task{FAINT:#}"),
+        _ => writeln!(
+            out,
+            "    {FAINT}and {more} more items of this task{FAINT:#}"
+        ),
+    }
 }
 
 fn printed_lines(out: &mut String, task: &TaskScore, printed: &str) -> fmt::Result {

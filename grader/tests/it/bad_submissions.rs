@@ -1,0 +1,224 @@
+//! Whatever is handed in, there is a report, and the other tasks' points are untouched.
+
+use insta::assert_snapshot;
+
+use crate::harness::{FULL, Submission};
+
+/// The points of a submission whose only fault is in these tasks, by place in lecture order.
+fn all_but(zero: &[usize]) -> Vec<u64> {
+    let mut points = FULL.to_vec();
+    zero.iter().for_each(|&task| points[task] = 0);
+    points
+}
+
+const SPHERE: usize = 2;
+const BUILD: usize = 4;
+const TRAVERSE: usize = 5;
+
+/// Points of the other tasks, where this one is at fault: all, but for what rests on it.
+fn other_points(points: &[u64], fault: usize) -> u64 {
+    points
+        .iter()
+        .enumerate()
+        .filter(|(task, _)| *task != fault)
+        .map(|(_, points)| points)
+        .sum()
+}
+
+#[test]
+fn a_missing_file_costs_its_own_task() {
+    let graded = Submission::reference("missing")
+        .without("sphere.rs")
+        .grade();
+    assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
+    assert_eq!(graded.points()[..5], all_but(&[SPHERE])[..5]);
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn a_renamed_file_is_missing_and_the_new_name_is_noted() {
+    let text = std::fs::read(Submission::reference("x").path().join("sphere.rs")).unwrap();
+    let submission = Submission::reference("renamed").without("sphere.rs");
+    let graded = submission.with("sphere_final.rs", text).grade();
+    assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
+    let note = &graded.score()["build"]["notes"][0];
+    assert_eq!(
+        note,
+        "sphere_final.rs is not one of the five files: ignored"
+    );
+}
+
+#[test]
+fn an_empty_file_costs_its_own_task_though_others_call_it() {
+    let graded = Submission::reference("empty").with("bbox.rs", "").grade();
+    assert_eq!(graded.verdicts("bbox"), ["not_compiled"]);
+    assert_eq!(graded.points()[..3], FULL[..3]);
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn a_file_that_is_not_text_costs_its_own_task() {
+    let graded = Submission::reference("not-text")
+        .with("sphere.rs", b"struct \xff")
+        .grade();
+    assert_eq!(graded.points()[..5], all_but(&[SPHERE])[..5]);
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn a_file_that_does_not_compile_costs_its_own_task() {
+    let graded = Submission::case("not_compiling").grade();
+    assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
+    assert_eq!(graded.points()[..5], all_but(&[SPHERE])[..5]);
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn errors_that_only_show_one_after_the_other_are_each_found() {
+    // The compiler stops at the first before it can see the second.
+    let graded =
+        Submission::case("not_compiling").with("camera.rs", "struct Camera fn new fn sample_ray (");
+    let graded = graded.grade();
+    assert_eq!(graded.verdicts("camera"), ["not_compiled"]);
+    assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
+    assert_eq!(graded.points()[1], FULL[1]);
+}
+
+#[test]
+fn if_nothing_compiles_there_is_still_a_report() {
+    let mut submission = Submission::reference("nothing");
+    for file in crate::harness::FIVE {
+        submission = submission.with(file, "fn (");
+    }
+    let graded = submission.grade();
+    assert_eq!(graded.points(), [0; 6]);
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn a_panic_costs_the_items_that_meet_it() {
+    let graded = Submission::case("panicking").grade();
+    assert!(graded.verdicts("sphere").contains(&"panicked".to_owned()));
+    assert_eq!(other_points(&graded.points(), SPHERE), 85);
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn an_endless_loop_is_stopped() {
+    let graded = Submission::case("looping").grade_with(&["--cpu-limit", "1"]);
+    assert!(graded.verdicts("sphere").contains(&"timed_out".to_owned()));
+    assert_eq!(graded.points()[..2], FULL[..2]);
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn endless_recursion_ends_the_process_and_not_the_exam() {
+    let graded = Submission::case("recursing").grade();
+    assert_eq!(graded.verdicts("build"), ["crashed"]);
+    assert_eq!(graded.points()[..4], FULL[..4]);
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn leaving_early_is_no_answer() {
+    let graded = Submission::case("exiting").grade();
+    assert!(graded.verdicts("camera").contains(&"crashed".to_owned()));
+    assert_eq!(graded.points()[1..5], FULL[1..5]);
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn printing_is_harmless() {
+    let graded = Submission::case("printing").grade();
+    assert_eq!(graded.points(), FULL);
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn nan_is_a_wrong_answer() {
+    let graded = Submission::case("not_a_number").grade();
+    assert!(graded.verdicts("sphere").contains(&"wrong".to_owned()));
+    assert_eq!(graded.points()[3..5], FULL[3..5]);
+    assert_snapshot!(graded.report());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn allocating_without_bound_is_stopped() {
+    let graded = Submission::case("hoarding").grade();
+    assert_eq!(graded.verdicts("traverse"), ["out_of_memory"]);
+    assert_eq!(graded.points(), all_but(&[TRAVERSE]));
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn a_helper_in_another_file_is_found_where_it_is() {
+    let graded = Submission::case("helpers_elsewhere").grade();
+    assert_eq!(graded.points(), FULL);
+}
+
+#[test]
+fn a_helper_in_a_file_that_does_not_compile_takes_its_callers_along() {
+    let broken =
+        Submission::case("helpers_elsewhere").changed("bbox.rs", "times.min.max(enter)", "oops");
+    let graded = broken.grade();
+    assert_eq!(graded.verdicts("bbox"), ["not_compiled"]);
+    assert_eq!(graded.verdicts("build"), ["not_compiled"]);
+    assert_eq!(graded.points()[..3], FULL[..3]);
+}
+
+#[test]
+fn a_given_method_that_was_changed_is_a_note() {
+    let graded = Submission::reference("changed").changed(
+        "bbox.rs",
+        "0.5 * (self.min + self.max)",
+        "(self.min + self.max) / 2.0",
+    );
+    let graded = graded.grade();
+    assert_eq!(graded.points(), FULL);
+    let note = &graded.score()["build"]["notes"][0];
+    assert_eq!(
+        note,
+        "bbox.rs: the given `center` was changed, at no cost by itself"
+    );
+}
+
+#[test]
+fn unsafe_code_does_not_compile() {
+    let graded = Submission::reference("unsafe").changed(
+        "sphere.rs",
+        "discriminant.sqrt()",
+        "unsafe { discriminant.sqrt() }",
+    );
+    assert_eq!(graded.grade().points()[SPHERE], 0);
+}
+
+#[test]
+fn what_was_built_does_not_come_from_files_of_the_same_age() {
+    // Zips and tars unpack with old times; a build by time would serve the other's program.
+    let old = std::time::SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(315_532_800);
+    let aged = |submission: Submission| {
+        for file in crate::harness::FIVE {
+            let file = std::fs::File::options()
+                .append(true)
+                .open(submission.path().join(file));
+            file.unwrap().set_modified(old).unwrap();
+        }
+        submission
+    };
+    let starter = aged(Submission::starter("same-name")).grade().points();
+    let reference = aged(Submission::reference("same-name")).grade().points();
+    assert_eq!((starter, reference), (vec![0; 6], FULL.to_vec()));
+}
+
+#[test]
+fn only_the_tree_that_a_builder_returns_counts() {
+    let graded = Submission::reference("leafy").changed(
+        "bvh.rs",
+        "max_leaf_size: max_leaf_size.max(1)",
+        "max_leaf_size: max_leaf_size + 1",
+    );
+    let points = graded.grade().points();
+    assert!(points[BUILD] < FULL[BUILD], "{points:?}");
+    assert_eq!(other_points(&points, BUILD), 80);
+}

@@ -1,0 +1,119 @@
+//! What people type, and what they are told.
+
+use std::fs;
+
+use insta::assert_snapshot;
+
+use crate::harness::{FULL, Submission, grader};
+
+fn told(arguments: &[&str]) -> (i32, String) {
+    let output = grader().args(arguments).output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    (output.status.code().unwrap(), error)
+}
+
+#[test]
+fn help_names_every_option() {
+    let output = grader()
+        .arg("--help")
+        .env("COLUMNS", "80")
+        .output()
+        .unwrap();
+    assert_snapshot!(String::from_utf8(output.stdout).unwrap());
+}
+
+#[test]
+fn a_place_without_a_submission_is_the_callers_fault() {
+    let empty = tempfile::TempDir::new().unwrap();
+    let (code, error) = told(&[empty.path().to_str().unwrap()]);
+    assert_eq!(code, 2);
+    assert!(
+        error.contains("holds none of camera.rs, triangle.rs"),
+        "{error}"
+    );
+
+    let (code, error) = told(&["nowhere"]);
+    assert_eq!(code, 2);
+    assert!(error.contains("there is no "), "{error}");
+
+    let (code, error) = told(&["README.md"]);
+    assert_eq!(code, 2);
+    assert!(error.contains("is not a folder: unpack it"), "{error}");
+}
+
+#[test]
+fn an_unknown_task_is_answered_with_the_known_ones() {
+    let (code, error) = told(&["--task", "box"]);
+    assert_eq!(code, 2);
+    assert!(
+        error.contains("camera, triangle, sphere, bbox, build, traverse"),
+        "{error}"
+    );
+}
+
+#[test]
+fn the_five_files_are_found_at_the_top_in_src_and_in_student_src() {
+    for place in ["src", "student/src"] {
+        let mut submission = Submission::reference("checkout");
+        for file in crate::harness::FIVE {
+            let text = fs::read(submission.path().join(file)).unwrap();
+            submission = submission
+                .without(file)
+                .with(&format!("{place}/{file}"), text);
+        }
+        assert_eq!(
+            submission.grade_with(&["--task", "bbox"]).exit_code(),
+            0,
+            "{place}"
+        );
+    }
+}
+
+#[test]
+fn fewer_points_than_required_exit_with_one() {
+    let graded = Submission::case("not_compiling").grade_with(&["--require", "100"]);
+    assert_eq!(graded.exit_code(), 1);
+    assert!(graded.score_file.exists());
+    let graded = Submission::reference("full").grade_with(&["--require", "100"]);
+    assert_eq!(graded.points(), FULL);
+}
+
+#[test]
+fn one_task_is_reported_alone_and_writes_no_score() {
+    let graded = Submission::case("panicking").grade_with(&["--task", "sphere"]);
+    assert_eq!(graded.exit_code(), 0);
+    assert!(!graded.score_file.exists());
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn one_question_can_be_asked_again() {
+    let submission = Submission::case("panicking");
+    let score = submission.grade().score();
+    let items = score["tasks"][2]["items"].as_array().unwrap();
+    let item = items
+        .iter()
+        .find(|item| item["verdict"] == "panicked")
+        .unwrap();
+    let place = format!(
+        "{}#{}",
+        item["id"].as_str().unwrap(),
+        item["evidence"]["number"]
+    );
+    let output = grader()
+        .arg(submission.path())
+        .args(["--replay", &place])
+        .output()
+        .unwrap();
+    assert_snapshot!(String::from_utf8(output.stdout).unwrap());
+}
+
+#[test]
+fn a_question_that_is_not_there_is_answered_with_those_that_are() {
+    let (code, error) = told(&["--replay", "sphere.nothing#1"]);
+    assert_eq!(code, 2);
+    assert!(error.contains("there are: sphere."), "{error}");
+    let (code, error) = told(&["--replay", "sphere"]);
+    assert_eq!(code, 2);
+    assert!(error.contains("such as sphere.from_inside#7"), "{error}");
+}

@@ -1,0 +1,9 @@
+//! The real binary on real submissions. Each module is one thing that people rely on; each folder
+//! in `tests/submissions` is one idea of a submission, as the files in which it differs.
+
+mod bad_exams;
+mod bad_submissions;
+mod command_line;
+mod harness;
+mod scores;
+mod walls;

@@ -1,0 +1,102 @@
+//! What the score file promises to whoever reads it.
+
+use insta::assert_snapshot;
+use serde_json::Value;
+
+use crate::harness::{FULL, Submission, grader, workspace};
+
+#[test]
+fn the_reference_has_all_points() {
+    let graded = grader_on("reference");
+    assert_eq!(graded["points"], 100);
+    assert_eq!(graded["max_points"], 100);
+    assert_eq!(graded["complete"], true);
+}
+
+#[test]
+fn the_starter_has_none_and_each_item_says_why() {
+    let graded = Submission::starter("starter").grade();
+    assert_eq!(graded.points(), [0; 6]);
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn without_a_bvh_of_ones_own_there_are_sixty() {
+    let bvh = std::fs::read(workspace().join("grader/starter/bvh.rs")).unwrap();
+    let graded = Submission::reference("no-bvh").with("bvh.rs", bvh).grade();
+    assert_eq!(graded.points(), [15, 20, 15, 10, 0, 0]);
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn constant_answers_earn_nothing() {
+    let graded = Submission::case("constant").grade();
+    assert_eq!(graded.points(), [0; 6]);
+}
+
+#[test]
+fn a_second_run_writes_the_same_bytes_but_for_the_timings() {
+    let submission = Submission::case("panicking");
+    let mut scores = [submission.grade().score(), submission.grade().score()];
+    for score in &mut scores {
+        score["timings"] = Value::Null;
+    }
+    let [first, second] = scores.map(|score| score.to_string());
+    assert_eq!(first, second);
+}
+
+#[test]
+fn every_score_file_keeps_the_published_schema() {
+    let schema = grader().arg("--schema").output().unwrap().stdout;
+    let schema: Value = serde_json::from_slice(&schema).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    for submission in [
+        Submission::starter("starter"),
+        Submission::case("not_compiling"),
+        Submission::case("exiting"),
+    ] {
+        let score = submission.grade().score();
+        let errors: Vec<String> = validator
+            .iter_errors(&score)
+            .map(|e| e.to_string())
+            .collect();
+        assert_eq!(errors, [""; 0]);
+    }
+    // The check can fail.
+    let mut score = Submission::starter("starter").grade().score();
+    score["tasks"][0]["items"][0]["verdict"] = "splendid".into();
+    assert!(!validator.is_valid(&score));
+}
+
+#[test]
+fn points_add_up() {
+    let score = Submission::case("not_a_number").grade().score();
+    let mut sum = 0;
+    for task in score["tasks"].as_array().unwrap() {
+        let items = task["items"].as_array().unwrap();
+        let of_items: u64 = items
+            .iter()
+            .map(|item| item["points"].as_u64().unwrap())
+            .sum();
+        assert_eq!(task["points"], of_items);
+        sum += of_items;
+    }
+    assert_eq!(score["points"], sum);
+    assert_eq!(FULL.iter().sum::<u64>(), 100);
+}
+
+fn grader_on(submission: &str) -> Value {
+    let out = tempfile::TempDir::new().unwrap();
+    let output = grader()
+        .arg(submission)
+        .arg("--out")
+        .arg(out.path())
+        .output()
+        .unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    serde_json::from_slice(&std::fs::read(out.path().join("score.json")).unwrap()).unwrap()
+}

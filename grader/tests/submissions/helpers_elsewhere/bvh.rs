@@ -1,0 +1,313 @@
+//! Task 3: a tree of boxes, built (step 1) and walked (step 2). Handout: "Building a BVH" and
+//! "Walking a BVH".
+//!
+//! ```text
+//!     ┌───────────────┐                     root
+//!     │ ┌────┐ ┌────┐ │                    ╱    ╲
+//!     │ │ △△ │ │  △ │ │                   A      B       a leaf holds
+//!     │ │ △  │ │ △  │ │                 △△△      △△      primitives[start..start + size]
+//!     │ └─A──┘ └──B─┘ │
+//!     └───────────────┘       SAH:  C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect
+//! ```
+
+use protocol::{Ray, Trace};
+
+use crate::bbox::BBox;
+use crate::primitive::Primitive;
+
+/// One box of the tree. A leaf if and only if `l == r`.
+#[derive(Clone, Copy, Debug)]
+pub struct Node {
+    /// Holds everything below this node.
+    pub bbox: BBox,
+    /// In a leaf, the place of its first primitive; elsewhere not read.
+    pub start: usize,
+    /// In a leaf, the number of its primitives; elsewhere not read.
+    pub size: usize,
+    /// In an interior node, the place of one child in `Bvh::nodes`.
+    pub l: usize,
+    /// In an interior node, the place of the other.
+    pub r: usize,
+}
+
+impl Node {
+    /// A node that holds primitives.
+    pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
+        Node {
+            bbox,
+            start,
+            size,
+            l: 0,
+            r: 0,
+        }
+    }
+
+    /// A node that holds two others.
+    pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
+        Node {
+            bbox,
+            start: 0,
+            size: 0,
+            l,
+            r,
+        }
+    }
+
+    /// Whether the node holds primitives.
+    pub fn is_leaf(&self) -> bool {
+        self.l == self.r
+    }
+}
+
+/// A bounding volume hierarchy: a binary tree of boxes around primitives.
+#[derive(Clone, Debug)]
+pub struct Bvh {
+    /// All primitives; those of one leaf stand side by side.
+    pub primitives: Vec<Primitive>,
+    /// All nodes, in any order. None at all if there is nothing to hold.
+    pub nodes: Vec<Node>,
+    /// The place of the node where everything starts: need be neither first nor last.
+    pub root: usize,
+}
+
+impl Bvh {
+    /// A tree from its parts.
+    pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
+        Bvh {
+            primitives,
+            nodes,
+            root,
+        }
+    }
+
+    /// Builds the tree by the surface area heuristic.
+    ///
+    /// - Every primitive is in exactly one leaf. They may be reordered, and so may the nodes.
+    /// - A node's box holds all that is below it, and nothing beyond what that needs.
+    /// - A node becomes a leaf when, and only when, it has at most `max_leaf_size` (one or more)
+    ///   primitives. If no plane separates them, because their centers coincide, split by count.
+    /// - Of the partitions between 8 or more buckets along each of the three axes, the cheapest
+    ///   by the formula above is taken.
+    /// - No primitives: no nodes, or one leaf of size 0.
+    pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
+        let mut builder = Builder {
+            items: (0..)
+                .zip(&primitives)
+                .map(|(index, primitive)| Item::new(index, primitive.bbox()))
+                .collect(),
+            nodes: Vec::with_capacity(2 * primitives.len()),
+            max_leaf_size: max_leaf_size.max(1),
+        };
+        if !primitives.is_empty() {
+            builder.node(0, primitives.len());
+        }
+        let ordered = builder.items.iter().map(|item| primitives[item.index]);
+        Bvh::from_nodes(ordered.collect(), builder.nodes, 0)
+    }
+
+    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    ///
+    /// - A node whose box the ray misses is not entered.
+    /// - Of two children, the one whose box the ray enters first goes first.
+    /// - A node whose box begins beyond the closest hit so far is not entered. The slides'
+    ///   pseudo-code compares `hit2.t`, which is child 2's even where child 1 comes second, and
+    ///   enters `first` even if both boxes are missed: mind both.
+    /// - The closest hit need not be in the first leaf: boxes overlap.
+    /// - A tree may be 60 levels deep, or have no nodes.
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let root = self.nodes.get(self.root)?;
+        root.bbox.hit(ray, ray.range)?;
+
+        // What is left of the ray shrinks to the closest hit, in a copy.
+        let mut ray = *ray;
+        let mut closest = None;
+        self.visit(root, &mut ray, &mut closest);
+        closest
+    }
+
+    /// Looks for a hit below `node`, whose box the ray is known to meet.
+    fn visit(&self, node: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
+        if node.is_leaf() {
+            for primitive in &self.primitives[node.start..node.start + node.size] {
+                if let Some(trace) = primitive.hit(ray) {
+                    ray.range.max = trace.distance;
+                    *closest = Some(trace);
+                }
+            }
+            return;
+        }
+
+        let (l, r) = (&self.nodes[node.l], &self.nodes[node.r]);
+        match (l.bbox.hit(ray, ray.range), r.bbox.hit(ray, ray.range)) {
+            (None, None) => {}
+            (Some(_), None) => self.visit(l, ray, closest),
+            (None, Some(_)) => self.visit(r, ray, closest),
+            (Some(in_l), Some(in_r)) => {
+                let (first, second, second_begins) = if in_l.min <= in_r.min {
+                    (l, r, in_r.min)
+                } else {
+                    (r, l, in_l.min)
+                };
+                self.visit(first, ray, closest);
+                if second_begins <= ray.range.max {
+                    self.visit(second, ray, closest);
+                }
+            }
+        }
+    }
+}
+
+/// What building needs to know of a primitive.
+struct Item {
+    index: usize,
+    bbox: BBox,
+    center: glam::Vec3,
+}
+
+impl Item {
+    fn new(index: usize, bbox: BBox) -> Self {
+        let center = bbox.center();
+        Item {
+            index,
+            bbox,
+            center,
+        }
+    }
+}
+
+/// The part of a node's items whose centers lie in one slice along an axis.
+#[derive(Clone, Copy)]
+struct Bucket {
+    bbox: BBox,
+    count: usize,
+}
+
+impl Bucket {
+    const EMPTY: Bucket = Bucket {
+        bbox: BBox::EMPTY,
+        count: 0,
+    };
+
+    fn join(&mut self, other: Bucket) {
+        self.bbox.enclose(other.bbox);
+        self.count += other.count;
+    }
+
+    /// Its share of the cost, but for the constants: S · N.
+    fn cost(&self) -> f32 {
+        self.bbox.surface_area() * self.count as f32
+    }
+}
+
+/// A partition: the items whose bucket along `axis` is below `bucket` go to one side.
+struct Split {
+    axis: usize,
+    bucket: usize,
+    cost: f32,
+}
+
+/// Equal slices of the range of the items' centers along one axis.
+struct Slices {
+    axis: usize,
+    min: f32,
+    scale: f32,
+}
+
+impl Slices {
+    const COUNT: usize = 16;
+
+    /// The slices along `axis`, unless all centers coincide there.
+    fn new(centers: &BBox, axis: usize) -> Option<Self> {
+        let (min, max) = (centers.min[axis], centers.max[axis]);
+        let scale = Self::COUNT as f32 / (max - min);
+        // An extent so small that its inverse overflows is as good as none.
+        (max > min && scale.is_finite()).then_some(Slices { axis, min, scale })
+    }
+
+    /// The one place that says which bucket an item is in: counting and partitioning must agree.
+    fn bucket(&self, item: &Item) -> usize {
+        let slice = (item.center[self.axis] - self.min) * self.scale;
+        (slice as usize).min(Self::COUNT - 1)
+    }
+}
+
+struct Builder {
+    items: Vec<Item>,
+    nodes: Vec<Node>,
+    max_leaf_size: usize,
+}
+
+impl Builder {
+    /// Builds the node over `items[start..end]`, which are not none; returns its place.
+    fn node(&mut self, start: usize, end: usize) -> usize {
+        let mut bbox = BBox::EMPTY;
+        let mut centers = BBox::EMPTY;
+        for item in &self.items[start..end] {
+            bbox = BBox::union(bbox, item.bbox);
+            centers.enclose_point(item.center);
+        }
+
+        let place = self.nodes.len();
+        self.nodes.push(Node::leaf(bbox, start, end - start));
+        if end - start > self.max_leaf_size {
+            let middle = start + self.partition(start, end, &centers);
+            let l = self.node(start, middle);
+            let r = self.node(middle, end);
+            self.nodes[place] = Node::interior(bbox, l, r);
+        }
+        place
+    }
+
+    /// Reorders `items[start..end]` by the cheapest split; returns how many come first.
+    fn partition(&mut self, start: usize, end: usize, centers: &BBox) -> usize {
+        let items = &mut self.items[start..end];
+        let splits = (0..3).filter_map(|axis| cheapest_split(items, centers, axis));
+        let Some(split) = splits.min_by(|a, b| a.cost.total_cmp(&b.cost)) else {
+            return items.len() / 2; // All centers coincide.
+        };
+        let slices = Slices::new(centers, split.axis).expect("it was split along this axis");
+
+        // As `std::partition` does: the first side grows by swapping.
+        let mut first = 0;
+        for i in 0..items.len() {
+            if slices.bucket(&items[i]) < split.bucket {
+                items.swap(first, i);
+                first += 1;
+            }
+        }
+        first
+    }
+}
+
+/// The cheapest partition between two buckets along one axis, if there is any: binned SAH, after
+/// Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007, section 3.
+///
+/// Of C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect only S_A · N_A + S_B · N_B
+/// differs between the partitions of one node.
+fn cheapest_split(items: &[Item], centers: &BBox, axis: usize) -> Option<Split> {
+    let slices = Slices::new(centers, axis)?;
+    let mut buckets = [Bucket::EMPTY; Slices::COUNT];
+    for item in items {
+        buckets[slices.bucket(item)].join(Bucket {
+            bbox: item.bbox,
+            count: 1,
+        });
+    }
+
+    // From the right: what all the buckets from here on would cost as one child.
+    let mut right_costs = [0.0; Slices::COUNT];
+    let mut right = Bucket::EMPTY;
+    for i in (1..Slices::COUNT).rev() {
+        right.join(buckets[i]);
+        right_costs[i] = right.cost();
+    }
+
+    // From the left: the other child. The outermost buckets are never empty, so neither is a side.
+    let mut left = Bucket::EMPTY;
+    let costs = (1..Slices::COUNT).map(|bucket| {
+        left.join(buckets[bucket - 1]);
+        let cost = left.cost() + right_costs[bucket];
+        Split { axis, bucket, cost }
+    });
+    costs.min_by(|a, b| a.cost.total_cmp(&b.cost))
+}

@@ -1,0 +1,90 @@
+//! Task 3, step 0: rays against boxes. Handout: "Boxes".
+//!
+//! ```text
+//!                    │ x slab  │
+//!         ───────────┌─────────┐─── max
+//!           y slab   │    ╱    │
+//!         ───────────└───╱─────┘───
+//!                min │  ╱      │       inside the box: inside all three slabs at once
+//!                      o
+//! ```
+
+use glam::Vec3;
+use protocol::{Interval, Ray};
+
+/// An axis-parallel box; empty if `min` exceeds `max` along any axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BBox {
+    /// The smallest corner.
+    pub min: Vec3,
+    /// The largest corner.
+    pub max: Vec3,
+}
+
+impl BBox {
+    /// A box around nothing.
+    pub const EMPTY: BBox = BBox {
+        min: Vec3::INFINITY,
+        max: Vec3::NEG_INFINITY,
+    };
+
+    /// The box between two corners.
+    pub fn new(min: Vec3, max: Vec3) -> Self {
+        BBox { min, max }
+    }
+
+    /// Grows the box until it holds `other` as well.
+    pub fn enclose(&mut self, other: BBox) {
+        self.min = self.min.min(other.min);
+        self.max = self.max.max(other.max);
+    }
+
+    /// Grows the box until it holds `point` as well.
+    pub fn enclose_point(&mut self, point: Vec3) {
+        self.min = self.min.min(point);
+        self.max = self.max.max(point);
+    }
+
+    /// The middle of the box.
+    pub fn center(&self) -> Vec3 {
+        0.5 * (self.min + self.max)
+    }
+
+    /// The area of its six faces; zero for an empty box.
+    pub fn surface_area(&self) -> f32 {
+        if self.is_empty() {
+            return 0.0;
+        }
+        let size = self.max - self.min;
+        2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
+    }
+
+    /// Whether there is no point in the box. A flat box is not empty.
+    pub fn is_empty(&self) -> bool {
+        self.min.cmpgt(self.max).any()
+    }
+
+    /// The part of `times` during which the ray is inside the box, or `None`.
+    ///
+    /// - Only `times` counts here, not `ray.range`. What is returned is clipped to it: a ray that
+    ///   starts inside the box is inside from `times.min` on, and if all of `times` is inside, all
+    ///   of it comes back.
+    /// - A component of `ray.dir` may be 0 or −0: such a ray stays in one slab, or outside it.
+    /// - The box may be flat (`min == max` along an axis) and still be hit.
+    pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {
+        // Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986: the ray is inside the box
+        // from when it has entered the last slab until it leaves the first.
+        //
+        // Along an axis that the ray does not move on, the division gives ±∞ of the right signs:
+        // inside the slab always, outside it never.
+        println!("asking {self:?} for {ray:?}");
+        let inverse = ray.dir.recip();
+        let at_min = (self.min - ray.origin) * inverse;
+        let at_max = (self.max - ray.origin) * inverse;
+        let enter = at_min.min(at_max).max_element();
+        let leave = at_min.max(at_max).min_element();
+
+        let inside = Interval::new(times.min.max(enter), times.max.min(leave));
+        (inside.min <= inside.max).then_some(inside)
+    }
+}

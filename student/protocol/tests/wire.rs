@@ -1,0 +1,172 @@
+//! Whatever is written comes back; whatever else comes is refused, and nothing is allocated for it.
+
+use glam::{UVec2, Vec2, Vec3};
+use proptest::prelude::*;
+use protocol::wire::{self, WireError};
+use protocol::{
+    Answer, Interval, Outcome, Panic, PinholeCamera, Question, Ray, Rays, Sample, Samples, Shape,
+    Trace, Tree, TreeNode,
+};
+
+fn vec3() -> impl Strategy<Value = Vec3> {
+    prop::array::uniform3(any::<f32>()).prop_map(Vec3::from_array)
+}
+
+fn vec2() -> impl Strategy<Value = Vec2> {
+    prop::array::uniform2(any::<f32>()).prop_map(Vec2::from_array)
+}
+
+fn interval() -> impl Strategy<Value = Interval> {
+    any::<(f32, f32)>().prop_map(|(min, max)| Interval { min, max })
+}
+
+fn ray() -> impl Strategy<Value = Ray> {
+    (vec3(), vec3(), interval()).prop_map(|(origin, dir, range)| Ray { origin, dir, range })
+}
+
+fn trace() -> impl Strategy<Value = Trace> {
+    (any::<f32>(), vec3(), vec3(), vec2(), vec3(), any::<u32>()).prop_map(
+        |(distance, position, normal, uv, origin, material)| Trace {
+            distance,
+            position,
+            normal,
+            uv,
+            origin,
+            material,
+        },
+    )
+}
+
+fn node() -> impl Strategy<Value = TreeNode> {
+    (vec3(), vec3(), any::<[u32; 4]>()).prop_map(|(min, max, [start, size, l, r])| TreeNode {
+        min,
+        max,
+        start,
+        size,
+        l,
+        r,
+    })
+}
+
+fn shape() -> impl Strategy<Value = Shape> {
+    let sphere =
+        (vec3(), any::<f32>(), any::<u32>()).prop_map(|(center, radius, material)| Shape::Sphere {
+            center,
+            radius,
+            material,
+        });
+    let facet = (prop::array::uniform3(vec3()), any::<u32>())
+        .prop_map(|(corners, material)| Shape::Facet { corners, material });
+    prop_oneof![sphere, facet]
+}
+
+fn question() -> impl Strategy<Value = Question> {
+    let sample = (any::<[u32; 2]>(), vec2()).prop_map(|(pixel, offset)| Sample {
+        pixel: UVec2::from_array(pixel),
+        offset,
+    });
+    let camera = (
+        any::<(f32, f32)>(),
+        any::<[u32; 2]>(),
+        prop::collection::vec(sample, 0..9),
+    )
+        .prop_map(
+            |((vertical_fov, aspect_ratio), film, samples)| Question::Camera {
+                camera: PinholeCamera {
+                    vertical_fov,
+                    aspect_ratio,
+                    film: UVec2::from_array(film),
+                },
+                samples: Samples::List(samples),
+            },
+        );
+    let shapes = (
+        prop::collection::vec(shape(), 0..9),
+        prop::collection::vec(ray(), 0..9),
+    )
+        .prop_map(|(shapes, rays)| Question::Shapes {
+            shapes,
+            rays: Rays::List(rays),
+        });
+    prop_oneof![camera, shapes, Just(Question::Done)]
+}
+
+fn answer() -> impl Strategy<Value = Answer> {
+    let panic = (".{0,30}", ".{0,30}").prop_map(|(message, place)| Panic { message, place });
+    let outcome = prop_oneof![
+        prop::option::of(trace()).prop_map(Outcome::Value),
+        panic.prop_map(Outcome::Panicked),
+        Just(Outcome::GivenUp),
+    ];
+    let tree = (
+        prop::collection::vec(node(), 0..9),
+        any::<u32>(),
+        any::<Vec<u32>>(),
+    )
+        .prop_map(|(nodes, root, order)| Tree { nodes, root, order });
+    prop_oneof![
+        prop::collection::vec(outcome, 0..9).prop_map(Answer::Hits),
+        tree.prop_map(|tree| Answer::Tree(Outcome::Value(tree))),
+    ]
+}
+
+/// Two values are the same if their bytes are: NaN is not equal to itself.
+fn bytes<T: serde::Serialize>(value: &T) -> Vec<u8> {
+    wire::encode(0, value).expect("it can be encoded")
+}
+
+proptest! {
+    #[test]
+    fn questions_come_back(question in question(), nonce: u64) {
+        let sent = wire::encode(nonce, &question).unwrap();
+        let frame = wire::read(&mut sent.as_slice(), sent.len()).unwrap();
+        prop_assert_eq!(frame.nonce, nonce);
+        prop_assert_eq!(bytes(&frame.decode::<Question>().unwrap()), bytes(&question));
+    }
+
+    #[test]
+    fn answers_come_back(answer in answer()) {
+        let sent = bytes(&answer);
+        let frame = wire::read(&mut sent.as_slice(), sent.len()).unwrap();
+        prop_assert_eq!(bytes(&frame.decode::<Answer>().unwrap()), sent);
+    }
+
+    #[test]
+    fn an_answer_cut_short_or_gone_on_is_refused(answer in answer(), extra: u8) {
+        let sent = bytes(&answer);
+        let cut = wire::read(&mut &sent[..sent.len() - 1], sent.len());
+        prop_assert!(matches!(cut, Err(WireError::Ended)));
+
+        let mut frame = wire::read(&mut sent.as_slice(), sent.len()).unwrap();
+        frame.body.push(extra);
+        prop_assert!(matches!(frame.decode::<Answer>(), Err(WireError::LeftOver(1))));
+    }
+
+    #[test]
+    fn noise_is_refused_or_read_but_never_a_panic(noise: Vec<u8>) {
+        if let Ok(frame) = wire::read(&mut noise.as_slice(), 1 << 16) {
+            frame.decode::<Answer>().ok();
+            frame.decode::<Question>().ok();
+        }
+    }
+
+    #[test]
+    fn honest_answers_stay_within_what_their_question_announces(
+        rays in prop::collection::vec(ray(), 0..50),
+        trace in trace(),
+    ) {
+        let answer = Answer::Hits(vec![Outcome::Value(Some(trace)); rays.len()]);
+        let question = Question::Shapes { shapes: Vec::new(), rays: Rays::List(rays) };
+        prop_assert!(bytes(&answer).len() <= question.largest_answer());
+    }
+}
+
+#[test]
+fn a_frame_that_announces_too_much_is_refused_before_it_is_read() {
+    let mut header = u32::MAX.to_le_bytes().to_vec();
+    header.extend([0; 8]);
+    let refused = wire::read(&mut header.as_slice(), 1000);
+    assert!(
+        matches!(refused, Err(WireError::TooLong { length, limit: 1000 }) if length == u32::MAX as usize)
+    );
+}

@@ -135,7 +135,7 @@ impl Bvh {
         // end solution
     }
     // solution
-    // starter: // Room for helpers of your own.
+    // starter: // Room for methods of your own.
 
     /// Looks for a hit below `node`, whose box the ray is known to meet.
     fn visit(&self, node: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
@@ -169,9 +169,9 @@ impl Bvh {
     }
     // end solution
 }
-// solution
-// starter:
 
+// solution
+// starter: // Room for types of your own.
 /// What building needs to know of a primitive.
 struct Item {
     index: usize,

@@ -68,16 +68,14 @@ mod tests {
 
     use super::*;
 
-    const BALL: Sphere = Sphere {
-        center: vec3(0.0, 0.0, -5.0),
-        radius: 2.0,
-        material: 3,
-    };
+    fn ball() -> Sphere {
+        Sphere::new(vec3(0.0, 0.0, -5.0), 2.0, 3)
+    }
 
     #[ignore = "task 2: not written yet"]
     #[test]
     fn head_on_the_near_side_is_hit() {
-        let trace = BALL.hit(&Ray::new(Vec3::ZERO, Vec3::NEG_Z));
+        let trace = ball().hit(&Ray::new(Vec3::ZERO, Vec3::NEG_Z));
         let trace = trace.expect("it points at the centre");
         assert!((trace.distance - 3.0).abs() < 1e-5, "{trace:?}");
         assert!(trace.normal.abs_diff_eq(Vec3::Z, 1e-5), "{trace:?}");
@@ -87,7 +85,7 @@ mod tests {
     #[ignore = "task 2: not written yet"]
     #[test]
     fn from_inside_the_far_side_is_hit() {
-        let trace = BALL.hit(&Ray::new(BALL.center, Vec3::NEG_Z));
+        let trace = ball().hit(&Ray::new(ball().center, Vec3::NEG_Z));
         let trace = trace.expect("it starts at the centre");
         assert!((trace.distance - 2.0).abs() < 1e-5, "{trace:?}");
         assert!(trace.normal.abs_diff_eq(Vec3::NEG_Z, 1e-5), "{trace:?}");
@@ -97,6 +95,6 @@ mod tests {
     #[test]
     fn what_lies_beyond_the_range_is_not_hit() {
         let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z).within(0.0, 2.5);
-        assert!(BALL.hit(&ray).is_none());
+        assert!(ball().hit(&ray).is_none());
     }
 }

@@ -1,2 +1,40 @@
-//! Writes all that is generated.
-fn main() {}
+//! Writes all that is generated: `cargo author --help`.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::process::ExitCode;
+
+use author::cli::{Cli, Command};
+use author::generated::{Generated, Mode, deliver};
+use author::{exams, scenes, starter};
+use clap::Parser;
+
+/// The workspace's root, where all paths of generated files start.
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+
+fn main() -> ExitCode {
+    match run(Cli::parse().command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(command: Command) -> Result<(), Box<dyn std::error::Error>> {
+    let root = Path::new(ROOT);
+    let deliver = |files: &[Generated], mode: Mode, name: &str| {
+        deliver(files, root, mode, &format!("cargo author {name}"))
+    };
+    match command {
+        Command::Starter(check) => deliver(&starter::generated(root)?, check.mode(), "starter")?,
+        Command::Exams(check) => deliver(&exams::generated()?, check.mode(), "exams")?,
+        Command::Exam { seed } => {
+            let exam = exams::text(&exams::final_exam(seed))?;
+            io::stdout().write_all(exam.as_bytes())?;
+        }
+        Command::Scenes(check) => deliver(&scenes::generated(), check.mode(), "scenes")?,
+    }
+    Ok(())
+}

@@ -1,0 +1,63 @@
+//! The exam's items: one file a task, one idea an item.
+//!
+//! An item's keys judge only what its idea is about. Every item asks for opposite answers (hits and
+//! misses, one side and the other), so that no constant passes it.
+
+pub mod bbox;
+pub mod build;
+pub mod camera;
+pub mod meshes;
+pub mod picture;
+pub mod sphere;
+pub mod traverse;
+pub mod triangle;
+
+use glam::DVec3;
+use grader::exam::{Asked, Item, Key, Part, Task};
+use protocol::{Question, Ray, Rays, Shape};
+
+use crate::oracle::{Beam, Meeting, scan};
+
+/// An item from its parts; `text` is its title and its hint.
+fn item(
+    task: Task,
+    name: &str,
+    points: u32,
+    text: [&str; 2],
+    questions: impl IntoIterator<Item = Asked>,
+) -> Item {
+    let [title, hint] = text.map(str::to_owned);
+    Item {
+        id: format!("{task}.{name}"),
+        title,
+        task,
+        points,
+        hint,
+        needs: Vec::new(),
+        questions: questions.into_iter().collect(),
+    }
+}
+
+/// A ray between two points, as it is asked.
+fn ray(from: DVec3, toward: DVec3) -> Ray {
+    Ray::new(from.as_vec3(), (toward - from).as_vec3())
+}
+
+/// What the rays meet of all these shapes, each shape by its own `hit`.
+fn shapes(judged: &[Part], shapes: Vec<Shape>, rays: Vec<Ray>) -> Asked {
+    let key = hits(judged, &rays, |beam| scan::closest(beam, &shapes));
+    let rays = Rays::List(rays);
+    Asked {
+        question: Question::Shapes { shapes, rays },
+        key,
+    }
+}
+
+/// The key to a list of rays.
+fn hits(judged: &[Part], rays: &[Ray], truth: impl Fn(&Beam) -> Option<Meeting>) -> Key {
+    let hit = |ray: &Ray| truth(&Beam::from(ray)).map(|met| met.hit());
+    Key::Hits {
+        judged: judged.to_vec(),
+        hits: rays.iter().map(hit).collect(),
+    }
+}

@@ -1,0 +1,113 @@
+//! Pictures of first hits.
+//!
+//! At an edge, honest answers differ in the last bit and so see different surfaces. Therefore a
+//! position's key is the set of what is seen there and at four neighbours, closer to it than any
+//! mistake would move an edge.
+
+use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
+use grader::exam::{Asked, Key, Surface};
+use protocol::{Question, Rays, Sample, Shape, View, every_pixel};
+
+use crate::oracle::{Beam, Meeting, scan};
+
+/// How far the neighbours are, in pixels, across and up.
+const NEIGHBOUR: f32 = 5e-4;
+
+/// A camera at the origin that looks down −z, with a view of 90 degrees.
+///
+/// Its numbers are so round that points in line with the middles of pixels are met exactly.
+pub fn from_origin(pixels: u32) -> View {
+    narrow(Vec3::ZERO, DVec3::NEG_Z, 1.0, pixels)
+}
+
+/// A camera at `eye` that looks along `forward`, of length one and not along y; half of the square
+/// film is `half` wide at distance one.
+pub fn narrow(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> View {
+    let right = forward.cross(DVec3::Y).normalize();
+    let up = right.cross(forward);
+    View {
+        eye,
+        forward: forward.as_vec3(),
+        right: (half * right).as_vec3(),
+        up: (half * up).as_vec3(),
+        film: UVec2::splat(pixels),
+    }
+}
+
+/// The question of what is seen of these shapes, each by its own `hit`.
+pub fn shapes(view: View, shapes: Vec<Shape>) -> Asked {
+    let key = first_hits(&view, |beam| scan::closest(beam, &shapes));
+    let rays = Rays::View(view);
+    Asked {
+        question: Question::Shapes { shapes, rays },
+        key,
+    }
+}
+
+/// The key to a picture of what a ray sees.
+pub fn first_hits(view: &View, sees: impl Fn(&Beam) -> Option<Meeting>) -> Key {
+    let seen = |sample: Sample, aside: Vec2| {
+        let offset = sample.offset + aside;
+        let beam = Beam::from(&view.ray(Sample { offset, ..sample }));
+        sees(&beam).map(|met| met.surface())
+    };
+    let mut hits = Vec::new();
+    let mut also: Vec<(u32, Option<Surface>)> = Vec::new();
+    for (place, sample) in (0..).zip(every_pixel(view.film)) {
+        let mut members = vec![seen(sample, Vec2::ZERO)];
+        for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
+            let member = seen(sample, NEIGHBOUR * vec2(x, y));
+            if !members.iter().any(|other| is_alike(other, &member)) {
+                members.push(member);
+            }
+        }
+        hits.push(members[0]);
+        also.extend(members[1..].iter().map(|&member| (place, member)));
+    }
+    Key::FirstHits { hits, also }
+}
+
+/// Whether the judge takes one for the other.
+fn is_alike(a: &Option<Surface>, b: &Option<Surface>) -> bool {
+    match (a, b) {
+        (None, None) => true,
+        (Some(a), Some(b)) => {
+            let across = (a.uv.x - b.uv.x).rem_euclid(1.0);
+            (a.depth - b.depth).abs() <= 2e-4 * a.depth.max(1.0)
+                && a.normal.distance(b.normal) <= 5e-3
+                && across.min(1.0 - across) <= 2e-3
+                && (a.uv.y - b.uv.y).abs() <= 2e-3
+        }
+        (None, Some(_)) | (Some(_), None) => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wall that ends exactly at the middle of the view.
+    fn wall() -> Asked {
+        let corner = |x: f32, y: f32| Vec3::new(x, y, -1.0);
+        let wall = Shape::Facet {
+            corners: [corner(0.0, -9.0), corner(0.0, 9.0), corner(9.0, 0.0)],
+            material: 0,
+        };
+        shapes(from_origin(3), vec![wall])
+    }
+
+    #[test]
+    fn on_an_edge_both_sides_are_right_and_elsewhere_one() {
+        let Key::FirstHits { hits, also } = wall().key else {
+            unreachable!("it is a picture")
+        };
+        assert_eq!(hits.len(), 3 * 3 * 5);
+        // The middles of the three pixels of the middle column lie on the edge.
+        let places: Vec<u32> = also.iter().map(|(place, _)| *place).collect();
+        assert_eq!(places, [5, 20, 35]);
+        for (place, other) in also {
+            assert_ne!(other.is_some(), hits[place as usize].is_some());
+        }
+        assert!(hits[0].is_none() && hits[10].is_some());
+    }
+}

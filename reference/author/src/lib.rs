@@ -1,0 +1,14 @@
+//! Writes all that is generated: the starter, the exams, the scenes' meshes.
+//!
+//! It does not know the reference's code: what counts as right comes from the definitions, in
+//! [`oracle`], in double precision. That both agree is found out by grading the reference.
+
+pub mod cli;
+pub mod exams;
+pub mod generated;
+pub mod items;
+pub mod oracle;
+pub mod scenes;
+pub mod seed;
+pub mod starter;
+pub mod tree;

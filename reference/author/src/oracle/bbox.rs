@@ -1,0 +1,149 @@
+//! Rays and boxes: the ray is cut by one pair of planes after the other.
+
+use glam::DVec3;
+
+use super::Beam;
+
+/// A box, its numbers taken exactly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The smallest corner.
+    pub min: DVec3,
+    /// The largest corner.
+    pub max: DVec3,
+}
+
+impl Bounds {
+    /// The tightest box around some points.
+    pub fn around(points: impl IntoIterator<Item = DVec3>) -> Bounds {
+        let nothing = Bounds {
+            min: DVec3::INFINITY,
+            max: DVec3::NEG_INFINITY,
+        };
+        points.into_iter().fold(nothing, |bounds, point| Bounds {
+            min: bounds.min.min(point),
+            max: bounds.max.max(point),
+        })
+    }
+
+    /// The tightest box around both.
+    pub fn union(&self, other: &Bounds) -> Bounds {
+        Bounds {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
+    /// From the smallest to the largest corner.
+    pub fn diagonal(&self) -> f64 {
+        self.min.distance(self.max)
+    }
+
+    /// The middle.
+    pub fn center(&self) -> DVec3 {
+        0.5 * (self.min + self.max)
+    }
+
+    /// The area of the six faces.
+    pub fn area(&self) -> f64 {
+        let size = self.max - self.min;
+        2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
+    }
+
+    /// Whether the other box lies in this one.
+    pub fn contains(&self, other: &Bounds) -> bool {
+        self.min.cmple(other.min).all() && other.max.cmple(self.max).all()
+    }
+
+    /// A box larger by `margin` on every side.
+    pub fn grown(&self, margin: f64) -> Bounds {
+        Bounds {
+            min: self.min - margin,
+            max: self.max + margin,
+        }
+    }
+
+    /// When, within its range, the ray is in the box.
+    pub fn span(&self, beam: &Beam) -> Option<(f64, f64)> {
+        let mut inside = (beam.min, beam.max);
+        for axis in 0..3 {
+            let (from, step) = (beam.origin[axis], beam.dir[axis]);
+            if step == 0.0 {
+                if from < self.min[axis] || from > self.max[axis] {
+                    return None;
+                }
+                continue;
+            }
+            let (low, high) = (self.min[axis] - from, self.max[axis] - from);
+            let (enter, leave) = if step > 0.0 {
+                (low / step, high / step)
+            } else {
+                (high / step, low / step)
+            };
+            inside = (inside.0.max(enter), inside.1.min(leave));
+        }
+        (inside.0 <= inside.1).then_some(inside)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{Vec3, vec3};
+    use protocol::Ray;
+
+    use super::*;
+    use crate::seed::Seed;
+
+    const BOX: Bounds = Bounds {
+        min: DVec3::new(-1.0, -2.0, -3.0),
+        max: DVec3::new(1.0, 2.0, 3.0),
+    };
+
+    fn span(ray: Ray) -> Option<(f64, f64)> {
+        BOX.span(&Beam::from(&ray))
+    }
+
+    #[test]
+    fn spans_by_hand() {
+        let ray = Ray::new(vec3(-5.0, 0.0, 0.0), Vec3::X);
+        assert_eq!(span(ray), Some((4.0, 6.0)));
+        assert_eq!(span(ray.within(5.0, 5.5)), Some((5.0, 5.5)));
+        assert_eq!(span(ray.within(0.0, 3.0)), None);
+        assert_eq!(
+            span(Ray::new(vec3(0.0, 0.0, 2.0), Vec3::Z)),
+            Some((0.0, 1.0))
+        );
+        assert_eq!(span(Ray::new(vec3(0.0, 0.0, 4.0), Vec3::Z)), None);
+        assert_eq!(span(Ray::new(vec3(-5.0, 3.0, 0.0), Vec3::X)), None);
+    }
+
+    #[test]
+    fn a_flat_box_is_met_for_an_instant() {
+        let flat = Bounds {
+            min: DVec3::new(-1.0, 0.0, -1.0),
+            max: DVec3::new(1.0, 0.0, 1.0),
+        };
+        let ray = Ray::new(vec3(0.5, 2.0, 0.5), Vec3::NEG_Y);
+        assert_eq!(flat.span(&Beam::from(&ray)), Some((2.0, 2.0)));
+    }
+
+    #[test]
+    fn what_lies_in_the_span_lies_in_the_box() {
+        let mut draw = Seed(3).draw("oracle");
+        for _ in 0..1000 {
+            let mut beam = Beam::from(&Ray::new(
+                draw.point(6.0).as_vec3(),
+                draw.direction().as_vec3(),
+            ));
+            beam.max = draw.uniform(1.0, 12.0);
+            let span = BOX.span(&beam);
+            for step in 0..200 {
+                let t = beam.max * f64::from(step) / 200.0;
+                let point = beam.at(t);
+                let inside = BOX.contains(&Bounds::around([point]));
+                let told = span.is_some_and(|(enter, leave)| enter <= t && t <= leave);
+                assert_eq!(inside, told, "{beam:?} at {t}");
+            }
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Rays of a camera: a blend of the sensor's four corners.
+
+use std::f64::consts::PI;
+
+use glam::{DVec2, DVec3, dvec3};
+use protocol::{PinholeCamera, Sample};
+
+/// The direction, of length one, through a place on the film.
+pub fn direction(camera: &PinholeCamera, sample: Sample) -> DVec3 {
+    // Half of the sensor's height, as seen from the camera: a right triangle of base 1.
+    let top = libm::tan(f64::from(camera.vertical_fov) * PI / 360.0);
+    let right = top * f64::from(camera.aspect_ratio);
+
+    let film: DVec2 = camera.film.as_dvec2();
+    let place = (sample.pixel.as_dvec2() + sample.offset.as_dvec2()) / film;
+    let row = |y: f64| {
+        let (from, to) = (dvec3(-right, y, -1.0), dvec3(right, y, -1.0));
+        from.lerp(to, place.x)
+    };
+    row(-top).lerp(row(top), place.y).normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{UVec2, Vec2, uvec2, vec2};
+
+    use super::*;
+    use crate::seed::Seed;
+
+    fn sample(pixel: UVec2, offset: Vec2) -> Sample {
+        Sample { pixel, offset }
+    }
+
+    #[test]
+    fn corners_and_middle_by_hand() {
+        // tan 45° = 1: a sensor 2 high and 4 wide.
+        let camera = PinholeCamera {
+            vertical_fov: 90.0,
+            aspect_ratio: 2.0,
+            film: uvec2(8, 4),
+        };
+        let toward = |x, y| dvec3(x, y, -1.0).normalize();
+        let cases = [
+            (uvec2(0, 0), Vec2::ZERO, toward(-2.0, -1.0)),
+            (uvec2(4, 2), Vec2::ZERO, toward(0.0, 0.0)),
+            (uvec2(7, 3), vec2(0.5, 0.5), toward(1.75, 0.75)),
+        ];
+        for (pixel, offset, expected) in cases {
+            let found = direction(&camera, sample(pixel, offset));
+            assert!(found.abs_diff_eq(expected, 1e-15), "{pixel} {found}");
+        }
+    }
+
+    #[test]
+    fn the_slides_formula_gives_the_same() {
+        let mut draw = Seed(4).draw("oracle");
+        for _ in 0..1000 {
+            let film = uvec2(1 + draw.index(99) as u32, 1 + draw.index(99) as u32);
+            let camera = PinholeCamera {
+                vertical_fov: draw.uniform(5.0, 150.0) as f32,
+                aspect_ratio: draw.uniform(0.3, 3.0) as f32,
+                film,
+            };
+            let pixel = uvec2(
+                draw.index(film.x as usize) as u32,
+                draw.index(film.y as usize) as u32,
+            );
+            let offset = vec2(draw.uniform(0.0, 1.0) as f32, draw.uniform(0.0, 1.0) as f32);
+            let height = 2.0 * libm::tan(f64::from(camera.vertical_fov).to_radians() / 2.0);
+            let width = f64::from(camera.aspect_ratio) * height;
+            let x = (f64::from(pixel.x) + f64::from(offset.x)) / f64::from(film.x);
+            let y = (f64::from(pixel.y) + f64::from(offset.y)) / f64::from(film.y);
+            let expected = dvec3((x - 0.5) * width, (y - 0.5) * height, -1.0).normalize();
+            let found = direction(&camera, sample(pixel, offset));
+            assert!(found.abs_diff_eq(expected, 1e-13), "{found} {expected}");
+        }
+    }
+}

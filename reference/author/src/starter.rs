@@ -1,0 +1,193 @@
+//! The starter: the reference's files without what students are to write.
+//!
+//! Line by line, no parser. Two marks, both of them comments:
+//!
+//! ```text
+//! // solution          from here on code is dropped
+//! // starter: todo!()  this line is handed out instead, uncommented
+//! // end solution      up to here
+//! ```
+//!
+//! `// starter:` counts outside such a region as well, and all other lines there stay as they are.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::generated::Generated;
+
+/// The files that a submission is compiled of: the five to write, and four that are given.
+const FILES: [&str; 9] = [
+    "bbox.rs",
+    "bvh.rs",
+    "camera.rs",
+    "lib.rs",
+    "main.rs",
+    "primitive.rs",
+    "sphere.rs",
+    "triangle.rs",
+    "world.rs",
+];
+
+/// Where the starter goes: what students edit, and what the grader knows it by.
+const PLACES: [&str; 2] = ["student/src", "grader/starter"];
+
+const SOURCE: &str = "reference/src";
+
+/// Why there is no starter.
+#[derive(Debug, thiserror::Error)]
+pub enum StarterError {
+    /// A file of the reference can not be read.
+    #[error("can not read {}: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A file of the reference is marked wrongly.
+    #[error("{SOURCE}/{file}:{line}: {slip}")]
+    Mark {
+        /// The file.
+        file: &'static str,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong there.
+        slip: Slip,
+    },
+}
+
+/// What can be wrong with marks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Slip {
+    /// A region begins inside another.
+    #[error("`// solution` inside a solution: end the one before with `// end solution`")]
+    Nested,
+    /// A region ends that never began.
+    #[error("`// end solution` without a `// solution` above it")]
+    NotBegun,
+    /// A region never ends.
+    #[error("this `// solution` has no `// end solution`")]
+    NotEnded,
+    /// A region leaves nothing in its place.
+    #[error("a solution without a `// starter:` line: say what students get in its place")]
+    Nothing,
+}
+
+/// Every file of the starter, in each of its places, from the reference below `root`.
+pub fn generated(root: &Path) -> Result<Vec<Generated>, StarterError> {
+    let mut generated = Vec::new();
+    for file in FILES {
+        let path = root.join(SOURCE).join(file);
+        let source = fs::read_to_string(&path)
+            .map_err(|source| StarterError::Unreadable { path, source })?;
+        let starter =
+            project(&source).map_err(|(line, slip)| StarterError::Mark { file, line, slip })?;
+        for place in PLACES {
+            generated.push(Generated::new(format!("{place}/{file}"), &*starter));
+        }
+    }
+    Ok(generated)
+}
+
+/// What a line is to the projection.
+enum Line<'a> {
+    Begin,
+    End,
+    /// A line of the starter: its indentation, and what follows the mark.
+    Starter(&'a str, &'a str),
+    Other,
+}
+
+fn classify(line: &str) -> Line<'_> {
+    let text = line.trim_start();
+    let indentation = &line[..line.len() - text.len()];
+    match text {
+        "// solution" => Line::Begin,
+        "// end solution" => Line::End,
+        "// starter:" => Line::Starter("", ""),
+        _ => text
+            .strip_prefix("// starter: ")
+            .map_or(Line::Other, |rest| Line::Starter(indentation, rest)),
+    }
+}
+
+/// What is handed out of one file, or the line (from 1) and what is wrong there.
+fn project(source: &str) -> Result<String, (usize, Slip)> {
+    /// An open region: where it began, and whether it leaves anything.
+    struct Region {
+        begin: usize,
+        leaves: bool,
+    }
+
+    let mut starter = String::with_capacity(source.len());
+    let mut open: Option<Region> = None;
+    for (number, line) in (1..).zip(source.lines()) {
+        match (classify(line), &mut open) {
+            (Line::Begin, None) => {
+                open = Some(Region {
+                    begin: number,
+                    leaves: false,
+                });
+            }
+            (Line::Begin, Some(_)) => return Err((number, Slip::Nested)),
+            (Line::End, None) => return Err((number, Slip::NotBegun)),
+            (Line::End, Some(region)) if !region.leaves => {
+                return Err((region.begin, Slip::Nothing));
+            }
+            (Line::End, Some(_)) => open = None,
+            (Line::Starter(indentation, rest), region) => {
+                starter.extend([indentation, rest, "\n"]);
+                if let Some(region) = region {
+                    region.leaves = true;
+                }
+            }
+            (Line::Other, None) => starter.extend([line, "\n"]),
+            (Line::Other, Some(_)) => {}
+        }
+    }
+    match open {
+        Some(region) => Err((region.begin, Slip::NotEnded)),
+        None => Ok(starter),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_solution_gives_way_to_its_starter_lines() {
+        let source = "fn f() {\n    // solution\n    // starter: todo!(\"1\")\n    // Why.\n    \
+                      let x = 1;\n    // end solution\n}\n";
+        assert_eq!(project(source).unwrap(), "fn f() {\n    todo!(\"1\")\n}\n");
+    }
+
+    #[test]
+    fn starter_lines_count_outside_a_solution_and_may_be_empty() {
+        let source = "// starter: #[ignore]\n#[test]\n// starter:\nfn f() {}\n";
+        assert_eq!(
+            project(source).unwrap(),
+            "#[ignore]\n#[test]\n\nfn f() {}\n"
+        );
+    }
+
+    #[test]
+    fn words_in_a_sentence_are_no_marks() {
+        let source = "// solution of the equation\n/// starter: no\n";
+        assert_eq!(project(source).unwrap(), source);
+    }
+
+    #[test]
+    fn each_slip_is_told_with_its_line() {
+        let cases = [
+            ("\n// solution\n// starter: x\n", (2, Slip::NotEnded)),
+            ("\n// end solution\n", (2, Slip::NotBegun)),
+            ("// solution\n// starter:\n// solution\n", (3, Slip::Nested)),
+            ("x\n// solution\ny\n// end solution\n", (2, Slip::Nothing)),
+        ];
+        for (source, slip) in cases {
+            assert_eq!(project(source), Err(slip), "{source:?}");
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Trees for traversal: the exam's own, so that it does not depend on a submission's `build`.
+
+pub mod plant;
+pub mod trap;
+pub mod walk;
+
+use protocol::{Question, Ray, Rays, Shape, TreeNode};
+
+use crate::oracle::bbox::Bounds;
+use crate::oracle::{Beam, Meeting, scan};
+use crate::seed::Draw;
+
+/// A tree as it is asked about.
+#[derive(Clone, Debug)]
+pub struct Tree {
+    /// The primitives, in the order that the leaves count. Some may be in no leaf.
+    pub shapes: Vec<Shape>,
+    /// The nodes. Some may be below no other and not the root: nobody gets there.
+    pub nodes: Vec<TreeNode>,
+    /// The place of the root.
+    pub root: usize,
+}
+
+/// Where the root stands among the nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RootPlace {
+    /// At 0.
+    First,
+    /// At neither end.
+    Middle,
+    /// At the end.
+    Last,
+}
+
+impl Tree {
+    /// The box of a node.
+    pub fn bounds(&self, place: usize) -> Bounds {
+        let node = &self.nodes[place];
+        Bounds {
+            min: node.min.as_dvec3(),
+            max: node.max.as_dvec3(),
+        }
+    }
+
+    /// The places of all nodes below a node, and its own, parents before children.
+    pub fn below(&self, place: usize) -> Vec<usize> {
+        let mut found = vec![place];
+        let mut next = 0;
+        while next < found.len() {
+            let node = &self.nodes[found[next]];
+            if !node.is_leaf() {
+                found.extend([node.l as usize, node.r as usize]);
+            }
+            next += 1;
+        }
+        found
+    }
+
+    /// The places of all leaves that can be reached.
+    pub fn leaves(&self) -> Vec<usize> {
+        let mut nodes = if self.nodes.is_empty() {
+            Vec::new()
+        } else {
+            self.below(self.root)
+        };
+        nodes.retain(|&place| self.nodes[place].is_leaf());
+        nodes
+    }
+
+    /// The places of the primitives in a leaf.
+    pub fn primitives(&self, leaf: usize) -> std::ops::Range<usize> {
+        let node = &self.nodes[leaf];
+        node.start as usize..(node.start + node.size) as usize
+    }
+
+    /// The way from the root down to a node, both included.
+    pub fn path(&self, to: usize) -> Vec<usize> {
+        let mut path = vec![to];
+        let nodes = self.below(self.root);
+        while path[path.len() - 1] != self.root {
+            let child = path[path.len() - 1];
+            let is_parent = |place: &&usize| {
+                let node = &self.nodes[**place];
+                !node.is_leaf() && (node.l as usize == child || node.r as usize == child)
+            };
+            path.push(*nodes.iter().find(is_parent).expect("it hangs in the tree"));
+        }
+        path.reverse();
+        path
+    }
+
+    /// The other child of a node's parent; the root has none.
+    pub fn sibling(&self, place: usize) -> Option<usize> {
+        let path = self.path(place);
+        let parent = &self.nodes[*path.iter().rev().nth(1)?];
+        let (l, r) = (parent.l as usize, parent.r as usize);
+        Some(if l == place { r } else { l })
+    }
+
+    /// Whether each primitive lies in the box of a leaf that can be reached and holds it. What does
+    /// not is a trap, or in no leaf at all.
+    pub fn honest(&self) -> Vec<bool> {
+        let mut honest = vec![false; self.shapes.len()];
+        for leaf in self.leaves() {
+            // Boxes are rounded to single precision, outward or not: a breath of room.
+            let room = self.bounds(leaf).grown(1e-5);
+            for place in self.primitives(leaf) {
+                honest[place] = room.contains(&scan::bounds(&self.shapes[place]));
+            }
+        }
+        honest
+    }
+
+    /// What is true: the closest hit with an honest primitive.
+    pub fn truth(&self, beam: &Beam) -> Option<Meeting> {
+        let honest = self.honest();
+        let shapes = self.shapes.iter().zip(&honest);
+        scan::closest(
+            beam,
+            shapes
+                .filter(|(_, honest)| **honest)
+                .map(|(shape, _)| shape),
+        )
+    }
+
+    /// Adds a primitive to a leaf whose box does not change.
+    pub fn add(&mut self, leaf: usize, shape: Shape) {
+        let at = self.primitives(leaf).end;
+        self.shapes.insert(at, shape);
+        for (place, node) in self.nodes.iter_mut().enumerate() {
+            if node.is_leaf() && node.start as usize >= at && place != leaf {
+                node.start += 1;
+            }
+        }
+        self.nodes[leaf].size += 1;
+    }
+
+    /// The same tree with its nodes in another order.
+    pub fn rearranged(&self, draw: &mut Draw, root: RootPlace) -> Tree {
+        let others = (0..self.nodes.len()).filter(|&place| place != self.root);
+        let mut order = draw.shuffled(others.collect());
+        let place = match root {
+            RootPlace::First => 0,
+            RootPlace::Middle => order.len() / 2,
+            RootPlace::Last => order.len(),
+        };
+        order.insert(place, self.root);
+
+        let mut moved = vec![0; order.len()];
+        for (new, &old) in order.iter().enumerate() {
+            moved[old] = new;
+        }
+        let node = |&old: &usize| {
+            let node = self.nodes[old];
+            if node.is_leaf() {
+                return node;
+            }
+            TreeNode {
+                l: moved[node.l as usize] as u32,
+                r: moved[node.r as usize] as u32,
+                ..node
+            }
+        };
+        Tree {
+            shapes: self.shapes.clone(),
+            nodes: order.iter().map(node).collect(),
+            root: place,
+        }
+    }
+
+    /// Makes two nodes change places.
+    pub fn swap_nodes(&mut self, a: usize, b: usize) {
+        let moved = |place: usize| match place {
+            place if place == a => b,
+            place if place == b => a,
+            place => place,
+        };
+        self.nodes.swap(a, b);
+        for node in self.nodes.iter_mut().filter(|node| !node.is_leaf()) {
+            node.l = moved(node.l as usize) as u32;
+            node.r = moved(node.r as usize) as u32;
+        }
+        self.root = moved(self.root);
+    }
+
+    /// The question of what these rays meet in this tree.
+    pub fn question(&self, rays: Vec<Ray>) -> Question {
+        Question::Traverse {
+            shapes: self.shapes.clone(),
+            nodes: self.nodes.clone(),
+            root: self.root as u32,
+            rays: Rays::List(rays),
+        }
+    }
+}

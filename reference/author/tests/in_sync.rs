@@ -1,0 +1,78 @@
+//! What is generated and committed is what would be generated now: through the real binary.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn author(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_author"))
+        .args(arguments)
+        .output()
+        .expect("the binary was built for this test")
+}
+
+fn assert_in_sync(what: &str) {
+    let output = author(&[what, "--check"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// The starter's files in both of their places.
+fn starter() -> Vec<PathBuf> {
+    ["student/src", "grader/starter"]
+        .iter()
+        .flat_map(|place| fs::read_dir(root().join(place)).expect("the starter is written"))
+        .map(|entry| entry.expect("a folder that can be listed").path())
+        .collect()
+}
+
+#[test]
+fn the_starter_is_in_sync() {
+    assert_in_sync("starter");
+}
+
+#[test]
+fn the_exams_are_in_sync() {
+    assert_in_sync("exams");
+}
+
+#[test]
+fn the_scenes_are_in_sync() {
+    assert_in_sync("scenes");
+}
+
+#[test]
+fn the_starter_has_nine_files_in_each_place_and_no_mark_is_left() {
+    let files = starter();
+    assert_eq!(files.len(), 18, "{files:?}");
+    for file in files {
+        let text = fs::read_to_string(&file).unwrap();
+        for mark in ["// solution", "// end solution", "// starter:"] {
+            assert!(!text.contains(mark), "{mark} in {}", file.display());
+        }
+    }
+}
+
+#[test]
+fn the_starter_is_formatted() {
+    let check = Command::new("rustfmt")
+        .args(["--check", "--edition", "2024"])
+        .args(starter())
+        .output();
+    // Where Rust was installed without rustfmt there is nothing to ask.
+    if let Ok(output) = check {
+        let said = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success(), "{said}");
+    }
+}
+
+#[test]
+fn another_seed_gives_another_exam_and_the_same_seed_the_same() {
+    let exam = |seed| author(&["exam", "--seed", seed]).stdout;
+    assert!(exam("1") == exam("1"));
+    assert!(exam("1") != exam("2"));
+}

@@ -4,6 +4,7 @@ use grader::exam::{Exam, Item};
 
 use crate::generated::Generated;
 use crate::items::{bbox, build, camera, sphere, traverse, triangle};
+use crate::recorded::{NotRecorded, Recorded, cornell_box};
 use crate::seed::Seed;
 
 /// The version of the exam file's format.
@@ -12,19 +13,35 @@ const SCHEMA: u32 = 1;
 /// What the practice exam follows from. It is handed out with its keys, so this is no secret.
 const PRACTICE: Seed = Seed(2025);
 
+/// Why there is no exam.
+#[derive(Debug, thiserror::Error)]
+pub enum NoExam {
+    /// What the reference must say was not said.
+    #[error(transparent)]
+    NotRecorded(#[from] NotRecorded),
+    /// The exam can not be put into text.
+    #[error("can not write the exam: {0}")]
+    Text(#[from] serde_json::Error),
+}
+
 /// The files with exams in this repository.
-pub fn generated() -> Result<Vec<Generated>, serde_json::Error> {
-    let practice = text(&exam("practice", PRACTICE))?;
+pub fn generated() -> Result<Vec<Generated>, NoExam> {
+    let practice = whole_text("practice", PRACTICE)?;
     Ok(vec![Generated::new("grader/exams/practice.json", practice)])
 }
 
-/// An exam of other questions about the same ideas.
-pub fn final_exam(seed: u64) -> Exam {
-    exam("final", Seed(seed))
+/// The file of an exam of other questions about the same ideas.
+pub fn final_text(seed: u64) -> Result<String, NoExam> {
+    whole_text("final", Seed(seed))
+}
+
+fn whole_text(id: &str, seed: Seed) -> Result<String, NoExam> {
+    let recorded = cornell_box(|scene| traverse::radiance_question(seed, scene))?;
+    Ok(text(&exam(id, seed, recorded))?)
 }
 
 /// An exam: each item after those that it needs.
-pub fn exam(id: &str, seed: Seed) -> Exam {
+pub fn exam(id: &str, seed: Seed, recorded: Recorded) -> Exam {
     let tasks: [fn(Seed) -> Vec<Item>; 6] = [
         camera::items,
         triangle::items,
@@ -33,15 +50,18 @@ pub fn exam(id: &str, seed: Seed) -> Exam {
         build::items,
         traverse::items,
     ];
+    let items = tasks.into_iter().flat_map(|items| items(seed));
     Exam {
         schema: SCHEMA,
         id: id.to_owned(),
-        items: tasks.into_iter().flat_map(|items| items(seed)).collect(),
+        items: items
+            .chain([traverse::radiance_item(seed, recorded)])
+            .collect(),
     }
 }
 
 /// The exam as a file: an item a line, so that a difference shows which items it is in.
-pub fn text(exam: &Exam) -> Result<String, serde_json::Error> {
+fn text(exam: &Exam) -> Result<String, serde_json::Error> {
     let items: Vec<String> = exam
         .items
         .iter()

@@ -31,7 +31,7 @@ fn run(command: Command) -> Result<(), Box<dyn std::error::Error>> {
         Command::Starter(check) => deliver(&starter::generated(root)?, check.mode(), "starter")?,
         Command::Exams(check) => deliver(&exams::generated()?, check.mode(), "exams")?,
         Command::Exam { seed } => {
-            let exam = exams::text(&exams::final_exam(seed))?;
+            let exam = exams::final_text(seed)?;
             io::stdout().write_all(exam.as_bytes())?;
         }
         Command::Scenes(check) => deliver(&scenes::generated(), check.mode(), "scenes")?,

@@ -136,7 +136,7 @@ fn aspect_ratio(_: Seed) -> Item {
     };
     item(
         "aspect_ratio",
-        2,
+        1,
         [
             "the sensor's width is the aspect ratio times its height",
             "The field of view is vertical: it gives the height. Only then does the aspect ratio \
@@ -333,7 +333,7 @@ fn picture(seed: Seed) -> Item {
     let camera = camera(draw.uniform(45.0, 75.0), 1.5, uvec2(64, 64));
     item(
         "picture",
-        1,
+        2,
         [
             "every pixel of a picture looks the right way",
             "Five places in each pixel are compared. If only some are wrong, see which: one edge, \

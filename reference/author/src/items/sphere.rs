@@ -11,7 +11,7 @@ use crate::seed::{Draw, Seed};
 
 /// The items of the task `sphere`.
 pub fn items(seed: Seed) -> Vec<Item> {
-    let all: [fn(Seed) -> Item; 15] = [
+    let all: [fn(Seed) -> Item; 14] = [
         near_side,
         beside,
         radius,
@@ -22,7 +22,6 @@ pub fn items(seed: Seed) -> Vec<Item> {
         range_within,
         position,
         normal,
-        normal_from_inside,
         uv,
         uv_radius,
         origin_and_material,
@@ -31,8 +30,8 @@ pub fn items(seed: Seed) -> Vec<Item> {
     all.into_iter().map(|item| item(seed)).collect()
 }
 
-fn item(name: &str, text: [&str; 2], questions: Vec<Asked>) -> Item {
-    super::item(Task::Sphere, name, 1, text, questions)
+fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<Asked>) -> Item {
+    super::item(Task::Sphere, name, points, text, questions)
 }
 
 fn ball(draw: &mut Draw, radius: f64) -> Ball {
@@ -113,6 +112,7 @@ fn clear(draw: &mut Draw, ball: &Ball, mut kind: impl FnMut(&mut Draw) -> Ray) -
 fn near_side(seed: Seed) -> Item {
     item(
         "near_side",
+        1,
         [
             "from outside, the near side is hit",
             "Of the two roots the smaller is met first. Mind that the ray's origin must be taken \
@@ -138,6 +138,7 @@ fn beside(seed: Seed) -> Item {
     };
     item(
         "beside",
+        1,
         [
             "a ray that passes beside the sphere misses it",
             "Then the quadratic has no real root: look at what stands below the square root before \
@@ -150,6 +151,7 @@ fn beside(seed: Seed) -> Item {
 fn radius(seed: Seed) -> Item {
     item(
         "radius",
+        1,
         [
             "spheres of any radius are hit where they are",
             "The radius comes into the quadratic's c, squared.",
@@ -170,7 +172,7 @@ fn behind(seed: Seed) -> Item {
         let ball = ball(&mut draw, radius);
         let rays = (0..16).map(|i| {
             let ray = hit(&mut draw, &ball);
-            if i % 2 == 0 {
+            if i.is_multiple_of(2) {
                 ray
             } else {
                 Ray::new(ray.origin, -ray.dir)
@@ -181,6 +183,7 @@ fn behind(seed: Seed) -> Item {
     };
     item(
         "behind",
+        1,
         [
             "a sphere behind the ray is missed",
             "There both roots are negative, and so outside of ray.range.",
@@ -192,6 +195,7 @@ fn behind(seed: Seed) -> Item {
 fn from_inside(seed: Seed) -> Item {
     item(
         "from_inside",
+        1,
         [
             "from inside, the far side is hit",
             "The near root is negative there, the far one is not: see which of them lies in \
@@ -235,7 +239,7 @@ fn ranges(
 
 fn far_root(seed: Seed) -> Item {
     let range = |draw: &mut Draw, i: usize, [near, far]: [f64; 2]| {
-        let from = if i % 2 == 0 {
+        let from = if i.is_multiple_of(2) {
             draw.uniform(near + 0.05, far - 0.05)
         } else {
             draw.uniform(0.0, near - 0.05)
@@ -244,6 +248,7 @@ fn far_root(seed: Seed) -> Item {
     };
     item(
         "far_root",
+        1,
         [
             "if the near side lies before the range, the far side is hit",
             "The range's start need not be 0. The near root outside and the far one inside: the far \
@@ -265,6 +270,7 @@ fn range_max(seed: Seed) -> Item {
     };
     item(
         "range_max",
+        1,
         [
             "only what is met before the end of the range counts",
             "A ray that ends inside the sphere still hits its near side: each root is looked at by \
@@ -286,6 +292,7 @@ fn range_within(seed: Seed) -> Item {
     };
     item(
         "range_within",
+        1,
         [
             "a range that holds neither side is a miss",
             "Between the roots the ray is inside the sphere, and meets nothing; beyond both it has \
@@ -306,6 +313,7 @@ fn either(draw: &mut Draw, ball: &Ball) -> Ray {
 fn position(seed: Seed) -> Item {
     item(
         "position",
+        1,
         [
             "position is the point of the meeting, in world space",
             "It is the ray's point at the distance t. A point relative to the centre still has the \
@@ -316,42 +324,25 @@ fn position(seed: Seed) -> Item {
 }
 
 fn normal(seed: Seed) -> Item {
+    let judged = [Part::Normal, Part::UnitNormal];
+    let outside = tables("sphere.normal", seed, &judged, &[0.5, 3.0], hit);
+    let inside = tables("sphere.normal.inside", seed, &judged, &[2.0], inside);
     item(
         "normal",
+        1,
         [
-            "the normal points away from the centre, with length one",
-            "From the centre to the meeting, divided by its length.",
+            "the normal points away from the centre, with length one, also from inside",
+            "From the centre to the meeting, divided by its length. It belongs to the surface, not \
+             to the ray: it is never flipped toward it.",
         ],
-        tables(
-            "sphere.normal",
-            seed,
-            &[Part::Normal, Part::UnitNormal],
-            &[0.5, 1.0, 3.0],
-            hit,
-        ),
-    )
-}
-
-fn normal_from_inside(seed: Seed) -> Item {
-    item(
-        "normal_from_inside",
-        [
-            "seen from inside, the normal still points outward",
-            "The normal belongs to the surface, not to the ray: it is never flipped toward it.",
-        ],
-        tables(
-            "sphere.normal_from_inside",
-            seed,
-            &[Part::Normal],
-            &[1.0, 2.0],
-            inside,
-        ),
+        outside.into_iter().chain(inside).collect(),
     )
 }
 
 fn uv(seed: Seed) -> Item {
     item(
         "uv",
+        1,
         [
             "uv comes from the direction from the centre",
             "Sphere::uv is given: call it with the direction from the centre to the meeting, not \
@@ -364,6 +355,7 @@ fn uv(seed: Seed) -> Item {
 fn uv_radius(seed: Seed) -> Item {
     item(
         "uv_radius",
+        1,
         [
             "uv does not depend on the radius",
             "Sphere::uv wants a direction of length one: from the centre to the meeting is a vector \
@@ -383,6 +375,7 @@ fn origin_and_material(seed: Seed) -> Item {
     };
     item(
         "origin_and_material",
+        1,
         [
             "the answer names the ray's origin and the sphere's material",
             "Both are copied: origin from the ray that was asked, also if you moved it to the \
@@ -413,6 +406,7 @@ fn picture(seed: Seed) -> Item {
     let from_inside = vec![sphere(0.0, 0.0, -0.5, 3.0), sphere(0.9, 0.1, -2.0, 0.4)];
     item(
         "picture",
+        2,
         [
             "a picture of spheres is right in hit, depth, normal and uv",
             "Some seen from outside, and one from inside. If all pixels of one are wrong, see what \

@@ -10,6 +10,7 @@ use protocol::{Question, Ray, Rays, Shape, TreeNode};
 
 use super::{meshes, picture};
 use crate::oracle::{Beam, scan};
+use crate::recorded::Recorded;
 use crate::seed::{Draw, Seed};
 use crate::tree::trap::{self, Shelter};
 use crate::tree::walk::Walk;
@@ -425,7 +426,6 @@ fn trapped(draw: &mut Draw, fits: &dyn Fn(&Tree, usize, &Beam) -> bool, slides: 
     add_orphans(draw, &mut tree, &rays);
     let root = [RootPlace::First, RootPlace::Middle, RootPlace::Last][draw.index(3)];
     let rearranged = tree.rearranged(draw, root);
-    eprintln!("traps {}", trapped_rays.len());
     asked(&rearranged, rays)
 }
 
@@ -492,7 +492,7 @@ fn nearer_first(seed: Seed) -> Item {
         |tree: &Tree, leaf: usize, beam: &Beam| is_sheltered(tree, leaf, beam, Shelter::Beyond);
     item(
         "nearer_first",
-        2,
+        1,
         [
             "the nearer child goes first, be it l or r, and the other is pruned",
             "Where r goes first, it is l that may begin beyond the closest hit. The slides compare \
@@ -581,7 +581,7 @@ fn picture(seed: Seed) -> Item {
     };
     item(
         "picture",
-        1,
+        2,
         [
             "a picture through a tree is right in hit, depth, normal and uv",
             "If pieces are missing, some nodes are skipped that should be entered; if pieces that \
@@ -592,23 +592,27 @@ fn picture(seed: Seed) -> Item {
 }
 
 /// What the radiance item asks; who records its key asks the reference the same.
-pub fn radiance_question(scene: String) -> Question {
+pub fn radiance_question(seed: Seed, scene: String) -> Question {
+    let mut draw = seed.draw("traverse.radiance.seed");
     Question::Radiance {
         scene,
         film: UVec2::splat(32),
         samples: 16,
         bounces: 3,
-        seed: 5489,
+        seed: draw.index(1 << 30) as u64,
     }
 }
 
-/// A path-traced picture, with the pixels that the reference answers to `question`.
-pub fn radiance_item(seed: Seed, question: Question, pixels: Vec<Vec3>) -> Item {
+/// A path-traced picture, and the reference's own.
+pub fn radiance_item(seed: Seed, recorded: Recorded) -> Item {
     /// Of 1024 pixels; correct variants stay below half of it.
     const ALLOWED: u32 = 7;
-    let key = Key::Radiance {
-        pixels,
-        allowed: ALLOWED,
+    let picture = Asked {
+        question: recorded.question,
+        key: Key::Radiance {
+            pixels: recorded.pixels,
+            allowed: ALLOWED,
+        },
     };
     let mut draw = seed.draw("traverse.radiance");
     let needs = [
@@ -627,7 +631,7 @@ pub fn radiance_item(seed: Seed, question: Question, pixels: Vec<Vec3>) -> Item 
                 "Every random number is the framework's, so the picture must be the same but for a \
                  few pixels. If this is the only item that fails, look at cargo render.",
             ],
-            vec![Asked { question, key }, orphans_alone(&mut draw)],
+            vec![picture, orphans_alone(&mut draw)],
         )
     }
 }

@@ -183,7 +183,7 @@ fn position(seed: Seed) -> Item {
 fn normal(seed: Seed) -> Item {
     item(
         "normal",
-        2,
+        1,
         [
             "the normal is interpolated between the corners' normals",
             "Smooth shading: each corner has a normal of its own, and the face's normal is not asked. \
@@ -196,7 +196,7 @@ fn normal(seed: Seed) -> Item {
 fn uv(seed: Seed) -> Item {
     item(
         "uv",
-        2,
+        1,
         [
             "uv is interpolated between the corners' texture coordinates",
             "u and v of the barycentric coordinates are weights; the uv of the Trace is the weighted \
@@ -450,7 +450,7 @@ fn picture(seed: Seed) -> Item {
     let shapes = picture_shapes(&mut seed.draw("triangle.picture"));
     item(
         "picture",
-        2,
+        4,
         [
             "a picture of triangles is right in hit, depth, normal and uv",
             "A smooth hill, a square of two halves, triangles from behind, and some tiny ones. Look \

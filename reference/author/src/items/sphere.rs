@@ -172,7 +172,7 @@ fn behind(seed: Seed) -> Item {
         let ball = ball(&mut draw, radius);
         let rays = (0..16).map(|i| {
             let ray = hit(&mut draw, &ball);
-            if i.is_multiple_of(2) {
+            if i % 2 == 0 {
                 ray
             } else {
                 Ray::new(ray.origin, -ray.dir)

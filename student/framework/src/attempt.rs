@@ -1,19 +1,26 @@
 //! Running a submission's code so that a panic becomes a value.
 
 use std::any::Any;
-use std::cell::RefCell;
-use std::panic::{AssertUnwindSafe, catch_unwind, set_hook};
+use std::cell::{Cell, RefCell};
+use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
 
 use protocol::{Outcome, Panic};
 
 thread_local! {
     /// Where this thread panicked last: only the hook is told, only the catcher can say.
     static PLACE: RefCell<String> = const { RefCell::new(String::new()) };
+    /// Whether this thread is inside an [`attempt`].
+    static ATTEMPTING: Cell<bool> = const { Cell::new(false) };
 }
 
-/// From now on panics print nothing; [`attempt`] reports them, with their place.
+/// From now on panics inside an [`attempt`] print nothing: it reports them, with their place. All
+/// others are mistakes of the framework, and as loud as before.
 pub fn keep_panics_quiet() {
-    set_hook(Box::new(|panic| {
+    let loud = take_hook();
+    set_hook(Box::new(move |panic| {
+        if !ATTEMPTING.get() {
+            return loud(panic);
+        }
         let place = panic.location().map_or(String::new(), |location| {
             format!("{}:{}", location.file(), location.line())
         });
@@ -24,7 +31,10 @@ pub fn keep_panics_quiet() {
 /// What `code` returns, or how it panicked.
 pub fn attempt<T>(code: impl FnOnce() -> T) -> Outcome<T> {
     // Nothing that a panic leaves half done is looked at again: each question has its own values.
-    match catch_unwind(AssertUnwindSafe(code)) {
+    let before = ATTEMPTING.replace(true);
+    let result = catch_unwind(AssertUnwindSafe(code));
+    ATTEMPTING.set(before);
+    match result {
         Ok(value) => Outcome::Value(value),
         Err(payload) => Outcome::Panicked(Panic {
             message: shortened(words(payload.as_ref())),

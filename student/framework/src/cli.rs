@@ -38,6 +38,7 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
+    keep_panics_quiet();
     match run(submission, &options) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
@@ -54,7 +55,6 @@ fn run(submission: &dyn Submission, options: &Options) -> Result<(), Failure> {
     let out = files::output(options, &path)?;
     let canvas = Canvas::new(scene.camera.lens.film, options.threads)?;
 
-    keep_panics_quiet();
     canvas.with_room(|| show(submission, options, &scene, &out, &canvas))
 }
 
@@ -151,3 +151,6 @@ impl Options {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

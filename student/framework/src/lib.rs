@@ -5,6 +5,8 @@
 //! [`submission`].
 
 pub mod attempt;
+#[cfg(test)]
+mod balls;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod film;

@@ -53,10 +53,10 @@ impl Lights {
         let lamp = |shape: &Shape| {
             let material = scene.materials.get(shape.material() as usize)?;
             let radiance = material.emitted()?;
-            (radiance != Vec3::ZERO).then_some(Lamp {
-                radiance,
-                form: Form::of(shape),
-            })
+            let form = Form::of(shape);
+            // What has no power is never picked, and would divide by zero.
+            let shines = radiance != Vec3::ZERO && form.area() > 0.0;
+            shines.then_some(Lamp { radiance, form })
         };
         let lamps: Vec<Lamp> = scene.shapes.iter().filter_map(lamp).collect();
         let sum = |total: &mut f32, lamp: &Lamp| {
@@ -165,11 +165,11 @@ impl Form {
 fn cone(center: Vec3, radius: f32, point: Vec3, place: Vec2) -> Option<Seen> {
     let way = center - point;
     let squared = way.length_squared();
-    let sine_squared = radius * radius / squared;
-    // From inside nothing shines: spheres shine outward. (NaN, from the very centre, is inside.)
-    if !(sine_squared < 1.0) {
+    // From inside nothing shines: spheres shine outward.
+    if squared <= radius * radius {
         return None;
     }
+    let sine_squared = (radius * radius / squared).min(1.0);
     // 1 − cos of the cone's half angle, without cancellation for a sphere far away.
     let span = sine_squared / (1.0 + (1.0 - sine_squared).sqrt());
     let rise = place.x * span;

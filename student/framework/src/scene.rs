@@ -97,3 +97,8 @@ impl Scene {
         self.shapes.iter().map(of_shape).fold(of_camera, f32::max)
     }
 }
+
+#[cfg(all(test, feature = "cli"))]
+mod file_tests;
+#[cfg(test)]
+mod tests;

@@ -103,7 +103,7 @@ impl Integrator<'_> {
         let cosine = lit.direction.dot(surface.normal);
         // The ray ends short of the lamp, which would else hide itself.
         let shadow = self.ray_from(surface, lit.direction, lit.distance - self.epsilon);
-        if !(cosine > 0.0) || shadow.range.is_empty() {
+        if cosine <= 0.0 || shadow.range.is_empty() {
             return Ok(Vec3::ZERO);
         }
         match self.meet(&shadow, tally)? {

@@ -91,7 +91,7 @@ fn normal(points: &[Vec3]) -> Result<Vec3, PolygonError> {
     let twice_area: Vec3 = sides(points)
         .map(|(a, b)| (a - first).cross(b - first))
         .sum();
-    if !(twice_area.length() > 1e-6 * size * size) {
+    if twice_area.length() <= 1e-6 * size * size {
         return Err(PolygonError::NoArea);
     }
     let normal = twice_area.normalize();

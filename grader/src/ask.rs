@@ -25,7 +25,12 @@ const LAST_WORDS: Duration = Duration::from_millis(200);
 // What Rust's runtime says on its way out.
 const STACK_OVERFLOW: &str = "has overflowed its stack";
 const OUT_OF_MEMORY: &str = "memory allocation of ";
-const RUNTIME_WORDS: [&str; 3] = [STACK_OVERFLOW, OUT_OF_MEMORY, "fatal runtime error"];
+const RUNTIME_WORDS: [&str; 4] = [
+    STACK_OVERFLOW,
+    OUT_OF_MEMORY,
+    "fatal runtime error",
+    "note: run with `RUST_BACKTRACE=1`",
+];
 
 /// What one item may use.
 #[derive(Clone, Copy, Debug)]

@@ -145,10 +145,29 @@ fn blank(file: &ExamFile, exam: &Exam, submission: &Submission, build: &Build) -
         tasks,
         build: BuildReport {
             not_compiled: not_compiled.collect(),
-            notes: submission.notes.clone(),
+            notes: notes(submission, build),
         },
         timings: Timings::default(),
     }
+}
+
+/// What is worth knowing of a submission's files and costs nothing.
+fn notes(submission: &Submission, build: &Build) -> Vec<String> {
+    let mut notes = submission.notes.clone();
+    let compiled = submission
+        .files
+        .iter()
+        .filter(|(file, _)| !build.not_compiled.contains_key(file.name));
+    for (file, text) in compiled {
+        let changed = text.as_ref().map_or(Vec::new(), |text| file.changed(text));
+        if !changed.is_empty() {
+            let (file, changed) = (file.name, changed.join(", "));
+            notes.push(format!(
+                "{file}: given methods were changed, at no cost by itself: {changed}"
+            ));
+        }
+    }
+    notes
 }
 
 fn millis(duration: Duration) -> u64 {

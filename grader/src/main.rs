@@ -1,5 +1,6 @@
 //! `cargo grade`: one submission, one score.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -30,7 +31,7 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let graded = grade(arguments)?;
     anstream::print!("{}", report::text::report(&graded.score, arguments.task));
     if let Some(file) = &graded.file {
-        anstream::println!("  {}", file.display());
+        anstream::println!("  {}\n", from_here(file).display());
     }
     let required = arguments.require.unwrap_or(0);
     Ok(if graded.score.points < required {
@@ -38,4 +39,10 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// The path as it would be typed from the current folder.
+fn from_here(path: &Path) -> &Path {
+    let here = std::env::current_dir().unwrap_or_default();
+    path.strip_prefix(here).unwrap_or(path)
 }

@@ -121,7 +121,7 @@ fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
         }
         How::Panicked(panic) if panic.is_unimplemented() => {
             score.verdict = Verdict::Unimplemented;
-            score.message = format!("not written yet ({})", tame(&panic.place, LONGEST));
+            score.message = format!("{} still says `todo!`", tame(&panic.place, LONGEST));
             score.hint = None;
             return;
         }
@@ -153,7 +153,7 @@ fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
 fn message(what: &str, failure: &Failure) -> String {
     match failure.count {
         Some((wrong, of)) if of > 1 => format!("{wrong} of {of} are wrong; the first: {what}"),
-        Some(_) | None => format!("wrong: {what}"),
+        Some(_) | None => format!("first mistake: {what}"),
     }
 }
 

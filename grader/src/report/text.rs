@@ -6,6 +6,7 @@ use anstyle::{AnsiColor, Style};
 
 use crate::exam::Task;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
+use crate::tame::tame;
 
 const WIDTH: usize = 80;
 const BAR: usize = 20;
@@ -37,7 +38,13 @@ fn write_report(out: &mut String, score: &Score, only: Option<Task>) -> fmt::Res
     for task in &tasks {
         task_line(out, task)?;
     }
-    for file in &score.build.not_compiled {
+    // A single line stands at the task's item already.
+    let told = score
+        .build
+        .not_compiled
+        .iter()
+        .filter(|file| file.message.contains('\n'));
+    for file in told {
         compiler(out, &file.message)?;
     }
     for task in &tasks {
@@ -107,21 +114,32 @@ fn compiler(out: &mut String, message: &str) -> fmt::Result {
 fn item(out: &mut String, item: &ItemScore) -> fmt::Result {
     let style = style(item.points, item.max_points);
     let words = item.verdict.words();
+    let gap = (WIDTH - 2).saturating_sub(item.id.chars().count() + words.chars().count());
     writeln!(
         out,
-        "\n  {style}{words}{style:#}  {STRONG}{}{STRONG:#}  {FAINT}{}{FAINT:#}",
-        item.title, item.id
+        "\n  {STRONG}{}{STRONG:#}{:gap$}{style}{words}{style:#}",
+        item.id, ""
     )?;
-    if !item.message.is_empty() {
-        row(out, "", &item.message)?;
+    for line in wrap(&item.title, WIDTH - 4) {
+        writeln!(out, "    {line}")?;
     }
-    if let Some(evidence) = &item.evidence {
-        row(out, "asked", &evidence.asked)?;
-        row(out, "got", &evidence.got)?;
-        row(out, "wanted", &evidence.wanted)?;
-    }
-    if let Some(hint) = &item.hint {
-        row(out, "hint", hint)?;
+    let rows = [
+        ("what", Some(&item.message)),
+        (
+            "asked",
+            item.evidence.as_ref().map(|evidence| &evidence.asked),
+        ),
+        ("got", item.evidence.as_ref().map(|evidence| &evidence.got)),
+        (
+            "wanted",
+            item.evidence.as_ref().map(|evidence| &evidence.wanted),
+        ),
+        ("hint", item.hint.as_ref()),
+    ];
+    for (label, text) in rows {
+        if let Some(text) = text.filter(|text| !text.is_empty()) {
+            row(out, label, text)?;
+        }
     }
     Ok(())
 }
@@ -182,6 +200,7 @@ fn printed_lines(out: &mut String, task: &TaskScore, printed: &str) -> fmt::Resu
     const MOST: usize = 5;
     writeln!(out, "\n  {FAINT}printed during {}:{FAINT:#}", task.title)?;
     for line in printed.lines().take(MOST) {
+        let line = tame(line, WIDTH - 5);
         writeln!(out, "  {FAINT}│{FAINT:#} {line}")?;
     }
     Ok(())

@@ -33,7 +33,7 @@ fn refused(exam: impl AsRef<[u8]>) -> String {
     let path = submission.path().join("exam.json");
     let graded = submission.grade_with(&["--exam", path.to_str().unwrap()]);
     assert_eq!(graded.exit_code(), 2, "{}", graded.error());
-    assert!(!graded.score_file.exists(), "nothing was asked");
+    assert!(graded.score.is_none(), "nothing was asked");
     graded.error().replace(path.to_str().unwrap(), "exam.json")
 }
 

@@ -36,7 +36,7 @@ fn a_place_without_a_submission_is_the_callers_fault() {
     assert_eq!(code, 2);
     assert!(error.contains("there is no "), "{error}");
 
-    let (code, error) = told(&["README.md"]);
+    let (code, error) = told(&["Cargo.toml"]);
     assert_eq!(code, 2);
     assert!(error.contains("is not a folder: unpack it"), "{error}");
 }
@@ -73,7 +73,7 @@ fn the_five_files_are_found_at_the_top_in_src_and_in_student_src() {
 fn fewer_points_than_required_exit_with_one() {
     let graded = Submission::case("not_compiling").grade_with(&["--require", "100"]);
     assert_eq!(graded.exit_code(), 1);
-    assert!(graded.score_file.exists());
+    assert!(graded.score.is_some());
     let graded = Submission::reference("full").grade_with(&["--require", "100"]);
     assert_eq!(graded.points(), FULL);
 }
@@ -82,7 +82,7 @@ fn fewer_points_than_required_exit_with_one() {
 fn one_task_is_reported_alone_and_writes_no_score() {
     let graded = Submission::case("panicking").grade_with(&["--task", "sphere"]);
     assert_eq!(graded.exit_code(), 0);
-    assert!(!graded.score_file.exists());
+    assert!(graded.score.is_none());
     assert_snapshot!(graded.report());
 }
 

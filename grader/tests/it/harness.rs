@@ -94,7 +94,7 @@ impl Submission {
             .unwrap();
         Graded {
             output,
-            score_file: out.join("score.json"),
+            score: fs::read(out.join("score.json")).ok(),
         }
     }
 }
@@ -109,7 +109,8 @@ pub fn grader() -> Command {
 /// What came of one run.
 pub struct Graded {
     pub output: Output,
-    pub score_file: PathBuf,
+    /// The score file's bytes, if there is one.
+    pub score: Option<Vec<u8>>,
 }
 
 impl Graded {
@@ -134,7 +135,7 @@ impl Graded {
 
     pub fn score(&self) -> Value {
         assert_eq!(self.exit_code(), 0, "{}", self.error());
-        serde_json::from_slice(&fs::read(&self.score_file).unwrap()).unwrap()
+        serde_json::from_slice(self.score.as_ref().unwrap()).unwrap()
     }
 
     /// The points of each task, in lecture order.

@@ -86,7 +86,10 @@ fn no_mark_of_a_solution_is_handed_out() {
         for folder in ["student/src", "grader/starter"] {
             let path = workspace().join(folder).join(file);
             let text = std::fs::read_to_string(path).unwrap();
-            assert!(!text.contains("solution") && !text.contains("// starter"), "{file}");
+            assert!(
+                !text.contains("solution") && !text.contains("// starter"),
+                "{file}"
+            );
         }
     }
 }

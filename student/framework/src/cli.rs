@@ -87,7 +87,10 @@ fn show(
     println!("{}", progress::summary(out, film.size, tally, time));
     if tally.spoiled > 0 {
         let spoiled = tally.spoiled;
-        eprintln!("note: {spoiled} paths met NaN or infinity in an answer, and are black");
+        eprintln!(
+            "note: {spoiled} paths are black, since an answer held NaN or infinity, a normal of \
+             length zero, or an unknown material"
+        );
     }
     Ok(())
 }

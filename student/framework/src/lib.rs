@@ -4,6 +4,7 @@
 //! Nothing here solves a task. What students write is reached through the one seam in
 //! [`submission`].
 
+pub mod answer;
 pub mod attempt;
 #[cfg(test)]
 mod balls;

@@ -3,13 +3,12 @@
 //! What is known of a lamp here comes from the scene, not from a submission's `hit`: only whether
 //! something stands between is asked of the submission.
 
-use std::f32::consts::TAU;
+mod form;
 
 use glam::{Vec2, Vec3};
 use protocol::Shape;
 
-use crate::frame::Frame;
-use crate::math::sin_cos;
+use self::form::Form;
 use crate::scene::Scene;
 
 /// All lamps of a scene, to be picked by power: the more light, the more often.
@@ -34,17 +33,6 @@ pub struct Illumination {
 struct Lamp {
     radiance: Vec3,
     form: Form,
-}
-
-enum Form {
-    /// Shines to the side of `normal`, which has length one.
-    Triangle {
-        corners: [Vec3; 3],
-        normal: Vec3,
-        area: f32,
-    },
-    /// Shines outward.
-    Sphere { center: Vec3, radius: f32 },
 }
 
 impl Lights {
@@ -92,160 +80,67 @@ impl Lights {
     }
 }
 
-/// A place on a lamp, seen from a point.
-struct Seen {
-    direction: Vec3,
-    distance: f32,
-    /// One over the density of having picked this direction.
-    solid_angle: f32,
-}
-
-impl Form {
-    fn of(shape: &Shape) -> Self {
-        match *shape {
-            Shape::Triangle { vertices, .. } => {
-                let outward = vertices.iter().map(|vertex| vertex.normal).sum();
-                Form::triangle(vertices.map(|vertex| vertex.position), outward)
-            }
-            Shape::Facet { corners, .. } => Form::triangle(corners, Vec3::ZERO),
-            Shape::Sphere { center, radius, .. } => Form::Sphere { center, radius },
-        }
-    }
-
-    /// The side that shines is that of `outward`, whichever way the corners turn.
-    fn triangle(corners: [Vec3; 3], outward: Vec3) -> Self {
-        let [p0, p1, p2] = corners;
-        let cross = (p1 - p0).cross(p2 - p0);
-        let normal = cross.normalize_or_zero();
-        Form::Triangle {
-            corners,
-            normal: if normal.dot(outward) < 0.0 {
-                -normal
-            } else {
-                normal
-            },
-            area: 0.5 * cross.length(),
-        }
-    }
-
-    fn area(&self) -> f32 {
-        match *self {
-            Form::Triangle { area, .. } => area,
-            Form::Sphere { radius, .. } => 2.0 * TAU * radius * radius,
-        }
-    }
-
-    fn pick(&self, point: Vec3, place: Vec2) -> Option<Seen> {
-        match *self {
-            Form::Triangle {
-                corners: [p0, p1, p2],
-                normal,
-                area,
-            } => {
-                // Turk, "Generating Random Points in Triangles", Graphics Gems, 1990.
-                let root = place.x.sqrt();
-                let on_lamp = p0 * (1.0 - root) + (p1 * (1.0 - place.y) + p2 * place.y) * root;
-                let way = on_lamp - point;
-                let distance = way.length();
-                let direction = way / distance;
-                let cosine = -direction.dot(normal);
-                (cosine > 0.0 && distance > 0.0).then_some(Seen {
-                    direction,
-                    distance,
-                    solid_angle: area * cosine / (distance * distance),
-                })
-            }
-            Form::Sphere { center, radius } => cone(center, radius, point, place),
-        }
-    }
-}
-
-/// A direction of the cone that a sphere fills, seen from outside: Shirley, Wang and Zimmerman,
-/// "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1), 1996.
-fn cone(center: Vec3, radius: f32, point: Vec3, place: Vec2) -> Option<Seen> {
-    let way = center - point;
-    let squared = way.length_squared();
-    // From inside nothing shines: spheres shine outward.
-    if squared <= radius * radius {
-        return None;
-    }
-    let sine_squared = (radius * radius / squared).min(1.0);
-    // 1 − cos of the cone's half angle, without cancellation for a sphere far away.
-    let span = sine_squared / (1.0 + (1.0 - sine_squared).sqrt());
-    let rise = place.x * span;
-    let cosine = 1.0 - rise;
-    let sine = (rise * (2.0 - rise)).max(0.0).sqrt();
-    let (sin, cos) = sin_cos(TAU * place.y);
-    let far = squared.sqrt();
-    let direction = Frame::around(way / far).to_world(Vec3::new(sine * cos, sine * sin, cosine));
-
-    // How deep the ray's closest approach to the centre lies in the sphere; at the rim, 0.
-    let depth = (radius * radius - squared * sine * sine).max(0.0).sqrt();
-    Some(Seen {
-        direction,
-        distance: far * cosine - depth,
-        solid_angle: TAU * span,
-    })
-}
-
 #[cfg(test)]
 mod tests {
-    use glam::{vec2, vec3};
-
     use super::*;
     use crate::sampler::{Purpose, Sampler};
 
-    /// The irradiance on a floor at the origin that faces up, from many places of one lamp.
-    fn irradiance(form: &Form) -> f32 {
-        let count = 20_000;
-        let light = (0..count).map(|n| {
-            let place = Sampler::new(0, Default::default(), n).pair(0, Purpose::PlaceOnLight);
-            let seen = form.pick(Vec3::ZERO, place);
-            seen.map_or(0.0, |seen| seen.direction.y.max(0.0) * seen.solid_angle)
-        });
-        light.sum::<f32>() / count as f32
+    fn lights(shapes: &str) -> Lights {
+        let text = format!(
+            r#"{{
+                "camera": {{ "vertical_fov": 90, "film": [1, 1],
+                    "position": [0, 0, 1], "look_at": [0, 0, 0], "up": [0, 1, 0] }},
+                "materials": {{
+                    "dim": {{ "emitter": {{ "radiance": [1, 1, 1] }} }},
+                    "bright": {{ "emitter": {{ "radiance": [9, 9, 9] }} }},
+                    "dark": {{ "emitter": {{ "radiance": [0, 0, 0] }} }}
+                }},
+                "shapes": [{shapes}]
+            }}"#
+        );
+        Lights::of(&Scene::from_text(&text).expect("a scene"))
+    }
+
+    const OVERHEAD: &str =
+        r#"{ "sphere": { "center": [0, 2, 0], "radius": 1, "material": "dim" } }"#;
+    const ASIDE: &str =
+        r#"{ "sphere": { "center": [4, 3, 0], "radius": 1, "material": "bright" } }"#;
+    const DARK: &str = r#"{ "sphere": { "center": [0, 9, 0], "radius": 5, "material": "dark" } }"#;
+
+    /// On a floor at the origin that faces up, and how often the lamp overhead was asked.
+    fn irradiance(lights: &Lights) -> (f32, u32) {
+        let (mut light, mut overhead) = (0.0, 0);
+        let count = 40_000;
+        for n in 0..count {
+            let sampler = Sampler::new(0, Default::default(), n);
+            let choice = sampler.one(0, Purpose::Light);
+            let place = sampler.pair(0, Purpose::PlaceOnLight);
+            if let Some(lit) = lights.illuminate(Vec3::ZERO, choice, place) {
+                light += lit.radiance.x * lit.direction.y / count as f32;
+                overhead += u32::from(lit.distance < 2.0);
+            }
+        }
+        (light, overhead)
     }
 
     #[test]
-    fn a_sphere_overhead_lights_as_the_closed_form_says() {
-        // π sin² of the half angle, for a sphere of radiance 1 wholly above the horizon.
-        let form = Form::Sphere {
-            center: vec3(0.0, 2.0, 0.0),
-            radius: 1.0,
-        };
-        let truth = std::f32::consts::PI * 0.25;
-        assert!((irradiance(&form) / truth - 1.0).abs() < 0.01);
+    fn two_lamps_give_what_each_gives_and_are_asked_by_power() {
+        let (together, overhead) = irradiance(&lights(&format!("{OVERHEAD}, {ASIDE}, {DARK}")));
+        let apart = irradiance(&lights(OVERHEAD)).0 + irradiance(&lights(ASIDE)).0;
+        assert!(
+            (together / apart - 1.0).abs() < 0.02,
+            "{together} for {apart}"
+        );
+        // One in ten of 40,000, with a standard deviation of 60.
+        assert!(overhead.abs_diff(4_000) < 300, "{overhead}");
     }
 
     #[test]
-    fn a_triangle_overhead_lights_as_lamberts_formula_says() {
-        let corners = [
-            vec3(1.0, 2.0, -1.0),
-            vec3(0.0, 1.0, 1.0),
-            vec3(-1.0, 1.5, -0.5),
-        ];
-        let form = Form::triangle(corners, Vec3::NEG_Y);
-        // Lambert 1760: half the sum, over the edges, of the angle times the edge's normal.
-        let d = corners.map(Vec3::normalize);
-        let edge = |a: Vec3, b: Vec3| a.angle_between(b) * a.cross(b).normalize().y;
-        let truth = 0.5 * (edge(d[0], d[1]) + edge(d[1], d[2]) + edge(d[2], d[0])).abs();
-        assert!((irradiance(&form) / truth - 1.0).abs() < 0.01, "{truth}");
-    }
-
-    #[test]
-    fn lamps_do_not_shine_backwards() {
-        let corners = [
-            vec3(1.0, 2.0, -1.0),
-            vec3(0.0, 2.0, 1.0),
-            vec3(-1.0, 2.0, -1.0),
-        ];
-        let upward = Form::triangle(corners, Vec3::Y);
-        assert!(upward.pick(Vec3::ZERO, vec2(0.5, 0.5)).is_none());
-        let around = Form::Sphere {
-            center: Vec3::ZERO,
-            radius: 1.0,
-        };
-        assert!(around.pick(Vec3::ZERO, vec2(0.5, 0.5)).is_none());
-        assert!(around.pick(vec3(0.5, 0.0, 0.0), vec2(0.5, 0.5)).is_none());
+    fn without_lamps_there_is_no_light() {
+        assert!(
+            lights(DARK)
+                .illuminate(Vec3::ZERO, 0.5, Vec2::splat(0.5))
+                .is_none()
+        );
     }
 }

@@ -75,11 +75,10 @@ impl Lines {
         let words: Vec<String> = numbers.iter().copied().map(short).collect();
         let words = words.join(" ");
         let next = self.numbers.len() + 1;
-        let number = *self.numbers.entry(words).or_insert_with_key(|words| {
+        *self.numbers.entry(words).or_insert_with_key(|words| {
             writeln!(self.text, "{} {words}", self.kind).expect("a String takes it");
             next
-        });
-        number
+        })
     }
 }
 

@@ -1,0 +1,65 @@
+//! Answers to the grader's questions, element by element: a panic costs only its own.
+//!
+//! Not generic, and called through `dyn`: compiled here once, not again with every submission.
+
+use glam::{UVec2, Vec2};
+use protocol::{
+    Answer, Interval, Outcome, PinholeCamera, Question, Ray, Rays, Sample, Samples, Trace, Tree,
+};
+
+use crate::attempt::{attempt, each};
+use crate::integrator::{Sampling, radiance};
+use crate::scene::Scene;
+use crate::submission::Submission;
+
+/// A ray for each sample.
+pub fn rays(
+    camera: &PinholeCamera,
+    samples: &Samples,
+    ask: &mut dyn FnMut(UVec2, Vec2) -> Ray,
+) -> Answer {
+    let samples = samples.on(camera.film);
+    Answer::Rays(each(&samples, |sample: &Sample| {
+        ask(sample.pixel, sample.offset)
+    }))
+}
+
+/// A hit, or none, for each ray.
+pub fn hits(rays: &Rays, ask: &mut dyn FnMut(&Ray) -> Option<Trace>) -> Answer {
+    Answer::Hits(each(&rays.to_vec(), ask))
+}
+
+/// The times inside a box, or none, for each shot.
+pub fn spans(
+    shots: &[(Ray, Interval)],
+    ask: &mut dyn FnMut(&Ray, Interval) -> Option<Interval>,
+) -> Answer {
+    Answer::Spans(each(shots, |(ray, times)| ask(ray, *times)))
+}
+
+/// The tree that is built over so many primitives.
+pub fn tree(primitives: usize, build: &mut dyn FnMut() -> Tree) -> Answer {
+    let most = Question::most_nodes(primitives);
+    Answer::Tree(attempt(|| {
+        let tree = build();
+        assert!(
+            tree.nodes.len() <= most && tree.order.len() <= most,
+            "{primitives} primitives became {} nodes over {} primitives",
+            tree.nodes.len(),
+            tree.order.len(),
+        );
+        tree
+    }))
+}
+
+/// The path-traced picture of the scene that this text describes.
+pub fn picture(submission: &dyn Submission, scene: &str, sampling: &Sampling) -> Answer {
+    Answer::Picture(match Scene::from_text(scene) {
+        Ok(scene) => attempt(|| radiance(submission, &scene, sampling)),
+        // Not the submission's fault, and it must not look so: no answer is the grader's to tell.
+        Err(error) => {
+            eprintln!("the exam's scene: {error}");
+            Outcome::GivenUp
+        }
+    })
+}

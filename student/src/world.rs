@@ -1,11 +1,11 @@
 //! Given: the way from scenes and questions to your five files, and back.
 
-use framework::attempt::{attempt, each};
-use framework::integrator;
+use framework::answer;
+use framework::integrator::Sampling;
 use framework::scene::Scene;
 use framework::submission::{Submission, World};
 use glam::{UVec2, Vec2};
-use protocol::{Answer, PinholeCamera, Question, Ray, Sample, Shape, Trace, Tree, TreeNode};
+use protocol::{Answer, PinholeCamera, Question, Ray, Shape, Trace, Tree, TreeNode};
 
 use crate::bbox::BBox;
 use crate::bvh::{Bvh, Node};
@@ -30,36 +30,22 @@ impl Submission for Student {
                 samples,
             } => {
                 let camera = camera(lens);
-                Answer::Rays(each(&samples.on(lens.film), |sample: &Sample| {
-                    camera.sample_ray(sample.pixel, sample.offset)
-                }))
+                answer::rays(lens, samples, &mut |pixel, offset| {
+                    camera.sample_ray(pixel, offset)
+                })
             }
             Question::Shapes { shapes, rays } => {
                 let primitives = primitives(shapes);
-                Answer::Hits(each(&rays.to_vec(), |ray| {
-                    let traces = primitives.iter().map(|primitive| primitive.hit(ray));
-                    traces.fold(None, Trace::nearer)
-                }))
+                answer::hits(rays, &mut |ray| nearest(&primitives, ray))
             }
             Question::BBox { min, max, shots } => {
                 let bbox = BBox::new(*min, *max);
-                Answer::Spans(each(shots, |(ray, times)| bbox.hit(ray, *times)))
+                answer::spans(shots, &mut |ray, times| bbox.hit(ray, times))
             }
             Question::Build {
                 shapes,
                 max_leaf_size,
-            } => Answer::Tree(attempt(|| {
-                let bvh = Bvh::build(primitives(shapes), *max_leaf_size as usize);
-                let most = Question::most_nodes(shapes.len());
-                assert!(
-                    bvh.nodes.len() <= most && bvh.primitives.len() <= most,
-                    "{} primitives became {} nodes over {} primitives",
-                    shapes.len(),
-                    bvh.nodes.len(),
-                    bvh.primitives.len(),
-                );
-                tree(&bvh)
-            })),
+            } => answer::tree(shapes.len(), &mut || tree(&build(shapes, *max_leaf_size))),
             Question::Traverse {
                 shapes,
                 nodes,
@@ -68,7 +54,7 @@ impl Submission for Student {
             } => {
                 let nodes = nodes.iter().map(node).collect();
                 let bvh = Bvh::from_nodes(primitives(shapes), nodes, *root as usize);
-                Answer::Hits(each(&rays.to_vec(), |ray| bvh.hit(ray)))
+                answer::hits(rays, &mut |ray| bvh.hit(ray))
             }
             Question::BuildAndTraverse {
                 shapes,
@@ -76,11 +62,11 @@ impl Submission for Student {
                 rays,
             } => {
                 // Built at the first ray, so that a panic in `build` is told like any other.
-                let mut built = None;
-                Answer::Hits(each(&rays.to_vec(), |ray| {
-                    let build = || Bvh::build(primitives(shapes), *max_leaf_size as usize);
-                    built.get_or_insert_with(build).hit(ray)
-                }))
+                let mut bvh = None;
+                answer::hits(rays, &mut |ray| {
+                    bvh.get_or_insert_with(|| build(shapes, *max_leaf_size))
+                        .hit(ray)
+                })
             }
             Question::Radiance {
                 scene,
@@ -88,16 +74,15 @@ impl Submission for Student {
                 samples,
                 bounces,
                 seed,
-            } => Answer::Picture(attempt(|| {
-                let scene = Scene::from_text(scene).expect("the exam's scenes are checked");
-                let sampling = integrator::Sampling {
+            } => {
+                let sampling = Sampling {
                     film: *film,
                     samples: *samples,
                     bounces: *bounces,
                     seed: *seed,
                 };
-                integrator::radiance(self, &scene, &sampling)
-            })),
+                answer::picture(self, scene, &sampling)
+            }
             Question::Done => Answer::Done,
         }
     }
@@ -129,6 +114,16 @@ fn camera(lens: &PinholeCamera) -> Camera {
 
 fn primitives(shapes: &[Shape]) -> Vec<Primitive> {
     shapes.iter().map(Primitive::new).collect()
+}
+
+fn build(shapes: &[Shape], max_leaf_size: u32) -> Bvh {
+    Bvh::build(primitives(shapes), max_leaf_size as usize)
+}
+
+/// The closest of the hits of each primitive by itself.
+fn nearest(primitives: &[Primitive], ray: &Ray) -> Option<Trace> {
+    let traces = primitives.iter().map(|primitive| primitive.hit(ray));
+    traces.fold(None, Trace::nearer)
 }
 
 fn node(node: &TreeNode) -> Node {

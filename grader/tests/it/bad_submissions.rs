@@ -105,6 +105,20 @@ fn a_panic_costs_the_items_that_meet_it() {
 }
 
 #[test]
+fn a_panic_in_a_constructor_is_told_like_any_other() {
+    let stubborn = "        assert!(aspect_ratio <= 1.0, \"too wide\");\n        Camera {\n            vertical_fov,";
+    let graded = Submission::reference("stubborn")
+        .changed(
+            "camera.rs",
+            "        Camera {\n            vertical_fov,",
+            stubborn,
+        )
+        .grade();
+    assert!(graded.verdicts("camera").contains(&"panicked".to_owned()));
+    assert_eq!(graded.points()[1..5], FULL[1..5]);
+}
+
+#[test]
 fn an_endless_loop_is_stopped() {
     let graded = Submission::case("looping").grade_with(&["--cpu-limit", "1"]);
     assert!(graded.verdicts("sphere").contains(&"timed_out".to_owned()));

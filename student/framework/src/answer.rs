@@ -4,13 +4,43 @@
 
 use glam::{UVec2, Vec2};
 use protocol::{
-    Answer, Interval, Outcome, PinholeCamera, Question, Ray, Rays, Sample, Samples, Trace, Tree,
+    Answer, Interval, Outcome, Panic, PinholeCamera, Question, Ray, Rays, Sample, Samples, Trace,
+    Tree,
 };
 
 use crate::attempt::{attempt, each};
 use crate::integrator::{Sampling, radiance};
 use crate::scene::Scene;
 use crate::submission::Submission;
+
+/// What a submission answers. A panic outside any element, in one of its constructors, is told as
+/// the first element's; the others are given up.
+pub fn question(submission: &dyn Submission, question: &Question) -> Answer {
+    match attempt(|| submission.answer(question)) {
+        Outcome::Value(answer) => answer,
+        Outcome::Panicked(panic) => panicked(question, panic),
+        Outcome::GivenUp => unreachable!("nothing is given up at the first attempt"),
+    }
+}
+
+fn panicked(question: &Question, panic: Panic) -> Answer {
+    match question {
+        Question::Camera { .. } => Answer::Rays(first(panic, question.count())),
+        Question::Shapes { .. } | Question::Traverse { .. } | Question::BuildAndTraverse { .. } => {
+            Answer::Hits(first(panic, question.count()))
+        }
+        Question::BBox { .. } => Answer::Spans(first(panic, question.count())),
+        Question::Build { .. } => Answer::Tree(Outcome::Panicked(panic)),
+        Question::Radiance { .. } => Answer::Picture(Outcome::Panicked(panic)),
+        Question::Done => Answer::Done,
+    }
+}
+
+fn first<T>(panic: Panic, count: usize) -> Vec<Outcome<T>> {
+    let given_up = std::iter::repeat_with(|| Outcome::GivenUp);
+    let outcomes = std::iter::once(Outcome::Panicked(panic)).chain(given_up);
+    outcomes.take(count).collect()
+}
 
 /// A ray for each sample.
 pub fn rays(

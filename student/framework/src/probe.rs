@@ -9,8 +9,8 @@ use std::process::ExitCode;
 use std::thread;
 
 use protocol::wire::{self, WireError};
-use protocol::{Answer, Question};
 
+use crate::answer;
 use crate::attempt::keep_panics_quiet;
 use crate::submission::Submission;
 
@@ -67,10 +67,7 @@ fn serve(
             Err(WireError::Ended) => return Ok(()),
             read => read?,
         };
-        let answer = match frame.decode()? {
-            Question::Done => Answer::Done,
-            question => submission.answer(&question),
-        };
+        let answer = answer::question(submission, &frame.decode()?);
         wire::write(&mut answers, frame.nonce, &answer)?;
     }
 }

@@ -69,10 +69,3 @@ fn the_starter_is_formatted() {
         assert!(output.status.success(), "{said}");
     }
 }
-
-#[test]
-fn another_seed_gives_another_exam_and_the_same_seed_the_same() {
-    let exam = |seed| author(&["exam", "--seed", seed]).stdout;
-    assert!(exam("1") == exam("1"));
-    assert!(exam("1") != exam("2"));
-}

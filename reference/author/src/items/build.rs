@@ -34,10 +34,10 @@ pub fn items(seed: Seed) -> Vec<Item> {
 }
 
 /// An item with one question more than its idea: without a tree, or with all in one leaf, it is
-/// wrong.
+/// wrong. Its primitives lie far apart, so that no heuristic would rather keep them together.
 fn item(name: &str, points: u32, text: [&str; 2], mut questions: Vec<Asked>) -> Item {
     let mut draw = Seed(0).draw("build.control");
-    let soup = meshes::soup(&mut draw, 24, 2.0, 0.3);
+    let soup = meshes::soup(&mut draw, 24, 2.0, 0.1);
     questions.push(asked(&[Partition, LeafSize], soup, 4));
     super::item(Task::Build, name, points, text, questions)
 }
@@ -73,9 +73,20 @@ fn cost(shapes: Vec<Shape>, max_leaf_size: u32) -> Asked {
 
 /// Soups of several sizes, for leaves of several sizes.
 fn soups(name: &str, seed: Seed, judged: &[TreePart], sizes: &[(usize, u32)]) -> Vec<Asked> {
+    soups_of(0.2, name, seed, judged, sizes)
+}
+
+/// The same of primitives of this size.
+fn soups_of(
+    size: f64,
+    name: &str,
+    seed: Seed,
+    judged: &[TreePart],
+    sizes: &[(usize, u32)],
+) -> Vec<Asked> {
     let mut draw = seed.draw(name);
     let question = |&(count, max_leaf_size): &(usize, u32)| {
-        let shapes = meshes::soup(&mut draw, count, 3.0, 0.4);
+        let shapes = meshes::soup(&mut draw, count, 3.0, size);
         asked(judged, shapes, max_leaf_size)
     };
     sizes.iter().map(question).collect()
@@ -133,7 +144,9 @@ fn leaf_size(seed: Seed) -> Item {
             "no leaf holds more than max_leaf_size primitives",
             "Split until a node has at most so many, whatever the heuristic says of it.",
         ],
-        soups(
+        // So large that the heuristic alone would rather not split some of them.
+        soups_of(
+            2.5,
             "build.leaf_size",
             seed,
             &[LeafSize],

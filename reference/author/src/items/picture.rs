@@ -93,7 +93,7 @@ mod tests {
             corners: [corner(0.0, -9.0), corner(0.0, 9.0), corner(9.0, 0.0)],
             material: 0,
         };
-        shapes(from_origin(3), vec![wall])
+        shapes(from_origin(9), vec![wall])
     }
 
     #[test]
@@ -101,13 +101,14 @@ mod tests {
         let Key::FirstHits { hits, also } = wall().key else {
             unreachable!("it is a picture")
         };
-        assert_eq!(hits.len(), 3 * 3 * 5);
-        // The middles of the three pixels of the middle column lie on the edge.
+        assert_eq!(hits.len(), 9 * 9 * 5);
+        // The middles of the nine pixels of the middle column lie on the edge.
         let places: Vec<u32> = also.iter().map(|(place, _)| *place).collect();
-        assert_eq!(places, [5, 20, 35]);
+        let expected: Vec<u32> = (0..9).map(|row| 5 * (9 * row + 4)).collect();
+        assert_eq!(places, expected);
         for (place, other) in also {
             assert_ne!(other.is_some(), hits[place as usize].is_some());
         }
-        assert!(hits[0].is_none() && hits[10].is_some());
+        assert!(hits[0].is_none() && hits[5 * 8].is_some());
     }
 }

@@ -239,12 +239,13 @@ fn ranges(
 
 fn far_root(seed: Seed) -> Item {
     let range = |draw: &mut Draw, i: usize, [near, far]: [f64; 2]| {
-        let from = if i.is_multiple_of(2) {
-            draw.uniform(near + 0.05, far - 0.05)
-        } else {
-            draw.uniform(0.0, near - 0.05)
+        // Begins before the sphere, within it, or behind it.
+        let from = match i % 3 {
+            0 => draw.uniform(0.0, near - 0.05),
+            1 => draw.uniform(near + 0.05, far - 0.05),
+            _ => far + 0.05,
         };
-        (from, far + draw.uniform(0.05, 3.0))
+        (from, far + draw.uniform(0.1, 3.0))
     };
     item(
         "far_root",

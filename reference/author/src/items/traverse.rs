@@ -2,7 +2,8 @@
 //!
 //! Before some of the rays stand *orphans*: primitives that are in no leaf. Whoever asks all
 //! primitives, without the tree, answers those. See [`crate::tree::trap`] for the traps that tell
-//! ways of walking apart.
+//! ways of walking apart. Where the root stands is the idea of one item; in all others whoever
+//! begins at the first node or the last begins rightly.
 
 use glam::{DVec3, UVec2, Vec3};
 use grader::exam::{Asked, Item, Key, Part, Task};
@@ -112,10 +113,10 @@ fn honest(
 ) -> Asked {
     let rays = rays(draw, &tree, counts, kind);
     add_orphans(draw, &mut tree, &rays);
-    let root = [RootPlace::First, RootPlace::Middle, RootPlace::Last][draw.index(3)];
-    asked(&tree.rearranged(draw, root), rays)
+    asked(&tree.with_roots_at_both_ends(draw), rays)
 }
 
+/// A tree over a soup. Leaves of several are the idea of one item: elsewhere they hold one.
 fn soup_tree(draw: &mut Draw, count: usize, size: f64, max_leaf_size: usize) -> Tree {
     plant::halves(meshes::soup(draw, count, 2.0, size), max_leaf_size)
 }
@@ -139,7 +140,7 @@ fn closest_hit(seed: Seed) -> Item {
 fn first_box_empty(seed: Seed) -> Item {
     let mut draw = seed.draw("traverse.first_box_empty");
     // Small facets in large boxes.
-    let tree = soup_tree(&mut draw, 40, 0.5, 2);
+    let tree = soup_tree(&mut draw, 40, 0.5, 1);
     item(
         "first_box_empty",
         1,
@@ -154,7 +155,7 @@ fn first_box_empty(seed: Seed) -> Item {
 
 fn range(seed: Seed) -> Item {
     let mut draw = seed.draw("traverse.range");
-    let tree = soup_tree(&mut draw, 40, 1.4, 2);
+    let tree = soup_tree(&mut draw, 40, 1.4, 1);
     // From between the first two of the hits, or up to somewhere before the first or the second.
     let kind = |draw: &mut Draw, tree: &Tree| {
         draw.until(|draw| {
@@ -199,7 +200,7 @@ fn range(seed: Seed) -> Item {
 fn root(seed: Seed) -> Item {
     let mut draw = seed.draw("traverse.root");
     let question = |place: RootPlace| {
-        let tree = soup_tree(&mut draw, 20, 0.9, 2);
+        let tree = soup_tree(&mut draw, 20, 0.9, 1);
         let rays = rays(&mut draw, &tree, [10, 4], from_around);
         let inner = if place == RootPlace::First {
             place
@@ -335,7 +336,7 @@ fn mixed(seed: Seed) -> Item {
         }
     });
     let shapes: Vec<Shape> = shapes.collect();
-    let tree = plant::halves(meshes::numbered(shapes), 2);
+    let tree = plant::halves(meshes::numbered(shapes), 1);
     let mut item = item(
         "mixed",
         1,
@@ -371,7 +372,7 @@ fn no_nodes(seed: Seed) -> Item {
     };
     let mut ask = |tree: &Tree| asked(tree, (0..8).map(|_| toward(&mut draw)).collect());
     let empty = [ask(&nothing), ask(&empty_leaf)];
-    let tree = soup_tree(&mut draw, 12, 0.9, 2);
+    let tree = soup_tree(&mut draw, 12, 0.9, 1);
     let control = honest(&mut draw, tree, [8, 4], from_around);
     item(
         "no_nodes",
@@ -389,7 +390,7 @@ fn no_nodes(seed: Seed) -> Item {
 fn trapped(draw: &mut Draw, fits: &dyn Fn(&Tree, usize, &Beam) -> bool, slides: Slides) -> Asked {
     const TRAPPED: usize = 10;
     const OTHERS: [usize; 2] = [4, 4];
-    let mut tree = soup_tree(draw, 48, 0.7, 2);
+    let mut tree = soup_tree(draw, 48, 0.7, 1);
     let others = rays(draw, &tree, OTHERS, from_around);
     let passing = rays(draw, &tree, [TRAPPED, 0], |draw, tree| {
         draw.until(|draw| {
@@ -424,9 +425,7 @@ fn trapped(draw: &mut Draw, fits: &dyn Fn(&Tree, usize, &Beam) -> bool, slides: 
         }
     }
     add_orphans(draw, &mut tree, &rays);
-    let root = [RootPlace::First, RootPlace::Middle, RootPlace::Last][draw.index(3)];
-    let rearranged = tree.rearranged(draw, root);
-    asked(&rearranged, rays)
+    asked(&tree.with_roots_at_both_ends(draw), rays)
 }
 
 /// What the slides' pseudo-code, taken literally, makes of a trap.
@@ -527,7 +526,7 @@ fn both_sides(seed: Seed) -> Item {
 
 /// A small question that the linear scan gets wrong, and every walk through a tree right.
 fn orphans_alone(draw: &mut Draw) -> Asked {
-    let tree = soup_tree(draw, 12, 0.9, 2);
+    let tree = soup_tree(draw, 12, 0.9, 1);
     honest(draw, tree, [8, 4], from_around)
 }
 
@@ -564,7 +563,7 @@ fn own_tree(seed: Seed) -> Item {
 fn picture(seed: Seed) -> Item {
     let mut draw = seed.draw("traverse.picture");
     let tree = soup_tree(&mut draw, 300, 0.4, 4);
-    let mut tree = tree.rearranged(&mut draw, RootPlace::Middle);
+    let mut tree = tree.with_roots_at_both_ends(&mut draw);
     let eye = DVec3::new(0.4, 0.7, 4.5);
     let view = picture::narrow(eye.as_vec3(), (-eye).normalize(), 0.5, 64);
     // An orphan before the left half of the view, right where the tree begins.

@@ -168,6 +168,14 @@ impl Tree {
         }
     }
 
+    /// The same tree with its root at the front, and at the end a copy of it that is no part of the
+    /// tree: whoever begins at either end, and not at `root`, begins rightly.
+    pub fn with_roots_at_both_ends(&self, draw: &mut Draw) -> Tree {
+        let mut tree = self.rearranged(draw, RootPlace::First);
+        tree.nodes.push(tree.nodes[tree.root]);
+        tree
+    }
+
     /// Makes two nodes change places.
     pub fn swap_nodes(&mut self, a: usize, b: usize) {
         let moved = |place: usize| match place {

@@ -1,0 +1,107 @@
+//! The meshes of the cost items tell good builders from bad ones: bucketed ones of any kind come
+//! close to the exact sweep, and those that look at the middle alone do not.
+
+mod solver;
+
+use author::items::build;
+use author::seed::Seed;
+use grader::exam::{Item, Key};
+use protocol::Question;
+
+use crate::solver::builders::{Extent, Splitter};
+
+/// What every honest builder must stay below: the judge gives full marks up to 1.12.
+const HONEST: f64 = 1.06;
+/// What bad ones must be above: the judge gives half marks up to 1.25.
+const BAD: f64 = 1.3;
+
+const SEEDS: [u64; 4] = [2025, 1, 2, 3];
+
+fn cost_items(seed: u64) -> Vec<Item> {
+    let mut items = build::items(Seed(seed));
+    items.retain(|item| item.id.starts_with("build.cost_"));
+    items
+}
+
+/// The cost of the tree that this splitter makes, by the cost of the exact sweep.
+fn ratio(item: &Item, splitter: Splitter) -> f64 {
+    let asked = &item.questions[0];
+    let Question::Build {
+        shapes,
+        max_leaf_size,
+    } = &asked.question
+    else {
+        unreachable!("a cost item asks for a tree")
+    };
+    let Key::Tree {
+        sweep_cost: Some(sweep),
+        ..
+    } = asked.key
+    else {
+        unreachable!("a cost item knows the sweep's cost")
+    };
+    solver::builders::cost(shapes, *max_leaf_size as usize, splitter) / sweep
+}
+
+#[test]
+fn bucketed_builders_come_close_to_the_sweep() {
+    for seed in SEEDS {
+        for item in cost_items(seed) {
+            for count in [8, 12, 16, 32] {
+                for extent in [Extent::Centers, Extent::Bounds] {
+                    let ratio = ratio(&item, Splitter::Buckets { count, extent });
+                    println!("{seed} {} {count} {extent:?}: {ratio:.3}", item.id);
+                    assert!(
+                        ratio <= HONEST,
+                        "{seed} {} {count} {extent:?}: {ratio}",
+                        item.id
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn builders_that_ignore_the_areas_do_not() {
+    for seed in SEEDS {
+        for splitter in [Splitter::Middle, Splitter::Median] {
+            let ratios = cost_items(seed)
+                .iter()
+                .map(|item| ratio(item, splitter))
+                .collect::<Vec<_>>();
+            println!("{seed} {splitter:?}: {ratios:.3?}");
+            let far_off = ratios.iter().filter(|ratio| **ratio >= BAD).count();
+            assert!(far_off >= 2, "{splitter:?}: {ratios:?}");
+        }
+    }
+}
+
+#[test]
+fn one_axis_alone_is_not_enough() {
+    for seed in SEEDS {
+        for axis in 0..3 {
+            let ratios = cost_items(seed)
+                .iter()
+                .map(|item| ratio(item, Splitter::OneAxis(axis)))
+                .collect::<Vec<_>>();
+            println!("{seed} axis {axis}: {ratios:.3?}");
+            assert!(ratios[0] >= BAD, "axis {axis}: {ratios:?}");
+        }
+    }
+}
+
+#[test]
+fn a_heuristic_that_is_wrong_is_not_enough() {
+    for seed in SEEDS {
+        for splitter in [Splitter::AreaPerBucket, Splitter::Worst] {
+            let items = cost_items(seed);
+            let ratios: Vec<f64> = items.iter().map(|item| ratio(item, splitter)).collect();
+            println!("{seed} {splitter:?}: {ratios:.3?}");
+            assert!(
+                ratios.iter().any(|ratio| *ratio >= BAD),
+                "{splitter:?}: {ratios:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! What must hold of every exam, whatever its seed.
+
+use std::collections::BTreeSet;
+use std::sync::LazyLock;
+
+use author::exams::exam;
+use author::oracle::Beam;
+use author::recorded::Recorded;
+use author::seed::Seed;
+use author::tree::Tree;
+use author::tree::trap;
+use glam::{UVec2, Vec3};
+use grader::exam::{Exam, Item, Key, Task};
+use protocol::{Question, Ray, Rays, Shape};
+
+const SEEDS: [u64; 3] = [2025, 77, 78];
+
+/// An exam of each seed; their pictures of radiance are none.
+static EXAMS: LazyLock<Vec<Exam>> = LazyLock::new(|| SEEDS.map(make).into());
+
+fn exam_of(seed: u64) -> &'static Exam {
+    let place = SEEDS.iter().position(|other| *other == seed);
+    &EXAMS[place.expect("one of the seeds")]
+}
+
+fn make(seed: u64) -> Exam {
+    let question = Question::Radiance {
+        scene: String::new(),
+        film: UVec2::ONE,
+        samples: 1,
+        bounces: 1,
+        seed,
+    };
+    let recorded = Recorded {
+        question,
+        pixels: vec![Vec3::ONE],
+    };
+    exam("test", Seed(seed), recorded)
+}
+
+fn rays(question: &Question) -> Vec<Ray> {
+    match question {
+        Question::Shapes { rays, .. }
+        | Question::Traverse { rays, .. }
+        | Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
+        Question::BBox { shots, .. } => shots.iter().map(|(ray, _)| *ray).collect(),
+        Question::Camera { .. }
+        | Question::Build { .. }
+        | Question::Radiance { .. }
+        | Question::Done => Vec::new(),
+    }
+}
+
+#[test]
+fn ids_are_unique_and_say_their_task() {
+    let exam = exam_of(SEEDS[0]);
+    let ids: BTreeSet<&String> = exam.items.iter().map(|item| &item.id).collect();
+    assert_eq!(ids.len(), exam.items.len());
+    assert!(exam.items.len() >= 60, "{}", exam.items.len());
+    for item in &exam.items {
+        assert!(
+            item.id.starts_with(&format!("{}.", item.task)),
+            "{}",
+            item.id
+        );
+    }
+}
+
+#[test]
+fn points_are_whole_and_add_up() {
+    let exam = exam_of(SEEDS[0]);
+    for task in Task::ALL {
+        let of_task = exam.items.iter().filter(|item| item.task == task);
+        let points: u32 = of_task.map(|item| item.points).sum();
+        assert_eq!(points, task.points(), "{task}");
+    }
+    assert!(exam.items.iter().all(|item| item.points >= 1));
+}
+
+#[test]
+fn items_come_after_what_they_need_and_need_other_tasks_only() {
+    let exam = exam_of(SEEDS[0]);
+    for (place, item) in exam.items.iter().enumerate() {
+        for needed in &item.needs {
+            let found = exam.items[..place].iter().find(|other| other.id == *needed);
+            let found = found.unwrap_or_else(|| panic!("{} needs {needed}", item.id));
+            assert_ne!(found.task, item.task, "{} needs {needed}", item.id);
+        }
+    }
+}
+
+#[test]
+fn titles_and_hints_are_sentences_without_code() {
+    for item in &exam_of(SEEDS[0]).items {
+        let (title, hint) = (&item.title, &item.hint);
+        assert!(title.chars().count() <= 80, "{title}");
+        assert!(!title.ends_with('.'), "{title}");
+        assert!(hint.ends_with(['.', '?']) && !hint.contains("  "), "{hint}");
+        assert!((40..=240).contains(&hint.chars().count()), "{hint}");
+        assert!(!hint.contains(';') || !hint.contains("()"), "{hint}");
+    }
+}
+
+#[test]
+fn rays_have_unit_length_and_an_exam_asks_few_enough() {
+    for seed in SEEDS {
+        let mut count = 0;
+        for item in &exam_of(seed).items {
+            for asked in &item.questions {
+                count += asked.question.count();
+                for ray in rays(&asked.question) {
+                    assert!(
+                        (ray.dir.length() - 1.0).abs() < 1e-5,
+                        "{}: {ray:?}",
+                        item.id
+                    );
+                }
+            }
+        }
+        assert!(count < 110_000, "{count} elements");
+    }
+}
+
+/// Whether the keys of a table hold opposite answers: hits and misses, or many directions.
+fn has_opposites(item: &Item) -> bool {
+    let mut hits = 0;
+    let mut misses = 0;
+    for asked in &item.questions {
+        match &asked.key {
+            Key::Hits { hits: keys, .. } => {
+                hits += keys.iter().flatten().count();
+                misses += keys.iter().filter(|key| key.is_none()).count();
+            }
+            Key::FirstHits { hits: keys, .. } => {
+                hits += keys.iter().flatten().count();
+                misses += keys.iter().filter(|key| key.is_none()).count();
+            }
+            Key::Spans { spans } => {
+                hits += spans.iter().flatten().count();
+                misses += spans.iter().filter(|key| key.is_none()).count();
+            }
+            Key::Rays { directions, .. } => {
+                let apart = directions
+                    .iter()
+                    .any(|dir| dir.distance(directions[0]) > 0.1);
+                hits += usize::from(apart);
+                misses += usize::from(apart);
+            }
+            Key::Tree { .. } => {
+                hits += 1;
+                misses += 1;
+            }
+            Key::Radiance { .. } => {}
+        }
+    }
+    hits > 0 && misses > 0
+}
+
+#[test]
+fn every_item_asks_for_opposite_answers() {
+    for seed in SEEDS {
+        for item in &exam_of(seed).items {
+            assert!(has_opposites(item), "seed {seed}, {}", item.id);
+        }
+    }
+}
+
+/// The trees of all questions with lists of rays.
+fn trees(exam: &Exam) -> Vec<(&str, Tree, Vec<Ray>)> {
+    let asked = exam
+        .items
+        .iter()
+        .flat_map(|item| item.questions.iter().map(move |asked| (&*item.id, asked)));
+    asked
+        .filter_map(|(id, asked)| match &asked.question {
+            Question::Traverse {
+                shapes,
+                nodes,
+                root,
+                rays: Rays::List(rays),
+            } => {
+                let tree = Tree {
+                    shapes: shapes.clone(),
+                    nodes: nodes.clone(),
+                    root: *root as usize,
+                };
+                Some((id, tree, rays.clone()))
+            }
+            Question::Traverse { .. }
+            | Question::Camera { .. }
+            | Question::Shapes { .. }
+            | Question::BBox { .. }
+            | Question::Build { .. }
+            | Question::BuildAndTraverse { .. }
+            | Question::Radiance { .. }
+            | Question::Done => None,
+        })
+        .collect()
+}
+
+#[test]
+fn no_correct_walk_ever_comes_to_a_trap() {
+    for seed in SEEDS {
+        let exam = exam_of(seed);
+        for (id, tree, rays) in trees(exam) {
+            assert!(trap::is_fair(&tree, &rays), "seed {seed}, {id}");
+        }
+    }
+}
+
+#[test]
+fn boxes_nest() {
+    for (id, tree, _) in trees(exam_of(SEEDS[0])) {
+        if tree.nodes.is_empty() {
+            continue;
+        }
+        for place in tree.below(tree.root) {
+            let node = &tree.nodes[place];
+            for child in [node.l, node.r].iter().filter(|_| !node.is_leaf()) {
+                let child = tree.bounds(*child as usize);
+                assert!(tree.bounds(place).contains(&child), "{id}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_linear_scan_is_wrong_in_every_item_about_walking() {
+    for seed in SEEDS {
+        let exam = exam_of(seed);
+        let mut caught: BTreeSet<&str> = BTreeSet::new();
+        for (id, tree, rays) in trees(exam) {
+            let wrong = rays.iter().any(|ray| {
+                let beam = Beam::from(ray);
+                author::oracle::scan::closest(&beam, &tree.shapes) != tree.truth(&beam)
+            });
+            if wrong {
+                caught.insert(id);
+            }
+        }
+        for item in exam.items.iter().filter(|item| item.task == Task::Traverse) {
+            assert!(caught.contains(&*item.id), "seed {seed}, {}", item.id);
+        }
+    }
+}
+
+#[test]
+fn a_deep_tree_has_sixty_levels() {
+    let exam = exam_of(SEEDS[0]);
+    let trees = trees(exam);
+    let (_, tree, _) = trees
+        .iter()
+        .find(|(id, ..)| *id == "traverse.deep")
+        .unwrap();
+    let levels = tree.leaves().into_iter().map(|leaf| tree.path(leaf).len());
+    assert_eq!(levels.max(), Some(60));
+}
+
+#[test]
+fn pictures_show_no_pole() {
+    for item in &exam_of(SEEDS[0]).items {
+        for asked in &item.questions {
+            let of_spheres = matches!(
+                &asked.question,
+                Question::Shapes { shapes, .. }
+                    if shapes.iter().any(|shape| matches!(shape, Shape::Sphere { .. }))
+            );
+            if let (true, Key::FirstHits { hits, .. }) = (of_spheres, &asked.key) {
+                let poles = hits
+                    .iter()
+                    .flatten()
+                    .filter(|hit| hit.normal.y.abs() > 0.999);
+                assert_eq!(poles.count(), 0, "{}", item.id);
+            }
+        }
+    }
+}
+
+#[test]
+fn materials_are_distinct_in_trees() {
+    for item in &exam_of(SEEDS[0]).items {
+        for asked in &item.questions {
+            let (Question::Build { shapes, .. }
+            | Question::BuildAndTraverse { shapes, .. }
+            | Question::Traverse { shapes, .. }) = &asked.question
+            else {
+                continue;
+            };
+            let materials: BTreeSet<u32> = shapes.iter().map(Shape::material).collect();
+            assert_eq!(materials.len(), shapes.len(), "{}", item.id);
+        }
+    }
+}
+
+#[test]
+fn another_seed_gives_another_exam_and_the_same_seed_the_same() {
+    assert!(make(SEEDS[0]) == *exam_of(SEEDS[0]));
+    let differs = |item: &Item| {
+        let mut others = exam_of(SEEDS[1]).items.iter();
+        others.find(|other| other.id == item.id) != Some(item)
+    };
+    let (drawn, fixed): (Vec<&Item>, Vec<&Item>) = exam_of(SEEDS[0])
+        .items
+        .iter()
+        .partition(|item| differs(item));
+    // Some ideas leave nothing to chance: round numbers, whole films.
+    assert!(
+        drawn.len() >= 70,
+        "{} items differ, {} do not",
+        drawn.len(),
+        fixed.len()
+    );
+}

@@ -1,0 +1,137 @@
+//! Builders that people write, good and bad.
+
+use author::oracle::bbox::Bounds;
+use author::oracle::scan;
+use protocol::Shape;
+
+/// How a node is split.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Splitter {
+    /// Binned SAH over all three axes.
+    Buckets { count: usize, extent: Extent },
+    /// The same over one axis.
+    OneAxis(usize),
+    /// At the middle of the longest axis of the centers.
+    Middle,
+    /// Half of the primitives to each side, along the longest axis.
+    Median,
+    /// Areas that are those of single buckets, not of all that go to a side.
+    AreaPerBucket,
+    /// The most expensive partition.
+    Worst,
+}
+
+/// What the buckets divide evenly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Extent {
+    /// The box around the primitives' centers.
+    Centers,
+    /// The node's own box.
+    Bounds,
+}
+
+/// The cost of the tree over these shapes: C_trav = C_isect = 1, areas by the root's.
+pub fn cost(shapes: &[Shape], max_leaf_size: usize, splitter: Splitter) -> f64 {
+    let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
+    let root = around(&boxes).area();
+    node(boxes, max_leaf_size, splitter) / root
+}
+
+fn around(boxes: &[Bounds]) -> Bounds {
+    let nothing = Bounds::around([]);
+    boxes.iter().fold(nothing, |all, next| all.union(next))
+}
+
+fn node(mut boxes: Vec<Bounds>, max_leaf_size: usize, splitter: Splitter) -> f64 {
+    let area = around(&boxes).area();
+    if boxes.len() <= max_leaf_size {
+        return area * boxes.len() as f64;
+    }
+    let right = split(&mut boxes, splitter);
+    area + node(boxes, max_leaf_size, splitter) + node(right, max_leaf_size, splitter)
+}
+
+fn split(boxes: &mut Vec<Bounds>, splitter: Splitter) -> Vec<Bounds> {
+    let centers = Bounds::around(boxes.iter().map(Bounds::center));
+    let size = centers.max - centers.min;
+    let longest = (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap();
+    let is_left: Box<dyn Fn(&Bounds) -> bool> = match splitter {
+        Splitter::Buckets { count, extent } => by_buckets(boxes, 0..3, count, extent, splitter),
+        Splitter::OneAxis(axis) => by_buckets(boxes, axis..axis + 1, 16, Extent::Centers, splitter),
+        Splitter::AreaPerBucket | Splitter::Worst => {
+            by_buckets(boxes, 0..3, 16, Extent::Centers, splitter)
+        }
+        Splitter::Middle => {
+            let middle = centers.center()[longest];
+            Box::new(move |bounds| bounds.center()[longest] < middle)
+        }
+        Splitter::Median => Box::new(|_| true),
+    };
+    let (left, right): (Vec<Bounds>, Vec<Bounds>) = boxes.iter().partition(|b| is_left(b));
+    if left.is_empty() || right.is_empty() {
+        boxes.sort_by(|a, b| a.center()[longest].total_cmp(&b.center()[longest]));
+        return boxes.split_off(boxes.len() / 2);
+    }
+    *boxes = left;
+    right
+}
+
+fn by_buckets(
+    boxes: &[Bounds],
+    axes: std::ops::Range<usize>,
+    count: usize,
+    extent: Extent,
+    splitter: Splitter,
+) -> Box<dyn Fn(&Bounds) -> bool> {
+    let over = match extent {
+        Extent::Centers => Bounds::around(boxes.iter().map(Bounds::center)),
+        Extent::Bounds => around(boxes),
+    };
+    let bucket = move |bounds: &Bounds, axis: usize| {
+        let size = over.max[axis] - over.min[axis];
+        let part = (bounds.center()[axis] - over.min[axis]) / size;
+        ((part * count as f64) as usize).min(count - 1)
+    };
+    let mut best: Option<(f64, usize, usize)> = None;
+    for axis in axes.filter(|&axis| over.max[axis] > over.min[axis]) {
+        let mut buckets = vec![Vec::new(); count];
+        for bounds in boxes {
+            buckets[bucket(bounds, axis)].push(*bounds);
+        }
+        for plane in 1..count {
+            let (left, right) = (buckets[..plane].concat(), buckets[plane..].concat());
+            if left.is_empty() || right.is_empty() {
+                continue;
+            }
+            let side = |side: &[Bounds], own: &[Bounds]| {
+                let measured = match splitter {
+                    Splitter::AreaPerBucket => own,
+                    Splitter::Buckets { .. }
+                    | Splitter::OneAxis(_)
+                    | Splitter::Middle
+                    | Splitter::Median
+                    | Splitter::Worst => side,
+                };
+                let area = if measured.is_empty() {
+                    0.0
+                } else {
+                    around(measured).area()
+                };
+                area * side.len() as f64
+            };
+            let cost = side(&left, &buckets[plane - 1]) + side(&right, &buckets[plane]);
+            let cost = if splitter == Splitter::Worst {
+                -cost
+            } else {
+                cost
+            };
+            if best.is_none_or(|(least, ..)| cost < least) {
+                best = Some((cost, axis, plane));
+            }
+        }
+    }
+    match best {
+        Some((_, axis, plane)) => Box::new(move |bounds| bucket(bounds, axis) < plane),
+        None => Box::new(|_| true),
+    }
+}

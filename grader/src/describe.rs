@@ -83,13 +83,15 @@ pub fn element(question: &Question, element: usize) -> String {
         Question::Camera { camera, samples } => {
             let samples = samples.on(camera.film);
             let place = samples.get(element).map_or(String::new(), |sample| {
-                format!(", pixel {} + {}", sample.pixel, uv(sample.offset))
+                let (pixel, offset) = (sample.pixel, uv(sample.offset));
+                format!(", pixel ({}, {}) + {offset}", pixel.x, pixel.y)
             });
             format!(
-                "camera of {}° and aspect {}, film {}{place}",
+                "camera of {}° and aspect {}, film {}×{}{place}",
                 number(camera.vertical_fov),
                 number(camera.aspect_ratio),
-                camera.film,
+                camera.film.x,
+                camera.film.y,
             )
         }
         Question::Shapes { shapes, rays } => format!("{}; {}", nth_ray(rays, element), all(shapes)),

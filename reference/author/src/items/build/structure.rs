@@ -1,0 +1,114 @@
+//! What must hold of every tree.
+
+use grader::exam::TreePart::{self, Contains, LeafSize, Partition, Stops, Tight};
+use grader::exam::{Asked, Item};
+
+use super::{asked, item};
+use crate::items::meshes;
+use crate::seed::Seed;
+
+/// Soups of several sizes, for leaves of several sizes.
+pub(super) fn soups(
+    name: &str,
+    seed: Seed,
+    judged: &[TreePart],
+    sizes: &[(usize, u32)],
+) -> Vec<Asked> {
+    soups_of(0.2, name, seed, judged, sizes)
+}
+
+/// The same of primitives of this size.
+pub(super) fn soups_of(
+    size: f64,
+    name: &str,
+    seed: Seed,
+    judged: &[TreePart],
+    sizes: &[(usize, u32)],
+) -> Vec<Asked> {
+    let mut draw = seed.draw(name);
+    let question = |&(count, max_leaf_size): &(usize, u32)| {
+        let shapes = meshes::soup(&mut draw, count, 3.0, size);
+        asked(judged, shapes, max_leaf_size)
+    };
+    sizes.iter().map(question).collect()
+}
+
+pub(super) fn partition(seed: Seed) -> Item {
+    item(
+        "partition",
+        2,
+        [
+            "every primitive is in exactly one leaf",
+            "A partition loses nothing and doubles nothing: the primitives of a node go to one of \
+             its children each, and start and size of the leaves count all of them once.",
+        ],
+        soups(
+            "build.partition",
+            seed,
+            &[Partition],
+            &[(37, 1), (90, 2), (200, 4), (120, 8)],
+        ),
+    )
+}
+
+pub(super) fn contains(seed: Seed) -> Item {
+    item(
+        "contains",
+        2,
+        [
+            "every box holds all that is below it",
+            "If a box misses some of its primitives, the bucket in which a primitive was counted may \
+             not be the side to which it was moved.",
+        ],
+        soups("build.contains", seed, &[Contains], &[(64, 1), (300, 4)]),
+    )
+}
+
+pub(super) fn tight(seed: Seed) -> Item {
+    item(
+        "tight",
+        1,
+        [
+            "no box is larger than what is below it needs",
+            "A node's box is the union of its primitives' boxes. One that starts at the origin \
+             instead of BBox::EMPTY, or is its parent's, is too large.",
+        ],
+        soups("build.tight", seed, &[Tight], &[(64, 1), (150, 4)]),
+    )
+}
+
+pub(super) fn leaf_size(seed: Seed) -> Item {
+    item(
+        "leaf_size",
+        2,
+        [
+            "no leaf holds more than max_leaf_size primitives",
+            "Split until a node has at most so many, whatever the heuristic says of it.",
+        ],
+        // So large that the heuristic alone would rather not split some of them.
+        soups_of(
+            2.5,
+            "build.leaf_size",
+            seed,
+            &[LeafSize],
+            &[(100, 1), (60, 2), (150, 4), (150, 8)],
+        ),
+    )
+}
+
+pub(super) fn stops(seed: Seed) -> Item {
+    item(
+        "stops",
+        1,
+        [
+            "a node with at most max_leaf_size primitives is a leaf",
+            "max_leaf_size itself is small enough: compare with <=.",
+        ],
+        soups(
+            "build.stops",
+            seed,
+            &[Stops],
+            &[(64, 2), (150, 4), (160, 8)],
+        ),
+    )
+}

@@ -1,0 +1,79 @@
+//! Task 1: cameras.
+//!
+//! A mistake in one quantity shall not spoil the others' items. So most of them look along the
+//! middle row of the film, where only x counts, and at the middles of pixels; and film and sensor
+//! have the same shape, but where that is the idea.
+
+mod ray;
+mod sensor;
+
+use glam::{UVec2, Vec2, uvec2};
+use grader::exam::{Asked, Item, Key, RayPart, Task};
+use protocol::{PinholeCamera, Question, Sample, Samples};
+
+use crate::oracle;
+use crate::seed::{Draw, Seed};
+
+const MIDDLE: Vec2 = Vec2::splat(0.5);
+
+/// The items of the task `camera`.
+pub fn items(seed: Seed) -> Vec<Item> {
+    let all: [fn(Seed) -> Item; 12] = [
+        sensor::corners,
+        sensor::field_of_view,
+        sensor::aspect_ratio,
+        sensor::other_aspect,
+        sensor::film,
+        sensor::bottom_left,
+        ray::offset,
+        ray::offset_axes,
+        ray::large_film,
+        ray::unit_length,
+        ray::origin_and_range,
+        ray::picture,
+    ];
+    all.into_iter().map(|item| item(seed)).collect()
+}
+
+fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<Asked>) -> Item {
+    super::item(Task::Camera, name, points, text, questions)
+}
+
+fn asked(judged: &[RayPart], camera: PinholeCamera, samples: Samples) -> Asked {
+    let truth = |sample| oracle::camera::direction(&camera, sample).as_vec3();
+    let directions = samples.on(camera.film).into_iter().map(truth).collect();
+    Asked {
+        question: Question::Camera { camera, samples },
+        key: Key::Rays {
+            judged: judged.to_vec(),
+            directions,
+        },
+    }
+}
+
+fn directions(camera: PinholeCamera, samples: Vec<Sample>) -> Asked {
+    asked(&[RayPart::Direction], camera, Samples::List(samples))
+}
+
+fn camera(vertical_fov: f64, aspect_ratio: f64, film: UVec2) -> PinholeCamera {
+    PinholeCamera {
+        vertical_fov: vertical_fov as f32,
+        aspect_ratio: aspect_ratio as f32,
+        film,
+    }
+}
+
+/// The middles of all pixels of the middle row of a film with an odd number of rows.
+fn middle_row(film: UVec2) -> Vec<Sample> {
+    let pixels = (0..film.x).map(|x| uvec2(x, film.y / 2));
+    pixels
+        .map(|pixel| Sample {
+            pixel,
+            offset: MIDDLE,
+        })
+        .collect()
+}
+
+fn below(draw: &mut Draw, n: u32) -> u32 {
+    draw.index(n as usize) as u32
+}

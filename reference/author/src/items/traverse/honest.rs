@@ -1,0 +1,187 @@
+//! Trees that tell the truth: every primitive lies in its leaf, but for orphans.
+
+use glam::DVec3;
+use grader::exam::Item;
+use protocol::Shape;
+
+use super::{from_around, honest, item, soup_tree};
+use crate::items::{meshes, ray};
+use crate::oracle::Beam;
+use crate::seed::{Draw, Seed};
+use crate::tree::{Tree, plant};
+
+pub(super) fn closest_hit(seed: Seed) -> Item {
+    let mut draw = seed.draw("traverse.closest_hit");
+    // Large facets: the boxes of siblings overlap much.
+    let tree = soup_tree(&mut draw, 40, 1.6, 1);
+    item(
+        "closest_hit",
+        1,
+        [
+            "of all hits the closest is the answer, not the first that is found",
+            "Boxes overlap: the child that is entered first may hold a hit that is farther than one \
+             in the other. Keep the closest so far, and look on.",
+        ],
+        vec![honest(&mut draw, tree, [24, 8], from_around)],
+    )
+}
+
+pub(super) fn first_box_empty(seed: Seed) -> Item {
+    let mut draw = seed.draw("traverse.first_box_empty");
+    // Small facets in large boxes.
+    let tree = soup_tree(&mut draw, 40, 0.5, 1);
+    item(
+        "first_box_empty",
+        1,
+        [
+            "a box that is hit may hold nothing that is",
+            "As long as nothing was hit there is no closest hit, and nothing is farther away than \
+             it: a distance that starts at 0 skips everything.",
+        ],
+        vec![honest(&mut draw, tree, [16, 16], from_around)],
+    )
+}
+
+pub(super) fn range(seed: Seed) -> Item {
+    let mut draw = seed.draw("traverse.range");
+    let tree = soup_tree(&mut draw, 40, 1.4, 1);
+    // From between the first two of the hits, or up to somewhere before the first or the second.
+    let kind = |draw: &mut Draw, tree: &Tree| {
+        draw.until(|draw| {
+            let ray = from_around(draw, tree);
+            let beam = Beam::from(&ray);
+            let first = tree.truth(&beam)?.distance;
+            let rest = Beam {
+                min: first + 0.05,
+                ..beam
+            };
+            let second = tree.truth(&rest)?.distance;
+            let (min, max) = match draw.index(3) {
+                0 => (draw.uniform(first, second), second + 9.0),
+                1 => (0.0, draw.uniform(first * 0.5, first)),
+                _ => (0.0, draw.uniform(first, second)),
+            };
+            Some(ray.within(min as f32, max as f32))
+        })
+    };
+    Item {
+        needs: [
+            "triangle.inside",
+            "triangle.range_max",
+            "triangle.range_min",
+            "bbox.through",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+        ..item(
+            "range",
+            1,
+            [
+                "only hits within the ray's range count",
+                "The ray's own range is the first limit; a closer hit only makes it smaller. It has \
+                 a start as well.",
+            ],
+            vec![honest(&mut draw, tree, [20, 8], kind)],
+        )
+    }
+}
+
+pub(super) fn leaf_of_several(seed: Seed) -> Item {
+    let mut draw = seed.draw("traverse.leaf_of_several");
+    let tree = soup_tree(&mut draw, 48, 1.0, 8);
+    item(
+        "leaf_of_several",
+        1,
+        [
+            "every primitive of a leaf is asked",
+            "A leaf holds primitives[start..start + size]; the closest of their hits counts, not the \
+             first.",
+        ],
+        vec![honest(&mut draw, tree, [24, 8], from_around)],
+    )
+}
+
+pub(super) fn deep(seed: Seed) -> Item {
+    let mut draw = seed.draw("traverse.deep");
+    const LEVELS: usize = 60;
+    let chips = (0..LEVELS).map(|i| {
+        let center = DVec3::X * (0.5 * i as f64) + draw.point(0.3);
+        meshes::chip(&mut draw, center, 0.5)
+    });
+    let chips: Vec<Shape> = chips.collect();
+    let tree = plant::chain(meshes::numbered(chips));
+    // Along the chain, from either end, and across it.
+    let kind = |draw: &mut Draw, _: &Tree| {
+        let target = DVec3::X * draw.uniform(0.0, 30.0) + draw.point(0.4);
+        let away = match draw.index(3) {
+            0 => DVec3::X + draw.point(0.2),
+            1 => DVec3::NEG_X + draw.point(0.2),
+            _ => draw.direction(),
+        };
+        ray(target + 6.0 * away, target)
+    };
+    item(
+        "deep",
+        1,
+        [
+            "a tree of 60 levels is walked to its end",
+            "A stack of fixed size must be large enough, and what is put on it must come off again.",
+        ],
+        vec![honest(&mut draw, tree, [24, 8], kind)],
+    )
+}
+
+pub(super) fn flat(seed: Seed) -> Item {
+    let mut draw = seed.draw("traverse.flat");
+    // Axis-parallel facets, one to a leaf.
+    let tiles = (0..36).map(|i| {
+        let axis = i % 3;
+        let (x, y) = (DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]);
+        let corner = draw.point(2.0);
+        let size = draw.uniform(0.6, 1.4) * draw.sign();
+        meshes::facet([corner, corner + size * x, corner + size * y], 0)
+    });
+    let tiles: Vec<Shape> = tiles.collect();
+    let tree = plant::halves(meshes::numbered(tiles), 1);
+    let mut item = item(
+        "flat",
+        1,
+        [
+            "leaves with flat boxes are entered",
+            "A ray enters a box without thickness and leaves it at the same time. If the box test is \
+             right, see how its answer is used: an interval of one point is not empty.",
+        ],
+        vec![honest(&mut draw, tree, [24, 8], from_around)],
+    );
+    item.needs.push("bbox.flat".to_owned());
+    item
+}
+
+pub(super) fn mixed(seed: Seed) -> Item {
+    let mut draw = seed.draw("traverse.mixed");
+    let shapes = (0..36).map(|i| {
+        let center = draw.point(2.0);
+        if i % 2 == 0 {
+            meshes::chip(&mut draw, center, 0.9)
+        } else {
+            Shape::Sphere {
+                center: center.as_vec3(),
+                radius: draw.uniform(0.2, 0.5) as f32,
+                material: 0,
+            }
+        }
+    });
+    let shapes: Vec<Shape> = shapes.collect();
+    let tree = plant::halves(meshes::numbered(shapes), 1);
+    let mut item = item(
+        "mixed",
+        1,
+        [
+            "spheres and triangles live in one tree",
+            "Primitive::hit asks whichever it is; their distances are compared alike.",
+        ],
+        vec![honest(&mut draw, tree, [24, 8], from_around)],
+    );
+    item.needs.push("sphere.near_side".to_owned());
+    item
+}

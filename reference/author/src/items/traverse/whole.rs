@@ -1,0 +1,122 @@
+//! Everything together.
+
+use glam::{DVec3, UVec2};
+use grader::exam::{Asked, Item, Key, Part};
+use protocol::{Question, Rays};
+
+use super::{FIRST_ORPHAN, from_around, honest, item, rays, soup_tree};
+use crate::items::{hits, meshes, picture};
+use crate::oracle::scan;
+use crate::recorded::Recorded;
+use crate::seed::{Draw, Seed};
+
+/// A small question that the linear scan gets wrong, and every walk through a tree right.
+pub(super) fn orphans_alone(draw: &mut Draw) -> Asked {
+    let tree = soup_tree(draw, 12, 0.9, 1);
+    honest(draw, tree, [8, 4], from_around)
+}
+
+pub(super) fn own_tree(seed: Seed) -> Item {
+    let mut draw = seed.draw("traverse.own_tree");
+    let tree = soup_tree(&mut draw, 400, 0.5, 4);
+    let rays = rays(&mut draw, &tree, [40, 16], from_around);
+    let key = hits(&[Part::Distance], &rays, |beam| {
+        scan::closest(beam, &tree.shapes)
+    });
+    let own = Asked {
+        question: Question::BuildAndTraverse {
+            shapes: tree.shapes,
+            max_leaf_size: 4,
+            rays: Rays::List(rays),
+        },
+        key,
+    };
+    let mut item = item(
+        "own_tree",
+        1,
+        [
+            "your own tree, walked, finds what asking every primitive finds",
+            "If all other items of both tasks pass, see what the tree that you build has and the \
+             exam's do not.",
+        ],
+        vec![own, orphans_alone(&mut draw)],
+    );
+    item.needs
+        .extend(["build.partition", "build.contains"].map(str::to_owned));
+    item
+}
+
+pub(super) fn picture(seed: Seed) -> Item {
+    let mut draw = seed.draw("traverse.picture");
+    let tree = soup_tree(&mut draw, 300, 0.4, 4);
+    let mut tree = tree.with_roots_at_both_ends(&mut draw);
+    let eye = DVec3::new(0.4, 0.7, 4.5);
+    let view = picture::narrow(eye.as_vec3(), (-eye).normalize(), 0.5, 64);
+    // An orphan before the left half of the view, right where the tree begins.
+    let corner = |x: f64, y: f64| DVec3::new(x, y, 3.0);
+    let curtain = [corner(-4.0, -4.0), corner(0.3, 0.6), corner(-4.0, 4.0)];
+
+    let key = picture::first_hits(&view, |beam| scan::closest(beam, &tree.shapes));
+    tree.shapes.push(meshes::facet(curtain, FIRST_ORPHAN));
+    let question = Question::Traverse {
+        shapes: tree.shapes,
+        nodes: tree.nodes,
+        root: tree.root as u32,
+        rays: Rays::View(view),
+    };
+    item(
+        "picture",
+        2,
+        [
+            "a picture through a tree is right in hit, depth, normal and uv",
+            "If pieces are missing, some nodes are skipped that should be entered; if pieces that \
+             lie behind show, the closest hit is not kept.",
+        ],
+        vec![Asked { question, key }, orphans_alone(&mut draw)],
+    )
+}
+
+/// What the radiance item asks; who records its key asks the reference the same.
+pub fn radiance_question(seed: Seed, scene: String) -> Question {
+    let mut draw = seed.draw("traverse.radiance.seed");
+    Question::Radiance {
+        scene,
+        film: UVec2::splat(32),
+        samples: 16,
+        bounces: 3,
+        seed: draw.index(1 << 30) as u64,
+    }
+}
+
+/// A path-traced picture, and the reference's own.
+pub fn radiance_item(seed: Seed, recorded: Recorded) -> Item {
+    /// Of 1024 pixels; correct variants stay below half of it.
+    const ALLOWED: u32 = 7;
+    let picture = Asked {
+        question: recorded.question,
+        key: Key::Radiance {
+            pixels: recorded.pixels,
+            allowed: ALLOWED,
+        },
+    };
+    let mut draw = seed.draw("traverse.radiance");
+    let needs = [
+        "camera.corners",
+        "triangle.inside",
+        "triangle.normal",
+        "bbox.through",
+    ];
+    Item {
+        needs: needs.map(str::to_owned).to_vec(),
+        ..item(
+            "radiance",
+            2,
+            [
+                "all of it together draws the Cornell box",
+                "Every random number is the framework's, so the picture must be the same but for a \
+                 few pixels. If this is the only item that fails, look at cargo render.",
+            ],
+            vec![picture, orphans_alone(&mut draw)],
+        )
+    }
+}

@@ -1,0 +1,227 @@
+//! Hit or miss, and how far away.
+
+use glam::{Vec2, Vec3, vec3};
+use grader::exam::{Asked, Item, Part};
+use protocol::{Ray, Shape, Vertex};
+
+use super::aim::{Side, hit, ray_through, shape, triangle, weights_beyond, weights_inside};
+use super::{item, tables};
+use crate::items::{ray, shapes};
+use crate::oracle::{Beam, triangle};
+use crate::seed::{Draw, Seed};
+
+pub(super) fn inside(seed: Seed) -> Item {
+    item(
+        "inside",
+        2,
+        [
+            "a ray through the inside hits, at the distance t",
+            "Solve the three equations for u, v and t. Mind the signs in Cramer's rule, and that the \
+             last column of the matrix is −d.",
+        ],
+        tables("triangle.inside", seed, &[Part::Distance], Side::Front),
+    )
+}
+
+pub(super) fn outside(seed: Seed) -> Item {
+    let mut draw = seed.draw("triangle.outside");
+    let mut table = || {
+        let vertices = triangle(&mut draw);
+        let mut rays: Vec<Ray> = (0..12)
+            .map(|i| {
+                let weights = weights_beyond(&mut draw, i % 3);
+                ray_through(&mut draw, &vertices, weights, Side::Front)
+            })
+            .collect();
+        rays.extend((0..4).map(|_| hit(&mut draw, &vertices, Side::Front)));
+        shapes(&[], vec![shape(&vertices, 0)], draw.shuffled(rays))
+    };
+    item(
+        "outside",
+        2,
+        [
+            "a ray that crosses the plane beyond an edge misses",
+            "u, v and w = 1 − u − v belong to one corner each. Beyond an edge the weight of the \
+             corner opposite is negative: there are three edges.",
+        ],
+        vec![table(), table(), table()],
+    )
+}
+
+pub(super) fn from_behind(seed: Seed) -> Item {
+    item(
+        "from_behind",
+        1,
+        [
+            "a triangle is hit from behind as well",
+            "Seen from behind the determinant has the other sign. That is no reason for a miss.",
+        ],
+        tables("triangle.from_behind", seed, &[Part::Distance], Side::Back),
+    )
+}
+
+/// Hits and misses through the same triangle that differ by their range alone.
+pub(super) fn ranges(
+    name: &str,
+    seed: Seed,
+    range: impl Fn(&mut Draw, f64) -> (f64, f64),
+) -> Vec<Asked> {
+    let mut draw = seed.draw(name);
+    let mut table = || {
+        let vertices = triangle(&mut draw);
+        let rays = (0..12).map(|_| {
+            let ray = hit(&mut draw, &vertices, Side::Either);
+            let met = triangle::meet(&Beam::from(&ray), &vertices, 0).expect("it was aimed at it");
+            let (min, max) = range(&mut draw, met.distance);
+            ray.within(min as f32, max as f32)
+        });
+        let rays = rays.collect();
+        shapes(&[Part::Distance], vec![shape(&vertices, 0)], rays)
+    };
+    vec![table(), table()]
+}
+
+pub(super) fn range_max(seed: Seed) -> Item {
+    let range = |draw: &mut Draw, t: f64| (0.0, t + draw.sign() * draw.uniform(0.03, 0.6));
+    item(
+        "range_max",
+        1,
+        [
+            "beyond the end of the ray's range there is no hit",
+            "Compare t with ray.range before you answer: a shadow ray ends at the light.",
+        ],
+        ranges("triangle.range_max", seed, range),
+    )
+}
+
+pub(super) fn range_min(seed: Seed) -> Item {
+    let range = |draw: &mut Draw, t: f64| (t + draw.sign() * draw.uniform(0.03, 0.6), t + 9.0);
+    item(
+        "range_min",
+        1,
+        [
+            "before the start of the ray's range there is no hit",
+            "The range has two ends. Its start need not be 0.",
+        ],
+        ranges("triangle.range_min", seed, range),
+    )
+}
+
+pub(super) fn behind_the_ray(seed: Seed) -> Item {
+    let mut draw = seed.draw("triangle.behind_the_ray");
+    let mut table = || {
+        let vertices = triangle(&mut draw);
+        let rays = (0..12).map(|i| {
+            let ray = hit(&mut draw, &vertices, Side::Either);
+            if i % 2 == 0 {
+                ray
+            } else {
+                Ray::new(ray.origin, -ray.dir)
+            }
+        });
+        let rays = rays.collect();
+        shapes(&[Part::Distance], vec![shape(&vertices, 0)], rays)
+    };
+    item(
+        "behind_the_ray",
+        1,
+        [
+            "a triangle behind the ray is missed",
+            "There t is negative, and the weights look as if all were well.",
+        ],
+        vec![table(), table()],
+    )
+}
+
+pub(super) fn tiny(seed: Seed) -> Item {
+    let mut draw = seed.draw("triangle.tiny");
+    let mut table = || {
+        // Half of its edges' length is the side of the cube that they are drawn from.
+        let mut vertices = triangle(&mut draw);
+        for vertex in &mut vertices {
+            vertex.position *= 4e-4;
+        }
+        let [p0, p1, p2] = triangle::corners(&vertices);
+        let front = (p1 - p0).cross(p2 - p0).normalize();
+        let rays = (0..16).map(|i| {
+            let weights = if i % 2 == 0 {
+                weights_inside(&mut draw, 0.1)
+            } else {
+                weights_beyond(&mut draw, i % 3).map(|w| w * 2.0 - 1.0 / 3.0)
+            };
+            let target = weights[0] * p0 + weights[1] * p1 + weights[2] * p2;
+            draw.until(|draw| {
+                let away = draw.direction();
+                let ray = ray(target + draw.uniform(0.1, 0.5) * away, target);
+                let crossing = triangle::crossing(&Beam::from(&ray), [p0, p1, p2])?;
+                let steep = away.dot(front).abs() > 0.5;
+                (steep && crossing.depth().abs() > 0.05).then_some(ray)
+            })
+        });
+        let rays = rays.collect();
+        shapes(&[Part::Distance], vec![shape(&vertices, 0)], rays)
+    };
+    item(
+        "tiny",
+        1,
+        [
+            "a triangle of edge 1e-3 is as good as any",
+            "The determinant shrinks with the area: it is small for small triangles, not only for \
+             parallel rays. Compare it with zero, not with a small number.",
+        ],
+        vec![table(), table()],
+    )
+}
+
+/// Small whole numbers, so that every correct formula's determinant is exactly zero.
+pub(super) fn degenerate(seed: Seed) -> Item {
+    let mut draw = seed.draw("triangle.degenerate");
+    let flat = |corners: [Vec3; 3]| {
+        let vertices = corners.map(|corner| Vertex::new(corner, Vec3::Z, Vec2::ZERO));
+        shape(&vertices, 0)
+    };
+    let control = |draw: &mut Draw| {
+        let vertices = triangle(draw);
+        let rays = (0..4).map(|_| hit(draw, &vertices, Side::Either)).collect();
+        shapes(&[Part::Distance], vec![shape(&vertices, 0)], rays)
+    };
+    let down = |x: f32, y: f32| Ray::new(vec3(x, y, 4.0), Vec3::NEG_Z);
+    let along = |y: f32, z: f32| Ray::new(vec3(-4.0, y, z), Vec3::X);
+
+    let line = flat([
+        vec3(0.0, 1.0, 0.0),
+        vec3(1.0, 1.0, 0.0),
+        vec3(3.0, 1.0, 0.0),
+    ]);
+    let point = flat([vec3(1.0, 1.0, 0.0); 3]);
+    let edge_of_none = flat([
+        vec3(1.0, 2.0, 0.0),
+        vec3(1.0, 2.0, 0.0),
+        vec3(3.0, 2.0, 0.0),
+    ]);
+    let half_square = flat([
+        vec3(0.0, 0.0, 0.0),
+        vec3(4.0, 0.0, 0.0),
+        vec3(0.0, 4.0, 0.0),
+    ]);
+    let ask = |shape: Shape, rays: Vec<Ray>| shapes(&[], vec![shape], rays);
+    item(
+        "degenerate",
+        1,
+        [
+            "a triangle without area, or parallel to the ray, is missed",
+            "Then the determinant is zero, and 1/0 is no number to go on with: such a triangle can \
+             not be hit.",
+        ],
+        vec![
+            ask(line, vec![down(1.0, 1.0), down(2.0, 1.0), down(2.0, 3.0)]),
+            ask(point, vec![down(1.0, 1.0), down(0.0, 0.0)]),
+            ask(edge_of_none, vec![down(2.0, 2.0), down(1.0, 2.0)]),
+            ask(
+                half_square,
+                vec![along(1.0, 0.0), along(1.0, 2.0), along(-1.0, 0.0)],
+            ),
+            control(&mut draw),
+        ],
+    )
+}

@@ -1,0 +1,50 @@
+//! Task 2, step 1: triangles.
+
+mod aim;
+mod hits;
+mod scene;
+mod surface;
+
+use aim::{Side, hit, miss, shape, triangle};
+use grader::exam::{Asked, Item, Part, Task};
+use protocol::Ray;
+
+use crate::seed::Seed;
+
+/// The items of the task `triangle`.
+pub fn items(seed: Seed) -> Vec<Item> {
+    let all: [fn(Seed) -> Item; 15] = [
+        hits::inside,
+        hits::outside,
+        surface::position,
+        surface::normal,
+        surface::uv,
+        surface::uv_corners,
+        hits::from_behind,
+        surface::normal_from_behind,
+        hits::range_max,
+        hits::range_min,
+        hits::behind_the_ray,
+        hits::tiny,
+        hits::degenerate,
+        surface::origin_and_material,
+        scene::picture,
+    ];
+    all.into_iter().map(|item| item(seed)).collect()
+}
+
+fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<Asked>) -> Item {
+    super::item(Task::Triangle, name, points, text, questions)
+}
+
+/// Questions about four triangles: for each, rays that hit it from this side, and some that miss.
+fn tables(name: &str, seed: Seed, judged: &[Part], side: Side) -> Vec<Asked> {
+    let mut draw = seed.draw(name);
+    let mut table = || {
+        let vertices = triangle(&mut draw);
+        let mut rays: Vec<Ray> = (0..8).map(|_| hit(&mut draw, &vertices, side)).collect();
+        rays.extend((0..4).map(|_| miss(&mut draw, &vertices, side)));
+        super::shapes(judged, vec![shape(&vertices, 0)], draw.shuffled(rays))
+    };
+    (0..4).map(|_| table()).collect()
+}

@@ -1,0 +1,91 @@
+//! A picture of triangles.
+
+use glam::{Vec3, dvec3, vec2, vec3};
+use grader::exam::Item;
+use protocol::{Shape, Vertex};
+
+use super::aim::{shape, triangle};
+use super::item;
+use crate::items::picture;
+use crate::seed::{Draw, Seed};
+
+pub(super) fn picture(seed: Seed) -> Item {
+    let shapes = picture_shapes(&mut seed.draw("triangle.picture"));
+    item(
+        "picture",
+        4,
+        [
+            "a picture of triangles is right in hit, depth, normal and uv",
+            "A smooth hill, a square of two halves, triangles from behind, and some tiny ones. Look \
+             where it is wrong: along edges, on one side, or in the small ones?",
+        ],
+        vec![picture::shapes(picture::from_origin(64), shapes)],
+    )
+}
+
+/// What stands before a camera at the origin that looks down −z at 90 degrees.
+pub(super) fn picture_shapes(draw: &mut Draw) -> Vec<Shape> {
+    let mut shapes = Vec::new();
+    let mut add = |vertices: [Vertex; 3]| shapes.push(shape(&vertices, 0));
+
+    // A square whose diagonal passes exactly through the middles of pixels.
+    let corner = |x: f32, y: f32| {
+        let uv = vec2(0.3 + 0.15 * x, 0.4 + 0.15 * y);
+        Vertex::new(vec3(x - 2.0, y - 2.0, -4.0), Vec3::Z, uv)
+    };
+    let corners = [
+        corner(-1.0, -1.0),
+        corner(1.0, -1.0),
+        corner(1.0, 1.0),
+        corner(-1.0, 1.0),
+    ];
+    add([corners[0], corners[1], corners[2]]);
+    add([corners[0], corners[2], corners[3]]);
+
+    // A smooth hill of 5 × 4 squares.
+    let height = draw.uniform(0.5, 0.8);
+    let hill = |i: usize, j: usize| {
+        let (x, y) = (i as f64 / 5.0, j as f64 / 4.0);
+        let (u, v) = (2.0 * x - 1.0, 2.0 * y - 1.0);
+        let up = height * (1.0 - u * u) * (1.0 - v * v);
+        let slope_x = -2.0 * height * u * (1.0 - v * v);
+        let slope_y = -2.0 * height * v * (1.0 - u * u);
+        let normal = dvec3(-slope_x / 2.2, -slope_y / 1.6, 1.0).normalize();
+        let position = dvec3(1.3 + 2.2 * u, 1.7 + 1.6 * v, -5.0 + up);
+        let uv = vec2(0.05 + 0.9 * x as f32, 0.05 + 0.9 * y as f32);
+        Vertex::new(position.as_vec3(), normal.as_vec3(), uv)
+    };
+    for i in 0..5 {
+        for j in 0..4 {
+            let square = [
+                hill(i, j),
+                hill(i + 1, j),
+                hill(i + 1, j + 1),
+                hill(i, j + 1),
+            ];
+            add([square[0], square[1], square[2]]);
+            add([square[0], square[2], square[3]]);
+        }
+    }
+
+    // Some that are seen from behind, among others that are not, at all distances.
+    for _ in 0..6 {
+        let mut vertices = triangle(draw);
+        let middle = dvec3(draw.uniform(0.5, 3.0), draw.uniform(-3.0, -1.0), -4.5);
+        for vertex in &mut vertices {
+            vertex.position = (0.45 * vertex.position.as_dvec3() + middle).as_vec3();
+        }
+        add(vertices);
+    }
+
+    // Tiny ones, close to the camera.
+    for i in 0..6 {
+        let mut vertices = triangle(draw);
+        let middle = dvec3(-0.016 + 0.004 * f64::from(i), 0.013, -0.02);
+        for vertex in &mut vertices {
+            vertex.position = (6e-4 * vertex.position.as_dvec3() + middle).as_vec3();
+        }
+        add(vertices);
+    }
+    shapes
+}

@@ -1,0 +1,113 @@
+//! What is told of the meeting.
+
+use grader::exam::{Item, Part};
+use protocol::Ray;
+
+use super::aim::{Side, hit, miss, ray_through, shape, triangle, weights_inside};
+use super::{item, tables};
+use crate::items::shapes;
+use crate::seed::Seed;
+
+pub(super) fn position(seed: Seed) -> Item {
+    item(
+        "position",
+        1,
+        [
+            "position is the point of the meeting",
+            "It is the ray's point at t, or the weighted sum of the corners: both are the same.",
+        ],
+        tables("triangle.position", seed, &[Part::Position], Side::Front),
+    )
+}
+
+pub(super) fn normal(seed: Seed) -> Item {
+    item(
+        "normal",
+        1,
+        [
+            "the normal is interpolated between the corners' normals",
+            "Smooth shading: each corner has a normal of its own, and the face's normal is not asked. \
+             w belongs to p0, u to p1, v to p2.",
+        ],
+        tables("triangle.normal", seed, &[Part::Normal], Side::Front),
+    )
+}
+
+pub(super) fn uv(seed: Seed) -> Item {
+    item(
+        "uv",
+        1,
+        [
+            "uv is interpolated between the corners' texture coordinates",
+            "u and v of the barycentric coordinates are weights; the uv of the Trace is the weighted \
+             sum of the corners' uv.",
+        ],
+        tables("triangle.uv", seed, &[Part::Uv], Side::Front),
+    )
+}
+
+pub(super) fn uv_corners(seed: Seed) -> Item {
+    let mut draw = seed.draw("triangle.uv_corners");
+    let mut table = || {
+        let vertices = triangle(&mut draw);
+        let mut rays = Vec::new();
+        for corner in 0..3 {
+            for _ in 0..3 {
+                let mut weights = weights_inside(&mut draw, 0.25).map(|w| 0.2 * w);
+                weights[corner] += 0.8;
+                rays.push(ray_through(&mut draw, &vertices, weights, Side::Front));
+            }
+            rays.push(miss(&mut draw, &vertices, Side::Front));
+        }
+        shapes(&[Part::Uv], vec![shape(&vertices, 0)], rays)
+    };
+    item(
+        "uv_corners",
+        1,
+        [
+            "near a corner, that corner's texture coordinates count most",
+            "If two corners' are exchanged, so are two of the weights: w is p0's, u is p1's, v is \
+             p2's.",
+        ],
+        vec![table(), table()],
+    )
+}
+
+pub(super) fn normal_from_behind(seed: Seed) -> Item {
+    item(
+        "normal_from_behind",
+        1,
+        [
+            "seen from behind, the normal stays as it is",
+            "The normal belongs to the surface, not to the ray: it is never flipped toward it.",
+        ],
+        tables(
+            "triangle.normal_from_behind",
+            seed,
+            &[Part::Normal],
+            Side::Either,
+        ),
+    )
+}
+
+pub(super) fn origin_and_material(seed: Seed) -> Item {
+    let mut draw = seed.draw("triangle.origin_and_material");
+    let mut table = |material: u32| {
+        let vertices = triangle(&mut draw);
+        let mut rays: Vec<Ray> = (0..6)
+            .map(|_| hit(&mut draw, &vertices, Side::Front))
+            .collect();
+        rays.extend((0..3).map(|_| miss(&mut draw, &vertices, Side::Front)));
+        let judged = [Part::Origin, Part::Material];
+        shapes(&judged, vec![shape(&vertices, material)], rays)
+    };
+    item(
+        "origin_and_material",
+        1,
+        [
+            "the answer names the ray's origin and the triangle's material",
+            "Both are copied: origin from the ray that was asked, material from the triangle.",
+        ],
+        vec![table(0), table(7), table(42)],
+    )
+}

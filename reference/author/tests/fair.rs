@@ -8,7 +8,7 @@ use glam::Vec3;
 use grader::exam::{Asked, Hit, Item, Key, Part, RayPart};
 use protocol::{Answer, Outcome, Ray, Trace};
 
-use crate::solver::{Solver, boxes, shapes, walks};
+use crate::solver::{Solver, boxes, cameras, spheres, triangles, walks};
 
 const SEEDS: [u64; 4] = [2025, 1, 2, 3];
 
@@ -44,7 +44,7 @@ fn assert_fair(task: fn(Seed) -> Vec<Item>, honest: &[(&str, Solver)]) {
 
 #[test]
 fn cameras() {
-    let honest = boxes::CAMERAS.map(|(name, camera)| {
+    let honest = cameras::CAMERAS.map(|(name, camera)| {
         let right = Solver::RIGHT;
         (name, Solver { camera, ..right })
     });
@@ -53,7 +53,7 @@ fn cameras() {
 
 #[test]
 fn triangles() {
-    let honest = shapes::TRIANGLES.map(|(name, triangle)| {
+    let honest = triangles::TRIANGLES.map(|(name, triangle)| {
         let right = Solver::RIGHT;
         (name, Solver { triangle, ..right })
     });
@@ -62,7 +62,7 @@ fn triangles() {
 
 #[test]
 fn spheres() {
-    let honest = shapes::SPHERES.map(|(name, sphere)| {
+    let honest = spheres::SPHERES.map(|(name, sphere)| {
         let right = Solver::RIGHT;
         (name, Solver { sphere, ..right })
     });
@@ -85,7 +85,7 @@ fn builders() {
 
 #[test]
 fn walks() {
-    let honest = walks::WALKS.map(|(name, walk)| {
+    let honest = walks::whole::WALKS.map(|(name, walk)| {
         let right = Solver::RIGHT;
         (name, Solver { walk, ..right })
     });

@@ -1,42 +1,13 @@
 //! What must hold of every exam, whatever its seed.
 
+mod exams;
+
 use std::collections::BTreeSet;
-use std::sync::LazyLock;
 
-use author::exams::exam;
-use author::oracle::Beam;
-use author::recorded::Recorded;
-use author::seed::Seed;
-use author::tree::Tree;
-use author::tree::trap;
-use glam::{UVec2, Vec3};
-use grader::exam::{Exam, Item, Key, Task};
-use protocol::{Question, Ray, Rays, Shape};
+use grader::exam::{Item, Key, Task};
+use protocol::{Question, Ray, Shape};
 
-const SEEDS: [u64; 3] = [2025, 77, 78];
-
-/// An exam of each seed; their pictures of radiance are none.
-static EXAMS: LazyLock<Vec<Exam>> = LazyLock::new(|| SEEDS.map(make).into());
-
-fn exam_of(seed: u64) -> &'static Exam {
-    let place = SEEDS.iter().position(|other| *other == seed);
-    &EXAMS[place.expect("one of the seeds")]
-}
-
-fn make(seed: u64) -> Exam {
-    let question = Question::Radiance {
-        scene: String::new(),
-        film: UVec2::ONE,
-        samples: 1,
-        bounces: 1,
-        seed,
-    };
-    let recorded = Recorded {
-        question,
-        pixels: vec![Vec3::ONE],
-    };
-    exam("test", Seed(seed), recorded)
-}
+use crate::exams::{SEEDS, exam_of, make};
 
 fn rays(question: &Question) -> Vec<Ray> {
     match question {
@@ -163,97 +134,6 @@ fn every_item_asks_for_opposite_answers() {
             assert!(has_opposites(item), "seed {seed}, {}", item.id);
         }
     }
-}
-
-/// The trees of all questions with lists of rays.
-fn trees(exam: &Exam) -> Vec<(&str, Tree, Vec<Ray>)> {
-    let asked = exam
-        .items
-        .iter()
-        .flat_map(|item| item.questions.iter().map(move |asked| (&*item.id, asked)));
-    asked
-        .filter_map(|(id, asked)| match &asked.question {
-            Question::Traverse {
-                shapes,
-                nodes,
-                root,
-                rays: Rays::List(rays),
-            } => {
-                let tree = Tree {
-                    shapes: shapes.clone(),
-                    nodes: nodes.clone(),
-                    root: *root as usize,
-                };
-                Some((id, tree, rays.clone()))
-            }
-            Question::Traverse { .. }
-            | Question::Camera { .. }
-            | Question::Shapes { .. }
-            | Question::BBox { .. }
-            | Question::Build { .. }
-            | Question::BuildAndTraverse { .. }
-            | Question::Radiance { .. }
-            | Question::Done => None,
-        })
-        .collect()
-}
-
-#[test]
-fn no_correct_walk_ever_comes_to_a_trap() {
-    for seed in SEEDS {
-        let exam = exam_of(seed);
-        for (id, tree, rays) in trees(exam) {
-            assert!(trap::is_fair(&tree, &rays), "seed {seed}, {id}");
-        }
-    }
-}
-
-#[test]
-fn boxes_nest() {
-    for (id, tree, _) in trees(exam_of(SEEDS[0])) {
-        if tree.nodes.is_empty() {
-            continue;
-        }
-        for place in tree.below(tree.root) {
-            let node = &tree.nodes[place];
-            for child in [node.l, node.r].iter().filter(|_| !node.is_leaf()) {
-                let child = tree.bounds(*child as usize);
-                assert!(tree.bounds(place).contains(&child), "{id}");
-            }
-        }
-    }
-}
-
-#[test]
-fn a_linear_scan_is_wrong_in_every_item_about_walking() {
-    for seed in SEEDS {
-        let exam = exam_of(seed);
-        let mut caught: BTreeSet<&str> = BTreeSet::new();
-        for (id, tree, rays) in trees(exam) {
-            let wrong = rays.iter().any(|ray| {
-                let beam = Beam::from(ray);
-                author::oracle::scan::closest(&beam, &tree.shapes) != tree.truth(&beam)
-            });
-            if wrong {
-                caught.insert(id);
-            }
-        }
-        for item in exam.items.iter().filter(|item| item.task == Task::Traverse) {
-            assert!(caught.contains(&*item.id), "seed {seed}, {}", item.id);
-        }
-    }
-}
-
-#[test]
-fn a_deep_tree_has_sixty_levels() {
-    let exam = exam_of(SEEDS[0]);
-    let trees = trees(exam);
-    let (_, tree, _) = trees
-        .iter()
-        .find(|(id, ..)| *id == "traverse.deep")
-        .unwrap();
-    let levels = tree.leaves().into_iter().map(|leaf| tree.path(leaf).len());
-    assert_eq!(levels.max(), Some(60));
 }
 
 #[test]

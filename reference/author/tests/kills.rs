@@ -7,7 +7,7 @@ use author::items::{bbox, build, camera, sphere, traverse, triangle};
 use author::seed::Seed;
 use grader::exam::Item;
 
-use crate::solver::{Solver, boxes, shapes, trees, walks};
+use crate::solver::{Solver, boxes, cameras, spheres, trees, triangles, walks};
 
 const SEEDS: [u64; 2] = [2025, 11];
 
@@ -43,14 +43,14 @@ fn cameras() {
     };
     assert_killed(
         camera::items,
-        boxes::WRONG_CAMERAS
+        cameras::WRONG_CAMERAS
             .into_iter()
             .map(|(name, wrong)| (name, with(wrong))),
     );
     assert_nothing(
         camera::items,
         "straight ahead",
-        with(boxes::WRONG_CAMERAS[0].1),
+        with(cameras::WRONG_CAMERAS[0].1),
     );
 }
 
@@ -60,7 +60,7 @@ fn triangles() {
         triangle,
         ..Solver::RIGHT
     };
-    let wrong = shapes::WRONG_TRIANGLES;
+    let wrong = triangles::WRONG_TRIANGLES;
     assert_killed(
         triangle::items,
         wrong.into_iter().map(|(name, wrong)| (name, with(wrong))),
@@ -74,7 +74,7 @@ fn spheres() {
         sphere,
         ..Solver::RIGHT
     };
-    let wrong = shapes::WRONG_SPHERES;
+    let wrong = spheres::WRONG_SPHERES;
     assert_killed(
         sphere::items,
         wrong.into_iter().map(|(name, wrong)| (name, with(wrong))),
@@ -84,17 +84,17 @@ fn spheres() {
 
 #[test]
 fn a_constant_hit_passes_nothing() {
-    let triangle: shapes::TriangleHit = |ray, vertices, material| {
+    let triangle: triangles::TriangleHit = |ray, vertices, material| {
         let target = (vertices[0].position + vertices[1].position + vertices[2].position) / 3.0;
-        let [.., (_, hit)] = shapes::TRIANGLES;
+        let [.., (_, hit)] = triangles::TRIANGLES;
         hit(
             &protocol::Ray::new(ray.origin, target - ray.origin),
             vertices,
             material,
         )
     };
-    let sphere: shapes::SphereHit = |ray, center, radius, material| {
-        let [(_, hit), ..] = shapes::SPHERES;
+    let sphere: spheres::SphereHit = |ray, center, radius, material| {
+        let [(_, hit), ..] = spheres::SPHERES;
         hit(
             &protocol::Ray::new(ray.origin, center - ray.origin),
             center,
@@ -148,7 +148,7 @@ fn walks() {
         walk,
         ..Solver::RIGHT
     };
-    let wrong = walks::WRONG_WALKS;
+    let wrong = walks::wrong::WRONG_WALKS;
     assert_killed(
         traverse::items,
         wrong.into_iter().map(|(name, wrong)| (name, with(wrong))),
@@ -162,7 +162,7 @@ fn walks() {
 fn the_slides_pseudo_code_to_the_letter_costs_a_little() {
     for seed in SEEDS {
         let items = traverse::items(Seed(seed));
-        let (name, walk) = walks::SLIDES;
+        let (name, walk) = walks::whole::SLIDES;
         let (lost, points) = Solver {
             walk,
             ..Solver::RIGHT

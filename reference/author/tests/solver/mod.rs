@@ -4,17 +4,21 @@
 
 pub mod boxes;
 pub mod builders;
-pub mod shapes;
+pub mod cameras;
+pub mod spheres;
 pub mod trees;
+pub mod triangles;
 pub mod walks;
 
 use grader::exam::Item;
 use grader::judge::{Share, judge};
 use protocol::{Answer, Outcome, Question, Ray, Shape, Trace};
 
-use boxes::{BoxHit, SampleRay};
-use shapes::{SphereHit, TriangleHit};
+use boxes::BoxHit;
+use cameras::SampleRay;
+use spheres::SphereHit;
 use trees::BuildTree;
+use triangles::TriangleHit;
 use walks::{Scene, Walk};
 
 /// One way to do each task.
@@ -31,12 +35,12 @@ pub struct Solver {
 impl Solver {
     /// All of it right.
     pub const RIGHT: Solver = Solver {
-        camera: boxes::CAMERAS[0].1,
-        triangle: shapes::TRIANGLES[0].1,
-        sphere: shapes::SPHERES[0].1,
+        camera: cameras::CAMERAS[0].1,
+        triangle: triangles::TRIANGLES[0].1,
+        sphere: spheres::SPHERES[0].1,
         bbox: boxes::BOXES[0].1,
         build: trees::halves,
-        walk: walks::WALKS[0].1,
+        walk: walks::whole::WALKS[0].1,
     };
 
     /// What one primitive answers.

@@ -102,6 +102,7 @@ pub(super) fn picture(seed: Seed) -> Item {
             material: 0,
         }
     };
+    let view = |half, pixels| picture::narrow(Vec3::ZERO, DVec3::NEG_Z, half, pixels);
     // No centre is so high or low that its sphere would show a pole.
     let from_outside = vec![
         sphere(0.2, 0.0, -5.0, 1.2),
@@ -120,11 +121,8 @@ pub(super) fn picture(seed: Seed) -> Item {
              sets it apart: its radius, or where the camera is.",
         ],
         vec![
-            picture::shapes(picture::from_origin(64), from_outside),
-            picture::shapes(
-                picture::narrow(Vec3::ZERO, DVec3::NEG_Z, 0.6, 32),
-                from_inside,
-            ),
+            picture::shapes(view(0.6, 64), from_outside),
+            picture::shapes(view(0.6, 32), from_inside),
         ],
     )
 }

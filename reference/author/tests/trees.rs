@@ -1,0 +1,103 @@
+//! What must hold of the exam's own trees.
+
+mod exams;
+
+use std::collections::BTreeSet;
+
+use author::oracle::{Beam, scan};
+use author::tree::{Tree, trap};
+use grader::exam::{Exam, Task};
+use protocol::{Question, Ray, Rays};
+
+use crate::exams::{SEEDS, exam_of};
+
+/// The trees of all questions with lists of rays.
+fn trees(exam: &Exam) -> Vec<(&str, Tree, Vec<Ray>)> {
+    let asked = exam
+        .items
+        .iter()
+        .flat_map(|item| item.questions.iter().map(move |asked| (&*item.id, asked)));
+    asked
+        .filter_map(|(id, asked)| match &asked.question {
+            Question::Traverse {
+                shapes,
+                nodes,
+                root,
+                rays: Rays::List(rays),
+            } => {
+                let tree = Tree {
+                    shapes: shapes.clone(),
+                    nodes: nodes.clone(),
+                    root: *root as usize,
+                };
+                Some((id, tree, rays.clone()))
+            }
+            Question::Traverse { .. }
+            | Question::Camera { .. }
+            | Question::Shapes { .. }
+            | Question::BBox { .. }
+            | Question::Build { .. }
+            | Question::BuildAndTraverse { .. }
+            | Question::Radiance { .. }
+            | Question::Done => None,
+        })
+        .collect()
+}
+
+#[test]
+fn no_correct_walk_ever_comes_to_a_trap() {
+    for seed in SEEDS {
+        let exam = exam_of(seed);
+        for (id, tree, rays) in trees(exam) {
+            assert!(trap::is_fair(&tree, &rays), "seed {seed}, {id}");
+        }
+    }
+}
+
+#[test]
+fn boxes_nest() {
+    for (id, tree, _) in trees(exam_of(SEEDS[0])) {
+        if tree.nodes.is_empty() {
+            continue;
+        }
+        for place in tree.below(tree.root) {
+            let node = &tree.nodes[place];
+            for child in [node.l, node.r].iter().filter(|_| !node.is_leaf()) {
+                let child = tree.bounds(*child as usize);
+                assert!(tree.bounds(place).contains(&child), "{id}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_linear_scan_is_wrong_in_every_item_about_walking() {
+    for seed in SEEDS {
+        let exam = exam_of(seed);
+        let mut caught: BTreeSet<&str> = BTreeSet::new();
+        for (id, tree, rays) in trees(exam) {
+            let wrong = rays.iter().any(|ray| {
+                let beam = Beam::from(ray);
+                scan::closest(&beam, &tree.shapes) != tree.truth(&beam)
+            });
+            if wrong {
+                caught.insert(id);
+            }
+        }
+        for item in exam.items.iter().filter(|item| item.task == Task::Traverse) {
+            assert!(caught.contains(&*item.id), "seed {seed}, {}", item.id);
+        }
+    }
+}
+
+#[test]
+fn a_deep_tree_has_sixty_levels() {
+    let exam = exam_of(SEEDS[0]);
+    let trees = trees(exam);
+    let (_, tree, _) = trees
+        .iter()
+        .find(|(id, ..)| *id == "traverse.deep")
+        .unwrap();
+    let levels = tree.leaves().into_iter().map(|leaf| tree.path(leaf).len());
+    assert_eq!(levels.max(), Some(60));
+}

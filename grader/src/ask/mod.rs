@@ -1,7 +1,9 @@
 //! Asking a probe: questions go in, answers come out, and nothing that happens there can hold the
 //! grader up.
 
-use std::fmt;
+mod budget;
+mod fault;
+
 use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -14,6 +16,11 @@ use protocol::{Answer, Question};
 
 use crate::capture::Capture;
 use crate::sandbox::{Ending, Limits, Process};
+
+use budget::Watch;
+
+pub use budget::Budget;
+pub use fault::{Budgeted, Crash, Fault};
 
 /// How much is kept of what a submission prints.
 const KEPT: usize = 64 << 10;
@@ -31,53 +38,6 @@ const RUNTIME_WORDS: [&str; 4] = [
     "fatal runtime error",
     "note: run with `RUST_BACKTRACE=1`",
 ];
-
-/// What one item may use.
-#[derive(Clone, Copy, Debug)]
-pub struct Budget {
-    /// CPU time, which is what counts.
-    pub cpu: Duration,
-}
-
-impl Budget {
-    /// Wall time is only a back-stop: on a machine under load it says nothing of the code.
-    pub fn wall(self) -> Duration {
-        4 * self.cpu + Duration::from_secs(5)
-    }
-}
-
-/// Why there is no answer. Every one costs the item, and the probe.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Fault {
-    /// The item's time is over.
-    TimedOut(Budgeted),
-    /// Memory ran out.
-    OutOfMemory,
-    /// The process ended.
-    Crashed(Crash),
-    /// What came is no answer to what was asked.
-    Protocol(String),
-}
-
-/// Which time was over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Budgeted {
-    /// So much CPU time was used.
-    Cpu(Duration),
-    /// It waited for so long without using its CPU time.
-    Wall(Duration),
-}
-
-/// How a process ended before it had answered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Crash {
-    /// It recursed until its stack was full.
-    StackOverflow,
-    /// It left by itself.
-    Exited(i32),
-    /// The system ended it.
-    Signal(i32),
-}
 
 /// A running probe.
 #[derive(Debug)]
@@ -174,11 +134,7 @@ impl Probe {
             self.questions.send(frame).ok();
         }
 
-        let watch = Watch {
-            began: Instant::now(),
-            cpu_then: self.process.cpu_time(),
-            budget,
-        };
+        let watch = Watch::begin(budget, self.process.cpu_time());
         let mut answers = Vec::with_capacity(nonces.len());
         for nonce in nonces {
             let frame = self.frame(&watch)?;
@@ -251,25 +207,6 @@ impl Probe {
     }
 }
 
-/// When the item was asked, and what it may use.
-struct Watch {
-    began: Instant,
-    cpu_then: Option<Duration>,
-    budget: Budget,
-}
-
-impl Watch {
-    fn over(&self, cpu_now: Option<Duration>) -> Option<Budgeted> {
-        let cpu = cpu_now.zip(self.cpu_then);
-        let cpu = cpu.map(|(now, then)| now.saturating_sub(then));
-        if cpu.is_some_and(|used| used >= self.budget.cpu) {
-            return Some(Budgeted::Cpu(self.budget.cpu));
-        }
-        let wall = self.budget.wall();
-        (self.began.elapsed() >= wall).then_some(Budgeted::Wall(wall))
-    }
-}
-
 /// Nothing that a submission could know or guess.
 fn nonce() -> u64 {
     getrandom::u64().expect("the system has random numbers")
@@ -277,33 +214,4 @@ fn nonce() -> u64 {
 
 fn protocol_fault(error: WireError) -> Fault {
     Fault::Protocol(error.to_string())
-}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Fault::TimedOut(Budgeted::Cpu(limit)) => write!(
-                f,
-                "stopped after {} s of computing: an endless loop?",
-                limit.as_secs_f64()
-            ),
-            Fault::TimedOut(Budgeted::Wall(limit)) => write!(
-                f,
-                "stopped after {} s: is it waiting for something?",
-                limit.as_secs_f64()
-            ),
-            Fault::OutOfMemory => f.write_str("out of memory: does something grow without end?"),
-            Fault::Crashed(Crash::StackOverflow) => {
-                f.write_str("the stack overflowed: recursion without end?")
-            }
-            Fault::Crashed(Crash::Exited(code)) => write!(
-                f,
-                "the program ended (exit code {code}) before it had answered"
-            ),
-            Fault::Crashed(Crash::Signal(signal)) => {
-                write!(f, "the program was ended by signal {signal}")
-            }
-            Fault::Protocol(why) => write!(f, "what came back is no answer: {why}"),
-        }
-    }
 }

@@ -1,0 +1,48 @@
+//! How long an item may take.
+
+use std::time::{Duration, Instant};
+
+use super::fault::Budgeted;
+
+/// What one item may use.
+#[derive(Clone, Copy, Debug)]
+pub struct Budget {
+    /// CPU time, which is what counts.
+    pub cpu: Duration,
+}
+
+impl Budget {
+    /// Wall time is only a back-stop: on a machine under load it says nothing of the code.
+    pub fn wall(self) -> Duration {
+        4 * self.cpu + Duration::from_secs(5)
+    }
+}
+
+/// When the item was asked, and what it may use.
+pub(super) struct Watch {
+    began: Instant,
+    cpu_then: Option<Duration>,
+    budget: Budget,
+}
+
+impl Watch {
+    /// Begins now, with the CPU time that the process has used before.
+    pub(super) fn begin(budget: Budget, cpu_then: Option<Duration>) -> Self {
+        Watch {
+            began: Instant::now(),
+            cpu_then,
+            budget,
+        }
+    }
+
+    /// Which time is over, if any is, now that the process has used so much.
+    pub(super) fn over(&self, cpu_now: Option<Duration>) -> Option<Budgeted> {
+        let cpu = cpu_now.zip(self.cpu_then);
+        let cpu = cpu.map(|(now, then)| now.saturating_sub(then));
+        if cpu.is_some_and(|used| used >= self.budget.cpu) {
+            return Some(Budgeted::Cpu(self.budget.cpu));
+        }
+        let wall = self.budget.wall();
+        (self.began.elapsed() >= wall).then_some(Budgeted::Wall(wall))
+    }
+}

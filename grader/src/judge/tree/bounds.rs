@@ -1,0 +1,67 @@
+//! Boxes, as the judge computes them.
+
+use glam::DVec3;
+use protocol::{Shape, TreeNode};
+
+/// A box in f64, so that the judge's own rounding does not matter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    pub(super) min: DVec3,
+    pub(super) max: DVec3,
+}
+
+impl Bounds {
+    pub(super) const EMPTY: Bounds = Bounds {
+        min: DVec3::INFINITY,
+        max: DVec3::NEG_INFINITY,
+    };
+
+    pub(super) fn of(node: &TreeNode) -> Self {
+        Bounds {
+            min: node.min.as_dvec3(),
+            max: node.max.as_dvec3(),
+        }
+    }
+
+    pub(super) fn around(shape: &Shape) -> Self {
+        let corners = |corners: [glam::Vec3; 3]| {
+            let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+            Bounds {
+                min: a.min(b).min(c),
+                max: a.max(b).max(c),
+            }
+        };
+        match *shape {
+            Shape::Triangle { vertices, .. } => corners(vertices.map(|vertex| vertex.position)),
+            Shape::Facet {
+                corners: points, ..
+            } => corners(points),
+            Shape::Sphere { center, radius, .. } => Bounds {
+                min: center.as_dvec3() - f64::from(radius),
+                max: center.as_dvec3() + f64::from(radius),
+            },
+        }
+    }
+
+    pub(super) fn enclose(&mut self, other: Bounds) {
+        self.min = self.min.min(other.min);
+        self.max = self.max.max(other.max);
+    }
+
+    pub(super) fn diagonal(self) -> f64 {
+        (self.max - self.min).length()
+    }
+
+    pub(super) fn area(self) -> f64 {
+        let size = self.max - self.min;
+        2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
+    }
+
+    /// Whether this box lies in `outer`, give or take `slack` and the last bits of an f32. Never
+    /// of a box with a NaN.
+    pub(super) fn is_within(self, outer: Bounds, slack: f64) -> bool {
+        let last_bits = self.min.abs().max(self.max.abs()) * 2.0 * f64::from(f32::EPSILON);
+        let slack = DVec3::splat(slack) + last_bits;
+        self.min.cmpge(outer.min - slack).all() && self.max.cmple(outer.max + slack).all()
+    }
+}

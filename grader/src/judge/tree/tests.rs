@@ -1,0 +1,134 @@
+use glam::{Vec3, vec3};
+use protocol::TreeNode;
+
+use super::*;
+
+/// Unit spheres in a row, two apart.
+fn row(count: u32) -> Vec<Shape> {
+    let ball = |i| Shape::Sphere {
+        center: vec3(2.0 * i as f32, 0.0, 0.0),
+        radius: 0.5,
+        material: i,
+    };
+    (0..count).map(ball).collect()
+}
+
+fn node(first: u32, last: u32, size: u32, l: u32, r: u32) -> TreeNode {
+    TreeNode {
+        min: vec3(2.0 * first as f32 - 0.5, -0.5, -0.5),
+        max: vec3(2.0 * last as f32 + 0.5, 0.5, 0.5),
+        start: first,
+        size,
+        l,
+        r,
+    }
+}
+
+/// Four spheres, two in each leaf, the root in the middle.
+fn good() -> Tree {
+    Tree {
+        nodes: vec![
+            node(0, 1, 2, 0, 0),
+            node(0, 3, 0, 0, 2),
+            node(2, 3, 2, 0, 0),
+        ],
+        root: 1,
+        order: vec![0, 1, 2, 3],
+    }
+}
+
+const ALL: [TreePart; 5] = [
+    TreePart::Partition,
+    TreePart::Contains,
+    TreePart::Tight,
+    TreePart::LeafSize,
+    TreePart::Stops,
+];
+
+fn what(tree: Tree) -> String {
+    match judge(&ALL, None, &row(4), 2, &Outcome::Value(tree)).failure {
+        None => "right".to_owned(),
+        Some(failure) => match failure.how {
+            How::Wrong { what, .. } => what,
+            How::Panicked(_) | How::Protocol(_) => unreachable!("it is a tree"),
+        },
+    }
+}
+
+fn spoiled(spoil: impl FnOnce(&mut Tree)) -> String {
+    let mut tree = good();
+    spoil(&mut tree);
+    what(tree)
+}
+
+#[test]
+fn each_part_of_a_tree_is_judged() {
+    assert_eq!(what(good()), "right");
+    assert_eq!(spoiled(|tree| tree.order = vec![0, 1, 2, 2]), "leaves");
+    assert_eq!(spoiled(|tree| tree.order = vec![0, 1, 2, 9]), "leaves");
+    assert_eq!(spoiled(|tree| tree.nodes[2].size = 3), "leaves");
+    assert_eq!(spoiled(|tree| tree.nodes[2].size = 1), "leaves");
+    assert_eq!(spoiled(|tree| tree.nodes[1].max.x = 3.0), "box too small");
+    assert_eq!(spoiled(|tree| tree.nodes[0].min.y = -0.6), "box too large");
+    assert_eq!(
+        spoiled(|tree| tree.nodes[0].min.y = f32::NAN),
+        "box too small"
+    );
+    assert_eq!(spoiled(|tree| tree.nodes[1].r = 7), "child r");
+    assert_eq!(spoiled(|tree| tree.nodes[1].r = 1), "nodes");
+    assert_eq!(spoiled(|tree| tree.root = 3), "root");
+    assert_eq!(spoiled(|tree| tree.nodes.clear()), "nodes");
+    let one_leaf = Tree {
+        nodes: vec![node(0, 3, 4, 0, 0)],
+        root: 0,
+        ..good()
+    };
+    assert_eq!(what(one_leaf), "leaf size");
+}
+
+#[test]
+fn a_node_that_should_be_a_leaf_is_told() {
+    let split = Outcome::Value(good());
+    let judgement = judge(&[TreePart::Stops], None, &row(4), 4, &split);
+    assert_eq!(judgement.share, Share::NONE);
+}
+
+#[test]
+fn cost_is_counted_as_by_hand() {
+    // Boxes of 1×1×7 (area 30) and twice 1×1×3 (area 14): 1 + 2 · 2 · 14/30.
+    let tree = good();
+    let cells = cells(&row(4), &tree).ok().expect("it is a tree");
+    let by_hand = 1.0 + 4.0 * 14.0 / 30.0;
+    assert!((cost(&cells) - by_hand).abs() < 1e-12);
+
+    let share = |ratio: f64| {
+        let sweep = Some(by_hand / ratio);
+        judge(&ALL, sweep, &row(4), 2, &Outcome::Value(good())).share
+    };
+    assert_eq!(share(1.11), Share::ALL);
+    assert_eq!(share(1.13), Share::HALF);
+    assert_eq!(share(1.26), Share::NONE);
+}
+
+#[test]
+fn nothing_may_be_no_node_or_one_leaf_of_none() {
+    let empty = |nodes| {
+        let tree = Tree {
+            nodes,
+            root: 0,
+            order: Vec::new(),
+        };
+        judge(&ALL, None, &[], 1, &Outcome::Value(tree)).share
+    };
+    assert_eq!(empty(Vec::new()), Share::ALL);
+    let leaf = TreeNode {
+        min: Vec3::INFINITY,
+        max: Vec3::NEG_INFINITY,
+        start: 0,
+        size: 0,
+        l: 0,
+        r: 0,
+    };
+    assert_eq!(empty(vec![leaf]), Share::ALL);
+    assert_eq!(empty(vec![TreeNode { size: 1, ..leaf }]), Share::NONE);
+}

@@ -9,7 +9,7 @@ use crate::oracle::Beam;
 use crate::oracle::bbox::Bounds;
 use crate::seed::{Draw, Seed};
 
-pub(super) fn point_in(draw: &mut Draw, bounds: &Bounds) -> DVec3 {
+fn point_in(draw: &mut Draw, bounds: &Bounds) -> DVec3 {
     let part = draw.point(0.4) + 0.5;
     bounds.min + part * (bounds.max - bounds.min)
 }

@@ -10,7 +10,7 @@ use crate::oracle::{scan, sweep};
 use crate::seed::{Draw, Seed};
 
 /// A question about the cost alone.
-pub(super) fn cost(shapes: Vec<Shape>, max_leaf_size: u32) -> Asked {
+fn cost(shapes: Vec<Shape>, max_leaf_size: u32) -> Asked {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let sweep_cost = Some(sweep::cost(&boxes, max_leaf_size as usize));
     Asked {
@@ -25,20 +25,14 @@ pub(super) fn cost(shapes: Vec<Shape>, max_leaf_size: u32) -> Asked {
     }
 }
 
-pub(super) fn cost_item(
-    name: &str,
-    points: u32,
-    text: [&str; 2],
-    draw_of: Draw,
-    mesh: Mesh,
-) -> Item {
+fn cost_item(name: &str, points: u32, text: [&str; 2], draw_of: Draw, mesh: Mesh) -> Item {
     let mut draw = draw_of;
     let shapes = mesh(&mut draw);
     let shapes = meshes::numbered(draw.shuffled(shapes));
     item(name, points, text, vec![cost(shapes, 4)])
 }
 
-pub(super) type Mesh = fn(&mut Draw) -> Vec<Shape>;
+type Mesh = fn(&mut Draw) -> Vec<Shape>;
 
 pub(super) fn cost_strands(seed: Seed) -> Item {
     cost_item(

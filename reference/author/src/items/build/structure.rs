@@ -8,17 +8,12 @@ use crate::items::meshes;
 use crate::seed::Seed;
 
 /// Soups of several sizes, for leaves of several sizes.
-pub(super) fn soups(
-    name: &str,
-    seed: Seed,
-    judged: &[TreePart],
-    sizes: &[(usize, u32)],
-) -> Vec<Asked> {
+fn soups(name: &str, seed: Seed, judged: &[TreePart], sizes: &[(usize, u32)]) -> Vec<Asked> {
     soups_of(0.2, name, seed, judged, sizes)
 }
 
 /// The same of primitives of this size.
-pub(super) fn soups_of(
+fn soups_of(
     size: f64,
     name: &str,
     seed: Seed,

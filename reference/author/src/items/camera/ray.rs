@@ -7,7 +7,7 @@ use protocol::{Sample, Samples};
 use super::{MIDDLE, asked, below, camera, directions, item};
 use crate::seed::{Draw, Seed};
 
-pub(super) fn place(draw: &mut Draw) -> f32 {
+fn place(draw: &mut Draw) -> f32 {
     // Not at the very ends: 1 is none of the offsets.
     draw.uniform(0.02, 0.98) as f32
 }
@@ -88,7 +88,7 @@ pub(super) fn large_film(seed: Seed) -> Item {
 
 /// Directions that differ much, so that a direction of wrong length or another origin is told apart
 /// from a constant answer.
-pub(super) fn spread(judged: &[RayPart], draw: &mut Draw) -> Asked {
+fn spread(judged: &[RayPart], draw: &mut Draw) -> Asked {
     let film = uvec2(7, 7);
     let samples = (0..16).map(|_| Sample {
         pixel: uvec2(below(draw, 7), below(draw, 7)),

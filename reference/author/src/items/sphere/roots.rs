@@ -110,7 +110,7 @@ pub(super) fn from_inside(seed: Seed) -> Item {
 }
 
 /// Rays through a sphere, each with a range that is made of its two roots.
-pub(super) fn ranges(
+fn ranges(
     name: &str,
     seed: Seed,
     range: impl Fn(&mut Draw, usize, [f64; 2]) -> (f64, f64),

@@ -9,7 +9,7 @@ use crate::items::picture;
 use crate::oracle::sphere::Ball;
 use crate::seed::{Draw, Seed};
 
-pub(super) fn either(draw: &mut Draw, ball: &Ball) -> Ray {
+fn either(draw: &mut Draw, ball: &Ball) -> Ray {
     if draw.coin() {
         hit(draw, ball)
     } else {

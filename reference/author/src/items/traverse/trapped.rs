@@ -11,7 +11,7 @@ use crate::tree::trap::{self, Shelter};
 use crate::tree::walk::Walk;
 
 /// Whether the slides' pseudo-code, taken literally, answers this ray rightly.
-pub(super) fn slides_are_right(tree: &Tree, ray: &Ray) -> bool {
+fn slides_are_right(tree: &Tree, ray: &Ray) -> bool {
     let beam = Beam::from(ray);
     Walk::slides(tree, &beam).closest == tree.truth(&beam)
 }
@@ -19,68 +19,89 @@ pub(super) fn slides_are_right(tree: &Tree, ray: &Ray) -> bool {
 /// The materials of traps begin here, those of orphans below.
 const FIRST_TRAP: u32 = 20_000;
 
+/// Which leaves shall hold traps for a ray.
+type Fits<'a> = &'a dyn Fn(&Tree, usize, &Beam) -> bool;
+
+/// The rays of a question that may get a trap; the others come after them.
+const TRAPPED: usize = 10;
+const OTHERS: [usize; 2] = [4, 4];
+/// So few traps say little.
+const FEWEST: usize = 4;
+
 /// A question with traps before most of the rays that hit something, each in a leaf that `fits`.
-/// The slides' pseudo-code shall be `right` about the rays that got one, and is about the others.
-pub(super) fn trapped(
-    draw: &mut Draw,
-    fits: &dyn Fn(&Tree, usize, &Beam) -> bool,
-    slides: Slides,
-) -> Asked {
-    const TRAPPED: usize = 10;
-    const OTHERS: [usize; 2] = [4, 4];
-    let mut tree = soup_tree(draw, 48, 0.7, 1);
-    let others = rays(draw, &tree, OTHERS, from_around);
-    let passing = rays(draw, &tree, [TRAPPED, 0], |draw, tree| {
+/// What the slides' pseudo-code makes of them is as given; all other rays it answers rightly.
+fn trapped(draw: &mut Draw, fits: Fits, slides: Slides) -> Asked {
+    draw.until(|draw| {
+        let tree = soup_tree(draw, 48, 0.7, 1);
+        let rays = passing_rays(draw, &tree, fits);
+        let (mut tree, count) = with_traps(draw, tree, &rays, fits, slides);
+        if count < FEWEST {
+            return None;
+        }
+        add_orphans(draw, &mut tree, &rays);
+        Some(asked(&tree.with_roots_at_both_ends(draw), rays))
+    })
+}
+
+/// Rays that have a leaf that fits, and then some others.
+fn passing_rays(draw: &mut Draw, tree: &Tree, fits: Fits) -> Vec<Ray> {
+    let mut passing = rays(draw, tree, [TRAPPED, 0], |draw, tree| {
         draw.until(|draw| {
             let ray = from_around(draw, tree);
             let beam = Beam::from(&ray);
-            let any = tree
-                .leaves()
-                .into_iter()
-                .any(|leaf| fits(tree, leaf, &beam));
-            any.then_some(ray)
+            let mut leaves = tree.leaves().into_iter();
+            leaves.any(|leaf| fits(tree, leaf, &beam)).then_some(ray)
         })
     });
-    let rays: Vec<Ray> = passing.into_iter().chain(others).collect();
+    passing.extend(rays(draw, tree, OTHERS, from_around));
+    passing
+}
 
-    let mut trapped_rays = Vec::new();
+/// Sets a trap for each of the first rays, where that can be done, and counts them.
+fn with_traps(
+    draw: &mut Draw,
+    mut tree: Tree,
+    rays: &[Ray],
+    fits: Fits,
+    slides: Slides,
+) -> (Tree, usize) {
+    const ATTEMPTS: usize = 30;
+    let mut done = Vec::new();
     for ray in 0..TRAPPED {
-        const ATTEMPTS: usize = 30;
         let material = FIRST_TRAP + ray as u32;
         let set = (0..ATTEMPTS).find_map(|_| {
-            let trapped = trap::set(draw, &tree, &rays, ray, material, fits)?;
-            let as_wanted = (0..).zip(&rays).all(|(place, asked)| {
-                let gets_one = place == ray || trapped_rays.contains(&place);
+            let trapped = trap::set(draw, &tree, rays, ray, material, fits)?;
+            let as_wanted = (0..).zip(rays).all(|(place, asked)| {
+                let gets_one = place == ray || done.contains(&place);
                 let wrong = gets_one && slides == Slides::Wrong;
                 slides_are_right(&trapped, asked) != wrong
             });
             as_wanted.then_some(trapped)
         });
-        // Not every leaf that fits is on the side that the slides treat as wanted.
+        // Not every leaf that fits is on the side where the slides do as wanted.
         if let Some(trapped) = set {
             tree = trapped;
-            trapped_rays.push(ray);
+            done.push(ray);
         }
     }
-    add_orphans(draw, &mut tree, &rays);
-    asked(&tree.with_roots_at_both_ends(draw), rays)
+    (tree, done.len())
 }
 
 /// What the slides' pseudo-code, taken literally, makes of a trap.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Slides {
+enum Slides {
     /// It is not caught.
     Right,
     /// It is caught.
     Wrong,
 }
 
-pub(super) fn is_sheltered(tree: &Tree, leaf: usize, beam: &Beam, wanted: Shelter) -> bool {
+fn is_sheltered(tree: &Tree, leaf: usize, beam: &Beam, wanted: Shelter) -> bool {
     trap::shelter(tree, leaf, beam) == Some(wanted)
 }
 
 /// Whether the ray misses the box of the leaf's sibling as well.
-pub(super) fn misses_sibling(tree: &Tree, leaf: usize, beam: &Beam) -> bool {
+fn misses_sibling(tree: &Tree, leaf: usize, beam: &Beam) -> bool {
     let sibling = tree.sibling(leaf);
     sibling.is_some_and(|sibling| tree.bounds(sibling).span(beam).is_none())
 }

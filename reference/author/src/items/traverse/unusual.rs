@@ -38,12 +38,7 @@ pub(super) fn root(seed: Seed) -> Item {
 
 /// Adds two trees, over primitives right before the rays, that do not hang below the root. Their
 /// own roots stand at those ends of the list where the tree's does not.
-pub(super) fn beside_others(
-    draw: &mut Draw,
-    mut tree: Tree,
-    rays: &[Ray],
-    place: RootPlace,
-) -> Tree {
+fn beside_others(draw: &mut Draw, mut tree: Tree, rays: &[Ray], place: RootPlace) -> Tree {
     let mut decoy = |tree: &mut Tree, nearness: f64| {
         let facets = rays.iter().enumerate().map(|(i, ray)| {
             let material = FIRST_ORPHAN + tree.shapes.len() as u32 + i as u32;

@@ -61,11 +61,7 @@ pub(super) fn from_behind(seed: Seed) -> Item {
 }
 
 /// Hits and misses through the same triangle that differ by their range alone.
-pub(super) fn ranges(
-    name: &str,
-    seed: Seed,
-    range: impl Fn(&mut Draw, f64) -> (f64, f64),
-) -> Vec<Asked> {
+fn ranges(name: &str, seed: Seed, range: impl Fn(&mut Draw, f64) -> (f64, f64)) -> Vec<Asked> {
     let mut draw = seed.draw(name);
     let mut table = || {
         let vertices = triangle(&mut draw);

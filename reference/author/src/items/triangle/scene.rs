@@ -24,7 +24,7 @@ pub(super) fn picture(seed: Seed) -> Item {
 }
 
 /// What stands before a camera at the origin that looks down −z at 90 degrees.
-pub(super) fn picture_shapes(draw: &mut Draw) -> Vec<Shape> {
+fn picture_shapes(draw: &mut Draw) -> Vec<Shape> {
     let mut shapes = Vec::new();
     let mut add = |vertices: [Vertex; 3]| shapes.push(shape(&vertices, 0));
 

@@ -1,8 +1,11 @@
 //! An exam that can not be asked is refused before anything is, with the place and what to do.
 
+use std::io::Write;
+use std::process::Stdio;
+
 use insta::assert_snapshot;
 
-use crate::harness::Submission;
+use crate::harness::{Submission, grader};
 
 /// A good exam of one item.
 const GOOD: &str = r#"{
@@ -44,6 +47,32 @@ fn a_good_one_is_asked() {
     let graded = submission.grade_with(&["--exam", path.to_str().unwrap()]);
     assert_eq!(graded.score()["points"], 5);
     assert_eq!(graded.score()["exam"]["id"], "small");
+}
+
+#[test]
+fn one_can_come_through_standard_input() {
+    let submission = Submission::reference("any");
+    let mut grader = grader()
+        .arg(submission.path())
+        .args(["--exam", "-", "--out"])
+        .arg(submission.path().join("out"))
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    grader
+        .stdin
+        .take()
+        .unwrap()
+        .write_all(GOOD.as_bytes())
+        .unwrap();
+    let output = grader.wait_with_output().unwrap();
+    assert!(output.status.success());
+    let report = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        report.contains("small exam") && report.contains("5 / 5"),
+        "{report}"
+    );
 }
 
 #[test]

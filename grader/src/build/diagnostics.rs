@@ -21,6 +21,14 @@ pub struct Diagnostic {
 struct Span {
     file_name: String,
     is_primary: bool,
+    #[serde(default)]
+    text: Vec<Line>,
+}
+
+/// A line of source that a span touches.
+#[derive(Clone, Debug, Deserialize)]
+struct Line {
+    text: String,
 }
 
 /// All errors among the compiler's messages; warnings are a matter between it and the student.
@@ -35,22 +43,37 @@ pub fn errors(messages: &str) -> Vec<Diagnostic> {
 impl Diagnostic {
     /// Which of the five files has to be mended: the one that the error is in. An error in a given
     /// file is told of the file that it points to for an explanation ("method not found for this
-    /// struct").
+    /// struct"), else of the one that its line calls.
     pub fn blamed(&self) -> Option<&'static str> {
-        let primary = self.spans.iter().filter(|span| span.is_primary);
+        let primary = || self.spans.iter().filter(|span| span.is_primary);
         let secondary = self.spans.iter().filter(|span| !span.is_primary);
         let explaining = self.children.iter().flat_map(|child| &child.spans);
-        primary
+        primary()
             .chain(secondary)
             .chain(explaining)
             .find_map(|span| TASK_FILES.iter().find(|file| file.name == span.file_name))
             .map(|file| file.name)
+            .or_else(|| {
+                primary()
+                    .flat_map(|span| &span.text)
+                    .find_map(|line| called(&line.text))
+            })
     }
 
     /// The whole message, as the compiler prints it.
     pub fn text(&self) -> &str {
         self.rendered.as_deref().unwrap_or(&self.message).trim_end()
     }
+}
+
+/// The file that a line of a given file calls first, by its name: `triangle.bbox()`.
+fn called(line: &str) -> Option<&'static str> {
+    let line = line.to_lowercase();
+    let place = |name: &str| line.find(name.trim_end_matches(".rs"));
+    let named = TASK_FILES
+        .iter()
+        .filter_map(|file| Some((place(file.name)?, file.name)));
+    named.min().map(|(_, name)| name)
 }
 
 #[cfg(test)]
@@ -77,6 +100,12 @@ mod tests {
         let child = r#"{"message":"defined here","level":"note","spans":[{"file_name":"bvh.rs","is_primary":true}]}"#;
         assert_eq!(one(IN_WORLD, child), Some("bvh.rs"));
         assert_eq!(one(IN_WORLD, ""), None);
+    }
+
+    #[test]
+    fn an_error_that_points_nowhere_is_told_of_what_its_line_calls() {
+        let span = r#"{"file_name":"primitive.rs","is_primary":true,"text":[{"text":"Primitive::Triangle(triangle) => triangle.bbox(),"}]}"#;
+        assert_eq!(one(span, ""), Some("triangle.rs"));
     }
 
     #[test]

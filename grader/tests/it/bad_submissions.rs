@@ -74,6 +74,24 @@ fn a_file_that_does_not_compile_costs_its_own_task() {
 }
 
 #[test]
+fn a_changed_signature_costs_its_own_task_though_a_given_file_trips_over_it() {
+    let graded = Submission::reference("signature")
+        .changed(
+            "sphere.rs",
+            "pub fn bbox(&self) -> BBox {",
+            "pub fn bbox(&self) -> Option<BBox> {",
+        )
+        .changed(
+            "sphere.rs",
+            "BBox::new(self.center - self.radius, self.center + self.radius)",
+            "Some(BBox::new(self.center - self.radius, self.center + self.radius))",
+        )
+        .grade();
+    assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
+    assert_eq!(graded.points()[..5], all_but(&[SPHERE])[..5]);
+}
+
+#[test]
 fn errors_that_only_show_one_after_the_other_are_each_found() {
     // The compiler stops at the first before it can see the second.
     let graded =

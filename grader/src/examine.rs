@@ -2,7 +2,7 @@
 
 use std::io;
 
-use crate::ask::{Budget, Fault, Launcher, Probe};
+use crate::ask::{Budget, Budgeted, Fault, Launcher, Probe};
 use crate::build::Build;
 use crate::exam::{Exam, Item, Task};
 use crate::judge::judge;
@@ -70,14 +70,15 @@ impl Session {
         let Some(launcher) = &self.launcher else {
             return Ok(Outcome::Pending);
         };
+        if self.out_of_time == PATIENCE {
+            return Ok(Outcome::GivenUp(Fault::TimedOut(Budgeted::Cpu(
+                self.budget.cpu,
+            ))));
+        }
         let mut probe = match self.probe.take() {
             Some(probe) => probe,
-            None => launcher.start()?,
+            None => launcher.start(self.budget)?,
         };
-        if self.out_of_time == PATIENCE {
-            let fault = Fault::TimedOut(crate::ask::Budgeted::Cpu(self.budget.cpu));
-            return Ok(Outcome::GivenUp(fault));
-        }
         let questions = item.questions.iter().map(|asked| &asked.question);
         match probe.ask(questions, self.budget) {
             Ok(answers) => {

@@ -35,8 +35,9 @@ pub fn replay(arguments: &Arguments, place: &Place) -> Result<String, Error> {
     let Some(program) = build.probe.clone() else {
         return Ok(shown);
     };
-    let mut probe = Launcher { program }.start()?;
-    let answered = probe.ask([&question], budget(arguments));
+    let budget = budget(arguments);
+    let mut probe = Launcher { program }.start(budget)?;
+    let answered = probe.ask([&question], budget);
     let got = got(answered);
     let printed = tame(probe.finish().trim_end(), LONGEST_PRINT);
     let printed = match printed.as_str() {

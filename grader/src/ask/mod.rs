@@ -60,17 +60,18 @@ pub struct Launcher {
 impl Launcher {
     /// Address space of a probe, of which 64 MiB are stack.
     const MEMORY: u64 = 1 << 30;
-    /// No honest item comes near, and a probe serves many: items are judged by their own time.
-    const LIFETIME: Duration = Duration::from_secs(3600);
+    /// A probe serves a whole task, whose items are judged by their own time. This many items' time
+    /// ends it even if the grader itself is killed.
+    const ITEMS: u32 = 30;
 
     /// Starts a process that waits for its first question.
-    pub fn start(&self) -> std::io::Result<Probe> {
+    pub fn start(&self, budget: Budget) -> std::io::Result<Probe> {
         let folder = self.program.parent().unwrap_or(Path::new("."));
         let mut command = Command::new(&self.program);
         command.env_clear();
         let limits = Limits {
             memory: Self::MEMORY,
-            cpu: Self::LIFETIME,
+            cpu: Self::ITEMS * budget.cpu,
             file: 0,
         };
         let mut process = Process::start(&mut command, folder, limits)?;

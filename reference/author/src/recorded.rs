@@ -71,10 +71,11 @@ pub fn cornell_box(question: impl FnOnce(String) -> Question) -> Result<Recorded
         return Err(NotRecorded::NotCompiled);
     }
     let program = build.probe.clone().ok_or(NotRecorded::NotCompiled)?;
-    let mut probe = Launcher { program }.start().map_err(NotRecorded::Start)?;
     let budget = Budget {
         cpu: Duration::from_secs(60),
     };
+    let launcher = Launcher { program };
+    let mut probe = launcher.start(budget).map_err(NotRecorded::Start)?;
     let answers = probe.ask([&question], budget).map_err(NotRecorded::Fault)?;
     match answers.into_iter().next() {
         Some(Answer::Picture(Outcome::Value(pixels))) => Ok(Recorded { question, pixels }),

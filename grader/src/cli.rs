@@ -21,7 +21,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     pub exam: Option<PathBuf>,
 
-    /// Where to write score.json; default: target/grade/<submission>
+    /// Where to write score.json; default: target/grade/NAME
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
 

@@ -37,6 +37,11 @@ pub struct Arguments {
     #[arg(long, value_name = "ITEM#N", conflicts_with_all = ["task", "require", "out"])]
     pub replay: Option<Place>,
 
+    /// Judge as on a student's machine: what rests on a failed task is blocked, and not asked again
+    /// with the reference's part in its place
+    #[arg(long)]
+    pub no_reference: bool,
+
     /// CPU time that an item may use, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=600))]
     pub cpu_limit: u64,

@@ -1,14 +1,15 @@
 //! Asking a whole exam, item by item. Whatever happens in one item, the next is asked.
 
 use std::io;
+use std::path::Path;
 
 use crate::ask::{Budget, Budgeted, Fault, Launcher, Probe};
-use crate::build::Build;
+use crate::build::{Build, Carried};
 use crate::exam::{Exam, Item, Task};
 use crate::judge::judge;
-use crate::score::Score;
+use crate::score::{ItemScore, Score};
 use crate::tame::tame;
-use crate::verdict::{Outcome, block, item_score};
+use crate::verdict::{Outcome, blocked, carried_forward, item_score, resting_on};
 
 /// After so many items of a task have run out of time, its others are not asked.
 const PATIENCE: usize = 2;
@@ -26,24 +27,59 @@ pub fn examine<E: From<io::Error>>(
     for task in Task::ALL {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
         // A process for each task: what one leaves behind can not help or harm another.
-        let mut session = Session::new(build, budget);
+        let mut sessions = Sessions::new(build, budget);
         for item in items {
-            let outcome = match build.not_compiled.get(task.file()) {
-                Some(why) => Outcome::NotCompiled(why),
-                None => session.ask(item)?,
-            };
-            let mut line = item_score(item, &outcome);
-            block(item, score, &mut line);
+            let line = sessions.line(item, score)?;
             score.record(line);
             score.total();
             progress(score)?;
         }
         if let Some(scores) = score.tasks.iter_mut().find(|scores| scores.id == task) {
-            scores.printed = session.printed();
+            scores.printed = sessions.own.printed();
         }
     }
     score.complete = true;
     progress(score)
+}
+
+/// One task, asked of the submission by itself, and where needed carried forward.
+struct Sessions<'a> {
+    build: &'a Build,
+    own: Session,
+    carried: Option<Session>,
+}
+
+impl<'a> Sessions<'a> {
+    fn new(build: &'a Build, budget: Budget) -> Self {
+        Sessions {
+            build,
+            own: Session::new(build.probe.as_deref(), budget),
+            carried: None,
+        }
+    }
+
+    /// What becomes of one item, after those that it needs.
+    fn line(&mut self, item: &Item, others: &Score) -> io::Result<ItemScore> {
+        if let Some(why) = self.build.not_compiled.get(item.task.file()) {
+            return Ok(item_score(item, &Outcome::NotCompiled(why)));
+        }
+        let line = item_score(item, &self.own.ask(item)?);
+        let Some(by) = resting_on(item, others, &line) else {
+            return Ok(line);
+        };
+        match self.build.carried()? {
+            Carried::NoReference => Ok(blocked(by, line)),
+            Carried::NotCompiled => Ok(line),
+            Carried::Program(program) => {
+                let budget = self.own.budget;
+                let carried = self
+                    .carried
+                    .get_or_insert_with(|| Session::new(Some(program), budget));
+                let again = item_score(item, &carried.ask(item)?);
+                Ok(carried_forward(by, line, again))
+            }
+        }
+    }
 }
 
 /// One task's process, started when there is something to ask and again after a fault.
@@ -56,9 +92,10 @@ struct Session {
 }
 
 impl Session {
-    fn new(build: &Build, budget: Budget) -> Self {
+    fn new(program: Option<&Path>, budget: Budget) -> Self {
+        let program = program.map(Path::to_owned);
         Session {
-            launcher: build.probe.clone().map(|program| Launcher { program }),
+            launcher: program.map(|program| Launcher { program }),
             budget,
             probe: None,
             printed: String::new(),

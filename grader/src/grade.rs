@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use crate::ask::Budget;
-use crate::build::{Build, Builder};
+use crate::build::{Build, BuildError, Builder};
 use crate::cli::Arguments;
 use crate::error::Error;
 use crate::exam::{Exam, Item, Task};
@@ -34,7 +34,7 @@ pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
     let submission = collect(arguments, &workspace)?;
 
     let began = Instant::now();
-    let build = Builder::prepare(&workspace)?.build(&submission)?;
+    let build = builder(arguments, &workspace)?.build(&submission)?;
     let built = Instant::now();
 
     let asked = restricted(&exam.exam, arguments.task);
@@ -58,6 +58,15 @@ pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
     })?;
     score.timings.exam_ms = millis(built.elapsed());
     Ok(Graded { score, file })
+}
+
+/// What submissions are built with: with the reference, where it is at hand and not declined.
+fn builder(arguments: &Arguments, workspace: &Workspace) -> Result<Builder, BuildError> {
+    let builder = Builder::prepare(workspace)?;
+    match workspace.reference() {
+        Some(reference) if !arguments.no_reference => builder.with_reference(&reference, workspace),
+        Some(_) | None => Ok(builder),
+    }
 }
 
 /// The submission that the command line names.

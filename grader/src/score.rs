@@ -94,6 +94,9 @@ pub struct ItemScore {
     /// For students: the first thing that went wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub evidence: Option<Evidence>,
+    /// Whether this is what came of asking again, with right parts in the place of the
+    /// submission's other files, because one of those had failed.
+    pub carried_forward: bool,
     /// Files beside this one that show it.
     pub pictures: Vec<String>,
     /// For staff only.

@@ -37,6 +37,7 @@ pub fn item_score(item: &Item, outcome: &Outcome) -> ItemScore {
         message: String::new(),
         hint: None,
         evidence: None,
+        carried_forward: false,
         pictures: Vec::new(),
         staff: None,
     };
@@ -157,19 +158,45 @@ fn message(what: &str, failure: &Failure) -> String {
     }
 }
 
-/// Items that rest on others, which earned nothing, and did not pass by themselves either.
-pub fn block(item: &Item, others: &Score, score: &mut ItemScore) {
-    if score.points > 0 || matches!(score.verdict, Verdict::NotCompiled | Verdict::Pending) {
-        return;
-    }
-    let needed = item.needs.iter().find(|id| {
+/// The item of another task that this one needs, which earned nothing, if that may be why this one
+/// was not passed.
+pub fn resting_on<'a>(item: &'a Item, others: &Score, line: &ItemScore) -> Option<&'a str> {
+    let failed = line.points < line.max_points && line.verdict != Verdict::Pending;
+    let earned_nothing = |id: &&String| {
         let needed = others.items().find(|other| other.id == **id);
         needed.is_some_and(|needed| needed.points == 0)
-    });
-    if let Some(by) = needed {
-        score.verdict = Verdict::Blocked { by: by.clone() };
-        score.message = format!("rests on {by}: mend that first");
-        score.hint = None;
-        score.evidence = None;
+    };
+    let needed = item.needs.iter().find(earned_nothing);
+    needed.filter(|_| failed).map(String::as_str)
+}
+
+/// Nobody can tell whose mistake it is, where there is no right part to try instead.
+pub fn blocked(by: &str, line: ItemScore) -> ItemScore {
+    if line.points > 0 {
+        return line;
+    }
+    ItemScore {
+        verdict: Verdict::Blocked { by: by.to_owned() },
+        message: format!("rests on {by}: mend that first"),
+        hint: None,
+        evidence: None,
+        ..line
+    }
+}
+
+/// The better of what the submission earns by itself and with right parts in the place of its
+/// other files. If both are nothing, the second tells more of this task.
+pub fn carried_forward(by: &str, own: ItemScore, carried: ItemScore) -> ItemScore {
+    if carried.points < own.points {
+        return own;
+    }
+    let message = match carried.message.as_str() {
+        "" => format!("wrong only because of {by}: with right parts in its place, all is well"),
+        message => format!("{message}; asked with right parts, because of {by}"),
+    };
+    ItemScore {
+        message,
+        carried_forward: true,
+        ..carried
     }
 }

@@ -42,6 +42,12 @@ impl Workspace {
         self.root.join("student")
     }
 
+    /// The solved files, where staff has them.
+    pub fn reference(&self) -> Option<PathBuf> {
+        let folder = self.root.join("reference/src");
+        folder.is_dir().then_some(folder)
+    }
+
     /// All that the grader writes unless told otherwise: reports, and what it keeps for the next
     /// run. `cargo clean` takes it away.
     pub fn grade(&self) -> PathBuf {

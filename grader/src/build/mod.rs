@@ -1,21 +1,27 @@
 //! From five files to a probe. A file that does not compile costs its own tasks: the starter's
 //! takes its place.
 
+mod carried;
 mod compile;
 mod dependencies;
 mod diagnostics;
+mod rustc;
 mod toolchain;
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use crate::build::compile::{Compiled, compile};
+use crate::build::carried::{CarryForward, NoParts, Parts};
+use crate::build::compile::compile;
 use crate::build::dependencies::{Dependencies, NoDependencies};
 use crate::build::diagnostics::Diagnostic;
+use crate::build::rustc::{Compiled, Rustc};
 use crate::build::toolchain::{NoToolchain, Toolchain};
+use crate::exam::Task;
 use crate::given::TaskFile;
 use crate::submission::{Submission, Unreadable};
 use crate::workspace::Workspace;
@@ -26,8 +32,9 @@ const ATTEMPTS: usize = 3;
 /// What submissions are built with: made once, used for many.
 #[derive(Clone, Debug)]
 pub struct Builder {
-    toolchain: Toolchain,
-    dependencies: Dependencies,
+    rustc: Rustc,
+    /// The reference's parts, where it is at hand.
+    parts: Option<Parts>,
     folder: PathBuf,
 }
 
@@ -38,8 +45,20 @@ pub struct Build {
     pub probe: Option<PathBuf>,
     /// The files whose tasks can not be graded, and why.
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
-    /// Holds the program; vanishes with it.
+    carry: Option<CarryForward>,
+    /// Holds the programs; vanishes with them.
     _folder: TempDir,
+}
+
+/// A submission's `bvh.rs` with the reference's parts in place of its other files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Carried<'a> {
+    /// The program.
+    Program(&'a Path),
+    /// It does not compile there.
+    NotCompiled,
+    /// There is no reference here, or no `bvh.rs`.
+    NoReference,
 }
 
 /// Why a file is not part of the program.
@@ -64,6 +83,9 @@ pub enum BuildError {
     /// There is nothing to link with.
     #[error(transparent)]
     Dependencies(#[from] NoDependencies),
+    /// There is nothing to carry forward on.
+    #[error(transparent)]
+    Parts(#[from] NoParts),
     /// The work folder can not be used.
     #[error("can not build in {path}: {source}")]
     Io {
@@ -80,9 +102,26 @@ impl Builder {
         let toolchain = Toolchain::find()?;
         let dependencies = Dependencies::prepare(workspace, &toolchain)?;
         Ok(Builder {
-            toolchain,
-            dependencies,
+            rustc: Rustc {
+                toolchain,
+                dependencies,
+            },
+            parts: None,
             folder: workspace.grade().join("work"),
+        })
+    }
+
+    /// Builds that can be carried forward as well, on the parts of this reference.
+    pub fn with_reference(
+        self,
+        reference: &Path,
+        workspace: &Workspace,
+    ) -> Result<Self, BuildError> {
+        let cache = workspace.grade().join("parts");
+        let parts = Parts::prepare(reference, &cache, &self.rustc)?;
+        Ok(Builder {
+            parts: Some(parts),
+            ..self
         })
     }
 
@@ -101,8 +140,8 @@ impl Builder {
         for attempt in 0..ATTEMPTS {
             let files = with_stand_ins(submission, &not_compiled);
             let place = folder.path().join(attempt.to_string());
-            match compile(&files, &place, &self.toolchain, &self.dependencies).map_err(io)? {
-                Compiled::Probe(path) => {
+            match compile(&files, &place, &self.rustc).map_err(io)? {
+                Compiled::Done(path) => {
                     probe = Some(path);
                     break;
                 }
@@ -122,9 +161,42 @@ impl Builder {
             blame_all(submission, why, &mut not_compiled);
         }
         Ok(Build {
+            carry: self.carry(submission, &not_compiled, &folder),
             probe,
             not_compiled,
             _folder: folder,
+        })
+    }
+
+    fn carry(
+        &self,
+        submission: &Submission,
+        not_compiled: &BTreeMap<&'static str, NotCompiled>,
+        folder: &TempDir,
+    ) -> Option<CarryForward> {
+        let parts = self.parts.clone()?;
+        let mut files = submission.files.iter();
+        let (file, text) = files.find(|(file, _)| file.name == Task::Traverse.file())?;
+        let bvh = text.as_ref().ok()?.clone();
+        (!not_compiled.contains_key(file.name)).then(|| CarryForward {
+            bvh,
+            parts,
+            rustc: self.rustc.clone(),
+            folder: folder.path().join("carried"),
+            program: OnceCell::new(),
+        })
+    }
+}
+
+impl Build {
+    /// The program with the reference's parts, compiled when it is first asked for.
+    pub fn carried(&self) -> io::Result<Carried<'_>> {
+        let Some(carry) = &self.carry else {
+            return Ok(Carried::NoReference);
+        };
+        Ok(match carry.program()? {
+            Some(program) => Carried::Program(program),
+            None => Carried::NotCompiled,
         })
     }
 }

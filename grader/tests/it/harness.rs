@@ -79,11 +79,22 @@ impl Submission {
         self.with(file, text.replace(from, to))
     }
 
+    /// As on a student's machine.
     pub fn grade(&self) -> Graded {
         self.grade_with(&[])
     }
 
+    /// As on a student's machine, with more arguments.
     pub fn grade_with(&self, arguments: &[&str]) -> Graded {
+        self.run(&[&["--no-reference"], arguments].concat())
+    }
+
+    /// As on the staff's machines.
+    pub fn grade_with_reference(&self) -> Graded {
+        self.run(&[])
+    }
+
+    fn run(&self, arguments: &[&str]) -> Graded {
         let out = self.folder.path().join("out");
         let output = grader()
             .arg(self.path())

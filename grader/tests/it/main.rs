@@ -3,6 +3,7 @@
 
 mod bad_exams;
 mod bad_submissions;
+mod carried_forward;
 mod command_line;
 mod harness;
 mod scores;

@@ -1,0 +1,206 @@
+//! A submission's `bvh.rs` on parts that are known to be right: so that a mistake in a box test
+//! does not cost the points of walking a tree.
+//!
+//! Those parts are the reference's other four files, compiled once. Of them the submission's
+//! compile sees the metadata alone; they are joined in a step that reads none of its text. The
+//! reference's own `bvh.rs` is not among them.
+
+use std::cell::OnceCell;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+
+use crate::build::rustc::{Compiled, Crate, Kind, Rustc};
+use crate::given::GIVEN_FILES;
+
+/// The reference's files that make up the parts, in the order of their dependence.
+const FILES: [&str; 5] = [
+    "camera.rs",
+    "bbox.rs",
+    "triangle.rs",
+    "sphere.rs",
+    "primitive.rs",
+];
+
+/// Their root.
+const PARTS: &str = "
+pub mod bbox;
+pub mod camera;
+pub mod primitive;
+pub mod sphere;
+pub mod triangle;
+";
+/// What the submission's `bvh.rs` and the given `world.rs` see as their crate.
+const AROUND: &str = "
+pub use parts::{bbox, camera, primitive, sphere, triangle};
+pub mod bvh;
+pub mod world;
+";
+const ENTRY: &str = "
+fn main() -> std::process::ExitCode {
+    framework::probe::main(&submission::world::Student)
+}
+";
+
+/// The compiled parts.
+#[derive(Clone, Debug)]
+pub struct Parts {
+    folder: PathBuf,
+}
+
+/// The reference, from which the parts are made, is not as it should be: not a student's fault.
+#[derive(Debug, thiserror::Error)]
+pub enum NoParts {
+    /// A file can not be read or written.
+    #[error("can not use {path}: {source}")]
+    Io {
+        /// Which.
+        path: PathBuf,
+        /// The system's words.
+        source: io::Error,
+    },
+    /// The compiler refuses them.
+    #[error("the reference does not compile: see `cargo check -p reference`")]
+    NotCompiled,
+}
+
+impl Parts {
+    /// Those made earlier from the same files, or newly made ones, kept below `cache`.
+    pub fn prepare(reference: &Path, cache: &Path, rustc: &Rustc) -> Result<Self, NoParts> {
+        let texts = read(reference)?;
+        let folder = cache.join(&key(&texts, rustc)[..16]);
+        if folder.is_dir() {
+            return Ok(Parts { folder });
+        }
+        fs::create_dir_all(cache).map_err(at(cache))?;
+        let work = TempDir::new_in(cache).map_err(at(cache))?;
+        compile_parts(&texts, work.path(), rustc)?;
+        // Complete or not at all. Somebody else may have been faster with the same.
+        match fs::rename(work.path(), &folder) {
+            Err(_) if folder.is_dir() => {}
+            renamed => renamed.map_err(at(&folder))?,
+        }
+        Ok(Parts { folder })
+    }
+
+    fn metadata(&self) -> PathBuf {
+        self.folder.join("libparts.rmeta")
+    }
+}
+
+fn at(path: &Path) -> impl FnOnce(io::Error) -> NoParts {
+    let path = path.to_owned();
+    move |source| NoParts::Io { path, source }
+}
+
+fn read(reference: &Path) -> Result<Vec<(&'static str, String)>, NoParts> {
+    let text = |name| {
+        let path = reference.join(name);
+        let text = fs::read_to_string(&path).map_err(at(&path))?;
+        Ok((name, text))
+    };
+    FILES.into_iter().map(text).collect()
+}
+
+/// What the parts follow from: their texts, and what they are compiled with.
+fn key(texts: &[(&str, String)], rustc: &Rustc) -> String {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(PARTS.as_bytes());
+    hasher.update(rustc.dependencies.folder.as_os_str().as_encoded_bytes());
+    for (name, text) in texts {
+        hasher.update(name.as_bytes());
+        hasher.update(&(text.len() as u64).to_le_bytes());
+        hasher.update(text.as_bytes());
+    }
+    hasher.finalize().to_hex().to_string()
+}
+
+fn compile_parts(texts: &[(&str, String)], folder: &Path, rustc: &Rustc) -> Result<(), NoParts> {
+    let texts = texts.iter().map(|(name, text)| (*name, text.as_str()));
+    for (name, text) in texts.chain([("parts.rs", PARTS)]) {
+        fs::write(folder.join(name), text).map_err(at(folder))?;
+    }
+    let parts = Crate {
+        name: "parts",
+        kind: Kind::Library,
+        folder,
+        root: "parts.rs",
+        links: &[],
+        behind: None,
+    };
+    match rustc.compile(&parts).map_err(at(folder))? {
+        Compiled::Done(_) => {}
+        Compiled::Errors(_) | Compiled::Failed(_) => return Err(NoParts::NotCompiled),
+    }
+    // Compiled, the texts are of no more use here, and would only be a solution left lying about.
+    for name in FILES {
+        fs::remove_file(folder.join(name)).map_err(at(folder))?;
+    }
+    Ok(())
+}
+
+/// A submission's `bvh.rs`, to be compiled on the parts if it ever comes to that.
+#[derive(Debug)]
+pub struct CarryForward {
+    /// Its text.
+    pub bvh: String,
+    /// What takes the place of its other files.
+    pub parts: Parts,
+    /// What compiles it.
+    pub rustc: Rustc,
+    /// Where; not there yet.
+    pub folder: PathBuf,
+    /// The program, once it was asked for.
+    pub program: OnceCell<Option<PathBuf>>,
+}
+
+impl CarryForward {
+    /// The program. None if it does not compile there, such as one that calls helpers of the
+    /// submission's other files.
+    pub fn program(&self) -> io::Result<Option<&Path>> {
+        if self.program.get().is_none() {
+            let program = self.compile()?;
+            self.program.get_or_init(|| program);
+        }
+        Ok(self.program.get().and_then(Option::as_deref))
+    }
+
+    fn compile(&self) -> io::Result<Option<PathBuf>> {
+        let joined = self.folder.join("joined");
+        fs::create_dir_all(&joined)?;
+        let world = GIVEN_FILES
+            .into_iter()
+            .filter(|(name, _)| *name == "world.rs");
+        let own = [("bvh.rs", self.bvh.as_str()), ("around.rs", AROUND)];
+        for (name, text) in world.chain(own) {
+            fs::write(self.folder.join(name), text)?;
+        }
+        let submission = self.rustc.compile(&Crate {
+            name: "submission",
+            kind: Kind::Library,
+            folder: &self.folder,
+            root: "around.rs",
+            links: &[("parts", &self.parts.metadata())],
+            behind: None,
+        })?;
+        let Compiled::Done(submission) = submission else {
+            return Ok(None);
+        };
+
+        fs::write(joined.join("probe.rs"), ENTRY)?;
+        let probe = self.rustc.compile(&Crate {
+            name: "probe",
+            kind: Kind::Program,
+            folder: &joined,
+            root: "probe.rs",
+            links: &[("submission", &submission)],
+            behind: Some(&self.parts.folder),
+        })?;
+        Ok(match probe {
+            Compiled::Done(probe) => Some(probe),
+            Compiled::Errors(_) | Compiled::Failed(_) => None,
+        })
+    }
+}

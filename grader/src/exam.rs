@@ -104,6 +104,25 @@ pub struct Exam {
     pub items: Vec<Item>,
 }
 
+impl Exam {
+    /// The items of one task, and those that they rest on.
+    pub fn with_what_it_needs(&self, task: Task) -> Exam {
+        let of_task = self.items.iter().filter(|item| item.task == task);
+        let needed: Vec<&String> = of_task.flat_map(|item| &item.needs).collect();
+        self.only(|item| item.task == task || needed.contains(&&item.id))
+    }
+
+    /// Some of its items.
+    pub fn only(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
+        let items = self.items.iter().filter(|item| wanted(item));
+        Exam {
+            schema: self.schema,
+            id: self.id.clone(),
+            items: items.cloned().collect(),
+        }
+    }
+}
+
 /// One idea, asked in several ways.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

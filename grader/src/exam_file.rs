@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use protocol::Question;
 
 use crate::exam::{Exam, Item, Key};
+use crate::score::ExamName;
 
 /// The version of the format that is read.
 const SCHEMA: u32 = 1;
@@ -24,6 +25,16 @@ pub struct ExamFile {
     pub exam: Exam,
     /// Of the file's bytes, in hexadecimal.
     pub hash: String,
+}
+
+impl ExamFile {
+    /// What the score says of it.
+    pub fn name(&self) -> ExamName {
+        ExamName {
+            id: self.exam.id.clone(),
+            hash: self.hash.clone(),
+        }
+    }
 }
 
 /// Why an exam can not be used.

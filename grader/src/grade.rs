@@ -7,15 +7,12 @@ use crate::ask::Budget;
 use crate::build::{Build, BuildError, Builder};
 use crate::cli::Arguments;
 use crate::error::Error;
-use crate::exam::{Exam, Item, Task};
-use crate::exam_file::{self, ExamFile};
+use crate::exam_file;
 use crate::examine::examine;
 use crate::report;
-use crate::score::{
-    BuildReport, ExamName, FileReport, Isolation, SCHEMA, Score, TaskScore, Timings,
-};
+use crate::score::{BuildReport, FileReport, Score};
 use crate::submission::Submission;
-use crate::verdict::{self, Outcome};
+use crate::verdict::{file_message, unasked};
 use crate::workspace::Workspace;
 
 /// A submission's score, and where it was written, if it was.
@@ -37,8 +34,12 @@ pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
     let build = builder(arguments, &workspace)?.build(&submission)?;
     let built = Instant::now();
 
-    let asked = restricted(&exam.exam, arguments.task);
-    let mut score = blank(&exam, &asked, &submission, &build);
+    let asked = match arguments.task {
+        Some(task) => exam.exam.with_what_it_needs(task),
+        None => exam.exam.clone(),
+    };
+    let mut score = unasked(&asked, exam.name(), &submission.name);
+    score.build = build_report(&submission, &build);
     score.timings.build_ms = millis(built - began);
     // One task's points are no score.
     let file = arguments
@@ -93,70 +94,14 @@ fn score_file(arguments: &Arguments, workspace: &Workspace, submission: &Submiss
     folder.join("score.json")
 }
 
-/// The items of one task, and those that they rest on.
-fn restricted(exam: &Exam, task: Option<Task>) -> Exam {
-    let Some(task) = task else {
-        return exam.clone();
-    };
-    let of_task = |item: &&Item| item.task == task;
-    let needed: Vec<&String> = exam
-        .items
-        .iter()
-        .filter(of_task)
-        .flat_map(|item| &item.needs)
-        .collect();
-    let items = exam.items.iter();
-    Exam {
-        items: items
-            .filter(|item| item.task == task || needed.contains(&&item.id))
-            .cloned()
-            .collect(),
-        ..exam.clone()
-    }
-}
-
-/// A score with nothing asked yet.
-fn blank(file: &ExamFile, exam: &Exam, submission: &Submission, build: &Build) -> Score {
-    let task_score = |task: Task| {
-        let items = exam.items.iter().filter(|item| item.task == task);
-        let items: Vec<_> = items
-            .map(|item| verdict::item_score(item, &Outcome::Pending))
-            .collect();
-        TaskScore {
-            id: task,
-            title: task.title().to_owned(),
-            points: 0,
-            max_points: items.iter().map(|item| item.max_points).sum(),
-            items,
-            printed: None,
-        }
-    };
+fn build_report(submission: &Submission, build: &Build) -> BuildReport {
     let not_compiled = build.not_compiled.iter().map(|(file, why)| FileReport {
         file: (*file).to_owned(),
-        message: verdict::file_message(file, why),
+        message: file_message(file, why),
     });
-    let tasks: Vec<TaskScore> = Task::ALL
-        .into_iter()
-        .map(task_score)
-        .filter(|task| !task.items.is_empty())
-        .collect();
-    Score {
-        schema: SCHEMA,
-        submission: submission.name.clone(),
-        exam: ExamName {
-            id: exam.id.clone(),
-            hash: file.hash.clone(),
-        },
-        isolation: Isolation::None,
-        complete: false,
-        points: 0,
-        max_points: tasks.iter().map(|task| task.max_points).sum(),
-        tasks,
-        build: BuildReport {
-            not_compiled: not_compiled.collect(),
-            notes: notes(submission, build),
-        },
-        timings: Timings::default(),
+    BuildReport {
+        not_compiled: not_compiled.collect(),
+        notes: notes(submission, build),
     }
 }
 

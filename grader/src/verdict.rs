@@ -3,9 +3,12 @@
 use crate::ask::Fault;
 use crate::build::NotCompiled;
 use crate::describe;
-use crate::exam::Item;
+use crate::exam::{Exam, Item, Task};
 use crate::judge::{Failure, How, Judgement, Share};
-use crate::score::{Evidence, ItemScore, Score, Verdict};
+use crate::score::{
+    BuildReport, Evidence, ExamName, Isolation, ItemScore, SCHEMA, Score, TaskScore, Timings,
+    Verdict,
+};
 use crate::tame::tame;
 
 /// The most characters of a student's or compiler's text in a message.
@@ -24,6 +27,41 @@ pub enum Outcome<'a> {
     GivenUp(Fault),
     /// An answer to each question, judged.
     Answered(Vec<Judgement>),
+}
+
+/// The score of a submission that nothing was asked yet.
+pub fn unasked(exam: &Exam, name: ExamName, submission: &str) -> Score {
+    let task_score = |task: Task| {
+        let items = exam.items.iter().filter(|item| item.task == task);
+        let items: Vec<_> = items
+            .map(|item| item_score(item, &Outcome::Pending))
+            .collect();
+        TaskScore {
+            id: task,
+            title: task.title().to_owned(),
+            points: 0,
+            max_points: items.iter().map(|item| item.max_points).sum(),
+            items,
+            printed: None,
+        }
+    };
+    let tasks: Vec<TaskScore> = Task::ALL
+        .into_iter()
+        .map(task_score)
+        .filter(|task| !task.items.is_empty())
+        .collect();
+    Score {
+        schema: SCHEMA,
+        submission: submission.to_owned(),
+        exam: name,
+        isolation: Isolation::None,
+        complete: false,
+        points: 0,
+        max_points: tasks.iter().map(|task| task.max_points).sum(),
+        tasks,
+        build: BuildReport::default(),
+        timings: Timings::default(),
+    }
 }
 
 /// The item's line in the score.

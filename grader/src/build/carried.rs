@@ -3,15 +3,17 @@
 //!
 //! Those parts are the reference's other four files, compiled once. Of them the submission's
 //! compile sees the metadata alone; they are joined in a step that reads none of its text. The
-//! reference's own `bvh.rs` is not among them.
+//! reference's own `bvh.rs` is not among them: in the place of the submission's `build` stands a
+//! plain one of ours, so that a mistake in building does not cost the points of walking either.
 
-use std::cell::OnceCell;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use tempfile::TempDir;
 
+use crate::build::kept::Content;
 use crate::build::rustc::{Compiled, Crate, Kind, Rustc};
 use crate::given::GIVEN_FILES;
 
@@ -32,17 +34,13 @@ pub mod primitive;
 pub mod sphere;
 pub mod triangle;
 ";
-/// What the submission's `bvh.rs` and the given `world.rs` see as their crate.
-const AROUND: &str = "
-pub use parts::{bbox, camera, primitive, sphere, triangle};
-pub mod bvh;
-pub mod world;
-";
-const ENTRY: &str = "
-fn main() -> std::process::ExitCode {
-    framework::probe::main(&submission::world::Student)
-}
-";
+/// The crate around the submission's `bvh.rs`.
+const AROUND: &str = include_str!("../../carried/around.rs");
+/// The crate that asks it: ours, and compiled apart from the submission's text.
+const ASKING: [(&str, &str); 2] = [
+    ("probe.rs", include_str!("../../carried/probe.rs")),
+    ("bvh.rs", include_str!("../../carried/bvh.rs")),
+];
 
 /// The compiled parts.
 #[derive(Clone, Debug)]
@@ -70,7 +68,7 @@ impl Parts {
     /// Those made earlier from the same files, or newly made ones, kept below `cache`.
     pub fn prepare(reference: &Path, cache: &Path, rustc: &Rustc) -> Result<Self, NoParts> {
         let texts = read(reference)?;
-        let folder = cache.join(&key(&texts, rustc)[..16]);
+        let folder = cache.join(key(&texts, rustc));
         if folder.is_dir() {
             return Ok(Parts { folder });
         }
@@ -87,6 +85,10 @@ impl Parts {
 
     fn metadata(&self) -> PathBuf {
         self.folder.join("libparts.rmeta")
+    }
+
+    fn library(&self) -> PathBuf {
+        self.folder.join("libparts.rlib")
     }
 }
 
@@ -106,15 +108,13 @@ fn read(reference: &Path) -> Result<Vec<(&'static str, String)>, NoParts> {
 
 /// What the parts follow from: their texts, and what they are compiled with.
 fn key(texts: &[(&str, String)], rustc: &Rustc) -> String {
-    let mut hasher = blake3::Hasher::new();
-    hasher.update(PARTS.as_bytes());
-    hasher.update(rustc.dependencies.folder.as_os_str().as_encoded_bytes());
-    for (name, text) in texts {
-        hasher.update(name.as_bytes());
-        hasher.update(&(text.len() as u64).to_le_bytes());
-        hasher.update(text.as_bytes());
-    }
-    hasher.finalize().to_hex().to_string()
+    let all = texts.iter().fold(
+        Content::default()
+            .with(rustc.identity())
+            .with(PARTS.as_bytes()),
+        |content, (name, text)| content.with(name.as_bytes()).with(text.as_bytes()),
+    );
+    all.name()
 }
 
 fn compile_parts(texts: &[(&str, String)], folder: &Path, rustc: &Rustc) -> Result<(), NoParts> {
@@ -153,7 +153,7 @@ pub struct CarryForward {
     /// Where; not there yet.
     pub folder: PathBuf,
     /// The program, once it was asked for.
-    pub program: OnceCell<Option<PathBuf>>,
+    pub program: OnceLock<Option<PathBuf>>,
 }
 
 impl CarryForward {
@@ -168,15 +168,23 @@ impl CarryForward {
     }
 
     fn compile(&self) -> io::Result<Option<PathBuf>> {
-        let joined = self.folder.join("joined");
-        fs::create_dir_all(&joined)?;
-        let world = GIVEN_FILES
-            .into_iter()
-            .filter(|(name, _)| *name == "world.rs");
-        let own = [("bvh.rs", self.bvh.as_str()), ("around.rs", AROUND)];
-        for (name, text) in world.chain(own) {
-            fs::write(self.folder.join(name), text)?;
-        }
+        let ours = [AROUND].into_iter().chain(ASKING.map(|(_, text)| text));
+        let content = ours.fold(
+            Content::default()
+                .with(self.parts.folder.as_os_str().as_encoded_bytes())
+                .with(self.bvh.as_bytes()),
+            |content, text| content.with(text.as_bytes()),
+        );
+        Ok(match self.rustc.once(&content, || self.compile_afresh())? {
+            Compiled::Done(program) => Some(program),
+            Compiled::Errors(_) | Compiled::Failed(_) => None,
+        })
+    }
+
+    fn compile_afresh(&self) -> io::Result<Compiled> {
+        fs::create_dir_all(&self.folder)?;
+        fs::write(self.folder.join("around.rs"), AROUND)?;
+        fs::write(self.folder.join("bvh.rs"), &self.bvh)?;
         let submission = self.rustc.compile(&Crate {
             name: "submission",
             kind: Kind::Library,
@@ -185,22 +193,29 @@ impl CarryForward {
             links: &[("parts", &self.parts.metadata())],
             behind: None,
         })?;
-        let Compiled::Done(submission) = submission else {
-            return Ok(None);
+        let submission = match submission {
+            Compiled::Done(library) => library,
+            failed @ (Compiled::Errors(_) | Compiled::Failed(_)) => return Ok(failed),
         };
 
-        fs::write(joined.join("probe.rs"), ENTRY)?;
-        let probe = self.rustc.compile(&Crate {
+        let joined = self.folder.join("joined");
+        fs::create_dir_all(&joined)?;
+        let world = GIVEN_FILES
+            .into_iter()
+            .filter(|(name, _)| *name == "world.rs");
+        for (name, text) in world.chain(ASKING) {
+            fs::write(joined.join(name), text)?;
+        }
+        self.rustc.compile(&Crate {
             name: "probe",
             kind: Kind::Program,
             folder: &joined,
             root: "probe.rs",
-            links: &[("submission", &submission)],
+            links: &[
+                ("submission", &submission),
+                ("parts", &self.parts.library()),
+            ],
             behind: Some(&self.parts.folder),
-        })?;
-        Ok(match probe {
-            Compiled::Done(probe) => Some(probe),
-            Compiled::Errors(_) | Compiled::Failed(_) => None,
         })
     }
 }

@@ -4,6 +4,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
+use crate::build::kept::Content;
 use crate::build::rustc::{Compiled, Crate, Kind, Rustc};
 use crate::given::GIVEN_FILES;
 
@@ -18,6 +19,14 @@ fn main() -> std::process::ExitCode {
 
 /// Compiles the five files, given as name and text, together with ours, in `folder`.
 pub fn compile(files: &[(&str, &str)], folder: &Path, rustc: &Rustc) -> io::Result<Compiled> {
+    let content = files.iter().chain(&GIVEN_FILES).fold(
+        Content::default().with(rustc.identity()),
+        |content, (name, text)| content.with(name.as_bytes()).with(text.as_bytes()),
+    );
+    rustc.once(&content, || compile_afresh(files, folder, rustc))
+}
+
+fn compile_afresh(files: &[(&str, &str)], folder: &Path, rustc: &Rustc) -> io::Result<Compiled> {
     fs::create_dir_all(folder)?;
     for (name, text) in files.iter().chain(&GIVEN_FILES) {
         fs::write(folder.join(name), text)?;

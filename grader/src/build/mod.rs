@@ -5,13 +5,14 @@ mod carried;
 mod compile;
 mod dependencies;
 mod diagnostics;
+mod kept;
 mod rustc;
 mod toolchain;
 
-use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use tempfile::TempDir;
 
@@ -19,6 +20,7 @@ use crate::build::carried::{CarryForward, NoParts, Parts};
 use crate::build::compile::compile;
 use crate::build::dependencies::{Dependencies, NoDependencies};
 use crate::build::diagnostics::Diagnostic;
+use crate::build::kept::Kept;
 use crate::build::rustc::{Compiled, Rustc};
 use crate::build::toolchain::{NoToolchain, Toolchain};
 use crate::exam::Task;
@@ -105,6 +107,7 @@ impl Builder {
             rustc: Rustc {
                 toolchain,
                 dependencies,
+                kept: None,
             },
             parts: None,
             folder: workspace.grade().join("work"),
@@ -123,6 +126,16 @@ impl Builder {
             parts: Some(parts),
             ..self
         })
+    }
+
+    /// Keeps all programs in this folder, and takes them from there when the same is built again.
+    pub fn keeping(mut self, folder: &Path) -> Result<Self, BuildError> {
+        let kept = Kept::in_folder(folder).map_err(|source| BuildError::Io {
+            path: folder.to_owned(),
+            source,
+        })?;
+        self.rustc.kept = Some(kept);
+        Ok(self)
     }
 
     /// Builds a submission, with the starter's file in place of each that can not be compiled.
@@ -183,7 +196,7 @@ impl Builder {
             parts,
             rustc: self.rustc.clone(),
             folder: folder.path().join("carried"),
-            program: OnceCell::new(),
+            program: OnceLock::new(),
         })
     }
 }

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::{self, Diagnostic};
+use crate::build::kept::{Content, Kept};
 use crate::build::toolchain::Toolchain;
 use crate::capture::Capture;
 use crate::sandbox::{Ending, Limits, Process};
@@ -78,9 +79,35 @@ pub struct Rustc {
     pub toolchain: Toolchain,
     /// What everything is linked with.
     pub dependencies: Dependencies,
+    /// What was compiled before, for whoever wants it again.
+    pub kept: Option<Kept>,
 }
 
 impl Rustc {
+    /// What everything that it makes follows from, beside the sources.
+    pub fn identity(&self) -> &[u8] {
+        // The folder is named after the compiler and the dependencies' sources.
+        self.dependencies.folder.as_os_str().as_encoded_bytes()
+    }
+
+    /// The program of this content, compiled unless it is kept from an earlier time.
+    pub fn once(
+        &self,
+        content: &Content,
+        compile: impl FnOnce() -> io::Result<Compiled>,
+    ) -> io::Result<Compiled> {
+        let Some(kept) = &self.kept else {
+            return compile();
+        };
+        if let Some(program) = kept.find(content) {
+            return Ok(Compiled::Done(program));
+        }
+        Ok(match compile()? {
+            Compiled::Done(program) => Compiled::Done(kept.keep(content, &program)?),
+            other @ (Compiled::Errors(_) | Compiled::Failed(_)) => other,
+        })
+    }
+
     /// Compiles one crate.
     pub fn compile(&self, source: &Crate) -> io::Result<Compiled> {
         let mut command = Command::new(&self.toolchain.rustc);

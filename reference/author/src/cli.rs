@@ -1,5 +1,7 @@
 //! The command line, as data.
 
+use std::ops::Range;
+
 use clap::{Args, Parser, Subcommand};
 
 use crate::generated::Mode;
@@ -14,7 +16,7 @@ pub struct Cli {
 }
 
 /// What can be written.
-#[derive(Clone, Copy, Debug, Subcommand)]
+#[derive(Clone, Debug, Subcommand)]
 pub enum Command {
     /// The starter, from the reference's marked files
     Starter(Check),
@@ -28,6 +30,32 @@ pub enum Command {
     },
     /// The scenes' meshes
     Scenes(Check),
+    /// The table of which known mistake fails which item of the practice exam
+    Mistakes(Check),
+    /// Ask every variant of every seed's exam, and every mistake of the first few
+    Prove {
+        /// The seeds, such as 0..1000
+        #[arg(long, value_parser = seeds)]
+        seeds: Range<u64>,
+        /// How many of the seeds the mistakes are asked as well
+        #[arg(long, default_value_t = 10)]
+        mistakes: u64,
+    },
+}
+
+fn seeds(text: &str) -> Result<Range<u64>, String> {
+    let (start, end) = text
+        .split_once("..")
+        .ok_or("two numbers are meant: 0..1000")?;
+    let number = |text: &str| {
+        text.parse::<u64>()
+            .map_err(|error| format!("{text:?}: {error}"))
+    };
+    let range = number(start)?..number(end)?;
+    if range.is_empty() {
+        return Err("no seed lies between these".to_owned());
+    }
+    Ok(range)
 }
 
 /// Whether to write at all.

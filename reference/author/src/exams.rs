@@ -4,7 +4,8 @@ use grader::exam::{Exam, Item};
 
 use crate::generated::Generated;
 use crate::items::{bbox, build, camera, sphere, traverse, triangle};
-use crate::recorded::{NotRecorded, Recorded, cornell_box};
+use crate::proof::workbench::Workbench;
+use crate::recorded::{NotRecorded, Recorded, Recorder};
 use crate::seed::Seed;
 
 /// The version of the exam file's format.
@@ -12,6 +13,9 @@ const SCHEMA: u32 = 1;
 
 /// What the practice exam follows from. It is handed out with its keys, so this is no secret.
 const PRACTICE: Seed = Seed(2025);
+
+/// Where the practice exam stands, from the workspace's root.
+pub const PRACTICE_FILE: &str = "grader/exams/practice.json";
 
 /// Why there is no exam.
 #[derive(Debug, thiserror::Error)]
@@ -27,7 +31,7 @@ pub enum NoExam {
 /// The files with exams in this repository.
 pub fn generated() -> Result<Vec<Generated>, NoExam> {
     let practice = whole_text("practice", PRACTICE)?;
-    Ok(vec![Generated::new("grader/exams/practice.json", practice)])
+    Ok(vec![Generated::new(PRACTICE_FILE, practice)])
 }
 
 /// The file of an exam of other questions about the same ideas.
@@ -36,8 +40,14 @@ pub fn final_text(seed: u64) -> Result<String, NoExam> {
 }
 
 fn whole_text(id: &str, seed: Seed) -> Result<String, NoExam> {
-    let recorded = cornell_box(|scene| traverse::radiance_question(seed, scene))?;
-    Ok(text(&exam(id, seed, recorded))?)
+    let recorder = Recorder::open(&Workbench::open().map_err(NotRecorded::from)?)?;
+    Ok(text(&whole(id, seed, &recorder)?)?)
+}
+
+/// A whole exam, with the reference's picture.
+pub fn whole(id: &str, seed: Seed, recorder: &Recorder) -> Result<Exam, NotRecorded> {
+    let recorded = recorder.cornell_box(|scene| traverse::radiance_question(seed, scene))?;
+    Ok(exam(id, seed, recorded))
 }
 
 /// An exam: each item after those that it needs.

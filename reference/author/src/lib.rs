@@ -8,6 +8,7 @@ pub mod exams;
 pub mod generated;
 pub mod items;
 pub mod oracle;
+pub mod proof;
 pub mod recorded;
 pub mod scenes;
 pub mod seed;

@@ -6,6 +6,10 @@ use std::process::ExitCode;
 
 use author::cli::{Cli, Command};
 use author::generated::{Generated, Mode, deliver};
+use author::proof::exhibits::Exhibits;
+use author::proof::matrix;
+use author::proof::prove::prove;
+use author::proof::workbench::Workbench;
 use author::{exams, scenes, starter};
 use clap::Parser;
 
@@ -35,6 +39,18 @@ fn run(command: Command) -> Result<(), Box<dyn std::error::Error>> {
             io::stdout().write_all(exam.as_bytes())?;
         }
         Command::Scenes(check) => deliver(&scenes::generated(), check.mode(), "scenes")?,
+        Command::Mistakes(check) => deliver(&[matrix::generated()?], check.mode(), "mistakes")?,
+        Command::Prove { seeds, mistakes } => {
+            let exhibits = Exhibits::prepare(Workbench::open()?)?;
+            let summary = prove(&exhibits, seeds, mistakes)?;
+            for complaint in summary.complaints() {
+                eprintln!("{complaint}");
+            }
+            println!("{}", summary.line());
+            if !summary.is_proven() {
+                return Err("the exam is not proven: see above".into());
+            }
+        }
     }
     Ok(())
 }

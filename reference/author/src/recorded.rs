@@ -1,19 +1,22 @@
 //! What only the reference can say: it is graded like any submission, and asked over the same pipe.
 
-use std::fs;
 use std::io;
-use std::path::PathBuf;
 use std::time::Duration;
 
 use glam::Vec3;
-use grader::ask::{Budget, Fault, Launcher};
-use grader::build::{BuildError, Builder};
-use grader::submission::{NoSubmission, Submission};
-use grader::workspace::{NoWorkspace, Workspace};
+use grader::ask::{Budget, Fault};
 use protocol::{Answer, Outcome, Question};
+
+use crate::proof::sources::{Sources, Unreadable, read};
+use crate::proof::workbench::{NotTried, Solution, Workbench};
 
 /// The scene of the radiance item, from the workspace's root.
 const SCENE: &str = "scenes/cornell-box.json";
+
+/// For a picture.
+const BUDGET: Budget = Budget {
+    cpu: Duration::from_secs(60),
+};
 
 /// A question and the reference's picture for it.
 #[derive(Clone, Debug)]
@@ -27,29 +30,15 @@ pub struct Recorded {
 /// Why nothing was recorded.
 #[derive(Debug, thiserror::Error)]
 pub enum NotRecorded {
-    /// There is no project around.
+    /// The scene or the reference can not be read.
     #[error(transparent)]
-    Workspace(#[from] NoWorkspace),
-    /// The scene can not be read.
-    #[error("can not read {}: {source}", path.display())]
-    Scene {
-        /// Its file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// The reference's files can not be read.
+    Unreadable(#[from] Unreadable),
+    /// The reference can not be built.
     #[error("the reference: {0}")]
-    Submission(#[from] NoSubmission),
-    /// The grader can not build.
-    #[error(transparent)]
-    Build(#[from] BuildError),
-    /// The reference does not compile.
-    #[error("the reference does not compile: see `cargo check -p reference`")]
-    NotCompiled,
+    NotTried(#[from] NotTried),
     /// The probe can not be started.
     #[error("can not start the reference's probe: {0}")]
-    Start(io::Error),
+    Start(#[from] io::Error),
     /// The probe did not answer.
     #[error("the reference did not answer: {0:?}")]
     Fault(Fault),
@@ -58,30 +47,36 @@ pub enum NotRecorded {
     NoPicture(String),
 }
 
-/// The reference's answer to a question about the Cornell box.
-pub fn cornell_box(question: impl FnOnce(String) -> Question) -> Result<Recorded, NotRecorded> {
-    let workspace = Workspace::find()?;
-    let path = workspace.root().join(SCENE);
-    let scene = fs::read_to_string(&path).map_err(|source| NotRecorded::Scene { path, source })?;
-    let question = question(scene);
+/// The reference, ready to draw pictures of the Cornell box.
+#[derive(Debug)]
+pub struct Recorder {
+    scene: String,
+    reference: Solution,
+}
 
-    let reference = Submission::collect(&workspace.root().join("reference"))?;
-    let build = Builder::prepare(&workspace)?.build(&reference)?;
-    if !build.not_compiled.is_empty() {
-        return Err(NotRecorded::NotCompiled);
+impl Recorder {
+    /// Builds the reference.
+    pub fn open(workbench: &Workbench) -> Result<Self, NotRecorded> {
+        let scene = read(&workbench.root().join(SCENE))?;
+        let sources = Sources::reference(workbench.root())?;
+        let reference = workbench.build(&sources, "reference")?;
+        Ok(Recorder { scene, reference })
     }
-    let program = build.probe.clone().ok_or(NotRecorded::NotCompiled)?;
-    let budget = Budget {
-        cpu: Duration::from_secs(60),
-    };
-    let launcher = Launcher { program };
-    let mut probe = launcher.start(budget).map_err(NotRecorded::Start)?;
-    let answers = probe.ask([&question], budget).map_err(NotRecorded::Fault)?;
-    match answers.into_iter().next() {
-        Some(Answer::Picture(Outcome::Value(pixels))) => Ok(Recorded { question, pixels }),
-        Some(Answer::Picture(Outcome::Panicked(panic))) => {
-            Err(NotRecorded::NoPicture(panic.message))
+
+    /// The reference's answer to a question about the Cornell box, whose text is told to `question`.
+    pub fn cornell_box(
+        &self,
+        question: impl FnOnce(String) -> Question,
+    ) -> Result<Recorded, NotRecorded> {
+        let question = question(self.scene.clone());
+        let mut probe = self.reference.launcher().start(BUDGET)?;
+        let answers = probe.ask([&question], BUDGET).map_err(NotRecorded::Fault)?;
+        match answers.into_iter().next() {
+            Some(Answer::Picture(Outcome::Value(pixels))) => Ok(Recorded { question, pixels }),
+            Some(Answer::Picture(Outcome::Panicked(panic))) => {
+                Err(NotRecorded::NoPicture(panic.message))
+            }
+            other => Err(NotRecorded::NoPicture(format!("{other:?}"))),
         }
-        other => Err(NotRecorded::NoPicture(format!("{other:?}"))),
     }
 }

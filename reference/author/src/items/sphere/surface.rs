@@ -26,7 +26,13 @@ pub(super) fn position(seed: Seed) -> Item {
             "It is the ray's point at the distance t. A point relative to the centre still has the \
              centre to be added.",
         ],
-        tables("sphere.position", seed, &[Part::Position], &[0.8, 2.0], hit),
+        tables(
+            "sphere.position",
+            seed,
+            &[Part::Position],
+            &[0.8, 2.0],
+            either,
+        ),
     )
 }
 
@@ -76,7 +82,8 @@ pub(super) fn origin_and_material(seed: Seed) -> Item {
     let mut draw = seed.draw("sphere.origin_and_material");
     let mut table = |material: u32| {
         let ball = ball(&mut draw, 1.2);
-        let mut rays: Vec<Ray> = (0..6).map(|_| hit(&mut draw, &ball)).collect();
+        let mut rays: Vec<Ray> = (0..3).map(|_| hit(&mut draw, &ball)).collect();
+        rays.extend((0..3).map(|_| inside(&mut draw, &ball)));
         rays.extend((0..3).map(|_| miss(&mut draw, &ball)));
         asked(&[Part::Origin, Part::Material], &ball, material, rays)
     };

@@ -4,7 +4,7 @@ use glam::DVec3;
 use grader::exam::Item;
 use protocol::Shape;
 
-use super::{from_around, honest, item, soup_tree};
+use super::{from_around, honest, item, needs, soup_tree};
 use crate::items::{meshes, ray};
 use crate::oracle::Beam;
 use crate::seed::{Draw, Seed};
@@ -64,26 +64,16 @@ pub(super) fn range(seed: Seed) -> Item {
             Some(ray.within(min as f32, max as f32))
         })
     };
-    Item {
-        needs: [
-            "triangle.inside",
-            "triangle.range_max",
-            "triangle.range_min",
-            "bbox.through",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
-        ..item(
-            "range",
-            1,
-            [
-                "only hits within the ray's range count",
-                "The ray's own range is the first limit; a closer hit only makes it smaller. It has \
+    item(
+        "range",
+        1,
+        [
+            "only hits within the ray's range count",
+            "The ray's own range is the first limit; a closer hit only makes it smaller. It has \
                  a start as well.",
-            ],
-            vec![honest(&mut draw, tree, [20, 8], kind)],
-        )
-    }
+        ],
+        vec![honest(&mut draw, tree, [20, 8], kind)],
+    )
 }
 
 pub(super) fn leaf_of_several(seed: Seed) -> Item {
@@ -143,7 +133,7 @@ pub(super) fn flat(seed: Seed) -> Item {
     });
     let tiles: Vec<Shape> = tiles.collect();
     let tree = plant::halves(meshes::numbered(tiles), 1);
-    let mut item = item(
+    item(
         "flat",
         1,
         [
@@ -152,9 +142,7 @@ pub(super) fn flat(seed: Seed) -> Item {
              right, see how its answer is used: an interval of one point is not empty.",
         ],
         vec![honest(&mut draw, tree, [24, 8], from_around)],
-    );
-    item.needs.push("bbox.flat".to_owned());
-    item
+    )
 }
 
 pub(super) fn mixed(seed: Seed) -> Item {
@@ -173,7 +161,7 @@ pub(super) fn mixed(seed: Seed) -> Item {
     });
     let shapes: Vec<Shape> = shapes.collect();
     let tree = plant::halves(meshes::numbered(shapes), 1);
-    let mut item = item(
+    let item = item(
         "mixed",
         1,
         [
@@ -182,6 +170,5 @@ pub(super) fn mixed(seed: Seed) -> Item {
         ],
         vec![honest(&mut draw, tree, [24, 8], from_around)],
     );
-    item.needs.push("sphere.near_side".to_owned());
-    item
+    needs::on(item, &needs::SPHERES)
 }

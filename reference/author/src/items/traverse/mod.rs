@@ -6,6 +6,7 @@
 //! begins at the first node or the last begins rightly.
 
 mod honest;
+mod needs;
 mod trapped;
 mod unusual;
 mod whole;
@@ -43,10 +44,8 @@ pub fn items(seed: Seed) -> Vec<Item> {
 }
 
 fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<Asked>) -> Item {
-    Item {
-        needs: vec!["triangle.inside".to_owned(), "bbox.through".to_owned()],
-        ..super::item(Task::Traverse, name, points, text, questions)
-    }
+    let item = super::item(Task::Traverse, name, points, text, questions);
+    needs::on(needs::on(item, &needs::TRIANGLES), &needs::BOXES)
 }
 
 /// The materials of orphans begin here, those of the tree's own primitives at 0.

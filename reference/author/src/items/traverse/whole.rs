@@ -4,7 +4,7 @@ use glam::{DVec3, UVec2};
 use grader::exam::{Asked, Item, Key, Part};
 use protocol::{Question, Rays};
 
-use super::{FIRST_ORPHAN, from_around, honest, item, rays, soup_tree};
+use super::{FIRST_ORPHAN, from_around, honest, item, needs, rays, soup_tree};
 use crate::items::{hits, meshes, picture};
 use crate::oracle::scan;
 use crate::recorded::Recorded;
@@ -31,7 +31,7 @@ pub(super) fn own_tree(seed: Seed) -> Item {
         },
         key,
     };
-    let mut item = item(
+    let item = item(
         "own_tree",
         1,
         [
@@ -41,9 +41,7 @@ pub(super) fn own_tree(seed: Seed) -> Item {
         ],
         vec![own, orphans_alone(&mut draw)],
     );
-    item.needs
-        .extend(["build.partition", "build.contains"].map(str::to_owned));
-    item
+    needs::on(item, &needs::TREES)
 }
 
 pub(super) fn picture(seed: Seed) -> Item {
@@ -64,7 +62,7 @@ pub(super) fn picture(seed: Seed) -> Item {
         root: tree.root as u32,
         rays: Rays::View(view),
     };
-    let mut item = item(
+    let item = item(
         "picture",
         2,
         [
@@ -74,9 +72,7 @@ pub(super) fn picture(seed: Seed) -> Item {
         ],
         vec![Asked { question, key }, orphans_alone(&mut draw)],
     );
-    let judged = ["triangle.normal", "triangle.uv"];
-    item.needs.extend(judged.map(str::to_owned));
-    item
+    needs::on(item, &needs::SURFACES)
 }
 
 /// What the radiance item asks; who records its key asks the reference the same.
@@ -103,23 +99,16 @@ pub fn radiance_item(seed: Seed, recorded: Recorded) -> Item {
         },
     };
     let mut draw = seed.draw("traverse.radiance");
-    let needs = [
-        "camera.corners",
-        "triangle.inside",
-        "triangle.normal",
-        "bbox.through",
-    ];
-    Item {
-        needs: needs.map(str::to_owned).to_vec(),
-        ..item(
-            "radiance",
-            2,
-            [
-                "all of it together draws the Cornell box",
-                "Every random number is the framework's, so the picture must be the same but for a \
+    let item = item(
+        "radiance",
+        2,
+        [
+            "all of it together draws the Cornell box",
+            "Every random number is the framework's, so the picture must be the same but for a \
                  few pixels. If this is the only item that fails, look at cargo render.",
-            ],
-            vec![picture, orphans_alone(&mut draw)],
-        )
-    }
+        ],
+        vec![picture, orphans_alone(&mut draw)],
+    );
+    let all = [needs::CAMERA.as_slice(), &needs::SURFACES, &needs::TREES];
+    all.into_iter().fold(item, needs::on)
 }

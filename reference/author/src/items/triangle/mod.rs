@@ -5,7 +5,7 @@ mod hits;
 mod scene;
 mod surface;
 
-use aim::{Side, hit, miss, shape, triangle};
+use aim::{Side, hit, ray_through, shape, triangle, weights_beyond};
 use grader::exam::{Asked, Item, Part, Task};
 use protocol::Ray;
 
@@ -43,7 +43,11 @@ fn tables(name: &str, seed: Seed, judged: &[Part], side: Side) -> Vec<Asked> {
     let mut table = || {
         let vertices = triangle(&mut draw);
         let mut rays: Vec<Ray> = (0..8).map(|_| hit(&mut draw, &vertices, side)).collect();
-        rays.extend((0..4).map(|_| miss(&mut draw, &vertices, side)));
+        // Beyond each edge in turn.
+        rays.extend((0..4).map(|i| {
+            let weights = weights_beyond(&mut draw, i % 3);
+            ray_through(&mut draw, &vertices, weights, side)
+        }));
         super::shapes(judged, vec![shape(&vertices, 0)], draw.shuffled(rays))
     };
     (0..4).map(|_| table()).collect()

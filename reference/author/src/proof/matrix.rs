@@ -1,0 +1,82 @@
+//! Which mistake fails which item: a table for people, and the check that none goes unpunished.
+
+use std::fmt::Write;
+
+use grader::exam::{Exam, Item, Task};
+use grader::exam_file;
+use grader::score::ItemScore;
+
+use crate::exams;
+use crate::generated::Generated;
+use crate::proof::exhibits::{Exhibits, NotProven};
+use crate::proof::tried::Tried;
+use crate::proof::workbench::Workbench;
+
+/// Where the table stands.
+const PATH: &str = "reference/mistakes/matrix.md";
+
+/// The table, of the practice exam that is committed.
+pub fn generated() -> Result<Generated, NotProven> {
+    let exhibits = Exhibits::prepare(Workbench::open()?)?;
+    let practice = exhibits.workbench.root().join(exams::PRACTICE_FILE);
+    let exam = exam_file::load(Some(&practice))?.exam;
+    Ok(table(&exam, &exhibits.try_mistakes(&exam)?))
+}
+
+/// The table, of one exam.
+fn table(exam: &Exam, tried: &[Tried]) -> Generated {
+    let mut text = format!(
+        "# Which mistake fails which item\n\n\
+         Written by `cargo author mistakes`: {} known mistakes, each a change to the reference, in \
+         the {} exam. ● all of the item's points are lost, ◐ some of them. Where an item of another \
+         task would fail, it is asked again with the reference's part (see `handout/src/grading.md`), \
+         so one mistake costs its own task only.\n",
+        tried.len(),
+        exam.id
+    );
+    for task in Task::ALL {
+        let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
+        let of_task = tried.iter().filter(|tried| tried.mistake.task() == task);
+        task_table(&mut text, task, &items, of_task).expect("text takes text");
+    }
+    Generated::new(PATH, text)
+}
+
+fn task_table<'a>(
+    out: &mut String,
+    task: Task,
+    items: &[&Item],
+    tried: impl Iterator<Item = &'a Tried<'a>>,
+) -> std::fmt::Result {
+    writeln!(out, "\n## {}\n", task.title())?;
+    for (number, item) in (1..).zip(items) {
+        writeln!(out, "{number}. `{}`: {}", item.id, item.title)?;
+    }
+    let numbers: String = (1..=items.len())
+        .map(|number| format!(" {number} |"))
+        .collect();
+    writeln!(out, "\n| mistake | what such code does | lost |{numbers}")?;
+    writeln!(out, "|---|---|--:|{}", ":-:|".repeat(items.len()))?;
+    for Tried { mistake, score } in tried {
+        let lines: Vec<&ItemScore> = score
+            .items()
+            .filter(|line| items.iter().any(|item| item.id == line.id))
+            .collect();
+        let lost: u32 = lines.iter().map(|line| line.max_points - line.points).sum();
+        let cells: String = lines
+            .iter()
+            .map(|line| format!(" {} |", cell(line)))
+            .collect();
+        let name = mistake.id.split('.').nth(1).unwrap_or_default();
+        writeln!(out, "| `{name}` | {} | {lost} |{cells}", mistake.title)?;
+    }
+    Ok(())
+}
+
+fn cell(line: &ItemScore) -> &'static str {
+    match line.points {
+        points if points == line.max_points => "",
+        0 => "●",
+        _ => "◐",
+    }
+}

@@ -1,0 +1,195 @@
+//! First a tree of its own, made of `Box`es and vectors that are parted, not sorted; then the
+//! nodes, from that. The walk: each node returns its closest hit, and the parent takes the nearer.
+
+use protocol::{Ray, Trace};
+
+use crate::bbox::BBox;
+use crate::primitive::Primitive;
+
+/// One box of the tree. A leaf if and only if `l == r`.
+#[derive(Clone, Copy, Debug)]
+pub struct Node {
+    /// Holds everything below this node.
+    pub bbox: BBox,
+    /// In a leaf, the place of its first primitive; elsewhere not read.
+    pub start: usize,
+    /// In a leaf, the number of its primitives; elsewhere not read.
+    pub size: usize,
+    /// In an interior node, the place of one child in `Bvh::nodes`.
+    pub l: usize,
+    /// In an interior node, the place of the other.
+    pub r: usize,
+}
+
+impl Node {
+    /// A node that holds primitives.
+    pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
+        Node {
+            bbox,
+            start,
+            size,
+            l: 0,
+            r: 0,
+        }
+    }
+
+    /// A node that holds two others.
+    pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
+        Node {
+            bbox,
+            start: 0,
+            size: 0,
+            l,
+            r,
+        }
+    }
+
+    /// Whether the node holds primitives.
+    pub fn is_leaf(&self) -> bool {
+        self.l == self.r
+    }
+}
+
+/// A bounding volume hierarchy: a binary tree of boxes around primitives.
+#[derive(Clone, Debug)]
+pub struct Bvh {
+    /// All primitives; those of one leaf stand side by side.
+    pub primitives: Vec<Primitive>,
+    /// All nodes, in any order. None at all if there is nothing to hold.
+    pub nodes: Vec<Node>,
+    /// The place of the node where everything starts: need be neither first nor last.
+    pub root: usize,
+}
+
+impl Bvh {
+    /// A tree from its parts.
+    pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
+        Bvh {
+            primitives,
+            nodes,
+            root,
+        }
+    }
+
+    /// Builds the tree by the surface area heuristic.
+    pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
+        let (mut nodes, mut ordered) = (Vec::new(), Vec::new());
+        let mut root = 0;
+        if !primitives.is_empty() {
+            let tree = grow(primitives, max_leaf_size.max(1));
+            root = flatten(tree, &mut nodes, &mut ordered);
+        }
+        Bvh::from_nodes(ordered, nodes, root)
+    }
+
+    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let root = self.nodes.get(self.root)?;
+        root.bbox.hit(ray, ray.range)?;
+        self.nearest(root, ray)
+    }
+
+    /// The closest hit below `node`.
+    fn nearest(&self, node: &Node, ray: &Ray) -> Option<Trace> {
+        if node.is_leaf() {
+            let primitives = &self.primitives[node.start..node.start + node.size];
+            let traces = primitives.iter().map(|primitive| primitive.hit(ray));
+            return traces.fold(None, Trace::nearer);
+        }
+
+        let enter = |place: usize| {
+            let child = &self.nodes[place];
+            Some((child, child.bbox.hit(ray, ray.range)?.min))
+        };
+        let (first, second) = match (enter(node.l), enter(node.r)) {
+            (Some(l), Some(r)) if l.1 <= r.1 => (l, Some(r)),
+            (Some(l), Some(r)) => (r, Some(l)),
+            (l, r) => (l.or(r)?, None),
+        };
+        let trace = self.nearest(first.0, ray);
+        let limit = trace.map_or(ray.range.max, |trace| trace.distance);
+        match second {
+            Some((second, begins)) if begins <= limit => {
+                let rest = ray.within(ray.range.min, limit);
+                Trace::nearer(trace, self.nearest(second, &rest))
+            }
+            _ => trace,
+        }
+    }
+}
+
+/// What `flatten` turns into nodes.
+enum Tree {
+    Leaf(BBox, Vec<Primitive>),
+    Interior(BBox, Box<Tree>, Box<Tree>),
+}
+
+/// Appends the tree's nodes and primitives; returns the place of its root.
+fn flatten(tree: Tree, nodes: &mut Vec<Node>, primitives: &mut Vec<Primitive>) -> usize {
+    let node = match tree {
+        Tree::Leaf(bbox, held) => {
+            let start = primitives.len();
+            primitives.extend(held);
+            Node::leaf(bbox, start, primitives.len() - start)
+        }
+        Tree::Interior(bbox, left, right) => {
+            let l = flatten(*left, nodes, primitives);
+            let r = flatten(*right, nodes, primitives);
+            Node::interior(bbox, l, r)
+        }
+    };
+    nodes.push(node);
+    nodes.len() - 1
+}
+
+fn grow(primitives: Vec<Primitive>, max_leaf_size: usize) -> Tree {
+    let bbox = around(&primitives);
+    if primitives.len() <= max_leaf_size {
+        return Tree::Leaf(bbox, primitives);
+    }
+    let centers = around_centers(&primitives);
+    let candidates = (0..3).flat_map(|axis| (1..SLICES).map(move |slice| (axis, slice)));
+    let halves = candidates.filter_map(|(axis, slice)| {
+        let part = slice as f32 / SLICES as f32;
+        let plane = centers.min[axis] + part * (centers.max[axis] - centers.min[axis]);
+        let is_left = |p: &&Primitive| p.bbox().center()[axis] < plane;
+        let (left, right): (Vec<_>, Vec<_>) = primitives.iter().partition(is_left);
+        (!left.is_empty() && !right.is_empty()).then_some((left, right))
+    });
+    let cheapest = halves.min_by(|a, b| {
+        let cost = |(left, right): &(Vec<Primitive>, Vec<Primitive>)| cost(left) + cost(right);
+        cost(a).total_cmp(&cost(b))
+    });
+    let (left, right) = cheapest.unwrap_or_else(|| {
+        let (left, right) = primitives.split_at(primitives.len() / 2);
+        (left.to_vec(), right.to_vec())
+    });
+    Tree::Interior(
+        bbox,
+        Box::new(grow(left, max_leaf_size)),
+        Box::new(grow(right, max_leaf_size)),
+    )
+}
+
+/// Slices along each axis.
+const SLICES: usize = 16;
+
+fn cost(side: &[Primitive]) -> f32 {
+    around(side).surface_area() * side.len() as f32
+}
+
+fn around(primitives: &[Primitive]) -> BBox {
+    let mut all = BBox::EMPTY;
+    for primitive in primitives {
+        all.enclose(primitive.bbox());
+    }
+    all
+}
+
+fn around_centers(primitives: &[Primitive]) -> BBox {
+    let mut all = BBox::EMPTY;
+    for primitive in primitives {
+        all.enclose_point(primitive.bbox().center());
+    }
+    all
+}

@@ -1,0 +1,192 @@
+//! Every partition of the centers in order, axis by axis, with areas summed up from both ends: the
+//! full sweep of Wald, Boulos and Shirley, "Ray Tracing Deformable Scenes Using Dynamic Bounding
+//! Volume Hierarchies", ACM Transactions on Graphics 26(1), 2007. The walk: a box is tested when
+//! its node is entered, against what is left of the ray.
+
+use protocol::{Ray, Trace};
+
+use crate::bbox::BBox;
+use crate::primitive::Primitive;
+
+/// One box of the tree. A leaf if and only if `l == r`.
+#[derive(Clone, Copy, Debug)]
+pub struct Node {
+    /// Holds everything below this node.
+    pub bbox: BBox,
+    /// In a leaf, the place of its first primitive; elsewhere not read.
+    pub start: usize,
+    /// In a leaf, the number of its primitives; elsewhere not read.
+    pub size: usize,
+    /// In an interior node, the place of one child in `Bvh::nodes`.
+    pub l: usize,
+    /// In an interior node, the place of the other.
+    pub r: usize,
+}
+
+impl Node {
+    /// A node that holds primitives.
+    pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
+        Node {
+            bbox,
+            start,
+            size,
+            l: 0,
+            r: 0,
+        }
+    }
+
+    /// A node that holds two others.
+    pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
+        Node {
+            bbox,
+            start: 0,
+            size: 0,
+            l,
+            r,
+        }
+    }
+
+    /// Whether the node holds primitives.
+    pub fn is_leaf(&self) -> bool {
+        self.l == self.r
+    }
+}
+
+/// A bounding volume hierarchy: a binary tree of boxes around primitives.
+#[derive(Clone, Debug)]
+pub struct Bvh {
+    /// All primitives; those of one leaf stand side by side.
+    pub primitives: Vec<Primitive>,
+    /// All nodes, in any order. None at all if there is nothing to hold.
+    pub nodes: Vec<Node>,
+    /// The place of the node where everything starts: need be neither first nor last.
+    pub root: usize,
+}
+
+impl Bvh {
+    /// A tree from its parts.
+    pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
+        Bvh {
+            primitives,
+            nodes,
+            root,
+        }
+    }
+
+    /// Builds the tree by the surface area heuristic.
+    pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
+        let mut nodes = Vec::new();
+        if !primitives.is_empty() {
+            build_node(&mut primitives, 0, max_leaf_size.max(1), &mut nodes);
+        }
+        Bvh::from_nodes(primitives, nodes, 0)
+    }
+
+    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let mut closest = None;
+        if self.root < self.nodes.len() {
+            self.visit(self.root, &mut ray.clone(), &mut closest);
+        }
+        closest
+    }
+
+    fn visit(&self, place: usize, ray: &mut Ray, closest: &mut Option<Trace>) {
+        let node = &self.nodes[place];
+        if node.bbox.hit(ray, ray.range).is_none() {
+            return;
+        }
+        if node.is_leaf() {
+            return self.ask(node, ray, closest);
+        }
+
+        // A box that is missed may come first: it is not entered anyway.
+        let entry = |child: usize| {
+            let inside = self.nodes[child].bbox.hit(ray, ray.range);
+            inside.map_or(f32::INFINITY, |inside| inside.min)
+        };
+        let (first, second) = if entry(node.l) <= entry(node.r) {
+            (node.l, node.r)
+        } else {
+            (node.r, node.l)
+        };
+        self.visit(first, ray, closest);
+        self.visit(second, ray, closest);
+    }
+
+    /// Asks the primitives of a leaf. A hit shortens the ray, so that only nearer ones follow.
+    fn ask(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
+        for primitive in &self.primitives[leaf.start..leaf.start + leaf.size] {
+            if let Some(trace) = primitive.hit(ray) {
+                ray.range.max = trace.distance;
+                *closest = Some(trace);
+            }
+        }
+    }
+}
+
+/// Builds the node over some primitives, which stand from `start` on; returns its place.
+fn build_node(
+    primitives: &mut [Primitive],
+    start: usize,
+    max_leaf_size: usize,
+    nodes: &mut Vec<Node>,
+) -> usize {
+    let bbox = around(primitives);
+    let place = nodes.len();
+    nodes.push(Node::leaf(bbox, start, primitives.len()));
+    if primitives.len() > max_leaf_size {
+        let middle = split(primitives);
+        let (left, right) = primitives.split_at_mut(middle);
+        let l = build_node(left, start, max_leaf_size, nodes);
+        let r = build_node(right, start + middle, max_leaf_size, nodes);
+        nodes[place] = Node::interior(bbox, l, r);
+    }
+    place
+}
+
+/// Sorts the primitives so that the cheapest partition is that of the first few from the others;
+/// returns how few.
+fn split(primitives: &mut [Primitive]) -> usize {
+    let (mut least, mut best) = (f32::INFINITY, (0, primitives.len() / 2));
+    for axis in 0..3 {
+        sort(primitives, axis);
+        let left = areas(primitives.iter());
+        let mut right = areas(primitives.iter().rev());
+        right.reverse();
+        let sides = left.into_iter().zip(right).enumerate();
+        for (first, (left, right)) in sides.take(primitives.len()).skip(1) {
+            let second = primitives.len() - first;
+            let cost = left * first as f32 + right * second as f32;
+            if cost < least {
+                (least, best) = (cost, (axis, first));
+            }
+        }
+    }
+    let (axis, first) = best;
+    sort(primitives, axis);
+    first
+}
+
+fn sort(primitives: &mut [Primitive], axis: usize) {
+    let center = |primitive: &Primitive| primitive.bbox().center()[axis];
+    primitives.sort_by(|a, b| center(a).total_cmp(&center(b)));
+}
+
+/// The area of the box around the first n, for each n from 0.
+fn areas<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Vec<f32> {
+    let mut bbox = BBox::EMPTY;
+    let boxes = primitives.map(|primitive| {
+        bbox.enclose(primitive.bbox());
+        bbox.surface_area()
+    });
+    std::iter::once(0.0).chain(boxes).collect()
+}
+
+fn around(primitives: &[Primitive]) -> BBox {
+    let mut all = BBox::EMPTY;
+    for primitive in primitives {
+        all.enclose(primitive.bbox());
+    }
+    all
+}

@@ -1,0 +1,42 @@
+//! A matrix from the film to the sensor, made once in `new`: Pharr, Jakob and Humphreys,
+//! "Physically Based Rendering" (4th edition), section 5.2, call it cameraFromRaster.
+
+use framework::math::tan;
+use glam::{Mat3, UVec2, Vec2, Vec3};
+use protocol::Ray;
+
+/// A pinhole camera at the origin that looks down −z, with y up.
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    /// The full angle between the lowest and the highest ray, in degrees.
+    pub vertical_fov: f32,
+    /// Width of the sensor divided by its height; need not be that of `film`.
+    pub aspect_ratio: f32,
+    /// Number of pixels, across and up.
+    pub film: UVec2,
+    /// Takes (x, y, 1) on the film to the place on the sensor.
+    sensor_from_film: Mat3,
+}
+
+impl Camera {
+    /// A camera from its parts.
+    pub fn new(vertical_fov: f32, aspect_ratio: f32, film: UVec2) -> Self {
+        let half_height = tan(0.5 * vertical_fov.to_radians());
+        let half = Vec2::new(aspect_ratio * half_height, half_height);
+        let pixel = 2.0 * half / film.as_vec2();
+        let sensor_from_film =
+            Mat3::from_cols(Vec3::X * pixel.x, Vec3::Y * pixel.y, (-half).extend(-1.0));
+        Camera {
+            vertical_fov,
+            aspect_ratio,
+            film,
+            sensor_from_film,
+        }
+    }
+
+    /// The ray that starts at the camera and passes through `pixel`.
+    pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
+        let on_film = (pixel.as_vec2() + offset).extend(1.0);
+        Ray::new(Vec3::ZERO, self.sensor_from_film * on_film)
+    }
+}

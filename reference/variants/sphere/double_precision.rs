@@ -1,0 +1,71 @@
+//! All of it in double precision, rounded once at the end.
+
+use std::f32::consts::{PI, TAU};
+
+use framework::math;
+use glam::{DVec3, Vec2, Vec3, vec2};
+use protocol::{Ray, Trace};
+
+use crate::bbox::BBox;
+
+/// A sphere in world space.
+#[derive(Clone, Copy, Debug)]
+pub struct Sphere {
+    /// Its centre.
+    pub center: Vec3,
+    /// Its radius; above zero.
+    pub radius: f32,
+    /// What it is made of, for the [`Trace`].
+    pub material: u32,
+}
+
+impl Sphere {
+    /// A sphere from its parts.
+    pub fn new(center: Vec3, radius: f32, material: u32) -> Self {
+        Sphere {
+            center,
+            radius,
+            material,
+        }
+    }
+
+    /// The tightest box around the sphere.
+    pub fn bbox(&self) -> BBox {
+        BBox::new(self.center - self.radius, self.center + self.radius)
+    }
+
+    /// The texture coordinates of the point in direction `unit_dir`, **of length one**, from the
+    /// centre: u once around the y-axis, v from 0 at the lowest point to 1 at the highest.
+    pub fn uv(unit_dir: Vec3) -> Vec2 {
+        let u = math::atan2(unit_dir.z, unit_dir.x) / TAU;
+        let v = math::acos(-unit_dir.y.clamp(-1.0, 1.0)) / PI;
+        vec2(if u < 0.0 { u + 1.0 } else { u }, v)
+    }
+
+    /// Where the ray first meets the sphere within `ray.range`, if anywhere.
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let (origin, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+        let center = self.center.as_dvec3();
+        let o = origin - center;
+        let a = dir.length_squared();
+        let half_b = o.dot(dir);
+        let c = o.length_squared() - f64::from(self.radius).powi(2);
+        let discriminant = half_b * half_b - a * c;
+        if discriminant < 0.0 {
+            return None;
+        }
+
+        let roots = [-discriminant.sqrt(), discriminant.sqrt()].map(|root| (root - half_b) / a);
+        let t = roots.into_iter().find(|t| ray.range.contains(*t as f32))?;
+        let position: DVec3 = origin + t * dir;
+        let normal = (position - center).normalize().as_vec3();
+        Some(Trace {
+            distance: t as f32,
+            position: position.as_vec3(),
+            normal,
+            uv: Sphere::uv(normal),
+            origin: ray.origin,
+            material: self.material,
+        })
+    }
+}

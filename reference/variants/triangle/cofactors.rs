@@ -1,0 +1,89 @@
+//! Cramer's rule with every cofactor written out, and t before the weights: Marschner and Shirley,
+//! "Fundamentals of Computer Graphics" (4th edition), section 4.4.2, with its names.
+
+use protocol::{Ray, Trace, Vertex};
+
+use crate::bbox::BBox;
+
+/// A triangle in world space.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle {
+    /// The corner with weight `w = 1 − u − v`.
+    pub p0: Vertex,
+    /// The corner with weight `u`.
+    pub p1: Vertex,
+    /// The corner with weight `v`.
+    pub p2: Vertex,
+    /// What it is made of, for the [`Trace`].
+    pub material: u32,
+}
+
+impl Triangle {
+    /// A triangle from its parts.
+    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
+        Triangle {
+            p0,
+            p1,
+            p2,
+            material,
+        }
+    }
+
+    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    pub fn bbox(&self) -> BBox {
+        let mut bbox = BBox::EMPTY;
+        bbox.enclose_point(self.p0.position);
+        bbox.enclose_point(self.p1.position);
+        bbox.enclose_point(self.p2.position);
+        bbox
+    }
+
+    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let [p0, p1, p2] = [self.p0, self.p1, self.p2].map(|corner| corner.position);
+        let [a, b, c] = (p0 - p1).to_array();
+        let [d, e, f] = (p0 - p2).to_array();
+        let [g, h, i] = ray.dir.to_array();
+        let [j, k, l] = (p0 - ray.origin).to_array();
+
+        let ei_minus_hf = e * i - h * f;
+        let gf_minus_di = g * f - d * i;
+        let dh_minus_eg = d * h - e * g;
+        let m = a * ei_minus_hf + b * gf_minus_di + c * dh_minus_eg;
+        if m == 0.0 {
+            return None;
+        }
+
+        let ak_minus_jb = a * k - j * b;
+        let jc_minus_al = j * c - a * l;
+        let bl_minus_kc = b * l - k * c;
+        let t = -(f * ak_minus_jb + e * jc_minus_al + d * bl_minus_kc) / m;
+        if t < ray.range.min || t > ray.range.max {
+            return None;
+        }
+
+        let gamma = (i * ak_minus_jb + h * jc_minus_al + g * bl_minus_kc) / m;
+        if !(0.0..=1.0).contains(&gamma) {
+            return None;
+        }
+
+        let beta = (j * ei_minus_hf + k * gf_minus_di + l * dh_minus_eg) / m;
+        if beta < 0.0 || beta > 1.0 - gamma {
+            return None;
+        }
+        Some(self.trace(ray, t, beta, gamma))
+    }
+
+    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
+        let w = 1.0 - u - v;
+        Trace {
+            distance: t,
+            position: ray.at(t),
+            normal: (w * self.p0.normal + u * self.p1.normal + v * self.p2.normal).normalize(),
+            uv: w * self.p0.uv + u * self.p1.uv + v * self.p2.uv,
+            origin: ray.origin,
+            material: self.material,
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! All of it in double precision, rounded once at the end.
+
+use protocol::{Ray, Trace, Vertex};
+
+use crate::bbox::BBox;
+
+/// A triangle in world space.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle {
+    /// The corner with weight `w = 1 − u − v`.
+    pub p0: Vertex,
+    /// The corner with weight `u`.
+    pub p1: Vertex,
+    /// The corner with weight `v`.
+    pub p2: Vertex,
+    /// What it is made of, for the [`Trace`].
+    pub material: u32,
+}
+
+impl Triangle {
+    /// A triangle from its parts.
+    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
+        Triangle {
+            p0,
+            p1,
+            p2,
+            material,
+        }
+    }
+
+    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    pub fn bbox(&self) -> BBox {
+        let mut bbox = BBox::EMPTY;
+        bbox.enclose_point(self.p0.position);
+        bbox.enclose_point(self.p1.position);
+        bbox.enclose_point(self.p2.position);
+        bbox
+    }
+
+    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let [p0, p1, p2] = [self.p0, self.p1, self.p2].map(|corner| corner.position.as_dvec3());
+        let (origin, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+        let (e1, e2, s) = (p1 - p0, p2 - p0, origin - p0);
+
+        let p = dir.cross(e2);
+        let q = s.cross(e1);
+        let determinant = e1.dot(p);
+        if determinant == 0.0 {
+            return None;
+        }
+        let u = s.dot(p) / determinant;
+        let v = dir.dot(q) / determinant;
+        let w = 1.0 - u - v;
+        let t = e2.dot(q) / determinant;
+        if w < 0.0 || u < 0.0 || v < 0.0 || !ray.range.contains(t as f32) {
+            return None;
+        }
+
+        let [n0, n1, n2] = [self.p0, self.p1, self.p2].map(|corner| corner.normal.as_dvec3());
+        let [uv0, uv1, uv2] = [self.p0, self.p1, self.p2].map(|corner| corner.uv.as_dvec2());
+        Some(Trace {
+            distance: t as f32,
+            position: (origin + t * dir).as_vec3(),
+            normal: (w * n0 + u * n1 + v * n2).normalize().as_vec3(),
+            uv: (w * uv0 + u * uv1 + v * uv2).as_vec2(),
+            origin: ray.origin,
+            material: self.material,
+        })
+    }
+}

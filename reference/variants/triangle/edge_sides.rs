@@ -1,0 +1,78 @@
+//! Volumes: the scalar triple product of the ray and two corners has the sign of the side on which
+//! it passes their edge. Ericson, "Real-Time Collision Detection", section 5.3.4; here with the
+//! edge itself for one of the corners, so that small triangles do not drown in rounding.
+
+use glam::Vec3;
+use protocol::{Ray, Trace, Vertex};
+
+use crate::bbox::BBox;
+
+/// A triangle in world space.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle {
+    /// The corner with weight `w = 1 − u − v`.
+    pub p0: Vertex,
+    /// The corner with weight `u`.
+    pub p1: Vertex,
+    /// The corner with weight `v`.
+    pub p2: Vertex,
+    /// What it is made of, for the [`Trace`].
+    pub material: u32,
+}
+
+impl Triangle {
+    /// A triangle from its parts.
+    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
+        Triangle {
+            p0,
+            p1,
+            p2,
+            material,
+        }
+    }
+
+    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    pub fn bbox(&self) -> BBox {
+        let mut bbox = BBox::EMPTY;
+        bbox.enclose_point(self.p0.position);
+        bbox.enclose_point(self.p1.position);
+        bbox.enclose_point(self.p2.position);
+        bbox
+    }
+
+    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let a = self.p0.position - ray.origin;
+        let b = self.p1.position - ray.origin;
+        let c = self.p2.position - ray.origin;
+        // d · (to × from) = d · ((to − from) × from)
+        let volume = |from: Vec3, to: Vec3| ray.dir.dot((to - from).cross(from));
+
+        let (w, u, v) = (volume(b, c), volume(c, a), volume(a, b));
+        let sum = u + v + w;
+        if sum == 0.0 {
+            return None;
+        }
+        let (w, u, v) = (w / sum, u / sum, v / sum);
+        if w < 0.0 || u < 0.0 || v < 0.0 {
+            return None;
+        }
+
+        // The weighted corner lies on the ray, whose direction has length one.
+        let t = (w * a + u * b + v * c).dot(ray.dir);
+        ray.range.contains(t).then(|| self.trace(ray, t, u, v))
+    }
+
+    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
+        let w = 1.0 - u - v;
+        Trace {
+            distance: t,
+            position: ray.at(t),
+            normal: (w * self.p0.normal + u * self.p1.normal + v * self.p2.normal).normalize(),
+            uv: w * self.p0.uv + u * self.p1.uv + v * self.p2.uv,
+            origin: ray.origin,
+            material: self.material,
+        }
+    }
+}

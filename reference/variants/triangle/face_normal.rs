@@ -1,0 +1,82 @@
+//! The determinant is the face normal dotted with −d, and all tests are made before the one
+//! division: Ericson, "Real-Time Collision Detection", section 5.3.6; here for both sides.
+
+use protocol::{Ray, Trace, Vertex};
+
+use crate::bbox::BBox;
+
+/// A triangle in world space.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle {
+    /// The corner with weight `w = 1 − u − v`.
+    pub p0: Vertex,
+    /// The corner with weight `u`.
+    pub p1: Vertex,
+    /// The corner with weight `v`.
+    pub p2: Vertex,
+    /// What it is made of, for the [`Trace`].
+    pub material: u32,
+}
+
+impl Triangle {
+    /// A triangle from its parts.
+    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
+        Triangle {
+            p0,
+            p1,
+            p2,
+            material,
+        }
+    }
+
+    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    pub fn bbox(&self) -> BBox {
+        let mut bbox = BBox::EMPTY;
+        bbox.enclose_point(self.p0.position);
+        bbox.enclose_point(self.p1.position);
+        bbox.enclose_point(self.p2.position);
+        bbox
+    }
+
+    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let e1 = self.p1.position - self.p0.position;
+        let e2 = self.p2.position - self.p0.position;
+
+        let back = -ray.dir;
+        let face = e1.cross(e2);
+        let determinant = face.dot(back);
+        if determinant == 0.0 {
+            return None;
+        }
+        // From behind everything changes its sign.
+        let side = determinant.signum();
+
+        let s = ray.origin - self.p0.position;
+        let back_x_s = back.cross(s);
+        let u = side * e2.dot(back_x_s);
+        let v = side * -e1.dot(back_x_s);
+        if u < 0.0 || v < 0.0 || u + v > determinant.abs() {
+            return None;
+        }
+
+        let inverse = 1.0 / determinant.abs();
+        let t = side * s.dot(face) * inverse;
+        ray.range
+            .contains(t)
+            .then(|| self.trace(ray, t, u * inverse, v * inverse))
+    }
+
+    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
+        let w = 1.0 - u - v;
+        Trace {
+            distance: t,
+            position: ray.at(t),
+            normal: (w * self.p0.normal + u * self.p1.normal + v * self.p2.normal).normalize(),
+            uv: w * self.p0.uv + u * self.p1.uv + v * self.p2.uv,
+            origin: ray.origin,
+            material: self.material,
+        }
+    }
+}

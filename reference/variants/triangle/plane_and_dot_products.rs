@@ -1,0 +1,75 @@
+//! Meets the plane first, then finds the weights from two equations of dot products with the
+//! edges: Ericson, "Real-Time Collision Detection", section 3.4.
+
+use protocol::{Ray, Trace, Vertex};
+
+use crate::bbox::BBox;
+
+/// A triangle in world space.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle {
+    /// The corner with weight `w = 1 − u − v`.
+    pub p0: Vertex,
+    /// The corner with weight `u`.
+    pub p1: Vertex,
+    /// The corner with weight `v`.
+    pub p2: Vertex,
+    /// What it is made of, for the [`Trace`].
+    pub material: u32,
+}
+
+impl Triangle {
+    /// A triangle from its parts.
+    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
+        Triangle {
+            p0,
+            p1,
+            p2,
+            material,
+        }
+    }
+
+    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    pub fn bbox(&self) -> BBox {
+        let mut bbox = BBox::EMPTY;
+        bbox.enclose_point(self.p0.position);
+        bbox.enclose_point(self.p1.position);
+        bbox.enclose_point(self.p2.position);
+        bbox
+    }
+
+    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let e1 = self.p1.position - self.p0.position;
+        let e2 = self.p2.position - self.p0.position;
+
+        let face = e1.cross(e2);
+        let slope = face.dot(ray.dir);
+        if slope == 0.0 {
+            return None;
+        }
+        let t = face.dot(self.p0.position - ray.origin) / slope;
+        let place = ray.at(t) - self.p0.position;
+
+        let (d11, d12, d22) = (e1.dot(e1), e1.dot(e2), e2.dot(e2));
+        let (d1, d2) = (place.dot(e1), place.dot(e2));
+        let determinant = d11 * d22 - d12 * d12;
+        let u = (d22 * d1 - d12 * d2) / determinant;
+        let v = (d11 * d2 - d12 * d1) / determinant;
+        let inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
+        (inside && ray.range.contains(t)).then(|| self.trace(ray, t, u, v))
+    }
+
+    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
+        let w = 1.0 - u - v;
+        Trace {
+            distance: t,
+            position: ray.at(t),
+            normal: (w * self.p0.normal + u * self.p1.normal + v * self.p2.normal).normalize(),
+            uv: w * self.p0.uv + u * self.p1.uv + v * self.p2.uv,
+            origin: ray.origin,
+            material: self.material,
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Builds two axes across the ray and looks along it: the ray is a point, the triangle is flat,
+//! and the weights are areas in two dimensions.
+
+use glam::Vec2;
+use protocol::{Ray, Trace, Vertex};
+
+use crate::bbox::BBox;
+
+/// A triangle in world space.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle {
+    /// The corner with weight `w = 1 − u − v`.
+    pub p0: Vertex,
+    /// The corner with weight `u`.
+    pub p1: Vertex,
+    /// The corner with weight `v`.
+    pub p2: Vertex,
+    /// What it is made of, for the [`Trace`].
+    pub material: u32,
+}
+
+impl Triangle {
+    /// A triangle from its parts.
+    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
+        Triangle {
+            p0,
+            p1,
+            p2,
+            material,
+        }
+    }
+
+    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    pub fn bbox(&self) -> BBox {
+        let mut bbox = BBox::EMPTY;
+        bbox.enclose_point(self.p0.position);
+        bbox.enclose_point(self.p1.position);
+        bbox.enclose_point(self.p2.position);
+        bbox
+    }
+
+    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let (right, up) = ray.dir.any_orthonormal_pair();
+        let seen = |corner: Vertex| {
+            let s = corner.position - ray.origin;
+            (Vec2::new(s.dot(right), s.dot(up)), s.dot(ray.dir))
+        };
+        let [(a, depth_a), (b, depth_b), (c, depth_c)] =
+            [seen(self.p0), seen(self.p1), seen(self.p2)];
+
+        // The ray is seen at (0, 0).
+        let (w, u, v) = (b.perp_dot(c), c.perp_dot(a), a.perp_dot(b));
+        let area = w + u + v;
+        if area == 0.0 {
+            return None;
+        }
+        let (w, u, v) = (w / area, u / area, v / area);
+        if w.min(u).min(v) < 0.0 {
+            return None;
+        }
+        let t = w * depth_a + u * depth_b + v * depth_c;
+        ray.range.contains(t).then(|| self.trace(ray, t, u, v))
+    }
+
+    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
+        let w = 1.0 - u - v;
+        Trace {
+            distance: t,
+            position: ray.at(t),
+            normal: (w * self.p0.normal + u * self.p1.normal + v * self.p2.normal).normalize(),
+            uv: w * self.p0.uv + u * self.p1.uv + v * self.p2.uv,
+            origin: ray.origin,
+            material: self.material,
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! Shears space until the ray is the z-axis and looks at edges in the plane: Woop, Benthin and
+//! Wald, "Watertight Ray/Triangle Intersection", Journal of Computer Graphics Techniques 2(1),
+//! 2013.
+
+use glam::Vec3;
+use protocol::{Ray, Trace, Vertex};
+
+use crate::bbox::BBox;
+
+/// A triangle in world space.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle {
+    /// The corner with weight `w = 1 − u − v`.
+    pub p0: Vertex,
+    /// The corner with weight `u`.
+    pub p1: Vertex,
+    /// The corner with weight `v`.
+    pub p2: Vertex,
+    /// What it is made of, for the [`Trace`].
+    pub material: u32,
+}
+
+impl Triangle {
+    /// A triangle from its parts.
+    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
+        Triangle {
+            p0,
+            p1,
+            p2,
+            material,
+        }
+    }
+
+    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    pub fn bbox(&self) -> BBox {
+        let mut bbox = BBox::EMPTY;
+        bbox.enclose_point(self.p0.position);
+        bbox.enclose_point(self.p1.position);
+        bbox.enclose_point(self.p2.position);
+        bbox
+    }
+
+    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        // The axis along which the ray moves most, and the two others, in the order that keeps
+        // the winding.
+        let z = ray.dir.abs().max_position();
+        let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
+        if ray.dir[z] < 0.0 {
+            (x, y) = (y, x);
+        }
+        let shear = Vec3::new(ray.dir[x], ray.dir[y], 1.0) / ray.dir[z];
+
+        let sheared = |corner: Vertex| {
+            let from_origin = corner.position - ray.origin;
+            Vec3::new(
+                from_origin[x] - shear.x * from_origin[z],
+                from_origin[y] - shear.y * from_origin[z],
+                shear.z * from_origin[z],
+            )
+        };
+        let (a, b, c) = (sheared(self.p0), sheared(self.p1), sheared(self.p2));
+
+        let (of_a, of_b, of_c) = (edge(c, b), edge(a, c), edge(b, a));
+        let least = of_a.min(of_b).min(of_c);
+        let most = of_a.max(of_b).max(of_c);
+        let determinant = of_a + of_b + of_c;
+        if least < 0.0 && most > 0.0 || determinant == 0.0 {
+            return None;
+        }
+
+        let t = (of_a * a.z + of_b * b.z + of_c * c.z) / determinant;
+        ray.range
+            .contains(t)
+            .then(|| self.trace(ray, t, of_b / determinant, of_c / determinant))
+    }
+
+    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
+        let w = 1.0 - u - v;
+        Trace {
+            distance: t,
+            position: ray.at(t),
+            normal: (w * self.p0.normal + u * self.p1.normal + v * self.p2.normal).normalize(),
+            uv: w * self.p0.uv + u * self.p1.uv + v * self.p2.uv,
+            origin: ray.origin,
+            material: self.material,
+        }
+    }
+}
+
+/// On which side of the edge from `a` to `b` the ray passes: in double precision where it is too
+/// close to say.
+fn edge(a: Vec3, b: Vec3) -> f32 {
+    let side = a.x * b.y - a.y * b.x;
+    if side != 0.0 {
+        return side;
+    }
+    let exactly = |a: f32, b: f32| f64::from(a) * f64::from(b);
+    (exactly(a.x, b.y) - exactly(a.y, b.x)) as f32
+}

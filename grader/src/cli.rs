@@ -42,6 +42,10 @@ pub struct Arguments {
     #[arg(long)]
     pub no_reference: bool,
 
+    /// Say what is wrong, not only a nudge, where a known mistake is recognised
+    #[arg(long)]
+    pub hints: bool,
+
     /// CPU time that an item may use, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=600))]
     pub cpu_limit: u64,

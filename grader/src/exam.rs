@@ -9,6 +9,8 @@ use protocol::{Interval, Question, packed};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::tells::{KnownMistake, Tells};
+
 /// The six things to write, in lecture order.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
@@ -100,6 +102,9 @@ pub struct Exam {
     pub schema: u32,
     /// Such as `practice`.
     pub id: String,
+    /// The mistakes that the items' tells speak of.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub mistakes: Vec<KnownMistake>,
     /// What is asked, in the order of asking: an item comes after those that it needs.
     pub items: Vec<Item>,
 }
@@ -118,6 +123,7 @@ impl Exam {
         Exam {
             schema: self.schema,
             id: self.id.clone(),
+            mistakes: self.mistakes.clone(),
             items: items.cloned().collect(),
         }
     }
@@ -136,12 +142,15 @@ pub struct Item {
     /// What it is worth.
     pub points: u32,
     /// Where to look if it is wrong; one or two sentences for students.
-    pub hint: String,
+    pub look: String,
     /// Items of other tasks without which this one says nothing of its own task.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub needs: Vec<String>,
     /// What is asked. Every one must be right: the item's points are those of the worst.
     pub questions: Vec<Asked>,
+    /// What known mistakes answer.
+    #[serde(default, skip_serializing_if = "Tells::is_none")]
+    pub tells: Tells,
 }
 
 /// A question and its key.

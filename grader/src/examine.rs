@@ -7,9 +7,10 @@ use crate::ask::{Budget, Budgeted, Fault, Launcher, Probe};
 use crate::build::{Build, Carried};
 use crate::exam::{Exam, Item, Task};
 use crate::judge::judge;
-use crate::score::{ItemScore, Score};
+use crate::recognise::Sightings;
+use crate::score::{ItemScore, Score, Verdict};
 use crate::tame::tame;
-use crate::verdict::{Outcome, blocked, carried_forward, item_score, resting_on};
+use crate::verdict::{Outcome, blocked, carried_forward, hinted, item_score, resting_on};
 
 /// After so many items of a task have run out of time, its others are not asked.
 const PATIENCE: usize = 2;
@@ -35,7 +36,7 @@ pub fn examine<E: From<io::Error>>(
             progress(score)?;
         }
         if let Some(scores) = score.tasks.iter_mut().find(|scores| scores.id == task) {
-            scores.printed = sessions.own.printed();
+            scores.printed = sessions.finish(exam, &mut scores.items);
         }
     }
     score.complete = true;
@@ -80,15 +81,52 @@ impl<'a> Sessions<'a> {
             }
         }
     }
+
+    /// Gives the hints that only show once the whole task was asked; returns what was printed.
+    fn finish(mut self, exam: &Exam, lines: &mut [ItemScore]) -> Option<String> {
+        for line in lines
+            .iter_mut()
+            .filter(|line| line.points < line.max_points)
+        {
+            let session = match (&self.carried, line.carried_forward) {
+                (Some(carried), true) => carried,
+                (Some(_) | None, _) => &self.own,
+            };
+            let item = exam.items.iter().find(|item| item.id == line.id);
+            let known = item.filter(|_| is_answered(&line.verdict));
+            let known = known.map(|item| session.sightings.explain(exam, item));
+            hinted(line, &known.unwrap_or_default());
+        }
+        self.own.printed()
+    }
 }
 
-/// One task's process, started when there is something to ask and again after a fault.
+/// Whether there is an answer to be wondered about, or a reason why there is none.
+fn is_answered(verdict: &Verdict) -> bool {
+    match verdict {
+        Verdict::Partial
+        | Verdict::Wrong
+        | Verdict::Panicked
+        | Verdict::TimedOut
+        | Verdict::OutOfMemory
+        | Verdict::Crashed => true,
+        Verdict::Pass
+        | Verdict::Unimplemented
+        | Verdict::Protocol
+        | Verdict::NotCompiled
+        | Verdict::Blocked { .. }
+        | Verdict::Pending => false,
+    }
+}
+
+// One task's process, started when there is something to ask and again after a fault.
 struct Session {
     launcher: Option<Launcher>,
     budget: Budget,
     probe: Option<Probe>,
     printed: String,
     out_of_time: usize,
+    sightings: Sightings,
 }
 
 impl Session {
@@ -100,6 +138,7 @@ impl Session {
             probe: None,
             printed: String::new(),
             out_of_time: 0,
+            sightings: Sightings::default(),
         }
     }
 
@@ -120,6 +159,7 @@ impl Session {
         match probe.ask(questions, self.budget) {
             Ok(answers) => {
                 self.probe = Some(probe);
+                self.sightings.note(item, Some(&answers));
                 let judged = item.questions.iter().zip(&answers);
                 Ok(Outcome::Answered(
                     judged.map(|(asked, answer)| judge(asked, answer)).collect(),
@@ -128,6 +168,7 @@ impl Session {
             Err(fault) => {
                 self.out_of_time += usize::from(matches!(fault, Fault::TimedOut(_)));
                 self.hear(probe);
+                self.sightings.note(item, None);
                 Ok(Outcome::Fault(fault))
             }
         }
@@ -141,7 +182,7 @@ impl Session {
         }
     }
 
-    fn printed(mut self) -> Option<String> {
+    fn printed(&mut self) -> Option<String> {
         if let Some(probe) = self.probe.take() {
             self.hear(probe);
         }

@@ -8,9 +8,9 @@
 //! | floor | modules |
 //! |---|---|
 //! | the job | [`grade`], [`replay`] |
-//! | one exam | [`examine`], [`verdict`], [`report`] |
+//! | one exam | [`examine`], [`recognise`], [`verdict`], [`report`] |
 //! | its steps | [`build`], [`ask`], [`judge`] |
-//! | data | [`exam`], [`exam_file`], [`place`], [`submission`], [`given`], [`score`] |
+//! | data | [`exam`], [`tells`], [`exam_file`], [`place`], [`submission`], [`given`], [`score`] |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`] |
 
 pub mod ask;
@@ -26,11 +26,13 @@ pub mod given;
 pub mod grade;
 pub mod judge;
 pub mod place;
+pub mod recognise;
 pub mod replay;
 pub mod report;
 pub mod sandbox;
 pub mod score;
 pub mod submission;
 pub mod tame;
+pub mod tells;
 pub mod verdict;
 pub mod workspace;

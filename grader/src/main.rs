@@ -8,7 +8,7 @@ use grader::cli::Arguments;
 use grader::error::Error;
 use grader::grade::grade;
 use grader::replay::replay;
-use grader::report;
+use grader::report::text::{Hints, report};
 use grader::score::Score;
 
 fn main() -> ExitCode {
@@ -29,7 +29,11 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         return Ok(ExitCode::SUCCESS);
     }
     let graded = grade(arguments)?;
-    anstream::print!("{}", report::text::report(&graded.score, arguments.task));
+    let hints = match arguments.hints {
+        true => Hints::Full,
+        false => Hints::Nudge,
+    };
+    anstream::print!("{}", report(&graded.score, arguments.task, hints));
     if let Some(file) = &graded.file {
         anstream::println!("  {}\n", from_here(file).display());
     }

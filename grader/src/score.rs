@@ -90,7 +90,9 @@ pub struct ItemScore {
     pub message: String,
     /// For students: where to look. Only where something is wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub hint: Option<String>,
+    pub look: Option<String>,
+    /// For students: the known mistake that answers the same; several if nothing tells them apart.
+    pub hints: Vec<Hint>,
     /// For students: the first thing that went wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub evidence: Option<Evidence>,
@@ -102,6 +104,15 @@ pub struct ItemScore {
     /// For staff only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub staff: Option<String>,
+}
+
+/// What a known mistake would do well to hear.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Hint {
+    /// A question that leads there.
+    pub nudge: String,
+    /// What is wrong.
+    pub hint: String,
 }
 
 /// What was asked, what came, what should have come.

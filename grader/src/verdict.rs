@@ -6,10 +6,11 @@ use crate::describe;
 use crate::exam::{Exam, Item, Task};
 use crate::judge::{Failure, How, Judgement, Share};
 use crate::score::{
-    BuildReport, Evidence, ExamName, Isolation, ItemScore, SCHEMA, Score, TaskScore, Timings,
+    BuildReport, Evidence, ExamName, Hint, Isolation, ItemScore, SCHEMA, Score, TaskScore, Timings,
     Verdict,
 };
 use crate::tame::tame;
+use crate::tells::KnownMistake;
 
 /// The most characters of a student's or compiler's text in a message.
 const LONGEST: usize = 2_000;
@@ -73,7 +74,8 @@ pub fn item_score(item: &Item, outcome: &Outcome) -> ItemScore {
         max_points: item.points,
         verdict: Verdict::Pending,
         message: String::new(),
-        hint: None,
+        look: None,
+        hints: Vec::new(),
         evidence: None,
         carried_forward: false,
         pictures: Vec::new(),
@@ -138,7 +140,7 @@ fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
         score.verdict = Verdict::Pass;
         return;
     }
-    score.hint = Some(item.hint.clone());
+    score.look = Some(item.look.clone());
 
     // Of the worst question: that is the one that the points are those of.
     let worst = judgements
@@ -161,7 +163,7 @@ fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
         How::Panicked(panic) if panic.is_unimplemented() => {
             score.verdict = Verdict::Unimplemented;
             score.message = format!("{} still says `todo!`", tame(&panic.place, LONGEST));
-            score.hint = None;
+            score.look = None;
             return;
         }
         How::Panicked(panic) => {
@@ -216,10 +218,25 @@ pub fn blocked(by: &str, line: ItemScore) -> ItemScore {
     ItemScore {
         verdict: Verdict::Blocked { by: by.to_owned() },
         message: format!("rests on {by}: mend that first"),
-        hint: None,
+        look: None,
         evidence: None,
         ..line
     }
+}
+
+/// With what the known mistakes that explain the answers would do well to hear. Which ones they
+/// are is for staff.
+pub fn hinted(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
+    if mistakes.is_empty() {
+        return;
+    }
+    let hint = |mistake: &&KnownMistake| Hint {
+        nudge: mistake.nudge.clone(),
+        hint: mistake.hint.clone(),
+    };
+    line.hints = mistakes.iter().map(hint).collect();
+    let ids: Vec<&str> = mistakes.iter().map(|mistake| mistake.id.as_str()).collect();
+    line.staff = Some(format!("answers like {}", ids.join(" or ")));
 }
 
 /// The better of what the submission earns by itself and with right parts in the place of its

@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 use anstyle::{AnsiColor, Style};
 
 use crate::exam::Task;
-use crate::score::{ItemScore, Score, TaskScore, Verdict};
+use crate::score::{Hint, ItemScore, Score, TaskScore, Verdict};
 use crate::tame::tame;
 
 const WIDTH: usize = 80;
@@ -19,15 +19,24 @@ const GOOD: Style = AnsiColor::Green.on_default();
 const PART: Style = AnsiColor::Yellow.on_default();
 const BAD: Style = AnsiColor::Red.on_default();
 
+/// How much is said of a mistake that is recognised.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hints {
+    /// A question that leads there.
+    Nudge,
+    /// What is wrong.
+    Full,
+}
+
 /// The whole report, with colours: the stream that takes it drops them where they do not belong.
 /// With `only`, that task alone.
-pub fn report(score: &Score, only: Option<Task>) -> String {
+pub fn report(score: &Score, only: Option<Task>, hints: Hints) -> String {
     let mut text = String::new();
-    write_report(&mut text, score, only).expect("text takes text");
+    write_report(&mut text, score, only, hints).expect("text takes text");
     text
 }
 
-fn write_report(out: &mut String, score: &Score, only: Option<Task>) -> fmt::Result {
+fn write_report(out: &mut String, score: &Score, only: Option<Task>, hints: Hints) -> fmt::Result {
     let shown = |task: &&TaskScore| only.is_none_or(|only| only == task.id);
     let tasks: Vec<&TaskScore> = score.tasks.iter().filter(shown).collect();
 
@@ -53,7 +62,7 @@ fn write_report(out: &mut String, score: &Score, only: Option<Task>) -> fmt::Res
             .iter()
             .filter(|item| item.points < item.max_points);
         if let Some(first) = failing.next() {
-            item(out, first)?;
+            item(out, first, hints)?;
             again(out, task, first, failing.count())?;
         }
         if let Some(printed) = &task.printed {
@@ -111,7 +120,7 @@ fn compiler(out: &mut String, message: &str) -> fmt::Result {
     Ok(())
 }
 
-fn item(out: &mut String, item: &ItemScore) -> fmt::Result {
+fn item(out: &mut String, item: &ItemScore, hints: Hints) -> fmt::Result {
     let style = style(item.points, item.max_points);
     let words = item.verdict.words();
     let gap = (WIDTH - 2).saturating_sub(item.id.chars().count() + words.chars().count());
@@ -123,6 +132,7 @@ fn item(out: &mut String, item: &ItemScore) -> fmt::Result {
     for line in wrap(&item.title, WIDTH - 4) {
         writeln!(out, "    {line}")?;
     }
+    let hint = said(&item.hints, hints);
     let rows = [
         ("what", Some(&item.message)),
         (
@@ -134,7 +144,8 @@ fn item(out: &mut String, item: &ItemScore) -> fmt::Result {
             "wanted",
             item.evidence.as_ref().map(|evidence| &evidence.wanted),
         ),
-        ("hint", item.hint.as_ref()),
+        ("look", item.look.as_ref()),
+        ("hint", hint.as_ref()),
     ];
     for (label, text) in rows {
         if let Some(text) = text.filter(|text| !text.is_empty()) {
@@ -142,6 +153,20 @@ fn item(out: &mut String, item: &ItemScore) -> fmt::Result {
         }
     }
     Ok(())
+}
+
+/// What the mistakes that a wrong answer looks like would do well to hear, if it looks like any.
+fn said(known: &[Hint], hints: Hints) -> Option<String> {
+    let one = |known: &Hint| match hints {
+        Hints::Nudge => known.nudge.clone(),
+        Hints::Full => known.hint.clone(),
+    };
+    let all: Vec<String> = known.iter().map(one).collect();
+    let more = match hints {
+        Hints::Nudge => " (--hints says more)",
+        Hints::Full => "",
+    };
+    (!all.is_empty()).then(|| format!("{}{more}", all.join(" Or: ")))
 }
 
 /// A label and its text, wrapped within the width, later lines indented.

@@ -3,7 +3,9 @@
 use grader::exam::{Exam, Item};
 
 use crate::generated::Generated;
+use crate::hints::with_hints;
 use crate::items::{bbox, build, camera, sphere, traverse, triangle};
+use crate::proof::exhibits::{Exhibits, NotProven};
 use crate::proof::workbench::Workbench;
 use crate::recorded::{NotRecorded, Recorded, Recorder};
 use crate::seed::Seed;
@@ -20,9 +22,9 @@ pub const PRACTICE_FILE: &str = "grader/exams/practice.json";
 /// Why there is no exam.
 #[derive(Debug, thiserror::Error)]
 pub enum NoExam {
-    /// What the reference must say was not said.
+    /// What the reference and the mistakes must say was not said.
     #[error(transparent)]
-    NotRecorded(#[from] NotRecorded),
+    NotProven(#[from] NotProven),
     /// The exam can not be put into text.
     #[error("can not write the exam: {0}")]
     Text(#[from] serde_json::Error),
@@ -40,8 +42,9 @@ pub fn final_text(seed: u64) -> Result<String, NoExam> {
 }
 
 fn whole_text(id: &str, seed: Seed) -> Result<String, NoExam> {
-    let recorder = Recorder::open(&Workbench::open().map_err(NotRecorded::from)?)?;
-    Ok(text(&whole(id, seed, &recorder)?)?)
+    let exhibits = Exhibits::prepare(Workbench::open().map_err(NotProven::from)?)?;
+    let exam = whole(id, seed, &exhibits.recorder).map_err(NotProven::from)?;
+    Ok(text(&with_hints(exam, &exhibits)?)?)
 }
 
 /// A whole exam, with the reference's picture.
@@ -64,6 +67,7 @@ pub fn exam(id: &str, seed: Seed, recorded: Recorded) -> Exam {
     Exam {
         schema: SCHEMA,
         id: id.to_owned(),
+        mistakes: Vec::new(),
         items: items
             .chain([traverse::radiance_item(seed, recorded)])
             .collect(),
@@ -78,14 +82,22 @@ fn text(exam: &Exam) -> Result<String, serde_json::Error> {
         .map(serde_json::to_string)
         .collect::<Result<_, _>>()?;
     let id = serde_json::to_string(&exam.id)?;
-    let (schema, items) = (exam.schema, items.join(",\n"));
+    let mistakes: Vec<String> = exam
+        .mistakes
+        .iter()
+        .map(serde_json::to_string)
+        .collect::<Result<_, _>>()?;
+    let schema = exam.schema;
+    let (mistakes, items) = (mistakes.join(",\n"), items.join(",\n"));
     Ok(format!(
-        "{{\"schema\":{schema},\"id\":{id},\"items\":[\n{items}\n]}}\n"
+        "{{\"schema\":{schema},\"id\":{id},\"mistakes\":[\n{mistakes}\n],\"items\":[\n{items}\n]}}\n"
     ))
 }
 
 #[cfg(test)]
 mod tests {
+    use grader::tells::KnownMistake;
+
     use super::*;
 
     #[test]
@@ -93,10 +105,18 @@ mod tests {
         let exam = Exam {
             schema: SCHEMA,
             id: "a \"test\"".to_owned(),
+            mistakes: vec![KnownMistake {
+                id: "bbox.none".to_owned(),
+                nudge: "Really?".to_owned(),
+                hint: "No.".to_owned(),
+            }],
             items: bbox::items(Seed(1)),
         };
         let text = text(&exam).unwrap();
         assert_eq!(serde_json::from_str::<Exam>(&text).unwrap(), exam);
-        assert_eq!(text.lines().count(), exam.items.len() + 2);
+        assert_eq!(
+            text.lines().count(),
+            exam.mistakes.len() + exam.items.len() + 3
+        );
     }
 }

@@ -61,14 +61,14 @@ fn items_come_after_what_they_need_and_need_other_tasks_only() {
 }
 
 #[test]
-fn titles_and_hints_are_sentences_without_code() {
+fn titles_and_where_to_look_are_sentences_without_code() {
     for item in &exam_of(SEEDS[0]).items {
-        let (title, hint) = (&item.title, &item.hint);
+        let (title, look) = (&item.title, &item.look);
         assert!(title.chars().count() <= 80, "{title}");
         assert!(!title.ends_with('.'), "{title}");
-        assert!(hint.ends_with(['.', '?']) && !hint.contains("  "), "{hint}");
-        assert!((40..=240).contains(&hint.chars().count()), "{hint}");
-        assert!(!hint.contains(';') || !hint.contains("()"), "{hint}");
+        assert!(look.ends_with(['.', '?']) && !look.contains("  "), "{look}");
+        assert!((40..=240).contains(&look.chars().count()), "{look}");
+        assert!(!look.contains(';') || !look.contains("()"), "{look}");
     }
 }
 

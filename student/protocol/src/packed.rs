@@ -44,11 +44,7 @@ impl<'de, T: DeserializeOwned> Visitor<'de> for ListOrText<T> {
     }
 
     fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Vec<T>, E> {
-        let bytes = STANDARD_NO_PAD.decode(text).map_err(E::custom)?;
-        match postcard::take_from_bytes(&bytes).map_err(E::custom)? {
-            (list, []) => Ok(list),
-            (_, rest) => Err(E::custom(format!("{} bytes too many", rest.len()))),
-        }
+        decode(text)
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Vec<T>, A::Error> {
@@ -60,6 +56,39 @@ impl<'de, T: DeserializeOwned> Visitor<'de> for ListOrText<T> {
             return Err(A::Error::custom("more than ten million elements"));
         }
         Ok(list)
+    }
+}
+
+/// The same for any value, however short: `#[serde(with = "packed::text")]`.
+pub mod text {
+    use super::*;
+
+    /// See the module's description.
+    pub fn serialize<T: Serialize, S: Serializer>(value: &T, out: S) -> Result<S::Ok, S::Error> {
+        if !out.is_human_readable() {
+            return value.serialize(out);
+        }
+        let bytes = postcard::to_stdvec(value).map_err(S::Error::custom)?;
+        out.serialize_str(&STANDARD_NO_PAD.encode(bytes))
+    }
+
+    /// See the module's description.
+    pub fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<T, D::Error> {
+        if !from.is_human_readable() {
+            return T::deserialize(from);
+        }
+        let text = String::deserialize(from)?;
+        decode(&text)
+    }
+}
+
+fn decode<T: DeserializeOwned, E: serde::de::Error>(text: &str) -> Result<T, E> {
+    let bytes = STANDARD_NO_PAD.decode(text).map_err(E::custom)?;
+    match postcard::take_from_bytes(&bytes).map_err(E::custom)? {
+        (value, []) => Ok(value),
+        (_, rest) => Err(E::custom(format!("{} bytes too many", rest.len()))),
     }
 }
 

@@ -14,11 +14,12 @@ pub mod triangle;
 
 use glam::DVec3;
 use grader::exam::{Asked, Item, Key, Part, Task};
+use grader::tells::Tells;
 use protocol::{Question, Ray, Rays, Shape};
 
 use crate::oracle::{Beam, Meeting, scan};
 
-/// An item from its parts; `text` is its title and its hint.
+/// An item from its parts; `text` is its title, and where to look.
 fn item(
     task: Task,
     name: &str,
@@ -26,15 +27,16 @@ fn item(
     text: [&str; 2],
     questions: impl IntoIterator<Item = Asked>,
 ) -> Item {
-    let [title, hint] = text.map(str::to_owned);
+    let [title, look] = text.map(str::to_owned);
     Item {
         id: format!("{task}.{name}"),
         title,
         task,
         points,
-        hint,
+        look,
         needs: Vec::new(),
         questions: questions.into_iter().collect(),
+        tells: Tells::default(),
     }
 }
 

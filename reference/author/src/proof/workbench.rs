@@ -4,13 +4,15 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use grader::ask::{Budget, Launcher};
+use grader::ask::{Budget, Fault, Launcher};
 use grader::build::{Build, BuildError, Builder, NotCompiled};
-use grader::exam::Exam;
+use grader::exam::{Exam, Item};
 use grader::examine::examine;
 use grader::score::{ExamName, Score};
 use grader::verdict::{file_message, unasked};
 use grader::workspace::{NoWorkspace, Workspace};
+
+use protocol::Answer;
 
 use crate::proof::sources::Sources;
 
@@ -110,6 +112,13 @@ impl Solution {
     /// Starts its probe.
     pub fn launcher(&self) -> &Launcher {
         &self.launcher
+    }
+
+    /// Its answers to one item, each item of a fresh probe.
+    pub fn answers(&self, item: &Item) -> std::io::Result<Result<Vec<Answer>, Fault>> {
+        let mut probe = self.launcher.start(BUDGET)?;
+        let questions = item.questions.iter().map(|asked| &asked.question);
+        Ok(probe.ask(questions, BUDGET))
     }
 
     /// Its score in an exam.

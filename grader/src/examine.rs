@@ -65,7 +65,7 @@ impl<'a> Sessions<'a> {
             return Ok(item_score(item, &Outcome::NotCompiled(why)));
         }
         let line = item_score(item, &self.own.ask(item)?);
-        let Some(by) = resting_on(item, others, &line) else {
+        let Some(by) = resting_on(item, others) else {
             return Ok(line);
         };
         match self.build.carried()? {
@@ -77,7 +77,7 @@ impl<'a> Sessions<'a> {
                     .carried
                     .get_or_insert_with(|| Session::new(Some(program), budget));
                 let again = item_score(item, &carried.ask(item)?);
-                Ok(carried_forward(by, line, again))
+                Ok(carried_forward(by, &line, again))
             }
         }
     }
@@ -159,7 +159,7 @@ impl Session {
         match probe.ask(questions, self.budget) {
             Ok(answers) => {
                 self.probe = Some(probe);
-                self.sightings.note(item, Some(&answers));
+                self.sightings.note(item, Ok(&answers));
                 let judged = item.questions.iter().zip(&answers);
                 Ok(Outcome::Answered(
                     judged.map(|(asked, answer)| judge(asked, answer)).collect(),
@@ -168,7 +168,7 @@ impl Session {
             Err(fault) => {
                 self.out_of_time += usize::from(matches!(fault, Fault::TimedOut(_)));
                 self.hear(probe);
-                self.sightings.note(item, None);
+                self.sightings.note(item, Err(&fault));
                 Ok(Outcome::Fault(fault))
             }
         }

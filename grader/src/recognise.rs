@@ -1,17 +1,18 @@
 //! From which known mistake a wrong answer comes, if that can be told.
 //!
 //! A mistake explains an item if it answers all the elements that the key tells of as the
-//! submission did. It is only named if nothing speaks against it: an item that the submission got
-//! right, and the mistake gets wrong. Of those that are left, the one that explains most items of
-//! the task comes first; where two explain the same, both are named.
+//! submission did. It is only named if it explains every item of the task that it gets wrong: no
+//! hint is better than a false one. What else is wrong may have another reason. Of several mistakes
+//! the one that explains most items comes first; where two explain the same, both are named.
 
 use std::collections::BTreeMap;
 
 use protocol::{Answer, Interval, Outcome, Ray, Trace};
 
+use crate::ask::{Crash, Fault};
 use crate::exam::{Asked, Exam, Hit, Item, Key, Part, RayPart, Task};
 use crate::judge::{How, judge};
-use crate::tells::{KnownMistake, Seen, Told};
+use crate::tells::{KnownMistake, Seen, Silence, Told};
 
 /// The most mistakes that are named together. More than that is no hint.
 const MOST: usize = 3;
@@ -21,19 +22,23 @@ const MOST: usize = 3;
 pub struct Sightings(BTreeMap<String, Vec<Seen>>);
 
 impl Sightings {
-    /// Notes the answers to an item; none if there was no answer.
-    pub fn note(&mut self, item: &Item, answers: Option<&[Answer]>) {
+    /// Notes the answers to an item, or why there were none.
+    pub fn note(&mut self, item: &Item, answers: Result<&[Answer], &Fault>) {
         if item.tells.elements.is_empty() {
             return;
         }
         let seen = match answers {
-            Some(answers) => {
+            Ok(answers) => {
                 let all = see_all(item, answers);
                 let told = item.tells.elements.iter();
-                told.map(|&element| all.get(element as usize).cloned().unwrap_or(Seen::NoAnswer))
-                    .collect()
+                told.map(|&element| {
+                    all.get(element as usize)
+                        .cloned()
+                        .unwrap_or(Seen::NoAnswer(Silence::Other))
+                })
+                .collect()
             }
-            None => vec![Seen::NoAnswer; item.tells.elements.len()],
+            Err(fault) => vec![silence(fault); item.tells.elements.len()],
         };
         self.0.insert(item.id.clone(), seen);
     }
@@ -43,6 +48,9 @@ impl Sightings {
         let Some(seen) = self.0.get(&item.id) else {
             return Vec::new();
         };
+        if self.is_mute(exam, item.task) {
+            return Vec::new();
+        }
         let told = item
             .tells
             .wrong
@@ -62,26 +70,25 @@ impl Sightings {
         if best.len() > MOST { Vec::new() } else { best }
     }
 
+    /// Whether there is nothing to go by in a whole task: no right answer, and no wrong one either.
+    fn is_mute(&self, exam: &Exam, task: Task) -> bool {
+        let items = exam.items.iter().filter(|item| item.task == task);
+        let mut seen = items.filter_map(|item| self.0.get(&item.id)).flatten();
+        seen.all(Seen::is_mute)
+    }
+
     /// How many items of a task a mistake explains; none if something speaks against it.
     fn explained(&self, exam: &Exam, task: Task, mistake: u32) -> Option<usize> {
+        let items = exam.items.iter().filter(|item| item.task == task);
         let mut count = 0;
-        for item in exam.items.iter().filter(|item| item.task == task) {
-            let Some(seen) = self.0.get(&item.id) else {
-                continue;
-            };
-            let told = item
-                .tells
-                .wrong
-                .iter()
-                .find(|told| told.by.contains(&mistake));
-            let right = seen
-                .iter()
-                .zip(&item.tells.right)
-                .all(|(a, b)| a.is_like(b));
-            match told {
-                Some(_) if right => return None,
-                Some(told) => count += usize::from(explains(item, told, seen)),
-                None => {}
+        for item in items {
+            let mut told = item.tells.wrong.iter();
+            let told = told.find(|told| told.by.contains(&mistake));
+            match (told, self.0.get(&item.id)) {
+                (Some(told), Some(seen)) if explains(item, told, seen) => count += 1,
+                (Some(_), Some(_)) => return None,
+                // What else is wrong may have another reason.
+                (None, _) | (_, None) => {}
             }
         }
         Some(count)
@@ -100,6 +107,16 @@ fn explains(item: &Item, told: &Told, seen: &[Seen]) -> bool {
                 None => seen.is_like(right),
             },
         )
+}
+
+/// What is seen of each element if there is no answer at all.
+pub fn silence(fault: &Fault) -> Seen {
+    Seen::NoAnswer(match fault {
+        Fault::TimedOut(_) => Silence::Time,
+        Fault::OutOfMemory => Silence::Memory,
+        Fault::Crashed(Crash::StackOverflow) => Silence::Stack,
+        Fault::Crashed(Crash::Exited(_) | Crash::Signal(_)) | Fault::Protocol(_) => Silence::Other,
+    })
 }
 
 /// What is seen of each element of an item's answers.
@@ -227,11 +244,14 @@ fn of_tree(asked: &Asked, answer: &Answer) -> Seen {
     match how {
         None => Seen::Tree(None),
         Some(How::Wrong { what, got, .. }) => {
-            // Where the finding is a number it comes first.
+            // Where the finding is a number it comes first. The other numbers are places.
             let amount = got.split(' ').next().and_then(|word| word.parse().ok());
-            Seen::Tree(Some((what, amount.unwrap_or(0.0))))
+            let is_word = |word: &&str| !word.contains(|c: char| c.is_ascii_digit());
+            let words: Vec<&str> = got.split(' ').filter(is_word).collect();
+            let found = format!("{what}: {}", words.join(" "));
+            Seen::Tree(Some((found, amount.unwrap_or(0.0))))
         }
         Some(How::Panicked(_)) => Seen::Panicked,
-        Some(How::Protocol(_)) => Seen::NoAnswer,
+        Some(How::Protocol(_)) => Seen::NoAnswer(Silence::Other),
     }
 }

@@ -59,8 +59,21 @@ pub enum Seen {
     Tree(Option<(String, f32)>),
     /// The code panicked.
     Panicked,
-    /// There was no answer to the whole item: it took too long, too much, or the process down.
-    NoAnswer,
+    /// There was no answer to the whole item.
+    NoAnswer(Silence),
+}
+
+/// Why there was no answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Silence {
+    /// It took too long.
+    Time,
+    /// It took too much memory.
+    Memory,
+    /// The stack overflowed.
+    Stack,
+    /// Something else took the process down, or what came was no answer.
+    Other,
 }
 
 impl Seen {
@@ -69,6 +82,14 @@ impl Seen {
     const TOLERANCE: f32 = 1e-3;
     /// The same for what a tree costs: builders of the same mind make somewhat different trees.
     const COST_TOLERANCE: f32 = 0.08;
+
+    /// Whether it says nothing of what went on: only that it came to no good end.
+    pub fn is_mute(&self) -> bool {
+        match self {
+            Seen::Panicked | Seen::NoAnswer(_) => true,
+            Seen::Numbers(_) | Seen::Nothing | Seen::Tree(_) => false,
+        }
+    }
 
     /// Whether both may come from the same mistake.
     pub fn is_like(&self, other: &Seen) -> bool {
@@ -80,11 +101,14 @@ impl Seen {
                 what == other && alike(*a, *b, Seen::COST_TOLERANCE)
             }
             (Seen::Tree(a), Seen::Tree(b)) => a.is_none() && b.is_none(),
-            (Seen::Nothing, Seen::Nothing)
-            | (Seen::Panicked, Seen::Panicked)
-            | (Seen::NoAnswer, Seen::NoAnswer) => true,
+            (Seen::NoAnswer(a), Seen::NoAnswer(b)) => a == b,
+            (Seen::Nothing, Seen::Nothing) | (Seen::Panicked, Seen::Panicked) => true,
             (
-                Seen::Numbers(_) | Seen::Nothing | Seen::Tree(_) | Seen::Panicked | Seen::NoAnswer,
+                Seen::Numbers(_)
+                | Seen::Nothing
+                | Seen::Tree(_)
+                | Seen::Panicked
+                | Seen::NoAnswer(_),
                 _,
             ) => false,
         }
@@ -92,8 +116,9 @@ impl Seen {
 }
 
 fn alike(a: f32, b: f32, tolerance: f32) -> bool {
+    let close = (a - b).abs() <= tolerance * a.abs().max(1.0);
     // Infinities of one sign are equal; what is not a number is like what is not one.
-    a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= tolerance * a.abs().max(1.0)
+    a == b || (a.is_nan() && b.is_nan()) || (close && a.is_finite() && b.is_finite())
 }
 
 #[cfg(test)]

@@ -198,21 +198,18 @@ fn message(what: &str, failure: &Failure) -> String {
     }
 }
 
-/// The item of another task that this one needs, which earned nothing, if that may be why this one
-/// was not passed.
-pub fn resting_on<'a>(item: &'a Item, others: &Score, line: &ItemScore) -> Option<&'a str> {
-    let failed = line.points < line.max_points && line.verdict != Verdict::Pending;
+/// The item of another task that this one needs, which earned nothing.
+pub fn resting_on<'a>(item: &'a Item, others: &Score) -> Option<&'a str> {
     let earned_nothing = |id: &&String| {
         let needed = others.items().find(|other| other.id == **id);
         needed.is_some_and(|needed| needed.points == 0)
     };
-    let needed = item.needs.iter().find(earned_nothing);
-    needed.filter(|_| failed).map(String::as_str)
+    item.needs.iter().find(earned_nothing).map(String::as_str)
 }
 
 /// Nobody can tell whose mistake it is, where there is no right part to try instead.
 pub fn blocked(by: &str, line: ItemScore) -> ItemScore {
-    if line.points > 0 {
+    if line.points > 0 || line.verdict == Verdict::Pending {
         return line;
     }
     ItemScore {
@@ -239,15 +236,18 @@ pub fn hinted(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
     line.staff = Some(format!("answers like {}", ids.join(" or ")));
 }
 
-/// The better of what the submission earns by itself and with right parts in the place of its
-/// other files. If both are nothing, the second tells more of this task.
-pub fn carried_forward(by: &str, own: ItemScore, carried: ItemScore) -> ItemScore {
-    if carried.points < own.points {
-        return own;
-    }
-    let message = match carried.message.as_str() {
-        "" => format!("wrong only because of {by}: with right parts in its place, all is well"),
-        message => format!("{message}; asked with right parts, because of {by}"),
+/// What the submission earns with right parts in the place of its other files, which is what
+/// counts: a mistake in those costs nothing here, and no mistake here is hidden by one in those.
+pub fn carried_forward(by: &str, own: &ItemScore, carried: ItemScore) -> ItemScore {
+    let message = match (own.verdict == Verdict::Pass, carried.message.as_str()) {
+        (true, "") => String::new(),
+        (false, "") => {
+            format!("wrong only because of {by}: with right parts in its place, all is well")
+        }
+        (true, message) => {
+            format!("{message}; two mistakes that cancel: it shows with right parts for {by}")
+        }
+        (false, message) => format!("{message}; asked with right parts, because of {by}"),
     };
     ItemScore {
         message,

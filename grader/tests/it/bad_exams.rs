@@ -17,7 +17,7 @@ const GOOD: &str = r#"{
       "title": "a ray goes through a box",
       "task": "bbox",
       "points": 5,
-      "hint": "Inside all three slabs at once.",
+      "look": "Inside all three slabs at once.",
       "questions": [
         {
           "question": { "bbox": { "min": [-1, -1, -1], "max": [1, 1, 1], "shots": [

@@ -50,6 +50,27 @@ fn a_wrong_walk_on_a_wrong_box_test_costs_both() {
 }
 
 #[test]
+fn two_mistakes_that_hide_each_other_are_both_found() {
+    // Boxes that do not look at `times`, and a walk that asks for the times from 0 to 0.
+    let graded = Submission::reference("hiding")
+        .changed(
+            "bbox.rs",
+            "Interval::new(times.min.max(enter), times.max.min(leave));",
+            "Interval::new(enter.max(0.0), leave);\nlet _ = times;",
+        )
+        .changed(
+            "bvh.rs",
+            "bbox.hit(ray, ray.range)",
+            "bbox.hit(ray, protocol::Interval::new(0.0, 0.0))",
+        );
+    let points = graded.grade_with_reference().points();
+    assert!(points[BOXES] < FULL[BOXES], "{points:?}");
+    assert_eq!(points[WALKING], 0);
+    // By itself, the walk goes well.
+    assert!(graded.grade().points()[WALKING] > 15);
+}
+
+#[test]
 fn what_does_not_compile_with_other_parts_stays_as_first_judged() {
     let graded = no_swap()
         .changed(

@@ -32,6 +32,8 @@ pub enum Command {
     Scenes(Check),
     /// The table of which known mistake fails which item of the practice exam
     Mistakes(Check),
+    /// How well the practice exam's hints recognise known mistakes, and take unknown ones for others
+    Hints,
     /// Ask every variant of every seed's exam, and every mistake of the first few
     Prove {
         /// The seeds, such as 0..1000

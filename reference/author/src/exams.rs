@@ -1,6 +1,9 @@
 //! Whole exams.
 
+use std::path::Path;
+
 use grader::exam::{Exam, Item};
+use grader::exam_file::{self, BadExam};
 
 use crate::generated::Generated;
 use crate::hints::with_hints;
@@ -17,7 +20,7 @@ const SCHEMA: u32 = 1;
 const PRACTICE: Seed = Seed(2025);
 
 /// Where the practice exam stands, from the workspace's root.
-pub const PRACTICE_FILE: &str = "grader/exams/practice.json";
+const PRACTICE_FILE: &str = "grader/exams/practice.json";
 
 /// Why there is no exam.
 #[derive(Debug, thiserror::Error)]
@@ -34,6 +37,11 @@ pub enum NoExam {
 pub fn generated() -> Result<Vec<Generated>, NoExam> {
     let practice = whole_text("practice", PRACTICE)?;
     Ok(vec![Generated::new(PRACTICE_FILE, practice)])
+}
+
+/// The practice exam that is committed in the workspace at `root`.
+pub fn practice(root: &Path) -> Result<Exam, BadExam> {
+    Ok(exam_file::load(Some(&root.join(PRACTICE_FILE)))?.exam)
 }
 
 /// The file of an exam of other questions about the same ideas.

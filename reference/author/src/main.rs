@@ -9,6 +9,7 @@ use author::generated::{Generated, Mode, deliver};
 use author::proof::exhibits::Exhibits;
 use author::proof::matrix;
 use author::proof::prove::prove;
+use author::proof::recognition::recognise;
 use author::proof::workbench::Workbench;
 use author::{exams, scenes, starter};
 use clap::Parser;
@@ -40,6 +41,11 @@ fn run(command: Command) -> Result<(), Box<dyn std::error::Error>> {
         }
         Command::Scenes(check) => deliver(&scenes::generated(), check.mode(), "scenes")?,
         Command::Mistakes(check) => deliver(&[matrix::generated()?], check.mode(), "mistakes")?,
+        Command::Hints => {
+            let exhibits = Exhibits::prepare(Workbench::open()?)?;
+            let recognition = recognise(&exhibits, &exams::practice(root)?)?;
+            println!("{recognition}");
+        }
         Command::Prove { seeds, mistakes } => {
             let exhibits = Exhibits::prepare(Workbench::open()?)?;
             let summary = prove(&exhibits, seeds, mistakes)?;

@@ -130,13 +130,14 @@ impl Mistake {
         task.expect("ids were checked when they were read")
     }
 
-    /// The tasks whose files it changes: nothing else may lose points.
+    /// The tasks that may lose points: its own, and for two mistakes that hide each other those of
+    /// the items that must fail.
     pub fn tasks(&self) -> Vec<Task> {
-        let changed = |task: &Task| {
-            let other = |change: &Change| change.file.as_deref() == Some(task.file());
-            *task == self.task() || self.changes.iter().any(other)
+        let failed = |task: &Task| {
+            let of_task = |id: &String| id.split('.').next() == Some(task.id());
+            *task == self.task() || self.fails.iter().any(of_task)
         };
-        Task::ALL.into_iter().filter(changed).collect()
+        Task::ALL.into_iter().filter(failed).collect()
     }
 
     /// The reference with this mistake.

@@ -35,6 +35,12 @@ pub enum NotProven {
     /// There is no exam.
     #[error(transparent)]
     NotRecorded(#[from] NotRecorded),
+    /// Mistakes are not judged as they should be.
+    #[error(
+        "the practice exam and reference/mistakes do not agree; mend the items or the mistakes:\n{}",
+        .0.join("\n")
+    )]
+    Problems(Vec<String>),
     /// What was found out can not be kept.
     #[error("can not write {}: {source}", path.display())]
     Unwritable {

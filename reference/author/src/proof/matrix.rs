@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use grader::exam::{Exam, Item, Task};
-use grader::exam_file;
 use grader::score::ItemScore;
 
 use crate::exams;
@@ -15,12 +14,17 @@ use crate::proof::workbench::Workbench;
 /// Where the table stands.
 const PATH: &str = "reference/mistakes/matrix.md";
 
-/// The table, of the practice exam that is committed.
+/// The table, of the practice exam that is committed. An error if a mistake is not judged as it
+/// should be.
 pub fn generated() -> Result<Generated, NotProven> {
     let exhibits = Exhibits::prepare(Workbench::open()?)?;
-    let practice = exhibits.workbench.root().join(exams::PRACTICE_FILE);
-    let exam = exam_file::load(Some(&practice))?.exam;
-    Ok(table(&exam, &exhibits.try_mistakes(&exam)?))
+    let exam = exams::practice(exhibits.workbench.root())?;
+    let tried = exhibits.try_mistakes(&exam)?;
+    let problems: Vec<String> = tried.iter().flat_map(Tried::problems).collect();
+    if !problems.is_empty() {
+        return Err(NotProven::Problems(problems));
+    }
+    Ok(table(&exam, &tried))
 }
 
 /// The table, of one exam.

@@ -7,6 +7,7 @@ pub mod catalogue;
 pub mod exhibits;
 pub mod matrix;
 pub mod prove;
+pub mod recognition;
 pub mod sources;
 pub mod tried;
 pub mod variants;

@@ -168,11 +168,26 @@ impl Tree {
         }
     }
 
-    /// The same tree with its root at the front, and at the end a copy of it that is no part of the
-    /// tree: whoever begins at either end, and not at `root`, begins rightly.
+    /// The same tree with its root at the front, followed by a copy of the whole tree whose root is
+    /// at the end: whoever begins at either end, and not at `root`, begins rightly.
+    ///
+    /// The copy has nodes of its own. Were it only the root's, its children would have two parents,
+    /// and whoever notes parents or depths in one pass over all nodes would be led astray.
     pub fn with_roots_at_both_ends(&self, draw: &mut Draw) -> Tree {
         let mut tree = self.rearranged(draw, RootPlace::First);
-        tree.nodes.push(tree.nodes[tree.root]);
+        let count = tree.nodes.len() as u32;
+        let copied = |node: &TreeNode| match node.is_leaf() {
+            true => *node,
+            // Node 1 is copied to the place after the last, and so on.
+            false => TreeNode {
+                l: node.l + count - 1,
+                r: node.r + count - 1,
+                ..*node
+            },
+        };
+        let mut copy: Vec<TreeNode> = tree.nodes.iter().map(copied).collect();
+        copy.rotate_left(1);
+        tree.nodes.extend(copy);
         tree
     }
 

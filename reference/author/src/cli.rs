@@ -42,6 +42,9 @@ pub enum Command {
         /// How many of the seeds the mistakes are asked as well
         #[arg(long, default_value_t = 10)]
         mistakes: u64,
+        /// Write down what was found out, with date and commit
+        #[arg(long)]
+        write: bool,
     },
 }
 

@@ -11,7 +11,7 @@ use author::proof::matrix;
 use author::proof::prove::prove;
 use author::proof::recognition::recognise;
 use author::proof::workbench::Workbench;
-use author::{exams, scenes, starter};
+use author::{exams, generated, scenes, starter};
 use clap::Parser;
 
 /// The workspace's root, where all paths of generated files start.
@@ -25,6 +25,19 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn today() -> String {
+    jiff::Timestamp::now().strftime("%F").to_string()
+}
+
+/// The commit that is checked out, and whether something was changed since.
+fn commit(root: &Path) -> io::Result<String> {
+    let git = std::process::Command::new("git")
+        .args(["describe", "--always", "--dirty", "--abbrev=12"])
+        .current_dir(root)
+        .output()?;
+    Ok(String::from_utf8_lossy(&git.stdout).trim().to_owned())
 }
 
 fn run(command: Command) -> Result<(), Box<dyn std::error::Error>> {
@@ -46,13 +59,21 @@ fn run(command: Command) -> Result<(), Box<dyn std::error::Error>> {
             let recognition = recognise(&exhibits, &exams::practice(root)?)?;
             println!("{recognition}");
         }
-        Command::Prove { seeds, mistakes } => {
+        Command::Prove {
+            seeds,
+            mistakes,
+            write,
+        } => {
             let exhibits = Exhibits::prepare(Workbench::open()?)?;
             let summary = prove(&exhibits, seeds, mistakes)?;
             for complaint in summary.complaints() {
                 eprintln!("{complaint}");
             }
             println!("{}", summary.line());
+            if write {
+                let record = summary.record(&today(), &commit(root)?);
+                generated::deliver(&[record], root, Mode::Write, "prove")?;
+            }
             if !summary.is_proven() {
                 return Err("the exam is not proven: see above".into());
             }

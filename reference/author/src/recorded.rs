@@ -51,6 +51,7 @@ pub enum NotRecorded {
 #[derive(Debug)]
 pub struct Recorder {
     scene: String,
+    sources: Sources,
     reference: Solution,
 }
 
@@ -60,7 +61,16 @@ impl Recorder {
         let scene = read(&workbench.root().join(SCENE))?;
         let sources = Sources::reference(workbench.root())?;
         let reference = workbench.build(&sources, "reference")?;
-        Ok(Recorder { scene, reference })
+        Ok(Recorder {
+            scene,
+            sources,
+            reference,
+        })
+    }
+
+    /// The reference's files.
+    pub fn reference(&self) -> &Sources {
+        &self.sources
     }
 
     /// The reference's answer to a question about the Cornell box, whose text is told to `question`.

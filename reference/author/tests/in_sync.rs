@@ -41,6 +41,11 @@ fn the_exams_are_in_sync() {
 }
 
 #[test]
+fn the_table_of_mistakes_is_in_sync() {
+    assert_in_sync("mistakes");
+}
+
+#[test]
 fn the_scenes_are_in_sync() {
     assert_in_sync("scenes");
 }

@@ -9,6 +9,7 @@ pub mod matrix;
 pub mod prove;
 pub mod recognition;
 pub mod sources;
+pub mod summary;
 pub mod tried;
 pub mod variants;
 pub mod workbench;

@@ -10,25 +10,12 @@ use std::sync::Mutex;
 
 use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use crate::exams;
 use crate::proof::exhibits::{Exhibits, NotProven};
 use crate::proof::sources::Unreadable;
+use crate::proof::summary::{Found, Summary};
 use crate::seed::Seed;
-
-/// What came of one seed.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct Found {
-    /// Which.
-    pub seed: u64,
-    /// Whether the mistakes were asked as well.
-    pub with_mistakes: bool,
-    /// Variants that lost points which they should not.
-    pub false_fails: BTreeMap<String, Vec<String>>,
-    /// Mistakes that did not cost what they should.
-    pub uncaught: BTreeMap<String, Vec<String>>,
-}
 
 /// Asks one seed's exam.
 fn ask(exhibits: &Exhibits, seed: u64, with_mistakes: bool) -> Result<Found, NotProven> {
@@ -51,75 +38,6 @@ fn ask(exhibits: &Exhibits, seed: u64, with_mistakes: bool) -> Result<Found, Not
         }
     }
     Ok(found)
-}
-
-/// What came of all seeds.
-#[derive(Debug)]
-pub struct Summary {
-    /// In the order of the seeds.
-    pub found: Vec<Found>,
-    /// How many there are of each.
-    pub mistakes: usize,
-    /// How many there are.
-    pub variants: usize,
-}
-
-impl Summary {
-    /// The closing line.
-    pub fn line(&self) -> String {
-        let uncaught = self.names(|found| &found.uncaught);
-        let failed = self.names(|found| &found.false_fails);
-        let false_fails: usize = self.found.iter().map(|found| found.false_fails.len()).sum();
-        let with_mistakes = self
-            .found
-            .iter()
-            .filter(|found| found.with_mistakes)
-            .count();
-        format!(
-            "mistakes caught {} of {} ({with_mistakes} seeds), variants passed {} of {}, seeds {}, \
-             false fails {false_fails}",
-            self.mistakes - uncaught.len(),
-            self.mistakes,
-            self.variants - failed.len(),
-            self.variants,
-            self.found.len(),
-        )
-    }
-
-    /// Whether nothing was found that should not be.
-    pub fn is_proven(&self) -> bool {
-        let fine = |found: &Found| found.false_fails.is_empty() && found.uncaught.is_empty();
-        self.found.iter().all(fine)
-    }
-
-    /// What was found that should not be, a line each.
-    pub fn complaints(&self) -> Vec<String> {
-        let mut lines = Vec::new();
-        for found in &self.found {
-            for (id, losses) in &found.false_fails {
-                lines.push(format!(
-                    "seed {}: {id} is right and loses: {}",
-                    found.seed,
-                    losses.join("; ")
-                ));
-            }
-            for problems in found.uncaught.values() {
-                lines.push(format!("seed {}: {}", found.seed, problems.join("; ")));
-            }
-        }
-        lines
-    }
-
-    fn names(&self, of: impl Fn(&Found) -> &BTreeMap<String, Vec<String>>) -> Vec<&String> {
-        let mut names: Vec<&String> = self
-            .found
-            .iter()
-            .flat_map(|found| of(found).keys())
-            .collect();
-        names.sort();
-        names.dedup();
-        names
-    }
 }
 
 /// Asks all these seeds, the first `with_mistakes` of them with the mistakes as well. What was
@@ -163,6 +81,7 @@ pub fn prove(
         })
         .collect();
     Ok(Summary {
+        seeds,
         found: found?,
         mistakes: exhibits.mistakes.len(),
         variants: exhibits.variants.len(),

@@ -6,5 +6,6 @@ mod bad_submissions;
 mod carried_forward;
 mod command_line;
 mod harness;
+mod hints;
 mod scores;
 mod walls;

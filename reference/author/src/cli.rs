@@ -32,6 +32,15 @@ pub enum Command {
     Scenes(Check),
     /// The table of which known mistake fails which item of the practice exam
     Mistakes(Check),
+    /// The list of mutants that cargo-mutants makes of the reference; and ask each of them
+    Mutants {
+        /// Ask only a fixed part of them
+        #[arg(long)]
+        fast: bool,
+        /// Whether to write the list.
+        #[command(flatten)]
+        check: Check,
+    },
     /// Ask every variant of every seed's exam, and every mistake of the first few
     Prove {
         /// The seeds, such as 0..1000

@@ -34,6 +34,15 @@ pub enum Command {
     Mistakes(Check),
     /// How well the practice exam's hints recognise known mistakes, and take unknown ones for others
     Hints,
+    /// The list of mutants that cargo-mutants makes of the reference; and ask each of them
+    Mutants {
+        /// Ask only a fixed part of them
+        #[arg(long)]
+        fast: bool,
+        /// Whether to write the list.
+        #[command(flatten)]
+        check: Check,
+    },
     /// Ask every variant of every seed's exam, and every mistake of the first few
     Prove {
         /// The seeds, such as 0..1000

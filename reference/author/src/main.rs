@@ -8,6 +8,7 @@ use author::cli::{Cli, Command};
 use author::generated::{Generated, Mode, deliver};
 use author::proof::exhibits::Exhibits;
 use author::proof::matrix;
+use author::proof::mutants::{self, Extent};
 use author::proof::prove::prove;
 use author::proof::recognition::recognise;
 use author::proof::workbench::Workbench;
@@ -54,6 +55,20 @@ fn run(command: Command) -> Result<(), Box<dyn std::error::Error>> {
         }
         Command::Scenes(check) => deliver(&scenes::generated(), check.mode(), "scenes")?,
         Command::Mistakes(check) => deliver(&[matrix::generated()?], check.mode(), "mistakes")?,
+        Command::Mutants { fast, check } => {
+            let list = mutants::list(root, check.mode())?;
+            deliver(&[list.generated()], check.mode(), "mutants")?;
+            let extent = Extent::new(fast);
+            let findings = mutants::ask(&list, extent)?;
+            for complaint in findings.complaints() {
+                eprintln!("{complaint}");
+            }
+            println!("{}", extent.words());
+            println!("{}", findings.line());
+            if !findings.complaints().is_empty() {
+                return Err("not every mutant fares as it should: see above".into());
+            }
+        }
         Command::Hints => {
             let exhibits = Exhibits::prepare(Workbench::open()?)?;
             let recognition = recognise(&exhibits, &exams::practice(root)?)?;

@@ -1,0 +1,249 @@
+//! The list of all mutants, `reference/mutants/list.json`: as cargo-mutants makes them, and as it is
+//! committed for where that is not installed.
+
+use grader::given::{TASK_FILES, TaskFile};
+use serde::{Deserialize, Serialize};
+
+use crate::generated::Generated;
+use crate::proof::mutants::span::Span;
+use crate::proof::sources::Sources;
+
+/// Where the list stands, from the workspace's root.
+pub const PATH: &str = "reference/mutants/list.json";
+
+/// One small change to the reference.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mutant {
+    /// The file, and what is changed in which function. Lines are not part of it: it stays while
+    /// the function does. Where one function has several alike, they are numbered as they stand.
+    pub name: String,
+    /// What is replaced.
+    pub span: Span,
+    /// By what.
+    pub now: String,
+}
+
+/// The mutants of one of the five files.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OfFile {
+    /// Its name.
+    pub file: String,
+    /// The text that the spans are meant for: its BLAKE3 hash, shortened.
+    pub blake3: String,
+    /// As they stand in it.
+    pub mutants: Vec<Mutant>,
+}
+
+/// All mutants.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct List {
+    /// The program that made them, and its version.
+    pub made_by: String,
+    /// In lecture order.
+    pub files: Vec<OfFile>,
+}
+
+/// The list is of another reference than the present one.
+#[derive(Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{PATH} does not fit reference/src/{file}, which has changed since: install cargo-mutants \
+     (`cargo install cargo-mutants --locked`) and run `cargo author mutants`"
+)]
+pub struct DoesNotFit {
+    /// The file that the list does not fit.
+    pub file: String,
+}
+
+/// A mutant before it has a name that no other has.
+#[derive(Clone, Debug)]
+pub struct Unnamed {
+    /// What is changed in which function.
+    pub what: String,
+    /// What is replaced.
+    pub span: Span,
+    /// By what.
+    pub now: String,
+}
+
+impl OfFile {
+    /// The mutants of a file with this text, put in order and named.
+    pub fn new(file: &str, text: &str, mut unnamed: Vec<Unnamed>) -> Self {
+        unnamed.sort_by(|a, b| (a.span, &a.what).cmp(&(b.span, &b.what)));
+        let alike = |others: &[Unnamed], what: &str| {
+            let alike = others.iter().filter(|other| other.what == what);
+            alike.count()
+        };
+        let name = |place: usize| {
+            let what = &unnamed[place].what;
+            match alike(&unnamed, what) {
+                1 => format!("{file}: {what}"),
+                all => {
+                    let number = 1 + alike(&unnamed[..place], what);
+                    format!("{file}: {what}, {number} of {all}")
+                }
+            }
+        };
+        let mutants = unnamed.iter().enumerate().map(|(place, mutant)| Mutant {
+            name: name(place),
+            span: mutant.span,
+            now: mutant.now.clone(),
+        });
+        OfFile {
+            file: file.to_owned(),
+            blake3: hash(text),
+            mutants: mutants.collect(),
+        }
+    }
+}
+
+fn hash(text: &str) -> String {
+    blake3::hash(text.as_bytes()).to_hex()[..16].to_owned()
+}
+
+impl List {
+    /// Every mutant with the reference that has it, by name.
+    pub fn solutions(&self, reference: &Sources) -> Result<Vec<(&Mutant, Sources)>, DoesNotFit> {
+        let mut solutions = Vec::new();
+        for TaskFile { name: file, .. } in TASK_FILES {
+            let no_fit = || DoesNotFit {
+                file: file.to_owned(),
+            };
+            let text = reference.text(file).unwrap_or_default();
+            let of_file = self.files.iter().find(|of_file| of_file.file == file);
+            let of_file = of_file.filter(|of_file| of_file.blake3 == hash(text));
+            for mutant in &of_file.ok_or_else(no_fit)?.mutants {
+                let text = mutant.span.replace(text, &mutant.now).ok_or_else(no_fit)?;
+                solutions.push((mutant, reference.clone().with(file, text)));
+            }
+        }
+        solutions.sort_by_key(|(mutant, _)| &mutant.name);
+        Ok(solutions)
+    }
+
+    /// The file that holds it: a line for each mutant, so that changes are easy to read.
+    pub fn generated(&self) -> Generated {
+        let files = self.files.iter().map(|of_file| {
+            let mutants: Vec<String> = of_file.mutants.iter().map(json).collect();
+            format!(
+                "    {{\"file\": {}, \"blake3\": {}, \"mutants\": [\n      {}\n    ]}}",
+                json(&of_file.file),
+                json(&of_file.blake3),
+                mutants.join(",\n      "),
+            )
+        });
+        let files: Vec<String> = files.collect();
+        let text = format!(
+            "{{\n  \"made_by\": {},\n  \"files\": [\n{}\n  ]\n}}\n",
+            json(&self.made_by),
+            files.join(",\n")
+        );
+        Generated::new(PATH, text)
+    }
+}
+
+fn json(value: &impl Serialize) -> String {
+    serde_json::to_string(value).expect("texts and numbers can be written")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    fn reference() -> Sources {
+        Sources::reference(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."))
+            .expect("the reference is there")
+    }
+
+    /// One mutant in each file: the first character becomes another.
+    fn list(reference: &Sources) -> List {
+        let of_file = |file: TaskFile| {
+            let text = reference.text(file.name).unwrap_or_default();
+            OfFile::new(file.name, text, vec![unnamed("spoil", "1:1-1:2")])
+        };
+        List {
+            made_by: "hand".to_owned(),
+            files: TASK_FILES.into_iter().map(of_file).collect(),
+        }
+    }
+
+    fn unnamed(what: &str, span: &str) -> Unnamed {
+        Unnamed {
+            what: what.to_owned(),
+            span: span.to_owned().try_into().expect("a span"),
+            now: "#".to_owned(),
+        }
+    }
+
+    #[test]
+    fn mutants_that_are_alike_are_numbered_as_they_stand() {
+        let unnamed = vec![
+            unnamed("replace + with -", "7:2-7:3"),
+            unnamed("delete !", "8:1-8:2"),
+            unnamed("replace + with -", "6:9-6:10"),
+        ];
+        let of_file = OfFile::new("a.rs", "", unnamed);
+        let names: Vec<String> = of_file
+            .mutants
+            .iter()
+            .map(|mutant| format!("{} {}", mutant.span, mutant.name))
+            .collect();
+        assert_eq!(
+            names,
+            [
+                "6:9-6:10 a.rs: replace + with -, 1 of 2",
+                "7:2-7:3 a.rs: replace + with -, 2 of 2",
+                "8:1-8:2 a.rs: delete !",
+            ]
+        );
+    }
+
+    #[test]
+    fn each_mutant_changes_its_own_file_only() {
+        let reference = reference();
+        let list = list(&reference);
+        for (mutant, sources) in list.solutions(&reference).expect("it fits") {
+            for TaskFile { name, .. } in TASK_FILES {
+                let text = reference.text(name).unwrap_or_default();
+                let wanted = match mutant.name.starts_with(name) {
+                    true => format!("#{}", &text[1..]),
+                    false => text.to_owned(),
+                };
+                assert_eq!(sources.text(name), Some(wanted.as_str()));
+            }
+        }
+    }
+
+    #[test]
+    fn a_list_that_does_not_fit_the_reference_is_refused() {
+        let list = list(&reference());
+        let text = reference()
+            .text("sphere.rs")
+            .map(|text| format!("{text}\n"));
+        let later = reference().with("sphere.rs", text.unwrap_or_default());
+        let error = list.solutions(&later).expect_err("a line was added");
+        assert_eq!(error.file, "sphere.rs");
+        let said = error.to_string();
+        assert!(said.contains("install cargo-mutants"), "{said}");
+        assert!(said.contains("run `cargo author mutants`"), "{said}");
+    }
+
+    #[test]
+    fn a_list_without_one_of_the_files_is_refused() {
+        let mut list = list(&reference());
+        list.files.remove(1);
+        let error = list.solutions(&reference()).expect_err("it is not whole");
+        assert_eq!(error.file, "triangle.rs");
+    }
+
+    #[test]
+    fn a_list_is_read_as_it_is_written() {
+        let list = list(&reference());
+        let again: List = serde_json::from_str(&list.generated().contents).expect("it is JSON");
+        assert_eq!(again, list);
+    }
+}

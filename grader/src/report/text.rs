@@ -57,14 +57,19 @@ fn write_report(out: &mut String, score: &Score, only: Option<Task>, hints: Hint
         compiler(out, &file.message)?;
     }
     for task in &tasks {
-        let mut failing = task
-            .items
-            .iter()
-            .filter(|item| item.points < item.max_points);
-        if let Some(first) = failing.next() {
-            item(out, first, hints)?;
-            again(out, task, first, failing.count())?;
+        let failing = task.items.iter();
+        let failing: Vec<&ItemScore> = failing
+            .filter(|item| item.points < item.max_points)
+            .collect();
+        // Of many tasks the first item that fails is enough to begin with; of one, all that say more.
+        let says_more = |item: &&&ItemScore| only.is_some() && item.evidence.is_some();
+        let others = failing.iter().skip(1).filter(says_more);
+        let shown: Vec<&&ItemScore> = failing.first().into_iter().chain(others).collect();
+        for line in &shown {
+            item(out, line, hints)?;
+            again(out, line)?;
         }
+        more(out, task, failing.len() - shown.len(), only)?;
         if let Some(printed) = &task.printed {
             printed_lines(out, task, printed)?;
         }
@@ -197,28 +202,32 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-fn again(out: &mut String, task: &TaskScore, item: &ItemScore, more: usize) -> fmt::Result {
-    let (label, id) = ("again", task.id);
+/// How to ask the same again.
+fn again(out: &mut String, item: &ItemScore) -> fmt::Result {
+    let command = match (&item.evidence, item.id.split('.').next()) {
+        (Some(evidence), _) => format!("--replay {}#{}", item.id, evidence.number),
+        (None, Some(task)) => format!("--task {task}"),
+        (None, None) => return Ok(()),
+    };
+    let label = "again";
+    writeln!(out, "    {FAINT}{label:<7} cargo grade {command}{FAINT:#}")
+}
+
+/// How many items are not shown, and how to see them.
+fn more(out: &mut String, task: &TaskScore, count: usize, only: Option<Task>) -> fmt::Result {
+    let items = match count {
+        0 => return Ok(()),
+        1 => "item",
+        _ => "items",
+    };
+    let how = match only {
+        Some(_) => String::new(),
+        None => format!(": cargo grade --task {}", task.id),
+    };
     writeln!(
         out,
-        "    {FAINT}{label:<7} cargo grade --task {id}{FAINT:#}"
-    )?;
-    if let Some(evidence) = &item.evidence {
-        let (label, number) = ("", evidence.number);
-        writeln!(
-            out,
-            "    {FAINT}{label:<7} cargo grade --replay {}#{number}{FAINT:#}",
-            item.id
-        )?;
-    }
-    match more {
-        0 => Ok(()),
-        1 => writeln!(out, "    {FAINT}and 1 more item of this task{FAINT:#}"),
-        _ => writeln!(
-            out,
-            "    {FAINT}and {more} more items of this task{FAINT:#}"
-        ),
-    }
+        "    {FAINT}and {count} more {items} of this task{how}{FAINT:#}"
+    )
 }
 
 fn printed_lines(out: &mut String, task: &TaskScore, printed: &str) -> fmt::Result {

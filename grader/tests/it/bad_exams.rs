@@ -80,7 +80,7 @@ fn bad_ones_are_refused_with_place_and_remedy() {
     let cases = [
         ("empty", String::new()),
         ("cut off", GOOD[..200].to_owned()),
-        ("unknown key", GOOD.replace("\"hint\"", "\"clue\"")),
+        ("unknown key", GOOD.replace("\"look\"", "\"clue\"")),
         (
             "unknown task",
             GOOD.replace("\"task\": \"bbox\"", "\"task\": \"box\""),

@@ -121,7 +121,9 @@ fn problem(exam: &Exam) -> Option<String> {
     }
     let mut earlier = BTreeSet::new();
     for item in &exam.items {
-        if let Some(problem) = item_problem(item, &earlier) {
+        let problem = item_problem(item, &earlier);
+        let problem = problem.or_else(|| tells_problem(item, exam.mistakes.len()));
+        if let Some(problem) = problem {
             return Some(format!("item {}: {problem}", item.id));
         }
         earlier.insert(item.id.as_str());
@@ -156,6 +158,29 @@ fn item_problem(item: &Item, earlier: &BTreeSet<&str>) -> Option<String> {
         }
     };
     (1..).zip(&item.questions).find_map(misfit)
+}
+
+/// What is wrong with what an item tells of mistakes, if anything is.
+fn tells_problem(item: &Item, mistakes: usize) -> Option<String> {
+    let count: usize = item
+        .questions
+        .iter()
+        .map(|asked| asked.question.count())
+        .sum();
+    let tells = &item.tells;
+    let too_far = tells
+        .elements
+        .iter()
+        .any(|element| *element as usize >= count);
+    let of_none = tells.wrong.iter().any(|told| {
+        let answers = told.answers.iter();
+        told.by.iter().any(|mistake| *mistake as usize >= mistakes)
+            || answers
+                .map(|(place, _)| *place as usize)
+                .any(|place| place >= tells.elements.len())
+    });
+    (too_far || of_none || tells.right.len() != tells.elements.len())
+        .then(|| "it tells of mistakes or elements that are not there".to_owned())
 }
 
 /// Whether a key is one to this question, and how many elements it answers.

@@ -80,6 +80,13 @@ fn bad_ones_are_refused_with_place_and_remedy() {
     let cases = [
         ("empty", String::new()),
         ("cut off", GOOD[..200].to_owned()),
+        (
+            "tells of nothing",
+            GOOD.replace(
+                "\"look\"",
+                r#""tells": {"elements": [9], "wrong": []}, "look""#,
+            ),
+        ),
         ("unknown key", GOOD.replace("\"look\"", "\"clue\"")),
         (
             "unknown task",

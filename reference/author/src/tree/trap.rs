@@ -62,6 +62,15 @@ pub struct Fork {
     pub closest: f64,
 }
 
+impl Fork {
+    /// Whether the ray leaves the child toward the closest hit after the other.
+    pub fn is_left_last(&self, tree: &Tree, beam: &Beam) -> bool {
+        let leave = |place: usize| tree.bounds(place).span(&beam.ahead()).map(|(_, end)| end);
+        let margin = MARGIN * tree.bounds(self.parent).diagonal();
+        leave(self.there) > leave(self.here).map(|end| end + margin)
+    }
+}
+
 /// Where the way to a leaf parts from that to the closest hit; nowhere if that is in the leaf, or if
 /// the ray misses the leaf.
 pub fn fork(tree: &Tree, leaf: usize, beam: &Beam) -> Option<Fork> {

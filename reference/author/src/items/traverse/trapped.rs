@@ -153,6 +153,11 @@ pub(super) fn nearer_first(seed: Seed) -> Item {
     let mut draw = seed.draw("traverse.nearer_first");
     let fits =
         |tree: &Tree, leaf: usize, beam: &Beam| is_sheltered(tree, leaf, beam, Shelter::Beyond);
+    let left_last = |tree: &Tree, leaf: usize, beam: &Beam| {
+        let fork = trap::fork(tree, leaf, beam);
+        fork.is_some_and(|fork| fork.here == leaf && fork.is_left_last(tree, beam))
+            && fits(tree, leaf, beam)
+    };
     item(
         "nearer_first",
         1,
@@ -163,6 +168,7 @@ pub(super) fn nearer_first(seed: Seed) -> Item {
         ],
         vec![
             trapped(&mut draw, &fits, Slides::Wrong),
+            trapped(&mut draw, &left_last, Slides::Wrong),
         ],
     )
 }

@@ -129,6 +129,14 @@ impl Tree {
         Some(closest)
     }
 
+    /// The leaf that holds what the ray hits, if it hits anything.
+    pub fn leaf_of_hit(&self, beam: &Beam) -> Option<usize> {
+        let hit = self.truth(beam)?;
+        let is_hit = |place: usize| self.shapes[place].material() == hit.material;
+        let mut leaves = self.leaves().into_iter();
+        leaves.find(|&leaf| self.primitives(leaf).any(is_hit))
+    }
+
     /// Adds a primitive to a leaf whose box does not change.
     pub fn add(&mut self, leaf: usize, shape: Shape) {
         let at = self.primitives(leaf).end;

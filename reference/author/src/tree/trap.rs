@@ -76,11 +76,7 @@ impl Fork {
 pub fn fork(tree: &Tree, leaf: usize, beam: &Beam) -> Option<Fork> {
     begin(tree, leaf, beam)?;
     let truth = tree.truth(beam)?;
-    let holds = |&leaf: &usize| {
-        let mut shapes = tree.primitives(leaf).map(|place| &tree.shapes[place]);
-        shapes.any(|shape| shape.material() == truth.material)
-    };
-    let found = tree.leaves().into_iter().find(holds)?;
+    let found = tree.leaf_of_hit(beam)?;
     let (here, there) = (tree.path(leaf), tree.path(found));
     let shared = here.iter().zip(&there).take_while(|(x, y)| x == y).count();
     Some(Fork {

@@ -100,27 +100,41 @@ impl Tree {
     /// Whether each primitive lies in the box of a leaf that can be reached and holds it. What does
     /// not is a trap, or in no leaf at all.
     pub fn honest(&self) -> Vec<bool> {
-        let mut honest = vec![false; self.shapes.len()];
-        for leaf in self.leaves() {
-            // Boxes are rounded to single precision, outward or not: a breath of room.
-            let room = self.bounds(leaf).grown(1e-5);
-            for place in self.primitives(leaf) {
-                honest[place] = room.contains(&scan::bounds(&self.shapes[place]));
-            }
-        }
-        honest
+        let leaves = self.leaves();
+        let places = 0..self.shapes.len();
+        places.map(|place| self.is_honest(place, &leaves)).collect()
+    }
+
+    /// Whether this primitive lies in the box of one of these leaves, which holds it.
+    fn is_honest(&self, place: usize, leaves: &[usize]) -> bool {
+        // Boxes are rounded to single precision, outward or not: a breath of room.
+        let room = |leaf: usize| self.bounds(leaf).grown(1e-5);
+        let bounds = scan::bounds(&self.shapes[place]);
+        let mut holding = leaves
+            .iter()
+            .filter(|leaf| self.primitives(**leaf).contains(&place));
+        holding.any(|&leaf| room(leaf).contains(&bounds))
     }
 
     /// What is true: the closest hit with an honest primitive.
     pub fn truth(&self, beam: &Beam) -> Option<Meeting> {
-        let honest = self.honest();
-        let shapes = self.shapes.iter().zip(&honest);
-        scan::closest(
-            beam,
-            shapes
-                .filter(|(_, honest)| **honest)
-                .map(|(shape, _)| shape),
-        )
+        let met = (0..).zip(&self.shapes);
+        let mut met: Vec<(usize, Meeting)> = met
+            .filter_map(|(place, shape)| Some((place, scan::meet(beam, shape)?)))
+            .collect();
+        met.sort_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance));
+        let leaves = self.leaves();
+        let mut honest = met.into_iter();
+        let (_, closest) = honest.find(|(place, _)| self.is_honest(*place, &leaves))?;
+        Some(closest)
+    }
+
+    /// The leaf that holds what the ray hits, if it hits anything.
+    pub fn leaf_of_hit(&self, beam: &Beam) -> Option<usize> {
+        let hit = self.truth(beam)?;
+        let is_hit = |place: usize| self.shapes[place].material() == hit.material;
+        let mut leaves = self.leaves().into_iter();
+        leaves.find(|&leaf| self.primitives(leaf).any(is_hit))
     }
 
     /// Adds a primitive to a leaf whose box does not change.

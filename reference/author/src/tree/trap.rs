@@ -17,35 +17,97 @@ pub enum Shelter {
     /// The leaf hangs below a node that begins beyond the closest hit, whose own leaf hangs below
     /// that node's sibling.
     Beyond,
+    /// The leaf itself begins beyond the closest hit, whose own leaf hangs below another node that
+    /// is entered, and left, before the one that leads here.
+    BeyondBelow,
 }
 
 /// Why no correct walk of this ray comes to the leaf, by [`MARGIN`] of the box's diagonal; `None`
 /// if one may.
 pub fn shelter(tree: &Tree, leaf: usize, beam: &Beam) -> Option<Shelter> {
-    let ahead = beam.ahead();
-    let grown = |place: usize| {
-        let bounds = tree.bounds(place);
-        bounds.grown(MARGIN * bounds.diagonal())
-    };
-    if grown(leaf).span(&ahead).is_none() {
+    let bounds = tree.bounds(leaf);
+    let grown = bounds.grown(MARGIN * bounds.diagonal());
+    if grown.span(&beam.ahead()).is_none() {
         return Some(Shelter::Missed);
     }
 
-    let truth = tree.truth(beam)?;
-    let holds = |&leaf: &usize| {
-        let mut shapes = tree.primitives(leaf).map(|place| &tree.shapes[place]);
-        shapes.any(|shape| shape.material() == truth.material)
+    let fork = fork(tree, leaf, beam)?;
+    let entry = |place: usize| begin(tree, place, beam);
+    let beyond = |place: usize| {
+        let margin = MARGIN * tree.bounds(place).diagonal();
+        entry(place).is_some_and(|entry| fork.closest + margin <= entry)
     };
-    let found = tree.leaves().into_iter().find(holds)?;
+    let margin = MARGIN * tree.bounds(fork.parent).diagonal();
+    if entry(fork.there)? + margin <= entry(fork.here)? && beyond(fork.here) {
+        return Some(Shelter::Beyond);
+    }
+    // Whoever looks at several levels at once, or at the nearest node of all, may ask for what is
+    // here before all that is there; but not before the very leaf, if that begins first.
+    (entry(fork.found)? + margin <= entry(fork.here)? && beyond(leaf))
+        .then_some(Shelter::BeyondBelow)
+}
+
+/// Where the ways to a leaf and to the closest hit part.
+#[derive(Clone, Copy, Debug)]
+pub struct Fork {
+    /// The last node that both share.
+    pub parent: usize,
+    /// Its child toward the leaf.
+    pub here: usize,
+    /// Its child toward the closest hit.
+    pub there: usize,
+    /// The closest hit's own leaf.
+    pub found: usize,
+    /// How far away the closest hit is.
+    pub closest: f64,
+}
+
+impl Fork {
+    /// Whether the ray leaves the child toward the closest hit after the other.
+    pub fn is_left_last(&self, tree: &Tree, beam: &Beam) -> bool {
+        let leave = |place: usize| tree.bounds(place).span(&beam.ahead()).map(|(_, end)| end);
+        let margin = MARGIN * tree.bounds(self.parent).diagonal();
+        leave(self.there) > leave(self.here).map(|end| end + margin)
+    }
+}
+
+/// Where the way to a leaf parts from that to the closest hit; nowhere if that is in the leaf, or if
+/// the ray misses the leaf.
+pub fn fork(tree: &Tree, leaf: usize, beam: &Beam) -> Option<Fork> {
+    begin(tree, leaf, beam)?;
+    let truth = tree.truth(beam)?;
+    let found = tree.leaf_of_hit(beam)?;
     let (here, there) = (tree.path(leaf), tree.path(found));
-    // Below the last node that both paths share: `a` toward the closest hit, `b` toward the leaf.
     let shared = here.iter().zip(&there).take_while(|(x, y)| x == y).count();
-    let (&a, &b, &parent) = (there.get(shared)?, here.get(shared)?, here.get(shared - 1)?);
-    let entry = |place: usize| Some(tree.bounds(place).span(&ahead)?.0);
-    let (enter_a, enter_b) = (entry(a)?, entry(b)?);
-    let in_order = enter_a + MARGIN * tree.bounds(parent).diagonal() <= enter_b;
-    let beyond = truth.distance + MARGIN * tree.bounds(b).diagonal() <= enter_b;
-    (in_order && beyond).then_some(Shelter::Beyond)
+    Some(Fork {
+        parent: *here.get(shared - 1)?,
+        here: *here.get(shared)?,
+        there: *there.get(shared)?,
+        found,
+        closest: truth.distance,
+    })
+}
+
+/// Where the ray enters a node's box.
+fn begin(tree: &Tree, place: usize, beam: &Beam) -> Option<f64> {
+    let (begin, _) = tree.bounds(place).span(&beam.ahead())?;
+    Some(begin)
+}
+
+/// Whether all nodes that begin beyond the closest hit, on the way from the fork down to the leaf,
+/// are the only child that is hit: nothing is entered before them that they could come after.
+pub fn is_alone_beyond(tree: &Tree, leaf: usize, beam: &Beam) -> bool {
+    let Some(fork) = fork(tree, leaf, beam) else {
+        return false;
+    };
+    let way = tree.path(leaf);
+    let below = way.iter().skip_while(|place| **place != fork.here).skip(1);
+    let mut beyond =
+        below.filter(|&&place| begin(tree, place, beam).is_some_and(|at| at > fork.closest));
+    beyond.all(|&place| {
+        let sibling = tree.sibling(place);
+        sibling.is_some_and(|sibling| begin(tree, sibling, beam).is_none())
+    })
 }
 
 /// Whether every correct walk answers every ray rightly, by the rules of [`shelter`] and by walking
@@ -141,4 +203,53 @@ pub fn set(
     let mut trapped = tree.clone();
     trapped.add(leaf, trap);
     is_fair(&trapped, rays).then_some(trapped)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec3;
+
+    use super::*;
+    use crate::items::meshes;
+
+    /// A slanted facet that a ray along the x-axis meets in the middle of its box, or misses.
+    fn slab(from: f64, to: f64, is_met: bool, material: u32) -> Shape {
+        let y = if is_met { 0.0 } else { 2.0 };
+        let corner = |x: f64, up: f64, z: f64| dvec3(x, y + up, z);
+        meshes::facet(
+            [
+                corner(from, -1.0, -1.0),
+                corner(from, -1.0, 1.0),
+                corner(to, 1.5, 0.0),
+            ],
+            material,
+        )
+    }
+
+    /// The shelter of the last leaf, of a fork of one leaf and of a fork of two.
+    fn shelter_of_last(found: [f64; 2], middle: [f64; 2], last: [f64; 2]) -> Option<Shelter> {
+        let mut tree = Tree {
+            shapes: Vec::new(),
+            nodes: Vec::new(),
+            root: 0,
+        };
+        let there = tree.leaf(vec![slab(found[0], found[1], true, 0)]);
+        let middle = tree.leaf(vec![slab(middle[0], middle[1], false, 1)]);
+        let last = tree.leaf(vec![slab(last[0], last[1], true, 2)]);
+        let here = tree.fork(middle, last);
+        tree.root = tree.fork(there, here);
+        let beam = Beam::from(&Ray::new(glam::Vec3::ZERO, glam::Vec3::X));
+        assert!(is_alone_beyond(&tree, last, &beam));
+        shelter(&tree, last, &beam)
+    }
+
+    #[test]
+    fn a_leaf_beyond_is_sheltered_if_the_closest_hit_is_surely_known_by_then() {
+        let of = |middle, last| shelter_of_last([1.0, 5.0], [middle, 7.0], [last, 9.0]);
+        // The closest hit is at 2.6, in a box that begins at 1.
+        assert_eq!(of(6.0, 8.0), Some(Shelter::Beyond));
+        assert_eq!(of(2.0, 8.0), Some(Shelter::BeyondBelow));
+        assert_eq!(of(0.5, 8.0), None);
+        assert_eq!(of(2.0, 2.5), None);
+    }
 }

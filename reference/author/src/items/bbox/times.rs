@@ -5,6 +5,7 @@ use grader::exam::Item;
 use protocol::{Interval, Ray};
 
 use super::{asked, both, bounds, from_around, item};
+use crate::items::ray;
 use crate::oracle::Beam;
 use crate::oracle::bbox::Bounds;
 use crate::seed::{Draw, Seed};
@@ -18,11 +19,12 @@ pub(super) fn behind(seed: Seed) -> Item {
     let mut draw = seed.draw("bbox.behind");
     let bounds = bounds(&mut draw);
     let shots = both(&mut draw, &bounds, |draw| {
-        let ahead = from_around(draw, &bounds);
         let ray = if draw.coin() {
-            ahead
+            from_around(draw, &bounds)
         } else {
-            Ray::new(ahead.origin, -ahead.dir)
+            let inside = point_in(draw, &bounds);
+            let origin = from_around(draw, &bounds).origin.as_dvec3();
+            ray(origin, origin + (origin - inside))
         };
         (ray, Interval::AHEAD)
     });
@@ -64,8 +66,13 @@ pub(super) fn clipped(seed: Seed) -> Item {
     let mut draw = seed.draw("bbox.clipped");
     let bounds = bounds(&mut draw);
     let shots = both(&mut draw, &bounds, |draw| {
-        let ray = from_around(draw, &bounds);
-        let min = draw.uniform(0.0, 9.0);
+        let (ray, latest) = if draw.coin() {
+            let from = point_in(draw, &bounds).as_vec3();
+            (Ray::new(from, draw.direction().as_vec3()), 0.5)
+        } else {
+            (from_around(draw, &bounds), 9.0)
+        };
+        let min = draw.uniform(0.0, latest);
         let times = (min as f32, (min + draw.uniform(0.5, 6.0)) as f32);
         (ray, Interval::new(times.0, times.1))
     });

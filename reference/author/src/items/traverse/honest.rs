@@ -6,7 +6,7 @@ use protocol::Shape;
 
 use super::{from_around, honest, item, needs, soup_tree};
 use crate::items::{meshes, ray};
-use crate::oracle::Beam;
+use crate::oracle::{Beam, scan};
 use crate::seed::{Draw, Seed};
 use crate::tree::{Tree, plant};
 
@@ -79,6 +79,25 @@ pub(super) fn range(seed: Seed) -> Item {
 pub(super) fn leaf_of_several(seed: Seed) -> Item {
     let mut draw = seed.draw("traverse.leaf_of_several");
     let tree = soup_tree(&mut draw, 48, 1.0, 8);
+    // Of two hits in a leaf the closer is now the first to be asked, now the last.
+    let mut is_first = false;
+    let kind = |draw: &mut Draw, tree: &Tree| {
+        is_first = !is_first;
+        draw.until(|draw| {
+            let ray = from_around(draw, tree);
+            let beam = Beam::from(&ray);
+            let Some(leaf) = tree.leaf_of_hit(&beam) else {
+                return Some(ray);
+            };
+            let distances = tree.primitives(leaf).filter_map(|place| {
+                let met = scan::meet(&beam, &tree.shapes[place])?;
+                Some(met.distance)
+            });
+            let distances: Vec<f64> = distances.collect();
+            let in_order = distances.is_sorted_by(|a, b| (a < b) == is_first);
+            (distances.len() >= 2 && in_order).then_some(ray)
+        })
+    };
     item(
         "leaf_of_several",
         1,
@@ -87,7 +106,7 @@ pub(super) fn leaf_of_several(seed: Seed) -> Item {
             "A leaf holds primitives[start..start + size]; the closest of their hits counts, not the \
              first.",
         ],
-        vec![honest(&mut draw, tree, [24, 8], from_around)],
+        vec![honest(&mut draw, tree, [24, 8], kind)],
     )
 }
 

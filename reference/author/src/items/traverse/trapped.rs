@@ -129,6 +129,11 @@ pub(super) fn prunes(seed: Seed) -> Item {
     let mut draw = seed.draw("traverse.prunes");
     let fits =
         |tree: &Tree, leaf: usize, beam: &Beam| is_sheltered(tree, leaf, beam, Shelter::Beyond);
+    // The leaf is itself what comes second: nothing is compared any more on the way to it.
+    let second = |tree: &Tree, leaf: usize, beam: &Beam| {
+        let fork = trap::fork(tree, leaf, beam);
+        fork.is_some_and(|fork| fork.here == leaf) && fits(tree, leaf, beam)
+    };
     item(
         "prunes",
         2,
@@ -139,7 +144,7 @@ pub(super) fn prunes(seed: Seed) -> Item {
         ],
         vec![
             trapped(&mut draw, &fits, Slides::Right),
-            trapped(&mut draw, &fits, Slides::Right),
+            trapped(&mut draw, &second, Slides::Right),
         ],
     )
 }
@@ -148,6 +153,11 @@ pub(super) fn nearer_first(seed: Seed) -> Item {
     let mut draw = seed.draw("traverse.nearer_first");
     let fits =
         |tree: &Tree, leaf: usize, beam: &Beam| is_sheltered(tree, leaf, beam, Shelter::Beyond);
+    let left_last = |tree: &Tree, leaf: usize, beam: &Beam| {
+        let fork = trap::fork(tree, leaf, beam);
+        fork.is_some_and(|fork| fork.here == leaf && fork.is_left_last(tree, beam))
+            && fits(tree, leaf, beam)
+    };
     item(
         "nearer_first",
         1,
@@ -156,7 +166,10 @@ pub(super) fn nearer_first(seed: Seed) -> Item {
             "Where r goes first, it is l that may begin beyond the closest hit. The slides compare \
              hit2.t in both cases: compare the entry of whichever child comes second.",
         ],
-        vec![trapped(&mut draw, &fits, Slides::Wrong)],
+        vec![
+            trapped(&mut draw, &fits, Slides::Wrong),
+            trapped(&mut draw, &left_last, Slides::Wrong),
+        ],
     )
 }
 
@@ -168,17 +181,23 @@ pub(super) fn both_sides(seed: Seed) -> Item {
     let both = |tree: &Tree, leaf: usize, beam: &Beam| {
         is_sheltered(tree, leaf, beam, Shelter::Missed) && misses_sibling(tree, leaf, beam)
     };
+    let alone = |tree: &Tree, leaf: usize, beam: &Beam| {
+        is_sheltered(tree, leaf, beam, Shelter::BeyondBelow)
+            && trap::is_alone_beyond(tree, leaf, beam)
+    };
     item(
         "both_sides",
         1,
         [
-            "of two children each is entered only if its own box is hit",
-            "If one box is missed only the other child is entered; if both are, neither. The slides \
-             enter `first` in any case, and after it the child whose box was missed.",
+            "each child is entered only if its own box is hit, before the closest hit",
+            "If one box is missed only the other child is entered, unless it begins beyond the \
+             closest hit; if both are, neither. The slides enter `first` in any case, and after it \
+             the child whose box was missed.",
         ],
         vec![
             trapped(&mut draw, &one, Slides::Wrong),
             trapped(&mut draw, &both, Slides::Wrong),
+            trapped(&mut draw, &alone, Slides::Wrong),
         ],
     )
 }

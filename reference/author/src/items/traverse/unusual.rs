@@ -1,11 +1,12 @@
 //! Roots elsewhere, and none at all.
 
 use glam::Vec3;
-use grader::exam::Item;
+use grader::exam::{Asked, Item};
 use protocol::{Ray, Shape, TreeNode};
 
 use super::{FIRST_ORPHAN, asked, from_around, honest, item, rays, soup_tree};
 use crate::items::ray;
+use crate::oracle::Beam;
 use crate::seed::{Draw, Seed};
 use crate::tree::{RootPlace, Tree, trap};
 
@@ -22,6 +23,8 @@ pub(super) fn root(seed: Seed) -> Item {
         let tree = tree.rearranged(&mut draw, inner);
         asked(&beside_others(&mut draw, tree, &rays, place), rays)
     };
+    let mut draw = seed.draw("traverse.root.leaf_in_front");
+    let leaf_in_front = with_a_leaf_in_front(&mut draw);
     item(
         "root",
         1,
@@ -32,8 +35,22 @@ pub(super) fn root(seed: Seed) -> Item {
         ],
         [RootPlace::First, RootPlace::Middle, RootPlace::Last]
             .map(question)
-            .to_vec(),
+            .into_iter()
+            .chain([leaf_in_front])
+            .collect(),
     )
+}
+
+/// A question about a tree whose first node is a leaf, with what one of the rays hits: a child may
+/// stand at 0 as well.
+fn with_a_leaf_in_front(draw: &mut Draw) -> Asked {
+    let tree = soup_tree(draw, 20, 0.9, 1);
+    let rays = rays(draw, &tree, [10, 4], from_around);
+    let mut tree = tree.rearranged(draw, RootPlace::Last);
+    let mut hits = rays.iter().map(Beam::from);
+    let leaf = hits.find_map(|beam| tree.leaf_of_hit(&beam));
+    tree.swap_nodes(0, leaf.expect("some rays hit something"));
+    asked(&tree, rays)
 }
 
 /// Adds two trees, over primitives right before the rays, that do not hang below the root. Their

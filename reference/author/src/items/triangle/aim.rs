@@ -46,6 +46,11 @@ pub(super) fn weights_inside(draw: &mut Draw, least: f64) -> [f64; 3] {
 /// Weights of a point beyond the edge that lies opposite this corner.
 pub(super) fn weights_beyond(draw: &mut Draw, corner: usize) -> [f64; 3] {
     let beyond = draw.uniform(0.06, 0.6);
+    weights_beyond_by(draw, corner, beyond)
+}
+
+/// The same of a point so far beyond: as far as the corner is on this side, it would be 1.
+pub(super) fn weights_beyond_by(draw: &mut Draw, corner: usize, beyond: f64) -> [f64; 3] {
     let along = draw.uniform(0.05, 0.95);
     let mut weights = [0.0; 3];
     weights[corner] = -beyond;

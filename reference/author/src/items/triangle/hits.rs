@@ -4,7 +4,9 @@ use glam::{Vec2, Vec3, vec3};
 use grader::exam::{Asked, Item, Part};
 use protocol::{Ray, Shape, Vertex};
 
-use super::aim::{Side, hit, ray_through, shape, triangle, weights_beyond, weights_inside};
+use super::aim::{
+    Side, hit, ray_through, shape, triangle, weights_beyond, weights_beyond_by, weights_inside,
+};
 use super::{item, tables};
 use crate::items::{ray, shapes};
 use crate::oracle::{Beam, triangle};
@@ -29,7 +31,10 @@ pub(super) fn outside(seed: Seed) -> Item {
         let vertices = triangle(&mut draw);
         let mut rays: Vec<Ray> = (0..12)
             .map(|i| {
-                let weights = weights_beyond(&mut draw, i % 3);
+                // A third of them next to the edge.
+                let beyond = if i < 4 { (0.022, 0.06) } else { (0.06, 0.6) };
+                let beyond = draw.uniform(beyond.0, beyond.1);
+                let weights = weights_beyond_by(&mut draw, i % 3, beyond);
                 ray_through(&mut draw, &vertices, weights, Side::Front)
             })
             .collect();

@@ -85,7 +85,7 @@ impl Threshold {
             Threshold::PicturePositions => "wrong positions of a picture",
             Threshold::Radiance => "radiance of a pixel",
             Threshold::RadiancePixels => "pixels of wrong radiance",
-            Threshold::SahCost => "SAH cost of a tree, beyond the exact sweep's",
+            Threshold::SahCost => "SAH cost of a tree",
             Threshold::BoxTooLarge => "how far a box exceeds what it holds",
             Threshold::BoxTooSmall => "how far a primitive sticks out of its box",
         }
@@ -105,8 +105,8 @@ impl Threshold {
             Threshold::PictureNormal => format!("{NORMAL:e}"),
             Threshold::PicturePositions => format!("{STRAGGLERS}, or 1e-4 of all"),
             Threshold::Radiance => format!("{RELATIVE}, relative"),
-            Threshold::RadiancePixels => "as many as the key allows".to_owned(),
-            Threshold::SahCost => format!("{:.2}, relative", FULL - 1.0),
+            Threshold::RadiancePixels => "as the key allows".to_owned(),
+            Threshold::SahCost => format!("{FULL} times the exact sweep's"),
             Threshold::BoxTooLarge => format!("{LOOSE:e} diagonals"),
             Threshold::BoxTooSmall => format!("{ROUNDING:e} diagonals"),
         }

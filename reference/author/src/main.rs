@@ -100,12 +100,13 @@ fn run(command: Command) -> Result<(), Box<dyn std::error::Error>> {
             mistakes,
             check,
         } => {
+            if check {
+                table::check(root)?;
+            }
             let exhibits = Exhibits::prepare(Workbench::open()?)?;
             let usual = if check { FEW_SEEDS } else { MANY_SEEDS };
             let calibration = calibrate(&exhibits, seeds.unwrap_or(usual), mistakes)?;
-            if check {
-                table::check(root)?;
-            } else {
+            if !check {
                 let table = table::generated(&calibration);
                 deliver(&[table], Mode::Write, "calibrate")?;
             }

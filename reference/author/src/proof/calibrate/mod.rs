@@ -131,7 +131,8 @@ impl<'a> Asked<'a> {
 
         for ((variant, _), solution) in self.exhibits.variants.iter().zip(&self.variants) {
             let exam = what_rests_on(&exam, &variant.tasks());
-            for (item, answers) in solution.answers(&exam.items)? {
+            for item in &exam.items {
+                let answers = solution.answers(item).map_err(NotTried::from)?;
                 let may_lose = variant.may_lose.contains(&item.id);
                 for deviation in observed::of_right(item, &answers, may_lose) {
                     margins.add_right(sighting(deviation, &variant.id, &item.id));
@@ -143,7 +144,8 @@ impl<'a> Asked<'a> {
         for ((mistake, _), solution) in mistakes.filter(|_| with_mistakes) {
             let must_fail = |id: &String| mistake.fails.contains(id);
             let items = exam.items.iter().filter(|item| must_fail(&item.id));
-            for (item, answers) in solution.answers(items)? {
+            for item in items {
+                let answers = solution.answers(item).map_err(NotTried::from)?;
                 let deviation = observed::of_wrong(item, &answers);
                 margins.add_wrong(sighting(deviation, &mistake.id, &item.id));
             }

@@ -1,9 +1,12 @@
 //! What one solution's answers to one item come to: pure.
 
+use grader::ask::Fault;
 use grader::exam::Item;
 use grader::judge::{Deviation, Measured, Threshold, measure};
+use protocol::Answer;
 
-use crate::proof::workbench::Answers;
+/// An answer to each question of an item, or why there is none.
+pub(super) type Answers = Result<Vec<Answer>, Fault>;
 
 /// How far off a right solution is, by all that it is held against. What a tree costs is not held
 /// against a solution that may lose points for it.
@@ -42,9 +45,10 @@ fn measured(item: &Item, answers: &Answers) -> Vec<Measured> {
 #[cfg(test)]
 mod tests {
     use glam::Vec3;
-    use grader::ask::{Crash, Fault};
+    use grader::ask::Crash;
     use grader::exam::{Asked, Key, Task};
-    use protocol::{Answer, Interval, Outcome, Question, Ray};
+    use grader::tells::Tells;
+    use protocol::{Interval, Outcome, Question, Ray};
 
     use super::*;
 
@@ -65,9 +69,10 @@ mod tests {
             title: String::new(),
             task: Task::BBox,
             points: 1,
-            hint: String::new(),
+            look: String::new(),
             needs: Vec::new(),
             questions: vec![asked; questions],
+            tells: Tells::default(),
         }
     }
 

@@ -102,6 +102,7 @@ fn begins(threshold: Threshold) -> String {
 fn row(margin: &Margin) -> String {
     let sighting = |sighting: &Option<Sighting>| match sighting {
         None => "none".to_owned(),
+        Some(sighting) if sighting.deviation.value == 0.0 => "0".to_owned(),
         Some(sighting) => format!("{}: {sighting}", number(sighting.deviation.value)),
     };
     format!(

@@ -13,7 +13,7 @@ pub mod span;
 use std::path::Path;
 
 use grader::exam::Exam;
-use grader::exam_file::{self, BadExam};
+use grader::exam_file::BadExam;
 use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
@@ -114,7 +114,7 @@ fn committed(root: &Path) -> Result<List, NotAsked> {
 pub fn ask(list: &List, extent: Extent) -> Result<Findings, NotAsked> {
     let workbench = Workbench::open()?;
     let root = workbench.root();
-    let exam = exam_file::load(Some(&root.join(exams::PRACTICE_FILE)))?.exam;
+    let exam = exams::practice(root)?;
     let reference = Sources::reference(root)?;
     if fate(&workbench, &reference, "reference", &exam)? != Fate::Survives {
         return Err(NotAsked::Reference);

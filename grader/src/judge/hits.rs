@@ -5,83 +5,123 @@ use protocol::{Outcome, Ray, Trace};
 use crate::describe;
 use crate::exam::{Hit, Part};
 use crate::judge::measure::{
-    DIRECTION, LENGTH, is_unit, same_direction, same_length, same_point, same_uv,
+    DIRECTION, LENGTH, direction_error, length_error, point_error, unit_error, uv_error,
 };
-use crate::judge::{How, Judgement, table};
+use crate::judge::{
+    Comparison, Deviation, How, Judgement, Measured, Threshold, table, table_measured,
+};
 
-pub(super) fn judge(
-    judged: &[Part],
-    rays: &[Ray],
-    hits: &[Option<Hit>],
-    answers: &[Outcome<Option<Trace>>],
-) -> Judgement {
-    table(answers, hits.len(), |element, got| {
-        match (got, &hits[element]) {
-            (None, None) => None,
-            (Some(trace), None) => Some(How::Wrong {
-                what: "hit or miss".to_owned(),
-                got: describe::hit_at(trace.distance),
-                wanted: "no hit".to_owned(),
-            }),
-            (None, Some(hit)) => Some(How::Wrong {
-                what: "hit or miss".to_owned(),
-                got: "no hit".to_owned(),
-                wanted: describe::hit_at(hit.distance),
-            }),
-            (Some(trace), Some(hit)) => judged
-                .iter()
-                .find_map(|part| wrong_part(*part, &rays[element], trace, hit)),
-        }
-    })
+/// Hits, of which every one must be right.
+pub(super) struct Hits<'a> {
+    pub(super) judged: &'a [Part],
+    pub(super) rays: Vec<Ray>,
+    pub(super) hits: &'a [Option<Hit>],
+    pub(super) answers: &'a [Outcome<Option<Trace>>],
+}
+
+impl Comparison for Hits<'_> {
+    fn judge(&self) -> Judgement {
+        table(self.answers, self.hits.len(), |element, got| {
+            match (got, &self.hits[element]) {
+                (None, None) => None,
+                (Some(trace), None) => Some(How::Wrong {
+                    what: "hit or miss".to_owned(),
+                    got: describe::hit_at(trace.distance),
+                    wanted: "no hit".to_owned(),
+                }),
+                (None, Some(hit)) => Some(How::Wrong {
+                    what: "hit or miss".to_owned(),
+                    got: "no hit".to_owned(),
+                    wanted: describe::hit_at(hit.distance),
+                }),
+                (Some(trace), Some(hit)) => {
+                    let ray = &self.rays[element];
+                    let mut judged = self.judged.iter();
+                    judged.find_map(|part| wrong_part(*part, ray, trace, hit))
+                }
+            }
+        })
+    }
+
+    fn measure(&self) -> Vec<Measured> {
+        table_measured(self.answers, self.hits.len(), |element, got| {
+            match (got, &self.hits[element]) {
+                (None, None) => Vec::new(),
+                (Some(_), None) | (None, Some(_)) => vec![Deviation::WRONG],
+                (Some(trace), Some(hit)) => {
+                    let ray = &self.rays[element];
+                    let judged = self.judged.iter();
+                    judged
+                        .map(|part| deviation(*part, ray, trace, hit))
+                        .collect()
+                }
+            }
+        })
+    }
+}
+
+/// How far off one part of a hit is.
+fn deviation(part: Part, ray: &Ray, trace: &Trace, hit: &Hit) -> Deviation {
+    let (threshold, error) = match part {
+        Part::Distance => (
+            Threshold::Distance,
+            length_error(trace.distance, hit.distance, LENGTH),
+        ),
+        Part::Position => (
+            Threshold::Position,
+            point_error(trace.position, hit.position),
+        ),
+        Part::Normal => (
+            Threshold::Normal,
+            direction_error(trace.normal, hit.normal, DIRECTION),
+        ),
+        Part::UnitNormal => (Threshold::UnitLength, unit_error(trace.normal)),
+        Part::Uv => (Threshold::Uv, uv_error(trace.uv, hit.uv)),
+        Part::Origin => (Threshold::Origin, point_error(trace.origin, ray.origin)),
+        Part::Material => return Deviation::unless(trace.material == hit.material),
+    };
+    Deviation::of(threshold, error)
 }
 
 /// What is wrong with one part of a hit, if anything is.
 fn wrong_part(part: Part, ray: &Ray, trace: &Trace, hit: &Hit) -> Option<How> {
-    let (what, right, got, wanted) = match part {
+    if deviation(part, ray, trace, hit).is_right() {
+        return None;
+    }
+    let (what, got, wanted) = match part {
         Part::Distance => (
             "distance",
-            same_length(trace.distance, hit.distance, LENGTH),
             describe::number(trace.distance),
             describe::number(hit.distance),
         ),
         Part::Position => (
             "position",
-            same_point(trace.position, hit.position),
             describe::point(trace.position),
             describe::point(hit.position),
         ),
         Part::Normal => (
             "normal",
-            same_direction(trace.normal, hit.normal, DIRECTION),
             describe::point(trace.normal),
             describe::point(hit.normal),
         ),
         Part::UnitNormal => (
             "length of the normal",
-            is_unit(trace.normal),
             describe::number(trace.normal.length()),
             describe::number(1.0),
         ),
-        Part::Uv => (
-            "uv",
-            same_uv(trace.uv, hit.uv),
-            describe::uv(trace.uv),
-            describe::uv(hit.uv),
-        ),
+        Part::Uv => ("uv", describe::uv(trace.uv), describe::uv(hit.uv)),
         Part::Origin => (
             "origin",
-            same_point(trace.origin, ray.origin),
             describe::point(trace.origin),
             describe::point(ray.origin),
         ),
         Part::Material => (
             "material",
-            trace.material == hit.material,
             trace.material.to_string(),
             hit.material.to_string(),
         ),
     };
-    (!right).then(|| How::Wrong {
+    Some(How::Wrong {
         what: what.to_owned(),
         got,
         wanted,

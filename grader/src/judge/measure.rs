@@ -1,4 +1,6 @@
-//! When two numbers are the same. Every comparison is written so that NaN fails it.
+//! How far apart two numbers are, in multiples of what is tolerated: up to 1 they are the same.
+//!
+//! Never NaN: what can not be compared is infinitely far off.
 
 use glam::{Vec2, Vec3};
 
@@ -9,36 +11,54 @@ pub(super) const DIRECTION: f32 = 1e-3;
 /// Of texture coordinates.
 pub(super) const UV: f32 = 2e-3;
 
-/// Whether two lengths agree.
-pub(super) fn same_length(got: f32, wanted: f32, tolerance: f32) -> bool {
-    // An infinite error is never within a tolerance, and ∞ − ∞ is NaN.
-    (got - wanted).abs() <= tolerance * wanted.abs().max(1.0)
+/// An error in multiples of its limit.
+pub(super) fn in_units_of(limit: f64, error: f64) -> f64 {
+    // No error is none, also where the limit is 0.
+    if error <= 0.0 {
+        return 0.0;
+    }
+    let multiple = error / limit;
+    if multiple.is_nan() {
+        f64::INFINITY
+    } else {
+        multiple
+    }
 }
 
-/// Whether two points agree.
-pub(super) fn same_point(got: Vec3, wanted: Vec3) -> bool {
-    got.distance(wanted) <= LENGTH * wanted.length().max(1.0)
+/// How far apart two lengths are.
+pub(super) fn length_error(got: f32, wanted: f32, tolerance: f32) -> f64 {
+    // ∞ − ∞ is NaN, which is infinitely far off as well.
+    let limit = tolerance * wanted.abs().max(1.0);
+    in_units_of(limit.into(), (got - wanted).abs().into())
 }
 
-/// Whether two directions agree, whatever the length of the first.
-pub(super) fn same_direction(got: Vec3, wanted: Vec3, tolerance: f32) -> bool {
+/// How far apart two points are.
+pub(super) fn point_error(got: Vec3, wanted: Vec3) -> f64 {
+    let limit = LENGTH * wanted.length().max(1.0);
+    in_units_of(limit.into(), got.distance(wanted).into())
+}
+
+/// How far apart two directions are, whatever the length of the first.
+pub(super) fn direction_error(got: Vec3, wanted: Vec3, tolerance: f32) -> f64 {
     // In f64, so that no finite vector over- or underflows.
     let got = got.as_dvec3();
     let unit = got / got.length();
-    (unit - wanted.as_dvec3()).length() <= f64::from(tolerance)
+    in_units_of(tolerance.into(), (unit - wanted.as_dvec3()).length())
 }
 
-/// Whether a vector has length one.
-pub(super) fn is_unit(got: Vec3) -> bool {
-    (got.length() - 1.0).abs() <= DIRECTION
+/// How far the length of a vector is from one.
+pub(super) fn unit_error(got: Vec3) -> f64 {
+    in_units_of(DIRECTION.into(), (got.length() - 1.0).abs().into())
 }
 
-/// Whether two texture coordinates agree; u goes around.
-pub(super) fn same_uv(got: Vec2, wanted: Vec2) -> bool {
+/// How far apart two texture coordinates are; u goes around.
+pub(super) fn uv_error(got: Vec2, wanted: Vec2) -> f64 {
     let u = (got.x - wanted.x).abs();
     // Once around is no difference; twice is not what a `uv` returns.
     let u = u.min((1.0 - u).abs());
-    u <= UV && (got.y - wanted.y).abs() <= UV
+    let v = (got.y - wanted.y).abs();
+    let error = |error: f32| in_units_of(UV.into(), error.into());
+    error(u).max(error(v))
 }
 
 #[cfg(test)]
@@ -49,25 +69,44 @@ mod tests {
 
     #[test]
     fn lengths_are_compared_relatively_above_one() {
-        assert!(same_length(1000.05, 1000.0, LENGTH));
-        assert!(!same_length(0.0005, 0.0, LENGTH));
+        assert!(length_error(1000.05, 1000.0, LENGTH) <= 1.0);
+        assert!(length_error(0.0005, 0.0, LENGTH) > 1.0);
+    }
+
+    #[test]
+    fn an_error_is_told_in_multiples_of_what_is_tolerated() {
+        let close = |got: f64, wanted: f64| (got - wanted).abs() < 1e-2 * wanted;
+        assert_eq!(length_error(3.0, 3.0, LENGTH), 0.0);
+        assert!(close(length_error(10.003, 10.0, LENGTH), 3.0));
+        assert!(close(point_error(Vec3::X * 0.0002, Vec3::ZERO), 2.0));
+        assert!(close(unit_error(Vec3::X * 1.5), 500.0));
+        assert!(close(uv_error(vec2(0.5, 0.5), vec2(0.501, 0.5)), 0.5));
+    }
+
+    #[test]
+    fn a_limit_of_nothing_allows_nothing_but_no_error() {
+        assert_eq!(in_units_of(0.0, 0.0), 0.0);
+        assert_eq!(in_units_of(0.0, 1e-30), f64::INFINITY);
     }
 
     #[test]
     fn nothing_that_is_not_finite_is_the_same_as_anything() {
+        const FAR: f64 = f64::INFINITY;
         for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-            assert!(!same_length(bad, 1.0, LENGTH) && !same_length(bad, f32::MAX, LENGTH));
-            assert!(!same_point(Vec3::splat(bad), Vec3::ONE));
-            assert!(!same_direction(Vec3::splat(bad), Vec3::X, DIRECTION));
-            assert!(!is_unit(Vec3::splat(bad)));
-            assert!(!same_uv(vec2(bad, 0.5), vec2(0.5, 0.5)));
+            assert_eq!(length_error(bad, 1.0, LENGTH), FAR);
+            assert_eq!(length_error(bad, f32::MAX, LENGTH), FAR);
+            assert_eq!(point_error(Vec3::splat(bad), Vec3::ONE), FAR);
+            assert_eq!(direction_error(Vec3::splat(bad), Vec3::X, DIRECTION), FAR);
+            assert_eq!(unit_error(Vec3::splat(bad)), FAR);
+            assert_eq!(uv_error(vec2(bad, 0.5), vec2(0.5, 0.5)), FAR);
+            assert_eq!(uv_error(vec2(0.5, bad), vec2(0.5, 0.5)), FAR);
         }
-        assert!(!same_direction(Vec3::ZERO, Vec3::X, DIRECTION));
+        assert_eq!(direction_error(Vec3::ZERO, Vec3::X, DIRECTION), FAR);
     }
 
     #[test]
     fn u_goes_around_but_v_does_not() {
-        assert!(same_uv(vec2(0.9995, 0.5), vec2(0.0005, 0.5)));
-        assert!(!same_uv(vec2(0.5, 0.9995), vec2(0.5, 0.0005)));
+        assert!(uv_error(vec2(0.9995, 0.5), vec2(0.0005, 0.5)) <= 1.0);
+        assert!(uv_error(vec2(0.5, 0.9995), vec2(0.5, 0.0005)) > 1.0);
     }
 }

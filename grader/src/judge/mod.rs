@@ -1,5 +1,6 @@
 //! Comparing answers with keys: pure, and the only way to points.
 
+mod deviation;
 mod first_hits;
 mod hits;
 mod measure;
@@ -7,13 +8,23 @@ mod radiance;
 mod rays;
 mod share;
 mod spans;
+mod threshold;
 mod tree;
 
 use protocol::{Answer, Outcome, Panic, Samples};
 
 use crate::exam::{Asked, Key};
 
+use first_hits::FirstHits;
+use hits::Hits;
+use radiance::Radiance;
+use rays::CameraRays;
+use spans::Spans;
+use tree::Built;
+
+pub use deviation::{Deviation, Measured};
 pub use share::Share;
+pub use threshold::Threshold;
 
 /// What became of one question.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,26 +86,60 @@ impl Judgement {
     }
 }
 
+/// An answer beside its key.
+trait Comparison {
+    /// What it earns, and what is wrong first.
+    fn judge(&self) -> Judgement;
+
+    /// How far off it is, in all that it is judged by. All of it is right if and only if the
+    /// judgement is that everything counts.
+    fn measure(&self) -> Vec<Measured>;
+}
+
 /// Judges the answer to one question.
 pub fn judge(asked: &Asked, answer: &Answer) -> Judgement {
+    match comparison(asked, answer) {
+        Some(comparison) => comparison.judge(),
+        None => Judgement::protocol("an answer of another kind"),
+    }
+}
+
+/// How far off the answer to one question is: by the same numbers that decide in [`judge`].
+pub fn measure(asked: &Asked, answer: &Answer) -> Vec<Measured> {
+    match comparison(asked, answer) {
+        Some(comparison) => comparison.measure(),
+        None => deviation::worst([Deviation::WRONG]),
+    }
+}
+
+fn comparison<'a>(asked: &'a Asked, answer: &'a Answer) -> Option<Box<dyn Comparison + 'a>> {
     use protocol::Question as Q;
 
-    match (&asked.key, answer, &asked.question) {
+    Some(match (&asked.key, answer, &asked.question) {
         (Key::Rays { judged, directions }, Answer::Rays(rays), Q::Camera { samples, .. }) => {
-            match samples {
-                Samples::List(_) => rays::table_of(judged, directions, rays),
-                Samples::EveryPixel => rays::picture(judged, directions, rays),
-            }
+            Box::new(CameraRays {
+                judged,
+                directions,
+                rays,
+                counted: matches!(samples, Samples::EveryPixel),
+            })
         }
         (
             Key::Hits { judged, hits },
             Answer::Hits(answers),
             Q::Shapes { rays, .. } | Q::Traverse { rays, .. } | Q::BuildAndTraverse { rays, .. },
-        ) => hits::judge(judged, &rays.to_vec(), hits, answers),
-        (Key::FirstHits { hits, also }, Answer::Hits(answers), _) => {
-            first_hits::judge(hits, also, answers)
-        }
-        (Key::Spans { spans }, Answer::Spans(answers), _) => spans::judge(spans, answers),
+        ) => Box::new(Hits {
+            judged,
+            rays: rays.to_vec(),
+            hits,
+            answers,
+        }),
+        (Key::FirstHits { hits, also }, Answer::Hits(answers), _) => Box::new(FirstHits {
+            hits,
+            also,
+            answers,
+        }),
+        (Key::Spans { spans }, Answer::Spans(answers), _) => Box::new(Spans { spans, answers }),
         (
             Key::Tree { judged, sweep_cost },
             Answer::Tree(answer),
@@ -102,10 +147,18 @@ pub fn judge(asked: &Asked, answer: &Answer) -> Judgement {
                 shapes,
                 max_leaf_size,
             },
-        ) => tree::judge(judged, *sweep_cost, shapes, *max_leaf_size, answer),
-        (Key::Radiance { pixels, allowed }, Answer::Picture(answer), _) => {
-            radiance::judge(pixels, *allowed, answer)
-        }
+        ) => Box::new(Built {
+            judged,
+            sweep_cost: *sweep_cost,
+            shapes,
+            max_leaf_size: *max_leaf_size,
+            answer,
+        }),
+        (Key::Radiance { pixels, allowed }, Answer::Picture(answer), _) => Box::new(Radiance {
+            pixels,
+            allowed: *allowed,
+            answer,
+        }),
         // An exam whose key does not fit its question is refused when it is loaded.
         (
             Key::Rays { .. }
@@ -116,8 +169,8 @@ pub fn judge(asked: &Asked, answer: &Answer) -> Judgement {
             | Key::Radiance { .. },
             _,
             _,
-        ) => Judgement::protocol("an answer of another kind"),
-    }
+        ) => return None,
+    })
 }
 
 /// Judges a table: every element must be right. `wrong` tells what is wrong with a value, given
@@ -150,4 +203,19 @@ fn table<T>(
             count: Some((1 + failures.count(), wanted)),
         }),
     }
+}
+
+/// Measures a table: `of_value` tells how far off a value is, given its place in the table.
+fn table_measured<T>(
+    outcomes: &[Outcome<T>],
+    wanted: usize,
+    of_value: impl Fn(usize, &T) -> Vec<Deviation>,
+) -> Vec<Measured> {
+    if outcomes.len() != wanted {
+        return deviation::worst([Deviation::WRONG]);
+    }
+    let elements = outcomes.iter().enumerate();
+    deviation::worst(elements.flat_map(|(element, outcome)| {
+        deviation::of_outcome(outcome, |value| of_value(element, value))
+    }))
 }

@@ -5,14 +5,48 @@ use glam::Vec3;
 use protocol::Outcome;
 
 use crate::describe;
-use crate::judge::{Failure, How, Judgement, Share};
+use crate::judge::measure::in_units_of;
+use crate::judge::{
+    Comparison, Deviation, Failure, How, Judgement, Measured, Share, Threshold, deviation,
+};
 
 /// A pixel is off if a channel differs by more than this part of its brightest channel.
-const RELATIVE: f32 = 0.01;
+pub(super) const RELATIVE: f32 = 0.01;
 /// What is darker than this is compared as if it were this bright.
 const DARKEST: f32 = 0.01;
 
-pub(super) fn judge(pixels: &[Vec3], allowed: u32, answer: &Outcome<Vec<Vec3>>) -> Judgement {
+/// A path-traced picture.
+pub(super) struct Radiance<'a> {
+    pub(super) pixels: &'a [Vec3],
+    pub(super) allowed: u32,
+    pub(super) answer: &'a Outcome<Vec<Vec3>>,
+}
+
+impl Comparison for Radiance<'_> {
+    fn judge(&self) -> Judgement {
+        judge(self.pixels, self.allowed, self.answer)
+    }
+
+    fn measure(&self) -> Vec<Measured> {
+        match self.answer {
+            Outcome::Value(got) if got.len() == self.pixels.len() => {
+                let pixels = got.iter().zip(self.pixels);
+                let places = pixels.map(|(got, wanted)| pixel(*got, *wanted)).collect();
+                let allowed = self.allowed as usize;
+                vec![Measured::counted(
+                    places,
+                    allowed,
+                    Threshold::RadiancePixels,
+                )]
+            }
+            Outcome::Value(_) | Outcome::Panicked(_) | Outcome::GivenUp => {
+                deviation::worst([Deviation::WRONG])
+            }
+        }
+    }
+}
+
+fn judge(pixels: &[Vec3], allowed: u32, answer: &Outcome<Vec<Vec3>>) -> Judgement {
     let fail = |element, how, count| {
         Judgement::wrong(Failure {
             element,
@@ -29,7 +63,7 @@ pub(super) fn judge(pixels: &[Vec3], allowed: u32, answer: &Outcome<Vec<Vec3>>) 
         return Judgement::protocol("another number of pixels than asked for");
     }
     let off: Vec<usize> = (0..pixels.len())
-        .filter(|&i| !is_close(got[i], pixels[i]))
+        .filter(|&i| !pixel(got[i], pixels[i]).is_right())
         .collect();
     if off.len() <= allowed as usize {
         return Judgement::RIGHT;
@@ -50,11 +84,12 @@ pub(super) fn judge(pixels: &[Vec3], allowed: u32, answer: &Outcome<Vec<Vec3>>) 
     }
 }
 
-fn is_close(got: Vec3, wanted: Vec3) -> bool {
-    let error = (got - wanted).abs();
+fn pixel(got: Vec3, wanted: Vec3) -> Deviation {
     let limit = RELATIVE * wanted.max_element().max(DARKEST);
     // Each by itself: the largest of numbers with a NaN among them may be a number.
-    error.x <= limit && error.y <= limit && error.z <= limit
+    let errors = (got - wanted).abs().to_array();
+    let errors = errors.map(|error| in_units_of(limit.into(), error.into()));
+    Deviation::of(Threshold::Radiance, errors.into_iter().fold(0.0, f64::max))
 }
 
 #[cfg(test)]

@@ -1,5 +1,8 @@
 //! How much of an item's points an answer earns, in ten-thousandths: no rounding but the last.
 
+/// So many wrong positions cost nothing, of however few: honest formulas differ in the last bits.
+pub(super) const STRAGGLERS: usize = 2;
+
 /// A part of the whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Share(u32);
@@ -12,13 +15,17 @@ impl Share {
     /// Nothing counts.
     pub const NONE: Share = Share(0);
 
+    /// How many of so many positions may be wrong for nothing.
+    pub(super) fn stragglers(of: usize) -> usize {
+        STRAGGLERS.max(of / 10_000)
+    }
+
     /// What so many wrong positions of so many leave, by steps: none but stragglers, cracks,
     /// edges, large parts. Never by a similarity score, which small edits move for nothing.
     pub fn by_count(wrong: usize, of: usize) -> Self {
-        // 2 or 1e-4 of them: honest formulas differ there in the last bits.
         if of == 0 {
             Share::NONE
-        } else if wrong <= 2.max(of / 10_000) {
+        } else if wrong <= Share::stragglers(of) {
             Share::ALL
         } else if wrong * 500 <= of {
             Share(7_500)

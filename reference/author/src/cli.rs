@@ -55,6 +55,18 @@ pub enum Command {
         #[arg(long)]
         write: bool,
     },
+    /// Measure how far right answers and mistakes are from every threshold of the exam
+    Calibrate {
+        /// The seeds that every variant is asked; without any 0..200, with `--check` 0..2
+        #[arg(long, value_parser = seeds)]
+        seeds: Option<Range<u64>>,
+        /// How many of the seeds the mistakes are asked as well
+        #[arg(long, default_value_t = 3)]
+        mistakes: u64,
+        /// Change nothing, and ask a few seeds only; fail if a margin is too small
+        #[arg(long)]
+        check: bool,
+    },
 }
 
 fn seeds(text: &str) -> Result<Range<u64>, String> {

@@ -6,6 +6,8 @@ use std::process::ExitCode;
 
 use author::cli::{Cli, Command};
 use author::generated::{Generated, Mode, deliver};
+use author::proof::calibrate::margins::ENOUGH;
+use author::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, calibrate, table};
 use author::proof::exhibits::Exhibits;
 use author::proof::matrix;
 use author::proof::mutants::{self, Extent};
@@ -91,6 +93,30 @@ fn run(command: Command) -> Result<(), Box<dyn std::error::Error>> {
             }
             if !summary.is_proven() {
                 return Err("the exam is not proven: see above".into());
+            }
+        }
+        Command::Calibrate {
+            seeds,
+            mistakes,
+            check,
+        } => {
+            if check {
+                table::check(root)?;
+            }
+            let exhibits = Exhibits::prepare(Workbench::open()?)?;
+            let usual = if check { FEW_SEEDS } else { MANY_SEEDS };
+            let calibration = calibrate(&exhibits, seeds.unwrap_or(usual), mistakes)?;
+            if !check {
+                let table = table::generated(&calibration);
+                deliver(&[table], Mode::Write, "calibrate")?;
+            }
+            let complaints = calibration.margins.complaints();
+            for complaint in &complaints {
+                eprintln!("{complaint}");
+            }
+            println!("{}", calibration.line());
+            if !complaints.is_empty() {
+                return Err(format!("margins below {ENOUGH}: see above").into());
             }
         }
     }

@@ -57,11 +57,15 @@ impl Bounds {
         2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
     }
 
-    /// Whether this box lies in `outer`, give or take `slack` and the last bits of an f32. Never
-    /// of a box with a NaN.
-    pub(super) fn is_within(self, outer: Bounds, slack: f64) -> bool {
+    /// How far this box sticks out of `outer`, beyond the last bits of an f32. Never NaN: a box
+    /// with one sticks out infinitely.
+    pub(super) fn sticks_out_of(self, outer: Bounds) -> f64 {
         let last_bits = self.min.abs().max(self.max.abs()) * 2.0 * f64::from(f32::EPSILON);
-        let slack = DVec3::splat(slack) + last_bits;
-        self.min.cmpge(outer.min - slack).all() && self.max.cmple(outer.max + slack).all()
+        let below = (outer.min - self.min - last_bits).to_array();
+        let above = (self.max - outer.max - last_bits).to_array();
+        // Each by itself: the largest of numbers with a NaN among them may be a number.
+        let out = below.into_iter().chain(above);
+        out.map(|out| if out.is_nan() { f64::INFINITY } else { out })
+            .fold(0.0, f64::max)
     }
 }

@@ -7,52 +7,78 @@ mod cells;
 use protocol::{Outcome, Shape, Tree};
 
 use crate::exam::TreePart;
-use crate::judge::{Failure, How, Judgement, Share};
+use crate::judge::measure::in_units_of;
+use crate::judge::{
+    Comparison, Deviation, Failure, How, Judgement, Measured, Share, Threshold, deviation,
+};
 
 use bounds::Bounds;
 use cells::{Cell, Mistake, cells};
 
 /// Full marks up to so many times the cost of the exact sweep, and half marks.
-const FULL: f64 = 1.12;
+pub(super) const FULL: f64 = 1.12;
 const HALF: f64 = 1.25;
 /// How far a box may exceed what it holds, in diagonals.
-const LOOSE: f64 = 1e-4;
+pub(super) const LOOSE: f64 = 1e-4;
 /// How far a primitive may stick out of its box, in diagonals: what rounding explains.
-const ROUNDING: f64 = 1e-5;
+pub(super) const ROUNDING: f64 = 1e-5;
 
-pub(super) fn judge(
-    judged: &[TreePart],
-    sweep_cost: Option<f64>,
-    shapes: &[Shape],
-    max_leaf_size: u32,
-    answer: &Outcome<Tree>,
-) -> Judgement {
-    let tree = match answer {
-        Outcome::Value(tree) => tree,
-        Outcome::Panicked(panic) => {
-            return Judgement::wrong(Failure {
-                element: 0,
-                how: How::Panicked(panic.clone()),
-                count: None,
-            });
+/// A tree, and what must hold of it.
+pub(super) struct Built<'a> {
+    pub(super) judged: &'a [TreePart],
+    pub(super) sweep_cost: Option<f64>,
+    pub(super) shapes: &'a [Shape],
+    pub(super) max_leaf_size: u32,
+    pub(super) answer: &'a Outcome<Tree>,
+}
+
+impl Comparison for Built<'_> {
+    fn judge(&self) -> Judgement {
+        let tree = match self.answer {
+            Outcome::Value(tree) => tree,
+            Outcome::Panicked(panic) => {
+                return Judgement::wrong(Failure {
+                    element: 0,
+                    how: How::Panicked(panic.clone()),
+                    count: None,
+                });
+            }
+            Outcome::GivenUp => return Judgement::protocol("given up"),
+        };
+        let cells = match cells(self.shapes, tree) {
+            Ok(cells) => cells,
+            Err(mistake) => return wrong(mistake),
+        };
+        let mut judged = self.judged.iter();
+        let mistake = judged.find_map(|part| self.part_mistake(*part, &cells));
+        match (mistake, self.sweep_cost) {
+            (Some(mistake), _) => wrong(mistake),
+            (None, None) => Judgement::RIGHT,
+            // A cost is only that of this tree if the tree holds every primitive once.
+            (None, Some(sweep)) => match partition_mistake(&cells, self.shapes.len()) {
+                Some(mistake) => wrong(mistake),
+                None => by_cost(cost(&cells) / sweep),
+            },
         }
-        Outcome::GivenUp => return Judgement::protocol("given up"),
-    };
-    let cells = match cells(shapes, tree) {
-        Ok(cells) => cells,
-        Err(mistake) => return wrong(mistake),
-    };
-    let mistake = judged
-        .iter()
-        .find_map(|part| part_mistake(*part, &cells, shapes, max_leaf_size));
-    match (mistake, sweep_cost) {
-        (Some(mistake), _) => wrong(mistake),
-        (None, None) => Judgement::RIGHT,
-        // A cost is only that of this tree if the tree holds every primitive once.
-        (None, Some(sweep)) => match partition_mistake(&cells, shapes.len()) {
-            Some(mistake) => wrong(mistake),
-            None => by_cost(cost(&cells) / sweep),
-        },
+    }
+
+    fn measure(&self) -> Vec<Measured> {
+        let cells = match self.answer {
+            Outcome::Value(tree) => cells(self.shapes, tree).ok(),
+            Outcome::Panicked(_) | Outcome::GivenUp => None,
+        };
+        let Some(cells) = cells else {
+            return deviation::worst([Deviation::WRONG]);
+        };
+        let parts = self.judged.iter();
+        let parts = parts.flat_map(|part| self.part_deviations(*part, &cells));
+        let cost =
+            self.sweep_cost
+                .map(|sweep| match partition_mistake(&cells, self.shapes.len()) {
+                    Some(_) => Deviation::WRONG,
+                    None => cost_deviation(cost(&cells) / sweep),
+                });
+        deviation::worst(parts.chain(cost))
     }
 }
 
@@ -69,7 +95,7 @@ fn wrong(mistake: Mistake) -> Judgement {
 }
 
 fn by_cost(ratio: f64) -> Judgement {
-    if ratio <= FULL {
+    if cost_deviation(ratio).is_right() {
         return Judgement::RIGHT;
     }
     let judgement = wrong(Mistake {
@@ -87,49 +113,79 @@ fn by_cost(ratio: f64) -> Judgement {
     }
 }
 
-fn part_mistake(
-    part: TreePart,
-    cells: &[Cell],
-    shapes: &[Shape],
-    max_leaf_size: u32,
-) -> Option<Mistake> {
-    let most = max_leaf_size as usize;
-    match part {
-        TreePart::Partition => partition_mistake(cells, shapes.len()),
-        TreePart::Contains => cells.iter().find_map(|cell| {
-            let slack = ROUNDING * cell.needs.diagonal();
-            let holds = cell.needs.is_within(Bounds::of(cell.node), slack);
-            (cell.count > 0 && !holds).then(|| cell.box_mistake("box too small"))
-        }),
-        TreePart::Tight => cells.iter().find_map(|cell| {
-            let slack = LOOSE * cell.needs.diagonal();
-            let tight = Bounds::of(cell.node).is_within(cell.needs, slack);
-            (cell.count > 0 && !tight).then(|| cell.box_mistake("box too large"))
-        }),
-        TreePart::LeafSize => {
-            let leaf = cells
+/// How much more a tree costs than the sweep's, to which it is so many times as dear.
+fn cost_deviation(ratio: f64) -> Deviation {
+    Deviation::of(Threshold::SahCost, in_units_of(FULL - 1.0, ratio - 1.0))
+}
+
+impl Built<'_> {
+    fn part_mistake(&self, part: TreePart, cells: &[Cell]) -> Option<Mistake> {
+        let most = self.max_leaf_size as usize;
+        match part {
+            TreePart::Partition => partition_mistake(cells, self.shapes.len()),
+            TreePart::Contains => cells
                 .iter()
-                .find(|cell| cell.leaf.is_some() && cell.count > most)?;
-            Some(Mistake {
-                what: "leaf size",
-                got: format!("leaf {} holds {} primitives", leaf.place, leaf.count),
-                wanted: format!("at most {most}"),
-            })
-        }
-        TreePart::Stops => {
-            let node = cells
+                .find(|cell| !too_small(cell).is_right())
+                .map(|cell| cell.box_mistake("box too small")),
+            TreePart::Tight => cells
                 .iter()
-                .find(|cell| cell.leaf.is_none() && cell.count <= most)?;
-            Some(Mistake {
-                what: "splits",
-                got: format!(
-                    "node {} was split over {} primitives",
-                    node.place, node.count
-                ),
-                wanted: format!("a leaf, as soon as there are at most {most}"),
-            })
+                .find(|cell| !too_large(cell).is_right())
+                .map(|cell| cell.box_mistake("box too large")),
+            TreePart::LeafSize => {
+                let leaf = cells
+                    .iter()
+                    .find(|cell| cell.leaf.is_some() && cell.count > most)?;
+                Some(Mistake {
+                    what: "leaf size",
+                    got: format!("leaf {} holds {} primitives", leaf.place, leaf.count),
+                    wanted: format!("at most {most}"),
+                })
+            }
+            TreePart::Stops => {
+                let node = cells
+                    .iter()
+                    .find(|cell| cell.leaf.is_none() && cell.count <= most)?;
+                Some(Mistake {
+                    what: "splits",
+                    got: format!(
+                        "node {} was split over {} primitives",
+                        node.place, node.count
+                    ),
+                    wanted: format!("a leaf, as soon as there are at most {most}"),
+                })
+            }
         }
     }
+
+    fn part_deviations(&self, part: TreePart, cells: &[Cell]) -> Vec<Deviation> {
+        match part {
+            TreePart::Contains => cells.iter().map(too_small).collect(),
+            TreePart::Tight => cells.iter().map(too_large).collect(),
+            TreePart::Partition | TreePart::LeafSize | TreePart::Stops => {
+                vec![Deviation::unless(self.part_mistake(part, cells).is_none())]
+            }
+        }
+    }
+}
+
+/// How far a node's primitives stick out of its box. The box of a node without any is not read.
+fn too_small(cell: &Cell) -> Deviation {
+    let out = match cell.count {
+        0 => 0.0,
+        _ => cell.needs.sticks_out_of(Bounds::of(cell.node)),
+    };
+    let limit = ROUNDING * cell.needs.diagonal();
+    Deviation::of(Threshold::BoxTooSmall, in_units_of(limit, out))
+}
+
+/// How far a node's box exceeds what its primitives need.
+fn too_large(cell: &Cell) -> Deviation {
+    let out = match cell.count {
+        0 => 0.0,
+        _ => Bounds::of(cell.node).sticks_out_of(cell.needs),
+    };
+    let limit = LOOSE * cell.needs.diagonal();
+    Deviation::of(Threshold::BoxTooLarge, in_units_of(limit, out))
 }
 
 fn partition_mistake(cells: &[Cell], primitives: usize) -> Option<Mistake> {

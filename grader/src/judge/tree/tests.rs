@@ -37,6 +37,27 @@ fn good() -> Tree {
     }
 }
 
+fn judge(
+    judged: &[TreePart],
+    sweep_cost: Option<f64>,
+    shapes: &[Shape],
+    max_leaf_size: u32,
+    answer: &Outcome<Tree>,
+) -> Judgement {
+    let built = Built {
+        judged,
+        sweep_cost,
+        shapes,
+        max_leaf_size,
+        answer,
+    };
+    let judgement = built.judge();
+    let mut measured = built.measure().into_iter();
+    let is_right = measured.all(|measured| measured.decider().is_right());
+    assert_eq!(is_right, judgement.share == Share::ALL);
+    judgement
+}
+
 const ALL: [TreePart; 5] = [
     TreePart::Partition,
     TreePart::Contains,
@@ -73,6 +94,10 @@ fn each_part_of_a_tree_is_judged() {
     assert_eq!(
         spoiled(|tree| tree.nodes[0].min.y = f32::NAN),
         "box too small"
+    );
+    assert_eq!(
+        spoiled(|tree| tree.nodes[0].min.y = f32::NEG_INFINITY),
+        "box too large"
     );
     assert_eq!(spoiled(|tree| tree.nodes[1].r = 7), "child r");
     assert_eq!(spoiled(|tree| tree.nodes[1].r = 1), "nodes");
@@ -131,4 +156,33 @@ fn nothing_may_be_no_node_or_one_leaf_of_none() {
     };
     assert_eq!(empty(vec![leaf]), Share::ALL);
     assert_eq!(empty(vec![TreeNode { size: 1, ..leaf }]), Share::NONE);
+}
+
+#[test]
+fn boxes_and_cost_are_measured() {
+    let measured = |tree: Tree, sweep_cost| {
+        let built = Built {
+            judged: &ALL,
+            sweep_cost,
+            shapes: &row(4),
+            max_leaf_size: 2,
+            answer: &Outcome::Value(tree),
+        };
+        built.measure()
+    };
+    let value = |measured: &[Measured], threshold| {
+        let mut offs = measured.iter().map(|measured| measured.off);
+        let found = offs.find(|off| off.threshold == Some(threshold));
+        found.expect("it is measured").value
+    };
+
+    let mut loose = good();
+    loose.nodes[0].min.x -= 3e-4;
+    let diagonal = f64::from(11.0_f32).sqrt();
+    let found = value(&measured(loose, None), Threshold::BoxTooLarge);
+    assert!((found - 3.0 / diagonal).abs() < 0.01, "{found}");
+
+    let by_hand = 1.0 + 4.0 * 14.0 / 30.0;
+    let found = value(&measured(good(), Some(by_hand / 1.06)), Threshold::SahCost);
+    assert!((found - 0.5).abs() < 1e-9, "{found}");
 }

@@ -132,7 +132,7 @@ impl Exhibits {
 }
 
 /// The items of these tasks, and those that need one of them.
-fn what_rests_on(exam: &Exam, tasks: &[Task]) -> Exam {
+pub fn what_rests_on(exam: &Exam, tasks: &[Task]) -> Exam {
     let of_tasks = |id: &String| {
         let task = id.split('.').next();
         tasks.iter().any(|other| Some(other.id()) == task)

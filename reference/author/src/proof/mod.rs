@@ -4,6 +4,7 @@
 //! right solutions, `reference/mutants` what a program makes of it. Each is built and asked like any
 //! submission, through the same pipe.
 
+pub mod calibrate;
 pub mod catalogue;
 pub mod exhibits;
 pub mod matrix;

@@ -1,0 +1,193 @@
+//! Pictures of first hits, against a key that is a *set* at every position.
+//!
+//! Near an edge a last bit decides what a ray sees, and every answer that a neighbour within
+//! ±5e-4 of a pixel would get is right. Leaving such positions out instead would hide cracks,
+//! which are to be found nowhere else.
+
+use std::collections::BTreeMap;
+
+use protocol::{Outcome, Trace};
+
+use crate::describe;
+use crate::exam::Surface;
+use crate::judge::measure::{direction_error, length_error, uv_error};
+use crate::judge::{
+    Comparison, Deviation, Failure, How, Judgement, Measured, Share, Threshold, deviation,
+};
+
+pub(super) const DEPTH: f32 = 2e-4;
+pub(super) const NORMAL: f32 = 5e-3;
+
+/// What is compared, each only where the ones before it are right, with its weight in hundredths.
+const QUANTITIES: [(&str, u32); 4] = [
+    ("hit or miss", 40),
+    ("depth", 30),
+    ("normal", 20),
+    ("uv", 10),
+];
+
+/// A picture.
+pub(super) struct FirstHits<'a> {
+    pub(super) hits: &'a [Option<Surface>],
+    pub(super) also: &'a [(u32, Option<Surface>)],
+    pub(super) answers: &'a [Outcome<Option<Trace>>],
+}
+
+/// One quantity, wherever it is judged.
+#[derive(Default)]
+struct Tally {
+    places: Vec<Deviation>,
+    wrong: usize,
+    first_wrong: Option<usize>,
+}
+
+impl Comparison for FirstHits<'_> {
+    fn judge(&self) -> Judgement {
+        if self.answers.len() != self.hits.len() {
+            return Judgement::protocol("another number of answers than of rays");
+        }
+        let tallies = self.tallies();
+        let shares = tallies.each_ref().map(|tally| match self.is_enough(tally) {
+            true => Share::by_count(tally.wrong, tally.places.len()),
+            false => Share::NONE,
+        });
+        let weighted = QUANTITIES.iter().zip(shares);
+        let share = Share::weighted(weighted.map(|((_, weight), share)| (*weight, share)));
+        let worst = (0..QUANTITIES.len()).find(|&quantity| shares[quantity] < Share::ALL);
+        Judgement {
+            share,
+            failure: worst.map(|quantity| {
+                let tally = &tallies[quantity];
+                let element = tally.first_wrong.unwrap_or(0);
+                Failure {
+                    element,
+                    how: how(
+                        quantity,
+                        &self.answers[element],
+                        self.hits[element].as_ref(),
+                    ),
+                    count: Some((tally.wrong, tally.places.len())),
+                }
+            }),
+        }
+    }
+
+    fn measure(&self) -> Vec<Measured> {
+        if self.answers.len() != self.hits.len() {
+            return deviation::worst([Deviation::WRONG]);
+        }
+        let measured = |tally: Tally| {
+            let is_enough = self.is_enough(&tally);
+            let allowed = Share::stragglers(tally.places.len());
+            let counted = Measured::counted(tally.places, allowed, Threshold::PicturePositions);
+            // What is not judged often enough fails by what comes before it.
+            is_enough.then_some(counted)
+        };
+        self.tallies().into_iter().filter_map(measured).collect()
+    }
+}
+
+impl FirstHits<'_> {
+    fn tallies(&self) -> [Tally; QUANTITIES.len()] {
+        let mut others: BTreeMap<usize, Vec<&Option<Surface>>> = BTreeMap::new();
+        for (position, answer) in self.also {
+            others.entry(*position as usize).or_default().push(answer);
+        }
+        let mut tallies: [Tally; QUANTITIES.len()] = Default::default();
+        for (position, outcome) in self.answers.iter().enumerate() {
+            let others = others.remove(&position).unwrap_or_default();
+            let right = others.into_iter().chain([&self.hits[position]]);
+            let deviations = match outcome {
+                Outcome::Value(got) => of_position(got.as_ref(), right),
+                Outcome::Panicked(_) | Outcome::GivenUp => vec![Deviation::WRONG],
+            };
+            for (tally, deviation) in tallies.iter_mut().zip(deviations) {
+                tally.places.push(deviation);
+                if !deviation.is_right() {
+                    tally.wrong += 1;
+                    tally.first_wrong.get_or_insert(position);
+                }
+            }
+        }
+        tallies
+    }
+
+    /// Whoever hits nothing has no wrong normals: half of what there is to hit must be judged. Hit
+    /// or miss is, everywhere.
+    fn is_enough(&self, tally: &Tally) -> bool {
+        let to_hit = self.hits.iter().flatten().count();
+        tally.places.len() * 2 >= to_hit
+    }
+}
+
+/// How far off each quantity is at one position, from the nearest of the `right` answers in which
+/// all before it agree; up to the first that is wrong. A true miss has but the first.
+fn of_position<'a>(
+    got: Option<&Trace>,
+    right: impl Iterator<Item = &'a Option<Surface>>,
+) -> Vec<Deviation> {
+    let alike: Vec<_> = right
+        .filter(|wanted| wanted.is_some() == got.is_some())
+        .collect();
+    let mut nearest = vec![Deviation::unless(!alike.is_empty())];
+    let Some(got) = got else {
+        return nearest;
+    };
+    let mut left: Vec<_> = alike
+        .into_iter()
+        .flatten()
+        .map(|wanted| deviations(got, wanted))
+        .collect();
+    for quantity in 0..QUANTITIES.len() - 1 {
+        let of_each = left.iter().map(|deviations| deviations[quantity]);
+        let Some(next) = of_each.min_by(|a, b| a.value.total_cmp(&b.value)) else {
+            break;
+        };
+        nearest.push(next);
+        left.retain(|deviations| deviations[quantity].is_right());
+    }
+    nearest
+}
+
+/// How far off a hit is in depth, normal and uv.
+fn deviations(got: &Trace, wanted: &Surface) -> [Deviation; QUANTITIES.len() - 1] {
+    let depth = length_error(got.distance, wanted.depth, DEPTH);
+    let normal = direction_error(got.normal, wanted.normal, NORMAL);
+    [
+        Deviation::of(Threshold::PictureDepth, depth),
+        Deviation::of(Threshold::PictureNormal, normal),
+        Deviation::of(Threshold::PictureUv, uv_error(got.uv, wanted.uv)),
+    ]
+}
+
+fn how(quantity: usize, answer: &Outcome<Option<Trace>>, wanted: Option<&Surface>) -> How {
+    let got = match answer {
+        Outcome::Value(got) => got.as_ref(),
+        Outcome::Panicked(panic) => return How::Panicked(panic.clone()),
+        Outcome::GivenUp => return How::Protocol("given up".to_owned()),
+    };
+    let tell = |tell: fn(&Trace) -> String| got.map_or("no hit".to_owned(), tell);
+    let want = |want: fn(&Surface) -> String| wanted.map_or("no hit".to_owned(), want);
+    let (got, wanted) = match QUANTITIES[quantity].0 {
+        "normal" => (
+            tell(|trace| describe::point(trace.normal)),
+            want(|surface| describe::point(surface.normal)),
+        ),
+        "uv" => (
+            tell(|trace| describe::uv(trace.uv)),
+            want(|surface| describe::uv(surface.uv)),
+        ),
+        _ => (
+            tell(|trace| describe::hit_at(trace.distance)),
+            want(|surface| describe::hit_at(surface.depth)),
+        ),
+    };
+    How::Wrong {
+        what: QUANTITIES[quantity].0.to_owned(),
+        got,
+        wanted,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -6,15 +6,14 @@ use std::process::ExitCode;
 
 use author::cli::{Cli, Command};
 use author::generated::{Generated, Mode, deliver};
-use author::proof::calibrate::margins::ENOUGH;
 use author::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, calibrate, table};
-use author::proof::exhibits::Exhibits;
+use author::proof::exhibits::{Exhibits, NotProven};
 use author::proof::matrix;
 use author::proof::mutants::{self, Extent};
 use author::proof::prove::prove;
 use author::proof::recognition::recognise;
 use author::proof::workbench::Workbench;
-use author::{exams, generated, scenes, starter};
+use author::{exams, scenes, starter};
 use clap::Parser;
 
 /// The workspace's root, where all paths of generated files start.
@@ -30,6 +29,85 @@ fn main() -> ExitCode {
     }
 }
 
+type Done = Result<(), Box<dyn std::error::Error>>;
+
+fn run(command: Command) -> Done {
+    let root = Path::new(ROOT);
+    match command {
+        Command::Starter(check) => put(&starter::generated(root)?, check.mode(), "starter"),
+        Command::Exams(check) => put(&exams::generated()?, check.mode(), "exams"),
+        Command::Exam { seed } => {
+            let exam = exams::final_text(seed)?;
+            Ok(io::stdout().write_all(exam.as_bytes())?)
+        }
+        Command::Scenes(check) => put(&scenes::generated(), check.mode(), "scenes"),
+        Command::Mistakes(check) => put(&[matrix::generated()?], check.mode(), "mistakes"),
+        Command::Mutants { fast, check } => ask_mutants(root, Extent::new(fast), check.mode()),
+        Command::Hints => {
+            let recognition = recognise(&exhibits()?, &exams::practice(root)?)?;
+            println!("{recognition}");
+            Ok(())
+        }
+        Command::Prove {
+            seeds,
+            mistakes,
+            write,
+        } => {
+            let summary = prove(&exhibits()?, seeds, mistakes)?;
+            if write {
+                let record = summary.record(&today(), &commit(root)?);
+                put(&[record], Mode::Write, "prove")?;
+            }
+            conclude(&summary.complaints(), &summary.line())
+        }
+        Command::Calibrate {
+            seeds,
+            mistakes,
+            check,
+        } => {
+            if check {
+                table::check(root)?;
+            }
+            let usual = if check { FEW_SEEDS } else { MANY_SEEDS };
+            let calibration = calibrate(&exhibits()?, seeds.unwrap_or(usual), mistakes)?;
+            if !check {
+                put(&[table::generated(&calibration)], Mode::Write, "calibrate")?;
+            }
+            conclude(&calibration.margins.complaints(), &calibration.line())
+        }
+    }
+}
+
+/// Writes or compares what is generated; `name` is the command that writes it.
+fn put(files: &[Generated], mode: Mode, name: &str) -> Done {
+    let mend = format!("cargo author {name}");
+    Ok(deliver(files, Path::new(ROOT), mode, &mend)?)
+}
+
+fn exhibits() -> Result<Exhibits, NotProven> {
+    Exhibits::prepare(Workbench::open()?)
+}
+
+fn ask_mutants(root: &Path, extent: Extent, mode: Mode) -> Done {
+    let list = mutants::list(root, mode)?;
+    put(&[list.generated()], mode, "mutants")?;
+    let findings = mutants::ask(&list, extent)?;
+    println!("{}", extent.words());
+    conclude(&findings.complaints(), &findings.line())
+}
+
+/// Says what was found, and fails if there is something to complain of.
+fn conclude(complaints: &[String], line: &str) -> Done {
+    for complaint in complaints {
+        eprintln!("{complaint}");
+    }
+    println!("{line}");
+    match complaints.len() {
+        0 => Ok(()),
+        count => Err(format!("{count} findings that should not be: see above").into()),
+    }
+}
+
 fn today() -> String {
     jiff::Timestamp::now().strftime("%F").to_string()
 }
@@ -41,84 +119,4 @@ fn commit(root: &Path) -> io::Result<String> {
         .current_dir(root)
         .output()?;
     Ok(String::from_utf8_lossy(&git.stdout).trim().to_owned())
-}
-
-fn run(command: Command) -> Result<(), Box<dyn std::error::Error>> {
-    let root = Path::new(ROOT);
-    let deliver = |files: &[Generated], mode: Mode, name: &str| {
-        deliver(files, root, mode, &format!("cargo author {name}"))
-    };
-    match command {
-        Command::Starter(check) => deliver(&starter::generated(root)?, check.mode(), "starter")?,
-        Command::Exams(check) => deliver(&exams::generated()?, check.mode(), "exams")?,
-        Command::Exam { seed } => {
-            let exam = exams::final_text(seed)?;
-            io::stdout().write_all(exam.as_bytes())?;
-        }
-        Command::Scenes(check) => deliver(&scenes::generated(), check.mode(), "scenes")?,
-        Command::Mistakes(check) => deliver(&[matrix::generated()?], check.mode(), "mistakes")?,
-        Command::Mutants { fast, check } => {
-            let list = mutants::list(root, check.mode())?;
-            deliver(&[list.generated()], check.mode(), "mutants")?;
-            let extent = Extent::new(fast);
-            let findings = mutants::ask(&list, extent)?;
-            for complaint in findings.complaints() {
-                eprintln!("{complaint}");
-            }
-            println!("{}", extent.words());
-            println!("{}", findings.line());
-            if !findings.complaints().is_empty() {
-                return Err("not every mutant fares as it should: see above".into());
-            }
-        }
-        Command::Hints => {
-            let exhibits = Exhibits::prepare(Workbench::open()?)?;
-            let recognition = recognise(&exhibits, &exams::practice(root)?)?;
-            println!("{recognition}");
-        }
-        Command::Prove {
-            seeds,
-            mistakes,
-            write,
-        } => {
-            let exhibits = Exhibits::prepare(Workbench::open()?)?;
-            let summary = prove(&exhibits, seeds, mistakes)?;
-            for complaint in summary.complaints() {
-                eprintln!("{complaint}");
-            }
-            println!("{}", summary.line());
-            if write {
-                let record = summary.record(&today(), &commit(root)?);
-                generated::deliver(&[record], root, Mode::Write, "prove")?;
-            }
-            if !summary.is_proven() {
-                return Err("the exam is not proven: see above".into());
-            }
-        }
-        Command::Calibrate {
-            seeds,
-            mistakes,
-            check,
-        } => {
-            if check {
-                table::check(root)?;
-            }
-            let exhibits = Exhibits::prepare(Workbench::open()?)?;
-            let usual = if check { FEW_SEEDS } else { MANY_SEEDS };
-            let calibration = calibrate(&exhibits, seeds.unwrap_or(usual), mistakes)?;
-            if !check {
-                let table = table::generated(&calibration);
-                deliver(&[table], Mode::Write, "calibrate")?;
-            }
-            let complaints = calibration.margins.complaints();
-            for complaint in &complaints {
-                eprintln!("{complaint}");
-            }
-            println!("{}", calibration.line());
-            if !complaints.is_empty() {
-                return Err(format!("margins below {ENOUGH}: see above").into());
-            }
-        }
-    }
-    Ok(())
 }

@@ -106,6 +106,19 @@ fn part_mistake(
             let tight = Bounds::of(cell.node).is_within(cell.needs, slack);
             (cell.count > 0 && !tight).then(|| cell.box_mistake("box too large"))
         }),
+        TreePart::Split => {
+            let all = shapes.len();
+            let is_half = |cell: &&Cell| cell.leaf.is_some() && 2 * cell.count >= all;
+            let leaf = cells.iter().filter(|_| all > 1).find(is_half)?;
+            Some(Mistake {
+                what: "splits",
+                got: format!(
+                    "leaf {} holds {} of {all} primitives",
+                    leaf.place, leaf.count
+                ),
+                wanted: "less than half of them in any leaf".to_owned(),
+            })
+        }
         TreePart::LeafSize => {
             let leaf = cells
                 .iter()

@@ -263,6 +263,8 @@ pub enum TreePart {
     Contains,
     /// No box exceeds the union of the primitives below by more than 1e-4 of its diagonal.
     Tight,
+    /// The primitives were split at all: no leaf holds half of them or more.
+    Split,
     /// No leaf holds more than `max_leaf_size` primitives.
     LeafSize,
     /// No node with at most `max_leaf_size` primitives was split.

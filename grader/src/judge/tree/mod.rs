@@ -131,6 +131,19 @@ impl Built<'_> {
                 .iter()
                 .find(|cell| !too_large(cell).is_right())
                 .map(|cell| cell.box_mistake("box too large")),
+            TreePart::Split => {
+                let all = self.shapes.len();
+                let is_half = |cell: &&Cell| cell.leaf.is_some() && 2 * cell.count >= all;
+                let leaf = cells.iter().filter(|_| all > 1).find(is_half)?;
+                Some(Mistake {
+                    what: "splits",
+                    got: format!(
+                        "leaf {} holds {} of {all} primitives",
+                        leaf.place, leaf.count
+                    ),
+                    wanted: "less than half of them in any leaf".to_owned(),
+                })
+            }
             TreePart::LeafSize => {
                 let leaf = cells
                     .iter()
@@ -161,7 +174,7 @@ impl Built<'_> {
         match part {
             TreePart::Contains => cells.iter().map(too_small).collect(),
             TreePart::Tight => cells.iter().map(too_large).collect(),
-            TreePart::Partition | TreePart::LeafSize | TreePart::Stops => {
+            TreePart::Partition | TreePart::Split | TreePart::LeafSize | TreePart::Stops => {
                 vec![Deviation::unless(self.part_mistake(part, cells).is_none())]
             }
         }

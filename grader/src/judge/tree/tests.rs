@@ -112,6 +112,39 @@ fn each_part_of_a_tree_is_judged() {
 }
 
 #[test]
+fn hardly_split_is_not_split() {
+    let share = |count: u32, nodes: Vec<TreeNode>| {
+        let tree = Tree {
+            nodes,
+            root: 0,
+            order: (0..count).collect(),
+        };
+        judge(
+            &[TreePart::Split],
+            None,
+            &row(count),
+            1,
+            &Outcome::Value(tree),
+        )
+        .share
+    };
+    assert_eq!(share(1, vec![node(0, 0, 1, 0, 0)]), Share::ALL);
+    assert_eq!(share(4, vec![node(0, 3, 4, 0, 0)]), Share::NONE);
+    let fork = node(0, 4, 0, 1, 2);
+    let half = vec![fork, node(0, 1, 2, 0, 0), node(2, 3, 2, 0, 0)];
+    assert_eq!(share(4, half), Share::NONE);
+    // Larger leaves than one, and of each less than half.
+    let thirds = vec![
+        fork,
+        node(0, 1, 2, 0, 0),
+        node(2, 4, 0, 3, 4),
+        node(2, 3, 2, 0, 0),
+        node(4, 4, 1, 0, 0),
+    ];
+    assert_eq!(share(5, thirds), Share::ALL);
+}
+
+#[test]
 fn a_node_that_should_be_a_leaf_is_told() {
     let split = Outcome::Value(good());
     let judgement = judge(&[TreePart::Stops], None, &row(4), 4, &split);

@@ -4,7 +4,7 @@ mod cost;
 mod structure;
 mod unusual;
 
-use grader::exam::TreePart::{LeafSize, Partition};
+use grader::exam::TreePart::{Partition, Split};
 use grader::exam::{Asked, Item, Key, Task, TreePart};
 use protocol::{Question, Shape};
 
@@ -33,12 +33,12 @@ pub fn items(seed: Seed) -> Vec<Item> {
     all.into_iter().map(|item| item(seed)).collect()
 }
 
-/// An item with one question more than its idea: without a tree, or with all in one leaf, it is
-/// wrong. Its primitives lie far apart, so that no heuristic would rather keep them together.
+/// An item with one question more than its idea: without a tree, or with half of all in one leaf,
+/// it is wrong. How large leaves may be is the idea of one item. Its primitives lie far apart, so that no heuristic would rather keep them together.
 fn item(name: &str, points: u32, text: [&str; 2], mut questions: Vec<Asked>) -> Item {
     let mut draw = Seed(0).draw("build.control");
     let soup = meshes::soup(&mut draw, 24, 2.0, 0.1);
-    questions.push(asked(&[Partition, LeafSize], soup, 4));
+    questions.push(asked(&[Partition, Split], soup, 4));
     super::item(Task::Build, name, points, text, questions)
 }
 

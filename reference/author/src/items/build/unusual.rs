@@ -2,7 +2,7 @@
 
 use glam::{DVec3, dvec3};
 use grader::exam::Item;
-use grader::exam::TreePart::{Contains, LeafSize, Partition, Tight};
+use grader::exam::TreePart::{Contains, Partition, Split, Tight};
 use protocol::Shape;
 
 use super::{asked, item};
@@ -34,8 +34,9 @@ pub(super) fn coincident(seed: Seed) -> Item {
     let center = draw.point(2.0);
     let same = meshes::chip(&mut draw, center, 0.5);
     let all = meshes::numbered(vec![same; 20]);
-    let mut some = meshes::soup(&mut draw, 30, 3.0, 0.4);
-    some.extend(vec![same; 17]);
+    // More than half, so that a leaf of them all is one that was not split.
+    let mut some = meshes::soup(&mut draw, 17, 3.0, 0.4);
+    some.extend(vec![same; 30]);
     item(
         "coincident",
         1,
@@ -45,10 +46,10 @@ pub(super) fn coincident(seed: Seed) -> Item {
              both sides get some, or it never ends.",
         ],
         vec![
-            asked(&[Partition, LeafSize], all.clone(), 1),
-            asked(&[Partition, LeafSize], all, 4),
+            asked(&[Partition, Split], all.clone(), 1),
+            asked(&[Partition, Split], all, 4),
             asked(
-                &[Partition, LeafSize],
+                &[Partition, Split],
                 meshes::numbered(draw.shuffled(some)),
                 2,
             ),
@@ -73,7 +74,7 @@ pub(super) fn concentric(seed: Seed) -> Item {
              the centers is divided by zero.",
         ],
         vec![asked(
-            &[Partition, LeafSize, Contains],
+            &[Partition, Split, Contains],
             meshes::numbered(shells),
             2,
         )],
@@ -90,7 +91,7 @@ pub(super) fn coplanar(seed: Seed) -> Item {
             let corner = height + f64::from(cell % 8) * x + f64::from(cell / 8) * y;
             meshes::facet([corner, corner + x, corner + y], 0)
         });
-        asked(&[Partition, LeafSize, Contains], meshes::numbered(cells), 2)
+        asked(&[Partition, Split, Contains], meshes::numbered(cells), 2)
     };
     item(
         "coplanar",
@@ -114,7 +115,7 @@ pub(super) fn collinear(_: Seed) -> Item {
                 material: 0,
             }
         });
-        asked(&[Partition, LeafSize, Contains], meshes::numbered(row), 3)
+        asked(&[Partition, Split, Contains], meshes::numbered(row), 3)
     };
     item(
         "collinear",
@@ -135,7 +136,7 @@ pub(super) fn outlier(seed: Seed) -> Item {
         shapes.push(meshes::chip(&mut draw, center, 0.5));
         meshes::numbered(draw.shuffled(shapes))
     };
-    let judged = [Partition, LeafSize, Contains];
+    let judged = [Partition, Split, Contains];
     let questions = vec![
         asked(&judged, crowd(100.0), 2),
         asked(&judged, crowd(1000.0), 2),
@@ -163,7 +164,7 @@ pub(super) fn outlier(seed: Seed) -> Item {
 
 pub(super) fn one_or_none(seed: Seed) -> Item {
     let mut draw = seed.draw("build.one_or_none");
-    let judged = [Partition, LeafSize, Contains];
+    let judged = [Partition, Contains];
     let one = meshes::soup(&mut draw, 1, 2.0, 0.5);
     let two = meshes::soup(&mut draw, 2, 2.0, 0.5);
     item(

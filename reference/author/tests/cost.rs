@@ -5,7 +5,7 @@ mod solver;
 
 use author::items::build;
 use author::seed::Seed;
-use grader::exam::{Item, Key};
+use grader::exam::{Asked, Item, Key};
 use protocol::Question;
 
 use crate::solver::builders::{Extent, Splitter};
@@ -25,7 +25,10 @@ fn cost_items(seed: u64) -> Vec<Item> {
 
 /// The cost of the tree that this splitter makes, by the cost of the exact sweep.
 fn ratio(item: &Item, splitter: Splitter) -> f64 {
-    let asked = &item.questions[0];
+    ratio_of(&item.questions[0], splitter)
+}
+
+fn ratio_of(asked: &Asked, splitter: Splitter) -> f64 {
     let Question::Build {
         shapes,
         max_leaf_size,
@@ -102,6 +105,40 @@ fn a_heuristic_that_is_wrong_is_not_enough() {
                 ratios.iter().any(|ratio| *ratio >= BAD),
                 "{splitter:?}: {ratios:?}"
             );
+        }
+    }
+}
+
+/// The questions of one choice each.
+fn one_split(seed: u64) -> Vec<Asked> {
+    let items = build::items(Seed(seed));
+    let item = items.into_iter().find(|item| item.id == "build.one_split");
+    let mut questions = item.expect("it is one of them").questions;
+    questions.pop().expect("the control comes last");
+    questions
+}
+
+#[test]
+fn eight_buckets_or_more_find_the_one_best_split_and_four_do_not() {
+    for seed in SEEDS {
+        let questions = one_split(seed);
+        for extent in [Extent::Centers, Extent::Bounds] {
+            let ratios = |count: usize| -> Vec<f64> {
+                let splitter = Splitter::Buckets { count, extent };
+                questions
+                    .iter()
+                    .map(|asked| ratio_of(asked, splitter))
+                    .collect()
+            };
+            for count in [8, 9, 10, 11, 12, 13, 16, 20, 25, 32, 40, 64] {
+                let ratios = ratios(count);
+                let as_good = ratios.iter().all(|ratio| (ratio - 1.0).abs() < 1e-9);
+                assert!(as_good, "{seed} {count} {extent:?}: {ratios:?}");
+            }
+            let four = ratios(4);
+            println!("{seed} 4 {extent:?}: {four:.3?}");
+            let missed = four.iter().filter(|ratio| **ratio > 1.15).count();
+            assert!(missed >= 3, "{seed} {extent:?}: {four:?}");
         }
     }
 }

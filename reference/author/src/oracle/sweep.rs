@@ -15,6 +15,26 @@ pub fn cost(boxes: &[Bounds], max_leaf_size: usize) -> f64 {
     node_cost(boxes, &mut places, max_leaf_size, root)
 }
 
+/// From where to where there is no center along this axis, at the best of all partitions; `None` if
+/// that is along another axis, or if another is nearly as good.
+pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
+    /// By how much the second best must cost more.
+    const CLEAR: f64 = 1.05;
+
+    let places: Vec<usize> = (0..boxes.len()).collect();
+    let mut all: Vec<Partition> = (0..3)
+        .flat_map(|axis| partitions(boxes, &places, axis))
+        .collect();
+    all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let [best, second, ..] = &all[..] else {
+        return None;
+    };
+    let mut centers: Vec<f64> = boxes.iter().map(|bounds| bounds.center()[axis]).collect();
+    centers.sort_by(f64::total_cmp);
+    (best.axis == axis && second.cost >= CLEAR * best.cost)
+        .then(|| (centers[best.left - 1], centers[best.left]))
+}
+
 fn node_cost(boxes: &[Bounds], places: &mut [usize], max_leaf_size: usize, root: f64) -> f64 {
     let share = around(boxes, places).area() / root;
     if places.len() <= max_leaf_size {
@@ -44,6 +64,12 @@ struct Partition {
 }
 
 fn best(boxes: &[Bounds], places: &[usize], axis: usize) -> Option<Partition> {
+    let all = partitions(boxes, places, axis).into_iter();
+    all.min_by(|a, b| a.cost.total_cmp(&b.cost))
+}
+
+/// All partitions along an axis.
+fn partitions(boxes: &[Bounds], places: &[usize], axis: usize) -> Vec<Partition> {
     let mut sorted = places.to_vec();
     sort(boxes, &mut sorted, axis);
     let center = |i: usize| boxes[sorted[i]].center()[axis];
@@ -69,7 +95,7 @@ fn best(boxes: &[Bounds], places: &[usize], axis: usize) -> Option<Partition> {
             left,
             cost: before[left - 1] * left as f64 + after[left] * (sorted.len() - left) as f64,
         })
-        .min_by(|a, b| a.cost.total_cmp(&b.cost))
+        .collect()
 }
 
 fn sort(boxes: &[Bounds], places: &mut [usize], axis: usize) {

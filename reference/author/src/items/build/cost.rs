@@ -10,7 +10,7 @@ use crate::oracle::{scan, sweep};
 use crate::seed::{Draw, Seed};
 
 /// A question about the cost alone.
-fn cost(shapes: Vec<Shape>, max_leaf_size: u32) -> Asked {
+pub(super) fn cost(shapes: Vec<Shape>, max_leaf_size: u32) -> Asked {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let sweep_cost = Some(sweep::cost(&boxes, max_leaf_size as usize));
     Asked {
@@ -37,7 +37,7 @@ type Mesh = fn(&mut Draw) -> Vec<Shape>;
 pub(super) fn cost_strands(seed: Seed) -> Item {
     cost_item(
         "cost_strands",
-        2,
+        1,
         [
             "all three axes are tried: strands along x, y and z",
             "The cheapest of the partitions along all axes counts, at every node anew: not always \

@@ -1,6 +1,7 @@
 //! Task 3, step 1: building trees. What comes back is a tree, and is judged part by part.
 
 mod cost;
+mod split;
 mod structure;
 mod unusual;
 
@@ -13,7 +14,7 @@ use crate::seed::Seed;
 
 /// The items of the task `build`.
 pub fn items(seed: Seed) -> Vec<Item> {
-    let all: [fn(Seed) -> Item; 15] = [
+    let all: [fn(Seed) -> Item; 16] = [
         structure::partition,
         structure::contains,
         structure::tight,
@@ -26,6 +27,7 @@ pub fn items(seed: Seed) -> Vec<Item> {
         unusual::collinear,
         unusual::outlier,
         unusual::one_or_none,
+        split::one_split,
         cost::cost_strands,
         cost::cost_sheets,
         cost::cost_town,

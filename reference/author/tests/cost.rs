@@ -1,14 +1,14 @@
 //! The meshes of the cost items tell good builders from bad ones: bucketed ones of any kind come
 //! close to the exact sweep, and those that look at the middle alone do not.
 
-mod solver;
+mod builders;
 
 use author::items::build;
 use author::seed::Seed;
 use grader::exam::{Asked, Item, Key};
 use protocol::Question;
 
-use crate::solver::builders::{Extent, Splitter};
+use crate::builders::{Extent, Splitter};
 
 /// What every honest builder must stay below: the judge gives full marks up to 1.12.
 const HONEST: f64 = 1.06;
@@ -43,7 +43,7 @@ fn ratio_of(asked: &Asked, splitter: Splitter) -> f64 {
     else {
         unreachable!("a cost item knows the sweep's cost")
     };
-    solver::builders::cost(shapes, *max_leaf_size as usize, splitter) / sweep
+    builders::cost(shapes, *max_leaf_size as usize, splitter) / sweep
 }
 
 #[test]

@@ -119,7 +119,7 @@ fn is_answered(verdict: &Verdict) -> bool {
     }
 }
 
-// One task's process, started when there is something to ask and again after a fault.
+/// One task's process, started when there is something to ask and again after a fault.
 struct Session {
     launcher: Option<Launcher>,
     budget: Budget,

@@ -95,8 +95,8 @@ impl Summary {
         let mut text = format!(
             "# What was proven last\n\n\
              Written by `cargo author prove --seeds {}..{} --write` on {date}, at commit {commit}: \
-             exams of so many seeds were asked of every right solution in `reference/variants`, and \
-             the first of them of every mistake in `reference/mistakes`.\n\n\
+             the exams of these seeds were asked of every right solution in `reference/variants`, and \
+             the first few of them of every mistake in `reference/mistakes`.\n\n\
              > {}\n",
             self.seeds.start,
             self.seeds.end,

@@ -58,22 +58,18 @@ fn question(draw: &mut Draw, layout: Layout, axis: usize, is_mirrored: bool) -> 
     cost(shapes, MAX_LEAF_SIZE)
 }
 
-/// Chips in a row along an axis. The ends of each clump are taken.
+/// Chips in a row along an axis, those of a clump evenly.
 fn row(draw: &mut Draw, layout: Layout, axis: usize, is_mirrored: bool) -> Vec<Shape> {
     let start = draw.point(3.0);
     let length = draw.uniform(8.0, 12.0);
     let mut chips = Vec::new();
     for &(from, to, count) in layout {
         for i in 0..count {
-            let place = match i {
-                0 => from,
-                1 => to,
-                _ => draw.uniform(from, to),
-            };
+            let place = from + (to - from) * i as f64 / (count - 1) as f64;
             let place = if is_mirrored { 1.0 - place } else { place };
-            let aside = draw.point(0.1);
+            let aside = draw.point(0.05);
             let center = start + aside + (length * place - aside[axis]) * DVec3::AXES[axis];
-            chips.push(meshes::chip(draw, center, 0.1));
+            chips.push(meshes::chip(draw, center, 0.05));
         }
     }
     meshes::numbered(draw.shuffled(chips))
@@ -82,8 +78,6 @@ fn row(draw: &mut Draw, layout: Layout, axis: usize, is_mirrored: bool) -> Vec<S
 /// Whether every builder with 8 buckets or more finds the best of all partitions: it is the best by
 /// far, and lies across a gap along this axis that some plane of any of them goes through.
 fn is_beyond_doubt(shapes: &[Shape], axis: usize) -> bool {
-    const BUCKETS: std::ops::RangeInclusive<usize> = 8..=64;
-
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let Some(gap) = sweep::clear_gap(&boxes, axis) else {
         return false;
@@ -91,7 +85,7 @@ fn is_beyond_doubt(shapes: &[Shape], axis: usize) -> bool {
     let around_all = |all: Bounds, next: &Bounds| all.union(next);
     let of_boxes = boxes.iter().fold(Bounds::around([]), around_all);
     let of_centers = Bounds::around(boxes.iter().map(Bounds::center));
-    BUCKETS.clone().all(|count| {
+    (8..=64).all(|count| {
         [of_boxes, of_centers].iter().all(|over| {
             let size = (over.max - over.min)[axis];
             let part = |place: f64| (place - over.min[axis]) / size * count as f64;

@@ -10,7 +10,7 @@
 //! | the job | [`grade`], [`replay`] |
 //! | one exam | [`examine`], [`recognise`], [`verdict`], [`report`] |
 //! | its steps | [`build`], [`ask`], [`judge`] |
-//! | data | [`exam`], [`tells`], [`exam_file`], [`place`], [`submission`], [`given`], [`score`] |
+//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`place`], [`submission`], [`given`], [`score`] |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`] |
 
 pub mod ask;
@@ -31,6 +31,7 @@ pub mod replay;
 pub mod report;
 pub mod sandbox;
 pub mod score;
+pub mod section;
 pub mod submission;
 pub mod tame;
 pub mod tells;

@@ -6,6 +6,7 @@
 pub mod cli;
 pub mod exams;
 pub mod generated;
+pub mod handout;
 pub mod hints;
 pub mod items;
 pub mod oracle;

@@ -13,7 +13,7 @@ use author::proof::mutants::{self, Extent};
 use author::proof::prove::prove;
 use author::proof::recognition::recognise;
 use author::proof::workbench::Workbench;
-use author::{exams, scenes, starter};
+use author::{exams, handout, scenes, starter};
 use clap::Parser;
 
 /// The workspace's root, where all paths of generated files start.
@@ -41,6 +41,7 @@ fn run(command: Command) -> Done {
             Ok(io::stdout().write_all(exam.as_bytes())?)
         }
         Command::Scenes(check) => put(&scenes::generated(), check.mode(), "scenes"),
+        Command::Handout { check, book } => make_handout(root, check.mode(), book.as_deref()),
         Command::Mistakes(check) => put(&[matrix::generated()?], check.mode(), "mistakes"),
         Command::Mutants { fast, check } => ask_mutants(root, Extent::new(fast), check.mode()),
         Command::Hints => {
@@ -82,6 +83,28 @@ fn run(command: Command) -> Done {
 fn put(files: &[Generated], mode: Mode, name: &str) -> Done {
     let mend = format!("cargo author {name}");
     Ok(deliver(files, Path::new(ROOT), mode, &mend)?)
+}
+
+fn make_handout(root: &Path, mode: Mode, book: Option<&Path>) -> Done {
+    put(&handout::generated(), mode, "handout")?;
+    let complaints = handout::complaints(root, &exams::practice(root)?)?;
+    conclude(
+        &complaints,
+        "the handout: every link, name and command is there",
+    )?;
+    book.map_or(Ok(()), |folder| make_book(root, &root.join(folder)))
+}
+
+#[cfg(feature = "book")]
+fn make_book(root: &Path, folder: &Path) -> Done {
+    handout::book::build(root, folder)?;
+    println!("{}", folder.join("index.html").display());
+    Ok(())
+}
+
+#[cfg(not(feature = "book"))]
+fn make_book(_: &Path, _: &Path) -> Done {
+    Err("this program was built without mdBook; `cargo book` builds one with it".into())
 }
 
 fn exhibits() -> Result<Exhibits, NotProven> {

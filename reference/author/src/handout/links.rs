@@ -91,6 +91,36 @@ fn anchors(pages: &[Page]) -> BTreeMap<&str, BTreeSet<String>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::items::bbox;
+    use crate::seed::Seed;
+
+    #[test]
+    fn a_section_that_is_not_there_or_reads_otherwise_is_told_with_its_item() {
+        let mut items = bbox::items(Seed(1));
+        items.truncate(3);
+        items[1].section = Some(Section::new("boxes.md#flat-boxes"));
+        items[2].section = None;
+        let exam = Exam {
+            schema: 1,
+            id: String::new(),
+            mistakes: Vec::new(),
+            items,
+        };
+        let page = "# Boxes\n## From the last entry to the first exit\n## Flat, boxes\n";
+        assert_eq!(
+            missing_sections(&[Page::new("boxes.md", page)], &exam),
+            [
+                "bbox.slab_after_slab: boxes.md#flat-boxes would be told as \"Flat boxes\", and the \
+                 heading is \"Flat, boxes\"",
+                "bbox.octants: it has no section: see items/sections.rs",
+            ]
+        );
+        assert_eq!(
+            missing_sections(&[], &exam)[0],
+            "bbox.through: the handout has no section \
+             boxes.md#from-the-last-entry-to-the-first-exit"
+        );
+    }
 
     fn figures(names: &[&str]) -> BTreeSet<String> {
         names.iter().map(|name| (*name).to_owned()).collect()

@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 use glam::{DVec2, dvec2};
 
-/// How a reader's page, light or dark, colours a drawing. The book's own style sheet, `book.css`,
+/// How a reader's page, light or dark, colours a drawing. The book's own style sheet, `handout.css`,
 /// says the same for each of its themes.
 const STYLE: &str = "\
 .figure{--card:#fff;--ink:#1c1c1c;--soft:#6f6f6f;--blue:#0072b2;--orange:#c25400;--green:#00795a;--pink:#a8467f;\

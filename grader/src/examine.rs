@@ -17,13 +17,14 @@ const PATIENCE: usize = 2;
 /// The most characters that are kept of what a submission prints.
 const LONGEST_PRINT: usize = 1_000;
 
-/// Asks every item of `exam` and notes its score, which is shown to `progress` after each.
+/// Asks every item of `exam` and notes its score, which is shown to `progress` after each; if that
+/// is an error, nothing more is asked.
 pub fn examine<E: From<io::Error>>(
     exam: &Exam,
     build: &Build,
     budget: Budget,
     score: &mut Score,
-    mut progress: impl FnMut(&Score) -> Result<(), E>,
+    mut progress: impl FnMut(&mut Score) -> Result<(), E>,
 ) -> Result<(), E> {
     for task in Task::ALL {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();

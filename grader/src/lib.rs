@@ -7,7 +7,7 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | the job | [`grade`], [`replay`] |
+//! | the job | [`grade`], [`replay`], [`watch`] |
 //! | one exam | [`examine`], [`recognise`], [`verdict`], [`report`] |
 //! | its steps | [`build`], [`ask`], [`judge`] |
 //! | data | [`exam`], [`tells`], [`exam_file`], [`place`], [`submission`], [`given`], [`score`] |
@@ -35,4 +35,5 @@ pub mod submission;
 pub mod tame;
 pub mod tells;
 pub mod verdict;
+pub mod watch;
 pub mod workspace;

@@ -10,6 +10,7 @@ use grader::grade::grade;
 use grader::replay::replay;
 use grader::report::text::{Hints, report};
 use grader::score::Score;
+use grader::watch::watch;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -28,11 +29,15 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         anstream::print!("{}", replay(arguments, place)?);
         return Ok(ExitCode::SUCCESS);
     }
-    let graded = grade(arguments)?;
     let hints = match arguments.hints {
         true => Hints::Full,
         false => Hints::Nudge,
     };
+    if arguments.watch {
+        let never = watch(arguments, hints)?;
+        match never {}
+    }
+    let graded = grade(arguments)?;
     anstream::print!("{}", report(&graded.score, arguments.task, hints));
     if let Some(file) = &graded.file {
         anstream::println!("  {}\n", from_here(file).display());

@@ -1,19 +1,24 @@
 //! The main job, from a command line to a score.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::ask::Budget;
 use crate::build::{Build, BuildError, Builder};
 use crate::cli::Arguments;
 use crate::error::Error;
+use crate::exam::Exam;
 use crate::exam_file;
 use crate::examine::examine;
+use crate::exhibit::Exhibits;
 use crate::report;
 use crate::score::{BuildReport, FileReport, Score};
 use crate::submission::Submission;
 use crate::verdict::{file_message, unasked};
 use crate::workspace::Workspace;
+
+/// While the exam is asked, the page is written no more often than this.
+const PAGE_PACE: Duration = Duration::from_secs(1);
 
 /// A submission's score, and where it was written, if it was.
 #[derive(Debug)]
@@ -22,6 +27,8 @@ pub struct Graded {
     pub score: Score,
     /// The score file.
     pub file: Option<PathBuf>,
+    /// The page beside it.
+    pub page: Option<PathBuf>,
 }
 
 /// Loads the exam, collects the submission, builds it, asks, judges, scores.
@@ -42,23 +49,63 @@ pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
     score.build = build_report(&submission, &build);
     score.timings.build_ms = millis(built - began);
     // One task's points are no score.
-    let file = arguments
+    let mut files = arguments
         .task
         .is_none()
-        .then(|| score_file(arguments, &workspace, &submission));
-    examine(&asked, &build, budget(arguments), &mut score, |score| {
-        let mut score = score.clone();
-        score.timings.exam_ms = millis(built.elapsed());
-        match &file {
-            Some(path) => report::json::write(&score, path).map_err(|source| Error::Report {
-                path: path.clone(),
-                source,
-            }),
-            None => Ok(()),
-        }
-    })?;
+        .then(|| Files::in_folder(&folder(arguments, &workspace, &submission)));
+    examine(
+        &asked,
+        &build,
+        budget(arguments),
+        &mut score,
+        |score, exhibits| {
+            let mut score = score.clone();
+            score.timings.exam_ms = millis(built.elapsed());
+            match &mut files {
+                Some(files) => files.write(&score, &asked, exhibits),
+                None => Ok(()),
+            }
+        },
+    )?;
     score.timings.exam_ms = millis(built.elapsed());
-    Ok(Graded { score, file })
+    let (file, page) = files.map(|files| (files.score, files.page)).unzip();
+    Ok(Graded { score, file, page })
+}
+
+/// What is written of a score, and where.
+struct Files {
+    score: PathBuf,
+    page: PathBuf,
+    page_written: Option<Instant>,
+}
+
+impl Files {
+    fn in_folder(folder: &Path) -> Self {
+        Files {
+            score: folder.join("score.json"),
+            page: folder.join("report.html"),
+            page_written: None,
+        }
+    }
+
+    /// Writes both. The page, which takes longer than most items, at the first item and at the
+    /// end, and between them after each item that took its time.
+    fn write(&mut self, score: &Score, exam: &Exam, exhibits: &Exhibits) -> Result<(), Error> {
+        write(&self.score, &report::json::text(score))?;
+        let is_fresh = self.page_written.is_some_and(|at| at.elapsed() < PAGE_PACE);
+        if score.complete || !is_fresh {
+            write(&self.page, &report::html::page(score, exam, exhibits))?;
+            self.page_written = Some(Instant::now());
+        }
+        Ok(())
+    }
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Error> {
+    report::whole::write(text, path).map_err(|source| Error::Report {
+        path: path.to_owned(),
+        source,
+    })
 }
 
 /// What submissions are built with: with the reference, where it is at hand and not declined.
@@ -86,12 +133,11 @@ pub fn budget(arguments: &Arguments) -> Budget {
     }
 }
 
-fn score_file(arguments: &Arguments, workspace: &Workspace, submission: &Submission) -> PathBuf {
-    let folder = match &arguments.out {
+fn folder(arguments: &Arguments, workspace: &Workspace, submission: &Submission) -> PathBuf {
+    match &arguments.out {
         Some(folder) => folder.clone(),
         None => workspace.grade().join(&submission.name),
-    };
-    folder.join("score.json")
+    }
 }
 
 fn build_report(submission: &Submission, build: &Build) -> BuildReport {

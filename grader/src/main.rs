@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use grader::cli::Arguments;
+use grader::desktop;
 use grader::error::Error;
 use grader::grade::grade;
 use grader::replay::replay;
@@ -34,8 +35,12 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         false => Hints::Nudge,
     };
     anstream::print!("{}", report(&graded.score, arguments.task, hints));
-    if let Some(file) = &graded.file {
-        anstream::println!("  {}\n", from_here(file).display());
+    for file in graded.file.iter().chain(&graded.page) {
+        anstream::println!("  {}", from_here(file).display());
+    }
+    anstream::println!();
+    if let Some(page) = graded.page.as_ref().filter(|_| arguments.open) {
+        show(page);
     }
     let required = arguments.require.unwrap_or(0);
     Ok(if graded.score.points < required {
@@ -43,6 +48,13 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// Opens the page where there is a desktop, and else says where it is: that is no failure.
+fn show(page: &Path) {
+    if let Err(why) = desktop::open(page) {
+        anstream::eprintln!("{why}: open {} yourself", page.display());
+    }
 }
 
 /// The path as it would be typed from the current folder.

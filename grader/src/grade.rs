@@ -1,7 +1,6 @@
 //! The main job, from a command line to a score.
 
 use std::io;
-use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::ask::Budget;
@@ -11,7 +10,8 @@ use crate::error::Error;
 use crate::exam::Exam;
 use crate::exam_file;
 use crate::examine::examine;
-use crate::report;
+use crate::exhibit::Exhibits;
+use crate::files::Files;
 use crate::score::{BuildReport, ExamName, FileReport, Score};
 use crate::submission::Submission;
 use crate::verdict::{file_message, unasked};
@@ -22,8 +22,8 @@ use crate::workspace::Workspace;
 pub struct Graded {
     /// The score.
     pub score: Score,
-    /// The score file.
-    pub file: Option<PathBuf>,
+    /// The files that tell it.
+    pub files: Option<Files>,
 }
 
 /// Loads the exam, collects the submission, builds it, asks, judges, scores.
@@ -31,21 +31,14 @@ pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
     let grader = Grader::prepare(arguments)?;
     let submission = grader.collect()?;
     let built = grader.build(&submission)?;
-    let file = grader.score_file(&submission);
+    let exam = grader.exam();
+    let mut files = grader.files(&submission);
     let mut score = grader.unasked(&submission, &built);
-    grader.examine(grader.exam(), &built, &mut score, |score| match &file {
-        Some(path) => save(score, path),
-        None => Ok(()),
+    grader.examine(exam, &built, &mut score, |score, exhibits| {
+        let files = files.as_mut();
+        files.map_or(Ok(()), |files| files.write(score, exam, exhibits))
     })?;
-    Ok(Graded { score, file })
-}
-
-/// Writes the score file.
-pub fn save(score: &Score, path: &Path) -> Result<(), Error> {
-    report::json::write(score, path).map_err(|source| Error::Report {
-        path: path.to_owned(),
-        source,
-    })
+    Ok(Graded { score, files })
 }
 
 /// All that stays as it is from one version of a submission to the next.
@@ -110,31 +103,32 @@ impl<'a> Grader<'a> {
         score
     }
 
-    /// Asks some or all of the exam, and shows the score to `progress` after each item.
+    /// Asks some or all of the exam, and shows the score to `progress` after each item, with the
+    /// answers that are worth a look.
     pub fn examine<E: From<io::Error>>(
         &self,
         exam: &Exam,
         built: &Built,
         score: &mut Score,
-        mut progress: impl FnMut(&Score) -> Result<(), E>,
+        mut progress: impl FnMut(&Score, &Exhibits) -> Result<(), E>,
     ) -> Result<(), E> {
         let began = Instant::now();
         let budget = budget(self.arguments);
-        examine(exam, &built.build, budget, score, |score| {
+        examine(exam, &built.build, budget, score, |score, exhibits| {
             score.timings.exam_ms = millis(began.elapsed());
-            progress(score)
+            progress(score, exhibits)
         })
     }
 
     /// Where the score goes. One task's points are no score.
-    pub fn score_file(&self, submission: &Submission) -> Option<PathBuf> {
+    pub fn files(&self, submission: &Submission) -> Option<Files> {
         let folder = match &self.arguments.out {
             Some(folder) => folder.clone(),
             None => self.workspace.grade().join(&submission.name),
         };
         match self.arguments.task {
             Some(_) => None,
-            None => Some(folder.join("score.json")),
+            None => Some(Files::of(&folder)),
         }
     }
 }

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use grader::cli::Arguments;
+use grader::desktop;
 use grader::error::Error;
 use grader::grade::grade;
 use grader::replay::replay;
@@ -39,15 +40,28 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     }
     let graded = grade(arguments)?;
     anstream::print!("{}", report(&graded.score, arguments.task, hints));
-    if let Some(file) = &graded.file {
-        anstream::println!("  {}\n", from_here(file).display());
+    if let Some(files) = &graded.files {
+        for file in [&files.score, &files.page] {
+            anstream::println!("  {}", from_here(file).display());
+        }
+        if arguments.open {
+            show(&files.page);
+        }
     }
+    anstream::println!();
     let required = arguments.require.unwrap_or(0);
     Ok(if graded.score.points < required {
         ExitCode::from(1)
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// Opens the page where there is a desktop, and else says where it is: that is no failure.
+fn show(page: &Path) {
+    if let Err(why) = desktop::open(page) {
+        anstream::eprintln!("{why}: open {} yourself", page.display());
+    }
 }
 
 /// The path as it would be typed from the current folder.

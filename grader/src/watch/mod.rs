@@ -9,7 +9,7 @@ use std::io;
 use crate::cli::Arguments;
 use crate::error::Error;
 use crate::exam::{Exam, Item};
-use crate::grade::{Grader, save};
+use crate::grade::Grader;
 use crate::report::text::Hints;
 use crate::score::Score;
 use crate::submission::Submission;
@@ -61,7 +61,7 @@ fn round(
         shown.tasks.clone_from(&last.tasks);
         shown.total();
         let mut asked = 0;
-        grader.examine(failed, &built, &mut shown, |score| {
+        grader.examine(failed, &built, &mut shown, |score, _| {
             asked += 1;
             let of = failed.items.len();
             screen.show(score, State::FailedFirst { asked, of })?;
@@ -70,15 +70,16 @@ fn round(
     }
 
     let mut score = grader.unasked(submission, &built);
-    let file = grader.score_file(submission);
+    let exam = grader.exam();
+    let mut files = grader.files(submission);
     let mut asked = 0;
-    grader.examine(grader.exam(), &built, &mut score, |score| {
+    grader.examine(exam, &built, &mut score, |score, exhibits| {
         asked += 1;
-        let of = grader.exam().items.len();
+        let of = exam.items.len();
         let shown = if failed.is_some() { &shown } else { score };
         screen.show(shown, State::Asking { asked, of })?;
-        if let Some(path) = &file {
-            save(score, path)?;
+        if let Some(files) = &mut files {
+            files.write(score, exam, exhibits)?;
         }
         go_on()
     })?;

@@ -111,8 +111,8 @@ pub fn pixels() -> String {
         .small(Hue::Ink, Side::Left, place(-0.15, 3.9), "4")
         .words(Hue::Blue, Side::Middle, place(4.5, -0.5), "4.5")
         .words(Hue::Blue, Side::Left, place(-0.1, 2.4), "2.5")
-        .words(Hue::Blue, Side::Right, place(5.15, 3.3), "pixel (4, 2),")
-        .words(Hue::Blue, Side::Right, place(5.15, 2.9), "offset (½, ½)")
+        .words(Hue::Blue, Side::Right, place(5.15, 3.33), "pixel (4, 2),")
+        .words(Hue::Blue, Side::Right, place(5.15, 2.36), "offset (½, ½)")
         .small(Hue::Ink, Side::Right, place(0.2, 0.4), "pixel (0, 0)")
         .words(Hue::Ink, Side::Right, place(1.0, -1.1), "across: 4.5 / 8")
         .words(Hue::Ink, Side::Right, place(5.0, -1.1), "up: 2.5 / 4");

@@ -6,6 +6,7 @@ mod camera;
 mod drawing;
 mod grading;
 mod sphere;
+mod svg;
 mod triangle;
 mod walking;
 

@@ -113,52 +113,85 @@ pub fn overlapping() -> String {
 
 /// The walk of the chapter's example through a tree: what is entered, and what is not.
 pub fn walk() -> String {
-    let mut drawing = Drawing::new(480.0, 310.0);
-    let (root, a, b) = (dvec2(240.0, 44.0), dvec2(150.0, 124.0), dvec2(360.0, 124.0));
-    let leaves = [60.0, 150.0, 230.0, 320.0, 410.0].map(|x| dvec2(x, 208.0));
-    drawing
-        .dashed(Hue::Soft, root, a)
-        .line(Hue::Blue, root, b)
-        .line(Hue::Blue, b, leaves[4])
-        .dashed(Hue::Soft, b, leaves[3]);
-    for leaf in &leaves[..3] {
-        drawing.dashed(Hue::Soft, a, *leaf);
-    }
-    let circle = |drawing: &mut Drawing, hue: Hue, at: DVec2, name: &str| {
-        let half = dvec2(26.0, 16.0);
+    let mut drawing = Drawing::new(480.0, 375.0);
+    // Where the ray, which comes from x = 25, enters the box whose last ball is this.
+    let entry = |last: u32| 25.0 - (f64::from(2 * last) + 0.5);
+    let hit = entry(9);
+    let root = dvec2(150.0, 36.0);
+    let mut parent = root;
+    for (level, (skipped, last, entered)) in (1..).zip([
+        ("A: 0–4", 4, "B: 5–9"),
+        ("5, 6", 6, "7–9"),
+        ("7", 7, "8, 9"),
+        ("8", 8, "9"),
+    ]) {
+        let height = 36.0 + 72.0 * f64::from(level);
+        let below = dvec2(0.0, 16.0);
+        let (left, right) = (
+            dvec2(parent.x - 62.0, height),
+            dvec2(parent.x + 62.0, height),
+        );
         drawing
-            .card(at - half, at + half)
-            .filled_box(hue, at - half, at + half)
-            .words(hue, Side::Middle, at + dvec2(0.0, 6.0), name);
-    };
-    circle(&mut drawing, Hue::Blue, root, "N");
-    circle(&mut drawing, Hue::Soft, a, "A");
-    circle(&mut drawing, Hue::Blue, b, "B");
-    for (leaf, name) in leaves.into_iter().zip(["0, 1", "2, 3", "4", "5–8", "9"]) {
-        let hue = if name == "9" { Hue::Green } else { Hue::Soft };
-        circle(&mut drawing, hue, leaf, name);
+            .dashed(Hue::Soft, parent + below, left)
+            .line(Hue::Blue, parent + below, right)
+            .small(
+                Hue::Soft,
+                Side::Middle,
+                left + dvec2(0.0, 32.0),
+                &entry(last).to_string(),
+            );
+        label(&mut drawing, Hue::Soft, left, skipped);
+        let hue = if entered == "9" {
+            Hue::Green
+        } else {
+            Hue::Blue
+        };
+        label(&mut drawing, hue, right, entered);
+        parent = right;
     }
+    label(&mut drawing, Hue::Blue, root, "N");
     drawing
-        .small(Hue::Blue, Side::Right, dvec2(394.0, 116.0), "entered")
-        .small(Hue::Blue, Side::Right, dvec2(394.0, 134.0), "at 6.5")
-        .small(Hue::Soft, Side::Left, dvec2(116.0, 116.0), "16.5 > 6.5:")
-        .small(Hue::Soft, Side::Left, dvec2(116.0, 134.0), "skipped")
-        .words(Hue::Green, Side::Middle, dvec2(410.0, 250.0), "hit at 6.5")
-        .small(Hue::Soft, Side::Middle, dvec2(304.0, 250.0), "8.5 or more:")
-        .small(Hue::Soft, Side::Middle, dvec2(304.0, 269.0), "skipped")
-        .small(
-            Hue::Ink,
+        .words(
+            Hue::Green,
             Side::Middle,
-            dvec2(240.0, 300.0),
-            "numbers: which balls; the ray comes from the right",
+            parent + dvec2(0.0, 34.0),
+            &format!("hit at {hit}"),
+        )
+        .small(
+            Hue::Blue,
+            Side::Right,
+            dvec2(255.0, 42.0),
+            &format!("blue, solid: entered at {hit}"),
+        )
+        .small(
+            Hue::Soft,
+            Side::Right,
+            dvec2(20.0, 322.0),
+            "grey, dotted: beyond",
+        )
+        .small(
+            Hue::Soft,
+            Side::Right,
+            dvec2(20.0, 342.0),
+            &format!("{hit}, so skipped"),
         );
     drawing.finish(
         "One ball asked out of ten",
-        "A tree over ten balls: the root N has the children A, with balls 0 to 4, and B, with balls 5 to \
-         9. The ray enters B at 6.5 and A at 16.5, so it goes to B, and there to the part with ball 9, \
-         which it hits at 6.5. The other part of B begins at 8.5 or later, and A at 16.5: neither is \
-         entered.",
+        "A tree over ten balls, and a ray that comes from the right. The root N has the children A, with \
+         balls 0 to 4, entered at 16.5, and B, with balls 5 to 9, entered at 6.5. The walk goes to B, to \
+         balls 7 to 9, to 8 and 9, and to ball 9, which it hits at 6.5. The other children on the way, \
+         balls 8, 7, 5 and 6, and A, are entered at 8.5, 10.5, 12.5 and 16.5, beyond the hit: all are \
+         skipped.",
     )
+}
+
+/// A box of a tree, with its name.
+fn label(drawing: &mut Drawing, hue: Hue, at: DVec2, name: &str) {
+    let half = dvec2(32.0, 16.0);
+    drawing
+        .card(at - half, at + half)
+        .filled_box(hue, at - half, at + half)
+        .words(hue, Side::Middle, at + dvec2(0.0, 6.0), name);
 }
 
 /// A leaf that lies: its box is missed, and what it holds lies on the ray.

@@ -11,7 +11,7 @@
 //! | one exam | [`examine`], [`recognise`], [`verdict`], [`report`] |
 //! | its steps | [`build`], [`ask`], [`judge`] |
 //! | data | [`exam`], [`tells`], [`exam_file`], [`place`], [`submission`], [`given`], [`score`] |
-//! | the machine | [`workspace`], [`sandbox`], [`capture`] |
+//! | the machine | [`workspace`], [`sandbox`], [`capture`], [`system`] |
 
 pub mod ask;
 pub mod build;
@@ -32,6 +32,7 @@ pub mod report;
 pub mod sandbox;
 pub mod score;
 pub mod submission;
+pub mod system;
 pub mod tame;
 pub mod tells;
 pub mod verdict;

@@ -1,6 +1,7 @@
 //! The command line, as data.
 
 use std::ops::Range;
+use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
@@ -30,6 +31,15 @@ pub enum Command {
     },
     /// The scenes' meshes
     Scenes(Check),
+    /// What students get, as an archive or as a folder for a Git repository
+    Bundle {
+        /// A name that ends with .zip, or a new folder
+        #[arg(long, value_name = "PLACE", required_unless_present = "check")]
+        out: Option<PathBuf>,
+        /// Unpack it on an empty home, do what its texts say, grade the starter and the reference
+        #[arg(long)]
+        check: bool,
+    },
     /// The table of which known mistake fails which item of the practice exam
     Mistakes(Check),
     /// How well the practice exam's hints recognise known mistakes, and take unknown ones for others

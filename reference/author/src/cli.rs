@@ -36,6 +36,9 @@ pub enum Command {
         /// A name that ends with .zip, or a new folder
         #[arg(long, value_name = "PLACE", required_unless_present = "check")]
         out: Option<PathBuf>,
+        /// The handout as a built book, to be put into handout/book
+        #[arg(long, value_name = "FOLDER")]
+        book: Option<PathBuf>,
         /// Unpack it on an empty home, do what its texts say, grade the starter and the reference
         #[arg(long)]
         check: bool,

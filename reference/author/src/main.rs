@@ -43,7 +43,10 @@ fn run(command: Command) -> Done {
             Ok(io::stdout().write_all(exam.as_bytes())?)
         }
         Command::Scenes(check) => put(&scenes::generated(), check.mode(), "scenes"),
-        Command::Bundle { out, check } => hand_out(root, out.as_deref(), check),
+        Command::Bundle { out, book, check } => {
+            let bundle = Bundle::collect(root, book.as_deref())?;
+            hand_out(root, &bundle, out.as_deref(), check)
+        }
         Command::Mistakes(check) => put(&[matrix::generated()?], check.mode(), "mistakes"),
         Command::Mutants { fast, check } => ask_mutants(root, Extent::new(fast), check.mode()),
         Command::Hints => {
@@ -91,20 +94,19 @@ fn exhibits() -> Result<Exhibits, NotProven> {
     Exhibits::prepare(Workbench::open()?)
 }
 
-/// Makes what students get; refuses if there is a secret in it.
-fn hand_out(root: &Path, out: Option<&Path>, check: bool) -> Done {
-    let bundle = Bundle::collect(root)?;
-    let secrets = Secrets::gather(root, &bundle)?;
-    let leaks = secrets.search(&bundle);
+/// Hands out what students get; refuses if there is a secret in it.
+fn hand_out(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -> Done {
+    let secrets = Secrets::gather(root, bundle)?;
+    let leaks = secrets.search(bundle);
     let mut complaints: Vec<String> = leaks.iter().map(ToString::to_string).collect();
     if check && leaks.is_empty() {
-        complaints = bundle::check::check(root, &bundle)?;
+        complaints = bundle::check::check(root, bundle)?;
     }
     let (count, size) = (bundle.files.len(), bundle.size() / 1000);
     let line = format!("{count} files, {size} kB, {secrets} in none of them");
     conclude(&complaints, &line)?;
     if let Some(out) = out {
-        archive::write(&bundle, out)?;
+        archive::write(bundle, out)?;
     }
     Ok(())
 }

@@ -52,10 +52,13 @@ pub enum NoBundle {
 }
 
 impl Bundle {
-    /// The bundle of the workspace at `root`.
-    pub fn collect(root: &Path) -> Result<Self, NoBundle> {
+    /// The bundle of the workspace at `root`, with the handout as a book if there is one.
+    pub fn collect(root: &Path, book: Option<&Path>) -> Result<Self, NoBundle> {
         let mut bundle = Bundle::default();
         parts::copy(root, &mut bundle)?;
+        if let Some(book) = book {
+            parts::take(book, "handout/book", &mut bundle)?;
+        }
         for (path, text) in OWN {
             bundle.put(path, text);
         }

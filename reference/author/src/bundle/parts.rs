@@ -43,32 +43,32 @@ pub enum Unusable {
 
 /// Puts all of them into the bundle.
 pub(super) fn copy(root: &Path, bundle: &mut Bundle) -> Result<(), Unusable> {
-    PARTS.iter().try_for_each(|part| take(root, part, bundle))
+    PARTS
+        .iter()
+        .try_for_each(|part| take(&root.join(part), part, bundle))
 }
 
-/// Takes what is at `path`, a `/`-path from the root, and all below it.
-fn take(root: &Path, path: &str, bundle: &mut Bundle) -> Result<(), Unusable> {
-    let place = root.join(path);
+/// Takes what is at `place`, and all below it, to the bundle's `path`.
+pub(super) fn take(place: &Path, path: &str, bundle: &mut Bundle) -> Result<(), Unusable> {
     let at = |source| Unusable::Io {
-        path: place.clone(),
+        path: place.to_owned(),
         source,
     };
-    let kind = fs::symlink_metadata(&place).map_err(at)?.file_type();
+    let kind = fs::symlink_metadata(place).map_err(at)?.file_type();
     if kind.is_file() {
-        bundle.put(path, fs::read(&place).map_err(at)?);
+        bundle.put(path, fs::read(place).map_err(at)?);
         return Ok(());
     }
     if !kind.is_dir() {
-        return Err(Unusable::Odd(place));
+        return Err(Unusable::Odd(place.to_owned()));
     }
-    for entry in fs::read_dir(&place).map_err(at)? {
+    for entry in fs::read_dir(place).map_err(at)? {
         let name = entry.map_err(at)?.file_name();
-        let name = name
-            .to_str()
-            .ok_or_else(|| Unusable::Odd(place.join(&name)))?;
-        let below = format!("{path}/{name}");
-        if is_handed_out(&below, name) {
-            take(root, &below, bundle)?;
+        let below = place.join(&name);
+        let name = name.to_str().ok_or_else(|| Unusable::Odd(below.clone()))?;
+        let path = format!("{path}/{name}");
+        if is_handed_out(&path, name) {
+            take(&below, &path, bundle)?;
         }
     }
     Ok(())

@@ -62,6 +62,7 @@ pub fn check(root: &Path, bundle: &Bundle) -> Result<Vec<String>, NotTried> {
     if unpacked != *bundle {
         return Ok(vec!["the archive unpacks to something else".to_owned()]);
     }
+    let root = &root.canonicalize().map_err(at(root))?;
     let place = root.join(PLACE);
     let lock = bundle.text("Cargo.lock").unwrap_or_default();
     let home = Home::furnish(&place, lock)?;

@@ -12,7 +12,6 @@ use author::bundle::archive::{unzip, zip};
 use author::bundle::secrets::{Leak, Secrets};
 use author::bundle::{Bundle, archive};
 use author::exams;
-use author::proof::catalogue::mistakes;
 use tempfile::TempDir;
 
 fn root() -> PathBuf {
@@ -57,8 +56,6 @@ fn nothing_in_it_is_secret() {
 
 #[test]
 fn a_secret_of_each_kind_is_found_where_it_was_planted() {
-    let mistakes = mistakes(&root()).unwrap();
-    let of = |id: &str| mistakes.iter().find(|mistake| mistake.id == id).unwrap();
     let planted = [
         (
             "reference/src/camera.rs",
@@ -81,8 +78,8 @@ fn a_secret_of_each_kind_is_found_where_it_was_planted() {
             line_with("reference/mutants/list.json", "replace * with +"),
         ),
         (
-            "the mistake camera.",
-            of("camera.not_centred").changes[0].now.clone(),
+            "the mistake camera.not_centred",
+            line_with("reference/src/camera.rs", "film.as_vec2() - 0.5").replace(" - 0.5", ""),
         ),
     ];
     for (source, line) in planted {
@@ -242,4 +239,14 @@ fn its_texts_name_the_version_of_rust_that_the_manifest_wants() {
         let text = BUNDLE.text(path).unwrap();
         assert!(text.contains(version), "{path}: {version}");
     }
+}
+
+#[test]
+fn the_first_stub_is_in_the_line_that_the_first_page_says() {
+    let page = BUNDLE.text("handout/src/start.md").unwrap();
+    let line = page.split("(student/src/camera.rs:").nth(1).unwrap();
+    let line: usize = line.split(')').next().unwrap().parse().unwrap();
+    let camera = BUNDLE.text("student/src/camera.rs").unwrap();
+    let stub = camera.lines().nth(line - 1).unwrap();
+    assert!(stub.contains("todo!(\"task 1, camera:"), "{stub}");
 }

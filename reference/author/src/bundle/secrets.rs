@@ -11,9 +11,11 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use grader::exam::Exam;
+use grader::given::TASK_FILES;
 
 use crate::bundle::Bundle;
 use crate::proof::catalogue::{BadCatalogue, mistakes};
+use crate::proof::sources::{Sources, Unreadable};
 
 /// Files, and folders with all below them.
 const SECRET: [&str; 5] = [
@@ -64,6 +66,9 @@ pub enum NoSecrets {
         /// The system's words.
         source: io::Error,
     },
+    /// One of the five solved files.
+    #[error(transparent)]
+    Reference(#[from] Unreadable),
     /// The catalogue of mistakes.
     #[error(transparent)]
     Catalogue(#[from] BadCatalogue),
@@ -78,9 +83,12 @@ impl Secrets {
         for path in SECRET {
             secrets.read(root, path)?;
         }
+        let reference = Sources::reference(root)?;
         for mistake in mistakes(root)? {
-            for change in &mistake.changes {
-                secrets.add(&format!("the mistake {}", mistake.id), &change.now);
+            let wrong = mistake.apply(&reference)?;
+            for file in TASK_FILES {
+                let source = format!("the mistake {}, {}", mistake.id, file.name);
+                secrets.add(&source, wrong.text(file.name).unwrap_or_default());
             }
         }
         let given = bundle

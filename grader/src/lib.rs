@@ -11,7 +11,7 @@
 //! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`] |
 //! | its steps | [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
 //! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`place`], [`submission`], [`given`], [`score`] |
-//! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`] |
+//! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`] |
 
 pub mod ask;
 pub mod build;
@@ -38,6 +38,7 @@ pub mod sandbox;
 pub mod score;
 pub mod section;
 pub mod submission;
+pub mod system;
 pub mod tame;
 pub mod tells;
 pub mod verdict;

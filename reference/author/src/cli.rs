@@ -43,6 +43,18 @@ pub enum Command {
         #[arg(long, value_name = "FOLDER", num_args = 0..=1, default_missing_value = BOOK)]
         book: Option<PathBuf>,
     },
+    /// What students get, as an archive or as a folder for a Git repository
+    Bundle {
+        /// A name that ends with .zip, or a new folder
+        #[arg(long, value_name = "PLACE", required_unless_present = "check")]
+        out: Option<PathBuf>,
+        /// The handout as a built book, to be put into handout/book
+        #[arg(long, value_name = "FOLDER")]
+        book: Option<PathBuf>,
+        /// Unpack it on an empty home, do what its texts say, grade the starter and the reference
+        #[arg(long)]
+        check: bool,
+    },
     /// The table of which known mistake fails which item of the practice exam
     Mistakes(Check),
     /// How well the practice exam's hints recognise known mistakes, and take unknown ones for others

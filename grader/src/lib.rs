@@ -8,9 +8,9 @@
 //! | floor | modules |
 //! |---|---|
 //! | the job | [`grade`], [`replay`] |
-//! | one exam | [`examine`], [`recognise`], [`verdict`], [`report`] |
+//! | one exam | [`examine`], [`recognise`], [`verdict`], [`drawing`], [`report`] |
 //! | its steps | [`build`], [`ask`], [`judge`] |
-//! | data | [`exam`], [`tells`], [`exam_file`], [`place`], [`submission`], [`given`], [`score`] |
+//! | data | [`exam`], [`shown`], [`tells`], [`exam_file`], [`place`], [`submission`], [`given`], [`score`] |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`] |
 
 pub mod ask;
@@ -18,6 +18,7 @@ pub mod build;
 pub mod capture;
 pub mod cli;
 pub mod describe;
+pub mod drawing;
 pub mod error;
 pub mod exam;
 pub mod exam_file;
@@ -31,6 +32,7 @@ pub mod replay;
 pub mod report;
 pub mod sandbox;
 pub mod score;
+pub mod shown;
 pub mod submission;
 pub mod tame;
 pub mod tells;

@@ -115,8 +115,9 @@ impl Sheet {
     pub(super) fn finish(self, title: &str, caption: String) -> Drawing {
         let height = self.y + 4.0;
         let words = self.words.join("; ");
+        let description = format!("{caption} {words}");
         Drawing {
-            svg: self.canvas.finish(height, title, &words),
+            svg: self.canvas.finish(height, title, description.trim_end()),
             caption,
         }
     }

@@ -37,6 +37,8 @@ fn of(question: &Question) -> Shown {
             };
             Shown::Slabs(shots.iter().map(|(ray, _)| slabs(&bounds, ray)).collect())
         }
+        // A tree over nothing has no area to compare with.
+        Question::Build { shapes, .. } if shapes.is_empty() => Shown::Nothing,
         Question::Build {
             shapes,
             max_leaf_size,

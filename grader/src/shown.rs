@@ -79,9 +79,14 @@ impl Shown {
             (Shown::Nothing, _) => None,
             (Shown::Slabs(slabs), Question::BBox { .. }) => (slabs.len() != count)
                 .then(|| format!("slabs are shown for {} of {count} shots", slabs.len())),
-            (Shown::Walks(walks), Question::Traverse { nodes, rays, .. })
-                if matches!(rays, Rays::List(_)) =>
-            {
+            (
+                Shown::Walks(walks),
+                Question::Traverse {
+                    nodes,
+                    rays: Rays::List(_),
+                    ..
+                },
+            ) => {
                 let mut steps = walks.iter().flatten();
                 match steps.find(|step| step.node as usize >= nodes.len()) {
                     Some(step) => Some(format!(

@@ -6,7 +6,7 @@ use protocol::{Answer, Interval, Outcome, Ray};
 
 use super::Drawing;
 use super::bars::{self, Bar, Row};
-use super::canvas::{Anchor, Canvas, Mark};
+use super::canvas::{Canvas, Mark};
 use super::ink::{Fill, Ink, Line};
 use super::sheet::{Sheet, Sign};
 use super::sphere;
@@ -161,14 +161,8 @@ fn ray(canvas: &mut Canvas, window: &Window, shot: &Shot, plane: Plane) {
     segment(canvas, window, times, Line::Range);
     segment(canvas, window, [at(-FAR), at(0.0)], Line::Behind);
     segment(canvas, window, [at(0.0), at(FAR)], Line::Ray);
-    match window.pinned(at(0.0)) {
-        Some((start, false)) => canvas.mark(start, Mark::Origin),
-        Some((border, true)) => {
-            let words = "from here";
-            let place = border + dvec2(0.0, -8.0);
-            canvas.text(place, Anchor::Middle, Ink::Faint, words);
-        }
-        None => {}
+    if let Some((start, false)) = window.pinned(at(0.0)) {
+        canvas.mark(start, Mark::Origin);
     }
 }
 
@@ -235,7 +229,8 @@ fn explain(sheet: &mut Sheet, shot: &Shot, got: Got) {
     }
     let times = format!("times: {}", describe::interval(shot.times));
     sheet.explain(Sign::Line(Line::Range), &times);
-    sheet.explain(Sign::Mark(Mark::Origin), "where the ray starts");
+    let start = format!("the ray starts at {}", describe::point(shot.ray.origin));
+    sheet.explain(Sign::Mark(Mark::Origin), &start);
     if shot.slabs.is_some() {
         let fill = Fill::Of(Ink::Text, 0.18);
         sheet.explain(

@@ -149,3 +149,6 @@ fn steps(shown: &Shown, element: usize) -> &[Step] {
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod captions;

@@ -10,7 +10,7 @@ use super::window::Part;
 /// The height of a line of the legend.
 const ROW: f64 = 18.0;
 /// The most characters of one line of the legend.
-const LONGEST: usize = 50;
+const LONGEST: usize = 47;
 
 /// What a line of the legend explains.
 #[derive(Clone, Copy, Debug)]

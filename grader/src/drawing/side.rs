@@ -2,12 +2,12 @@
 
 use glam::{DVec2, DVec3, dvec2};
 
-use super::canvas::{Anchor, Canvas, Mark};
+use super::canvas::{Canvas, Mark};
 use super::encounter::{Encounter, Focus, Got};
 use super::ink::{Ink, Line};
 use super::sheet::{Sheet, Sign};
 use super::window::{Window, extent};
-use super::words::short;
+use super::words::{point, short};
 use crate::describe;
 
 /// A plane through a ray, of which one direction across the ray goes up.
@@ -51,7 +51,7 @@ impl Side {
 /// the range those that are not so far away that the shape would become a dot.
 pub(super) fn landmarks(encounter: &Encounter, side: &Side, shape: &[DVec2]) -> Vec<DVec2> {
     /// So many times the shape's size.
-    const FARTHEST: f64 = 9.0;
+    const FARTHEST: f64 = 5.0;
 
     let mut seen = shape.to_vec();
     let Some((min, max)) = extent(shape.iter().copied()) else {
@@ -93,18 +93,8 @@ pub(super) fn ray(canvas: &mut Canvas, window: &Window, encounter: &Encounter) {
             canvas.line(at - half, at + half, Line::Outline);
         }
     }
-    match window.pinned(DVec2::ZERO) {
-        Some((start, false)) => canvas.mark(start, Mark::Origin),
-        Some((border, true)) => {
-            let words = format!("starts {} away", short(window.from_border(DVec2::ZERO)));
-            let (shift, anchor) = match border.x < super::canvas::WIDTH / 2.0 {
-                true => (0.0, Anchor::Start),
-                false => (0.0, Anchor::End),
-            };
-            let at = border + dvec2(shift, -6.0);
-            canvas.text(at, anchor, Ink::Faint, &words);
-        }
-        None => {}
+    if let Some((start, false)) = window.pinned(DVec2::ZERO) {
+        canvas.mark(start, Mark::Origin);
     }
 }
 
@@ -119,16 +109,20 @@ pub(super) fn hits(canvas: &mut Canvas, window: &Window, encounter: &Encounter, 
         (encounter.focus, encounter.wanted, encounter.got)
     {
         let foot = side.see(wanted.position);
-        let mut arrow = |normal: DVec3, line: Line, ink: Ink| {
+        let mut arrow = |normal: DVec3, aside: f64, line: Line, ink: Ink| {
             let length = normal.length().clamp(0.4, 1.6) / normal.length();
-            let tip = foot + window.world_length(ARROW) * length * side.turn(normal);
-            let clipped = window.clipped(foot, tip);
-            if let Some((foot, tip)) = clipped {
+            let seen = side.turn(normal);
+            let foot = foot + window.world_length(aside) * seen.perp().normalize_or_zero();
+            let tip = foot + window.world_length(ARROW) * length * seen;
+            if let Some((foot, tip)) = window.clipped(foot, tip) {
                 canvas.arrow(foot, tip, line, ink);
             }
         };
-        arrow(wanted.normal, Line::Right, Ink::Right);
-        arrow(met.normal, Line::Wrong, Ink::Wrong);
+        // Beside each other, where they would lie on each other.
+        let is_same_way = wanted.normal.angle_between(met.normal) < 0.15;
+        let aside = if is_same_way { 6.0 } else { 0.0 };
+        arrow(wanted.normal, 0.0, Line::Right, Ink::Right);
+        arrow(met.normal, aside, Line::Wrong, Ink::Wrong);
         canvas.mark(window.page(foot), Mark::Right);
         return;
     }
@@ -149,13 +143,17 @@ pub(super) fn hits(canvas: &mut Canvas, window: &Window, encounter: &Encounter, 
     }
 }
 
-/// What the signs of both mean.
-pub(super) fn explain(sheet: &mut Sheet, encounter: &Encounter, is_got_seen: bool) {
-    let off = if is_got_seen { "" } else { ", off the picture" };
+/// What the signs of both mean, given the window that they are seen through.
+pub(super) fn explain(sheet: &mut Sheet, encounter: &Encounter, side: &Side, window: &Window) {
+    let got = encounter
+        .got_point()
+        .and_then(|point| window.pinned(side.see(point)));
+    let is_off = got.is_some_and(|(_, is_off)| is_off);
+    let off = if is_off { ", off the picture" } else { "" };
     let distance = |distance: f64| describe::number(distance as f32);
     match (encounter.wanted, encounter.focus) {
         (Some(met), Focus::Normal) => {
-            let words = format!("wanted: normal {}", describe::point(met.normal.as_vec3()));
+            let words = format!("wanted: normal {}", point(met.normal));
             sheet.explain(Sign::Line(Line::Right), &words);
         }
         (Some(met), Focus::Position) => {
@@ -166,7 +164,11 @@ pub(super) fn explain(sheet: &mut Sheet, encounter: &Encounter, is_got_seen: boo
             let words = format!("wanted: uv {}", describe::uv(met.uv.as_vec2()));
             sheet.explain(Sign::Mark(Mark::Right), &words);
         }
-        (Some(met), Focus::Distance | Focus::Origin | Focus::Material) => {
+        (Some(met), Focus::Material) => {
+            let words = format!("wanted: material {}", met.material.unwrap_or_default());
+            sheet.explain(Sign::Mark(Mark::Right), &words);
+        }
+        (Some(met), Focus::Distance | Focus::Origin) => {
             let words = format!("wanted: a hit at {}", distance(met.distance));
             sheet.explain(Sign::Mark(Mark::Right), &words);
         }
@@ -176,7 +178,7 @@ pub(super) fn explain(sheet: &mut Sheet, encounter: &Encounter, is_got_seen: boo
         (Got::NoAnswer, _) => {}
         (Got::Miss, _) => sheet.explain(Sign::None, "got: no hit"),
         (Got::Hit(met), Focus::Normal) => {
-            let words = format!("got: normal {}", describe::point(met.normal.as_vec3()));
+            let words = format!("got: normal {}", point(met.normal));
             sheet.explain(Sign::Line(Line::Wrong), &words);
         }
         (Got::Hit(met), Focus::Position) => {
@@ -195,11 +197,18 @@ pub(super) fn explain(sheet: &mut Sheet, encounter: &Encounter, is_got_seen: boo
             let words = format!("got: a hit at {}{off}", distance(met.distance));
             sheet.explain(Sign::Mark(Mark::Wrong), &words);
         }
-        (Got::Hit(_), Focus::Material) => {}
+        (Got::Hit(met), Focus::Material) => {
+            let words = format!("got: material {}", met.material.unwrap_or_default());
+            sheet.explain(Sign::None, &words);
+        }
     }
     if let Some(range) = encounter.range() {
         let words = format!("the range that counts: {}", describe::interval(range));
         sheet.explain(Sign::Line(Line::Range), &words);
     }
-    sheet.explain(Sign::Mark(Mark::Origin), "where the ray starts");
+    let words = match window.beyond_border(DVec2::ZERO) {
+        away if away > 0.0 => format!("the ray starts {} off the picture", short(away)),
+        _ => "where the ray starts".to_owned(),
+    };
+    sheet.explain(Sign::Mark(Mark::Origin), &words);
 }

@@ -23,10 +23,10 @@ pub(super) fn draw(encounter: &Encounter, center: DVec3, radius: f64) -> Drawing
     let mut sheet = Sheet::default();
     let window = match encounter.focus {
         Focus::Uv => {
-            let titles = ["through the ray and the center", "texture coordinates"];
+            let titles = ["from the side", "texture coordinates"];
             let [left, right] = sheet.panels(titles, 150.0);
             uv::square(&mut sheet.canvas, right, encounter, &[]);
-            Window::around(left, shape)
+            Window::around(left, seen)
         }
         Focus::Distance | Focus::Position | Focus::Normal | Focus::Origin | Focus::Material => {
             let part = sheet.panel(height(&seen));
@@ -36,9 +36,7 @@ pub(super) fn draw(encounter: &Encounter, center: DVec3, radius: f64) -> Drawing
     circle(&mut sheet.canvas, &window, middle, radius);
     side::ray(&mut sheet.canvas, &window, encounter);
     side::hits(&mut sheet.canvas, &window, encounter, &side);
-    let got = encounter.got_point().map(|point| side.see(point));
-    let is_seen = got.is_none_or(|at| window.pinned(at).is_some_and(|(_, is_off)| !is_off));
-    side::explain(&mut sheet, encounter, is_seen);
+    side::explain(&mut sheet, encounter, &side, &window);
     let title = "The ray and the sphere, in the plane through the ray and the center";
     sheet.finish(title, encounter.sentence())
 }
@@ -46,8 +44,9 @@ pub(super) fn draw(encounter: &Encounter, center: DVec3, radius: f64) -> Drawing
 /// The height of a panel over the whole width that shows these points well.
 pub(super) fn height(seen: &[DVec2]) -> f64 {
     let size = extent(seen.iter().copied()).map_or(DVec2::ONE, |(min, max)| max - min);
-    // A NaN, of nothing over nothing, becomes the least.
-    (306.0 * size.y / size.x + 32.0).max(100.0).min(210.0)
+    // Of one point the shape is that of nothing over nothing.
+    let shape = if size.x > 0.0 { size.y / size.x } else { 1.0 };
+    (306.0 * shape + 32.0).clamp(100.0, 210.0)
 }
 
 fn circle(canvas: &mut Canvas, window: &Window, middle: DVec2, radius: f64) {
@@ -57,6 +56,7 @@ fn circle(canvas: &mut Canvas, window: &Window, middle: DVec2, radius: f64) {
     let arm = dvec2(3.0, 0.0);
     canvas.line(at - arm, at + arm, Line::Outline);
     canvas.line(at - arm.perp(), at + arm.perp(), Line::Outline);
-    let below = at + dvec2(0.0, 16.0);
-    canvas.text(below, Anchor::Middle, Ink::Faint, "center");
+    // The ray is below.
+    let above = at - dvec2(0.0, 7.0);
+    canvas.text(above, Anchor::Middle, Ink::Faint, "center");
 }

@@ -31,15 +31,17 @@ pub(super) fn draw(encounter: &Encounter, vertices: &[Vertex; 3]) -> Drawing {
     };
     let [left, right] = sheet.panels(["seen along the ray", beside], 168.0);
     along(&mut sheet.canvas, left, encounter, &side, corners);
-    let is_seen = match is_uv {
-        true => {
-            let uvs = vertices.map(|vertex| vertex.uv.as_dvec2());
-            uv::square(&mut sheet.canvas, right, encounter, &uvs);
-            true
-        }
-        false => from_the_side(&mut sheet.canvas, right, encounter, &side, corners),
-    };
-    side::explain(&mut sheet, encounter, is_seen);
+    let seen = corners.map(|corner| side.see(corner));
+    let window = Window::around(right, side::landmarks(encounter, &side, &seen));
+    if is_uv {
+        let uvs = vertices.map(|vertex| vertex.uv.as_dvec2());
+        uv::square(&mut sheet.canvas, right, encounter, &uvs);
+    } else {
+        outline(&mut sheet.canvas, &window, seen);
+        side::ray(&mut sheet.canvas, &window, encounter);
+        side::hits(&mut sheet.canvas, &window, encounter, &side);
+    }
+    side::explain(&mut sheet, encounter, &side, &window);
     let title = "The ray and the triangle, seen along the ray and from the side";
     sheet.finish(title, encounter.sentence())
 }
@@ -57,31 +59,20 @@ fn along(canvas: &mut Canvas, part: Part, encounter: &Encounter, side: &Side, co
     }
 }
 
-/// Returns whether the answer is on the picture.
-fn from_the_side(
-    canvas: &mut Canvas,
-    part: Part,
-    encounter: &Encounter,
-    side: &Side,
-    corners: [DVec3; 3],
-) -> bool {
-    let seen = corners.map(|corner| side.see(corner));
-    let window = Window::around(part, side::landmarks(encounter, side, &seen));
-    outline(canvas, &window, seen);
-    side::ray(canvas, &window, encounter);
-    side::hits(canvas, &window, encounter, side);
-    let got = encounter.got_point().map(|point| side.see(point));
-    got.is_none_or(|at| window.pinned(at).is_some_and(|(_, is_off)| !is_off))
-}
-
 fn outline(canvas: &mut Canvas, window: &Window, corners: [DVec2; 3]) {
     let page = corners.map(|corner| window.page(corner));
     canvas.polygon(&page, Line::Outline, Fill::Of(Ink::Text, 0.08));
     let middle = (page[0] + page[1] + page[2]) / 3.0;
+    let mut places: Vec<DVec2> = Vec::new();
     for (at, name) in page.into_iter().zip(["p0", "p1", "p2"]) {
-        // Off the middle, so that names do not stand on the lines.
+        // Off the middle, so that names do not stand on the lines; and not on each other.
         let outward = (at - middle).normalize_or_zero();
-        let place = at + 11.0 * outward + dvec2(0.0, 4.0);
+        let mut place = at + 11.0 * outward + dvec2(0.0, 4.0);
+        let is_taken = |other: &DVec2| (*other - place).abs().cmplt(dvec2(15.0, 11.0)).all();
+        if places.iter().any(is_taken) {
+            place.x += 17.0;
+        }
+        places.push(place);
         canvas.text(place, Anchor::Middle, Ink::Faint, name);
     }
 }

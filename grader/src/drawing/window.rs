@@ -23,7 +23,7 @@ impl Window {
     /// Around these points, those of them that are finite, with a margin.
     pub(super) fn around(part: Part, points: impl IntoIterator<Item = DVec2>) -> Window {
         /// Of the part, on each side, in page units.
-        const MARGIN: f64 = 16.0;
+        const MARGIN: f64 = 20.0;
 
         let (min, max) = extent(points).unwrap_or((DVec2::NEG_ONE, DVec2::ONE));
         let room = part.max - part.min - 2.0 * MARGIN;
@@ -63,7 +63,7 @@ impl Window {
     }
 
     /// How far a point is outside of what is seen.
-    pub(super) fn from_border(&self, at: DVec2) -> f64 {
+    pub(super) fn beyond_border(&self, at: DVec2) -> f64 {
         let page = self.page(at);
         self.world_length(page.distance(page.clamp(self.part.min, self.part.max)))
     }
@@ -115,14 +115,14 @@ mod tests {
 
     const PART: Part = Part {
         min: DVec2::ZERO,
-        max: dvec2(132.0, 132.0),
+        max: dvec2(140.0, 140.0),
     };
 
     #[test]
     fn the_world_is_seen_to_scale_and_up_is_up() {
         let window = Window::around(PART, [dvec2(0.0, 0.0), dvec2(10.0, 5.0)]);
-        assert_eq!(window.page(dvec2(0.0, 2.5)), dvec2(16.0, 66.0));
-        assert_eq!(window.page(dvec2(10.0, 7.5)), dvec2(116.0, 16.0));
+        assert_eq!(window.page(dvec2(0.0, 2.5)), dvec2(20.0, 70.0));
+        assert_eq!(window.page(dvec2(10.0, 7.5)), dvec2(120.0, 20.0));
     }
 
     #[test]
@@ -132,7 +132,7 @@ mod tests {
             .clipped(dvec2(-1e30, 0.0), dvec2(1e30, 0.0))
             .expect("it passes through");
         assert!(
-            from.abs_diff_eq(dvec2(0.0, 66.0), 1e-3) && to.abs_diff_eq(dvec2(132.0, 66.0), 1e-3)
+            from.abs_diff_eq(dvec2(0.0, 70.0), 1e-3) && to.abs_diff_eq(dvec2(140.0, 70.0), 1e-3)
         );
         assert_eq!(window.clipped(dvec2(-9.0, 5.0), dvec2(9.0, 5.0)), None);
         assert_eq!(window.clipped(DVec2::NAN, DVec2::ZERO), None);
@@ -141,10 +141,10 @@ mod tests {
     #[test]
     fn a_point_off_the_page_is_pinned_to_its_border() {
         let window = Window::around(PART, [DVec2::NEG_ONE, DVec2::ONE]);
-        assert_eq!(window.pinned(DVec2::ZERO), Some((dvec2(66.0, 66.0), false)));
+        assert_eq!(window.pinned(DVec2::ZERO), Some((dvec2(70.0, 70.0), false)));
         assert_eq!(
             window.pinned(dvec2(1e30, 0.0)),
-            Some((dvec2(125.0, 66.0), true))
+            Some((dvec2(133.0, 70.0), true))
         );
         assert_eq!(window.pinned(DVec2::INFINITY), None);
     }

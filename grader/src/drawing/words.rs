@@ -1,5 +1,7 @@
 //! Numbers in drawings.
 
+use glam::DVec3;
+
 /// Four digits that count, for places where six have no room.
 pub(super) fn short(value: f64) -> String {
     if value.is_nan() {
@@ -19,6 +21,12 @@ pub(super) fn short(value: f64) -> String {
         false => &text,
     };
     if text == "-0" { "0" } else { text }.to_owned()
+}
+
+/// A direction, or a place where four digits do.
+pub(super) fn point(value: DVec3) -> String {
+    let [x, y, z] = value.to_array().map(short);
+    format!("({x}, {y}, {z})")
 }
 
 /// One of something, or so many.

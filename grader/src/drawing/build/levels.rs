@@ -5,8 +5,7 @@ use glam::{DVec2, dvec2};
 use super::Marked;
 use crate::drawing::canvas::{Anchor, Canvas, Mark, WIDTH};
 use crate::drawing::ink::{Fill, Ink, Line};
-use crate::drawing::sheet::Sheet;
-use crate::drawing::words::short;
+use crate::drawing::sheet::{Sheet, Sign};
 use crate::shown::{LevelNode, Sweep};
 
 /// The height of a level.
@@ -16,8 +15,16 @@ const RIGHT: f64 = WIDTH - 52.0;
 /// A level with more nodes is drawn without their borders.
 const MOST: usize = 2_000;
 
-/// The levels of a tree over `all` primitives that costs `total`, if that is known.
-pub(super) fn draw(sheet: &mut Sheet, nodes: &[LevelNode], all: u32, total: f64, mark: Marked) {
+/// The levels of a tree over `all` primitives that costs `total`, if that is known. Returns with
+/// which sign the marked node is marked.
+pub(super) fn draw(
+    sheet: &mut Sheet,
+    nodes: &[LevelNode],
+    all: u32,
+    total: f64,
+    mark: Marked,
+) -> Sign {
+    let mut sign = Sign::None;
     let top = sheet.y;
     let x = |place: u32| RIGHT * f64::from(place) / f64::from(all.max(1));
     let canvas = &mut sheet.canvas;
@@ -43,7 +50,7 @@ pub(super) fn draw(sheet: &mut Sheet, nodes: &[LevelNode], all: u32, total: f64,
             );
         }
         let at = dvec2(WIDTH - 2.0, y + 13.5);
-        canvas.text(at, Anchor::End, Ink::Text, &short(cost));
+        canvas.text(at, Anchor::End, Ink::Text, &format!("{cost:.2}"));
     }
     if let Some((level, start, count)) = mark {
         let y = top + ROW * f64::from(level.min(deepest));
@@ -53,8 +60,10 @@ pub(super) fn draw(sheet: &mut Sheet, nodes: &[LevelNode], all: u32, total: f64,
         );
         if level <= deepest && to.x - from.x > 14.0 {
             canvas.rectangle(from, to, Line::Wrong, Fill::None);
+            sign = Sign::Line(Line::Wrong);
         } else {
             canvas.mark(0.5 * (from + to), Mark::Wrong);
+            sign = Sign::Mark(Mark::Wrong);
         }
     }
     sheet.take(ROW * f64::from(deepest + 1));
@@ -63,10 +72,16 @@ pub(super) fn draw(sheet: &mut Sheet, nodes: &[LevelNode], all: u32, total: f64,
         let y = sheet.y + 13.5;
         let canvas = &mut sheet.canvas;
         canvas.text(dvec2(0.0, y), Anchor::Start, Ink::Faint, "deeper levels");
-        canvas.text(dvec2(WIDTH - 2.0, y), Anchor::End, Ink::Text, &short(rest));
+        canvas.text(
+            dvec2(WIDTH - 2.0, y),
+            Anchor::End,
+            Ink::Text,
+            &format!("{rest:.2}"),
+        );
         sheet.take(ROW);
     }
     sheet.take(4.0);
+    sign
 }
 
 fn draw_node(canvas: &mut Canvas, node: &LevelNode, [from, to]: [f64; 2], y: f64) {

@@ -9,12 +9,12 @@ mod solids;
 use protocol::{Answer, Outcome, Shape, Tree};
 
 use super::Drawing;
-use super::ink::{Fill, Ink, Line};
+use super::ink::{Fill, Ink};
 use super::sheet::{Sheet, Sign};
 use super::words::short;
 use crate::exam::TreePart;
+use crate::judge::tree;
 use crate::judge::tree::cells::cells;
-use crate::judge::tree::{self, FULL};
 use crate::shown::{LevelNode, Shown, Sweep};
 
 use flaw::Flaw;
@@ -65,11 +65,11 @@ pub(super) fn draw(task: &Task, answer: Option<&Answer>) -> Option<Drawing> {
         .map(|node| (node.level, node.start, node.cell.count as u32));
     let own = placed::upper(&placed);
     let total = tree::cost(&cells);
-    levels::draw(&mut sheet, &own, root.cell.count as u32, total, mark);
+    let sign = levels::draw(&mut sheet, &own, root.cell.count as u32, total, mark);
     if let Some(sweep) = sweep {
         draw_sweep(&mut sheet, sweep);
     }
-    explain(&mut sheet, task, &flaw, total);
+    explain(&mut sheet, task, &flaw, sign, total);
     Some(sheet.finish(TITLE, flaw.sentence(task)))
 }
 
@@ -96,32 +96,29 @@ fn draw_sweep(sheet: &mut Sheet, sweep: &Sweep) {
     levels::draw(sheet, &sweep.nodes, all, total, None);
 }
 
-fn explain(sheet: &mut Sheet, task: &Task, flaw: &Flaw, cost: f64) {
+fn explain(sheet: &mut Sheet, task: &Task, flaw: &Flaw, sign: Sign, cost: f64) {
     let interior = Fill::Of(Ink::Text, 0.5);
     sheet.explain(
         Sign::Area(interior),
-        "a node that is split; the darker, the larger its box",
+        "a split node; the stronger, the larger its box",
     );
     sheet.explain(
         Sign::Area(Fill::None),
-        "half as high: a leaf; the number: its primitives",
+        "half as high: a leaf; numbers: primitives",
     );
     if flaw.node().is_some() {
-        sheet.explain(Sign::Line(Line::Wrong), flaw.label());
+        sheet.explain(sign, flaw.label());
     }
     match task.sweep_cost {
         Some(sweep) => {
-            let (own, ratio) = (short(cost), short(cost / sweep));
             let words = format!(
-                "SAH cost: {own}, which is {ratio} times {}; {FULL} times is good enough",
+                "SAH cost: {}; with the best splits {}",
+                short(cost),
                 short(sweep)
             );
             sheet.explain(Sign::None, &words);
         }
-        None => sheet.explain(
-            Sign::None,
-            "at the right: what each level adds to the SAH cost",
-        ),
+        None => sheet.explain(Sign::None, "right: what each level adds to the SAH cost"),
     }
 }
 

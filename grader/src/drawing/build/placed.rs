@@ -53,7 +53,8 @@ pub(super) fn upper(placed: &[Placed]) -> Vec<LevelNode> {
                 start: node.start,
                 count: node.cell.count as u32,
                 is_leaf,
-                cost: (area * times) as f32,
+                // A node that holds nothing has no area.
+                cost: if area.is_finite() { area * times } else { 0.0 } as f32,
             }
         })
         .collect()

@@ -10,6 +10,7 @@ use crate::drawing::ink::{Fill, Ink, Line};
 use crate::drawing::sheet::{Sheet, Sign};
 use crate::drawing::sphere;
 use crate::drawing::window::Window;
+use crate::drawing::words::point;
 use crate::judge::tree::bounds::Bounds;
 use crate::shown::Sweep;
 
@@ -98,9 +99,11 @@ fn boxes(sheet: &mut Sheet, task: &Task, primitives: &[usize], node: &Placed) {
     frame(canvas, &window, got, Line::Wrong);
     sheet.explain(
         Sign::Line(Line::Right),
-        "wanted: the box around all that is below",
+        "wanted: around all that is below the node",
     );
-    sheet.explain(Sign::Line(Line::Wrong), "got: the node's box");
+    let min_max = [has.min, has.max].map(point);
+    let words = format!("got: {} to {}", min_max[0], min_max[1]);
+    sheet.explain(Sign::Line(Line::Wrong), &words);
 }
 
 fn frame(canvas: &mut Canvas, window: &Window, [min, max]: [DVec2; 2], line: Line) {
@@ -179,10 +182,7 @@ fn row(sheet: &mut Sheet, task: &Task, placed: &[Placed], (axis, at): (u8, f32))
         "wanted: the best plane between two of them",
     );
     let counts: Vec<String> = sides.iter().map(|side| side.len().to_string()).collect();
-    let words = format!(
-        "got: {} of them, one side up and the other down",
-        counts.join(" and ")
-    );
+    let words = format!("got: {}, one side up, the other down", counts.join(" and "));
     sheet.explain(Sign::Area(Fill::Of(Ink::Wrong, 1.0)), &words);
 }
 

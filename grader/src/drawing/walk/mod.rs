@@ -120,6 +120,14 @@ fn sentence(encounter: &Encounter, plan: &Plan) -> String {
                 row.node
             ),
         },
+        (Got::Hit(met), Some(leaf), Some((_, Fate::Beyond)))
+            if is_farther(encounter, met.distance) =>
+        {
+            format!(
+                "{} A right walk does not come to yours, in leaf {leaf}.",
+                encounter.sentence()
+            )
+        }
         (Got::Hit(_), Some(leaf), Some((row, Fate::Beyond))) => {
             let begin = row
                 .span
@@ -139,12 +147,17 @@ fn sentence(encounter: &Encounter, plan: &Plan) -> String {
         }
         (Got::Hit(_), Some(_), Some((_, Fate::Entered | Fate::Elided)) | None)
         | (Got::Miss | Got::NoAnswer, _, _) => match (encounter.wanted, plan.wanted_number()) {
-            (Some(met), Some(number)) => format!(
-                "{} The closest is at {}, in the leaf with number {number}.",
-                encounter.sentence(),
-                short(met.distance)
+            (Some(_), Some(number)) => format!(
+                "{} That is in the leaf with number {number}.",
+                encounter.sentence()
             ),
             (Some(_) | None, _) => encounter.sentence(),
         },
     }
+}
+
+fn is_farther(encounter: &Encounter, distance: f64) -> bool {
+    encounter
+        .wanted
+        .is_some_and(|wanted| wanted.distance < distance)
 }

@@ -1,27 +1,26 @@
 //! A ray, what it should meet, and what the submission says that it meets.
 
+mod sentence;
+
 use glam::{DVec2, DVec3};
 use protocol::{Answer, Interval, Outcome, Question, Ray, Trace};
 
-use crate::describe;
 use crate::exam::{Asked, Hit, Key, Part, Surface};
-
-use super::words::short;
 
 /// A meeting of a ray and a surface; the key of a picture does not tell all of it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Met {
-    pub(super) distance: f64,
-    pub(super) position: DVec3,
-    pub(super) normal: DVec3,
-    pub(super) uv: DVec2,
-    pub(super) origin: DVec3,
-    pub(super) material: Option<u32>,
+pub(in crate::drawing) struct Met {
+    pub(in crate::drawing) distance: f64,
+    pub(in crate::drawing) position: DVec3,
+    pub(in crate::drawing) normal: DVec3,
+    pub(in crate::drawing) uv: DVec2,
+    pub(in crate::drawing) origin: DVec3,
+    pub(in crate::drawing) material: Option<u32>,
 }
 
 /// What came.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Got {
+pub(in crate::drawing) enum Got {
     /// Nothing that could be drawn: a panic, or no answer.
     NoAnswer,
     /// No hit.
@@ -32,7 +31,7 @@ pub(super) enum Got {
 
 /// What of a hit the drawing is about: the first that is judged and not right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Focus {
+pub(in crate::drawing) enum Focus {
     /// Whether there is one, and how far away.
     Distance,
     /// Where it is, be that on the ray or not.
@@ -49,17 +48,21 @@ pub(super) enum Focus {
 
 /// One ray of a question, with both answers.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Encounter {
-    pub(super) ray: Ray,
-    pub(super) wanted: Option<Met>,
-    pub(super) got: Got,
-    pub(super) focus: Focus,
+pub(in crate::drawing) struct Encounter {
+    pub(in crate::drawing) ray: Ray,
+    pub(in crate::drawing) wanted: Option<Met>,
+    pub(in crate::drawing) got: Got,
+    pub(in crate::drawing) focus: Focus,
 }
 
 impl Encounter {
     /// The element of a question about rays; none of any other question, or if there is no such
     /// element, or if its ray is none.
-    pub(super) fn of(asked: &Asked, element: usize, answer: Option<&Answer>) -> Option<Encounter> {
+    pub(in crate::drawing) fn of(
+        asked: &Asked,
+        element: usize,
+        answer: Option<&Answer>,
+    ) -> Option<Encounter> {
         let ray = *rays(&asked.question)?.get(element)?;
         let along = ray.dir.is_finite() && ray.dir.length() > 0.0;
         if !(ray.origin.is_finite() && along) {
@@ -93,7 +96,7 @@ impl Encounter {
     }
 
     /// Where the answer is drawn.
-    pub(super) fn got_point(&self) -> Option<DVec3> {
+    pub(in crate::drawing) fn got_point(&self) -> Option<DVec3> {
         match (self.got, self.focus) {
             (Got::NoAnswer | Got::Miss, _) => None,
             (Got::Hit(met), Focus::Position) => Some(met.position),
@@ -105,108 +108,18 @@ impl Encounter {
     }
 
     /// The point of the ray at this distance.
-    pub(super) fn at(&self, distance: f64) -> DVec3 {
+    pub(in crate::drawing) fn at(&self, distance: f64) -> DVec3 {
         self.ray.origin.as_dvec3() + distance * self.dir()
     }
 
     /// The ray's direction, of length one.
-    pub(super) fn dir(&self) -> DVec3 {
+    pub(in crate::drawing) fn dir(&self) -> DVec3 {
         self.ray.dir.as_dvec3().normalize()
     }
 
     /// The range, if it is not all that lies ahead.
-    pub(super) fn range(&self) -> Option<Interval> {
+    pub(in crate::drawing) fn range(&self) -> Option<Interval> {
         (self.ray.range != Interval::AHEAD).then_some(self.ray.range)
-    }
-
-    /// What is wrong, in a sentence.
-    pub(super) fn sentence(&self) -> String {
-        match (self.wanted, self.got) {
-            (None, Got::NoAnswer) => "Right is no hit; your code gave no answer.".to_owned(),
-            (Some(wanted), Got::NoAnswer) => format!(
-                "Right is a hit at {}; your code gave no answer.",
-                short(wanted.distance)
-            ),
-            (None, Got::Miss) => "Right is no hit.".to_owned(),
-            (None, Got::Hit(got)) => format!(
-                "Right is no hit; you answer one at {}{}.",
-                short(got.distance),
-                self.outside(got.distance)
-            ),
-            (Some(wanted), Got::Miss) => format!(
-                "You answer no hit; the ray hits at {}.",
-                short(wanted.distance)
-            ),
-            (Some(wanted), Got::Hit(got)) => self.difference(&wanted, &got),
-        }
-    }
-
-    fn outside(&self, distance: f64) -> String {
-        let range = self.ray.range;
-        if range.contains(distance as f32) {
-            return String::new();
-        }
-        match self.range() {
-            Some(range) => format!(", outside the range {}", describe::interval(range)),
-            None if distance < 0.0 => ", behind the ray's origin".to_owned(),
-            None => ", which is no distance".to_owned(),
-        }
-    }
-
-    fn difference(&self, wanted: &Met, got: &Met) -> String {
-        match self.focus {
-            Focus::Distance => format!(
-                "You answer a hit at {}{}; the first that counts is at {}.",
-                number(got.distance),
-                self.outside(got.distance),
-                number(wanted.distance)
-            ),
-            Focus::Position => format!(
-                "You answer the position {}; the ray hits at {}.",
-                describe::point(got.position.as_vec3()),
-                describe::point(wanted.position.as_vec3())
-            ),
-            Focus::Normal => normals(wanted.normal, got.normal),
-            Focus::Uv => format!(
-                "You answer uv {}; right is {}.",
-                describe::uv(got.uv.as_vec2()),
-                describe::uv(wanted.uv.as_vec2())
-            ),
-            Focus::Origin => format!(
-                "You name {} as the ray's origin; it starts at {}.",
-                describe::point(got.origin.as_vec3()),
-                describe::point(wanted.origin.as_vec3())
-            ),
-            Focus::Material => {
-                let name = |met: &Met| met.material.map_or("none".to_owned(), |id| id.to_string());
-                format!(
-                    "You name material {}; what is hit has {}.",
-                    name(got),
-                    name(wanted)
-                )
-            }
-        }
-    }
-}
-
-/// A distance with all digits that are judged.
-fn number(value: f64) -> String {
-    describe::number(value as f32)
-}
-
-fn normals(wanted: DVec3, got: DVec3) -> String {
-    let length = got.length();
-    if !(length.is_finite() && length > 0.0) {
-        return format!(
-            "Your normal {} has no direction.",
-            describe::point(got.as_vec3())
-        );
-    }
-    let degrees = got.angle_between(wanted).to_degrees();
-    match degrees {
-        _ if degrees > 179.5 => "Your normal points the opposite way.".to_owned(),
-        _ if degrees > 0.05 => format!("Your normal is off by {}°.", short(degrees)),
-        _ => format!("Your normal has length {}; it must be 1.", number(length)),
     }
 }
 

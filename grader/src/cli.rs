@@ -21,7 +21,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     pub exam: Option<PathBuf>,
 
-    /// Where to write score.json; default: target/grade/NAME
+    /// Where to write score.json and report.html; default: target/grade/NAME
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
 
@@ -37,6 +37,10 @@ pub struct Arguments {
     #[arg(long, value_name = "ITEM#N", conflicts_with_all = ["task", "require", "out"])]
     pub replay: Option<Place>,
 
+    /// Grade again whenever a file is saved, what failed first; Ctrl-C ends it
+    #[arg(long, conflicts_with_all = ["replay", "require"])]
+    pub watch: bool,
+
     /// Judge as on a student's machine: what rests on a failed task is blocked, and not asked again
     /// with the reference's part in its place
     #[arg(long)]
@@ -45,6 +49,10 @@ pub struct Arguments {
     /// Say what is wrong, not only a nudge, where a known mistake is recognised
     #[arg(long)]
     pub hints: bool,
+
+    /// Open the report, a page, when it is written
+    #[arg(long, conflicts_with_all = ["task", "replay"])]
+    pub open: bool,
 
     /// CPU time that an item may use, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=600))]

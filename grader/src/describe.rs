@@ -1,5 +1,7 @@
 //! Questions and values in words and numbers, for whoever reads a report.
 
+pub mod answer;
+
 use std::fmt::Write;
 
 use glam::{Vec2, Vec3};

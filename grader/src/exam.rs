@@ -154,6 +154,36 @@ pub struct Item {
     pub tells: Tells,
 }
 
+impl Item {
+    /// How many elements its questions have together.
+    pub fn count(&self) -> usize {
+        let counts = self.questions.iter().map(|asked| asked.question.count());
+        counts.sum()
+    }
+
+    /// What people call an element of a question: counted from 1 over all questions. A picture
+    /// that is asked for as a whole has one number for all of its pixels.
+    pub fn number(&self, question: usize, element: usize) -> usize {
+        let before = self.questions[..question].iter();
+        let before: usize = before.map(|asked| asked.question.count()).sum();
+        let last = self.questions[question].question.count().saturating_sub(1);
+        before + element.min(last) + 1
+    }
+
+    /// The question, and the element of it, that have this number.
+    pub fn element(&self, number: usize) -> Option<(usize, usize)> {
+        let mut left = number.checked_sub(1)?;
+        for (question, asked) in self.questions.iter().enumerate() {
+            let count = asked.question.count();
+            if left < count {
+                return Some((question, left));
+            }
+            left -= count;
+        }
+        None
+    }
+}
+
 /// A question and its key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

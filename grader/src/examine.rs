@@ -3,9 +3,12 @@
 use std::io;
 use std::path::Path;
 
+use protocol::Answer;
+
 use crate::ask::{Budget, Budgeted, Fault, Launcher, Probe};
 use crate::build::{Build, Carried};
 use crate::exam::{Exam, Item, Task};
+use crate::exhibit::Exhibits;
 use crate::judge::judge;
 use crate::recognise::Sightings;
 use crate::score::{ItemScore, Score, Verdict};
@@ -17,30 +20,33 @@ const PATIENCE: usize = 2;
 /// The most characters that are kept of what a submission prints.
 const LONGEST_PRINT: usize = 1_000;
 
-/// Asks every item of `exam` and notes its score, which is shown to `progress` after each.
+/// Asks every item of `exam` and notes its score, which is shown to `progress` after each, with
+/// the answers that are worth a look; if that is an error, nothing more is asked.
 pub fn examine<E: From<io::Error>>(
     exam: &Exam,
     build: &Build,
     budget: Budget,
     score: &mut Score,
-    mut progress: impl FnMut(&Score) -> Result<(), E>,
+    mut progress: impl FnMut(&mut Score, &Exhibits) -> Result<(), E>,
 ) -> Result<(), E> {
+    let mut exhibits = Exhibits::default();
     for task in Task::ALL {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
         // A process for each task: what one leaves behind can not help or harm another.
         let mut sessions = Sessions::new(build, budget);
         for item in items {
-            let line = sessions.line(item, score)?;
+            let (line, answers) = sessions.line(item, score)?;
+            exhibits.keep(item, &line, answers);
             score.record(line);
             score.total();
-            progress(score)?;
+            progress(score, &exhibits)?;
         }
         if let Some(scores) = score.tasks.iter_mut().find(|scores| scores.id == task) {
             scores.printed = sessions.finish(exam, &mut scores.items);
         }
     }
     score.complete = true;
-    progress(score)
+    progress(score, &exhibits)
 }
 
 /// One task, asked of the submission by itself, and where needed carried forward.
@@ -59,25 +65,27 @@ impl<'a> Sessions<'a> {
         }
     }
 
-    /// What becomes of one item, after those that it needs.
-    fn line(&mut self, item: &Item, others: &Score) -> io::Result<ItemScore> {
+    /// What becomes of one item, after those that it needs, and the answers that say so.
+    fn line(&mut self, item: &Item, others: &Score) -> io::Result<(ItemScore, Vec<Answer>)> {
         if let Some(why) = self.build.not_compiled.get(item.task.file()) {
-            return Ok(item_score(item, &Outcome::NotCompiled(why)));
+            return Ok((item_score(item, &Outcome::NotCompiled(why)), Vec::new()));
         }
-        let line = item_score(item, &self.own.ask(item)?);
+        let (outcome, answers) = self.own.ask(item)?;
+        let line = item_score(item, &outcome);
         let Some(by) = resting_on(item, others) else {
-            return Ok(line);
+            return Ok((line, answers));
         };
         match self.build.carried()? {
-            Carried::NoReference => Ok(blocked(by, line)),
-            Carried::NotCompiled => Ok(line),
+            Carried::NoReference => Ok((blocked(by, line), answers)),
+            Carried::NotCompiled => Ok((line, answers)),
             Carried::Program(program) => {
                 let budget = self.own.budget;
                 let carried = self
                     .carried
                     .get_or_insert_with(|| Session::new(Some(program), budget));
-                let again = item_score(item, &carried.ask(item)?);
-                Ok(carried_forward(by, &line, again))
+                let (outcome, answers) = carried.ask(item)?;
+                let again = item_score(item, &outcome);
+                Ok((carried_forward(by, &line, again), answers))
             }
         }
     }
@@ -142,14 +150,14 @@ impl Session {
         }
     }
 
-    fn ask(&mut self, item: &Item) -> io::Result<Outcome<'static>> {
+    /// What becomes of one item, and the answers, if there are any.
+    fn ask(&mut self, item: &Item) -> io::Result<(Outcome<'static>, Vec<Answer>)> {
         let Some(launcher) = &self.launcher else {
-            return Ok(Outcome::Pending);
+            return Ok((Outcome::Pending, Vec::new()));
         };
         if self.out_of_time == PATIENCE {
-            return Ok(Outcome::GivenUp(Fault::TimedOut(Budgeted::Cpu(
-                self.budget.cpu,
-            ))));
+            let fault = Fault::TimedOut(Budgeted::Cpu(self.budget.cpu));
+            return Ok((Outcome::GivenUp(fault), Vec::new()));
         }
         let mut probe = match self.probe.take() {
             Some(probe) => probe,
@@ -161,15 +169,14 @@ impl Session {
                 self.probe = Some(probe);
                 self.sightings.note(item, Ok(&answers));
                 let judged = item.questions.iter().zip(&answers);
-                Ok(Outcome::Answered(
-                    judged.map(|(asked, answer)| judge(asked, answer)).collect(),
-                ))
+                let judged = judged.map(|(asked, answer)| judge(asked, answer));
+                Ok((Outcome::Answered(judged.collect()), answers))
             }
             Err(fault) => {
                 self.out_of_time += usize::from(matches!(fault, Fault::TimedOut(_)));
                 self.hear(probe);
                 self.sightings.note(item, Err(&fault));
-                Ok(Outcome::Fault(fault))
+                Ok((Outcome::Fault(fault), Vec::new()))
             }
         }
     }

@@ -7,25 +7,29 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | the job | [`grade`], [`replay`] |
-//! | one exam | [`examine`], [`recognise`], [`verdict`], [`drawing`], [`report`] |
-//! | its steps | [`build`], [`ask`], [`judge`] |
+//! | the job | [`grade`], [`replay`], [`watch`]; [`files`] |
+//! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`] |
+//! | its steps | [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
 //! | data | [`exam`], [`shown`], [`tells`], [`exam_file`], [`place`], [`submission`], [`given`], [`score`] |
-//! | the machine | [`workspace`], [`sandbox`], [`capture`] |
+//! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`] |
 
 pub mod ask;
 pub mod build;
 pub mod capture;
 pub mod cli;
 pub mod describe;
+pub mod desktop;
 pub mod drawing;
 pub mod error;
 pub mod exam;
 pub mod exam_file;
 pub mod examine;
+pub mod exhibit;
+pub mod files;
 pub mod given;
 pub mod grade;
 pub mod judge;
+pub mod picture;
 pub mod place;
 pub mod recognise;
 pub mod replay;
@@ -37,4 +41,5 @@ pub mod submission;
 pub mod tame;
 pub mod tells;
 pub mod verdict;
+pub mod watch;
 pub mod workspace;

@@ -5,11 +5,13 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use grader::cli::Arguments;
+use grader::desktop;
 use grader::error::Error;
 use grader::grade::grade;
 use grader::replay::replay;
 use grader::report::text::{Hints, report};
 use grader::score::Score;
+use grader::watch::watch;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -28,21 +30,38 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         anstream::print!("{}", replay(arguments, place)?);
         return Ok(ExitCode::SUCCESS);
     }
-    let graded = grade(arguments)?;
     let hints = match arguments.hints {
         true => Hints::Full,
         false => Hints::Nudge,
     };
-    anstream::print!("{}", report(&graded.score, arguments.task, hints));
-    if let Some(file) = &graded.file {
-        anstream::println!("  {}\n", from_here(file).display());
+    if arguments.watch {
+        let never = watch(arguments, hints)?;
+        match never {}
     }
+    let graded = grade(arguments)?;
+    anstream::print!("{}", report(&graded.score, arguments.task, hints));
+    if let Some(files) = &graded.files {
+        for file in [&files.score, &files.page] {
+            anstream::println!("  {}", from_here(file).display());
+        }
+        if arguments.open {
+            show(&files.page);
+        }
+    }
+    anstream::println!();
     let required = arguments.require.unwrap_or(0);
     Ok(if graded.score.points < required {
         ExitCode::from(1)
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// Opens the page where there is a desktop, and else says where it is: that is no failure.
+fn show(page: &Path) {
+    if let Err(why) = desktop::open(page) {
+        anstream::eprintln!("{why}: open {} yourself", page.display());
+    }
 }
 
 /// The path as it would be typed from the current folder.

@@ -9,7 +9,7 @@ use crate::build::Builder;
 use crate::cli::Arguments;
 use crate::describe;
 use crate::error::Error;
-use crate::exam::{Asked, Exam, Hit, Key, Surface};
+use crate::exam::{Asked, Exam};
 use crate::exam_file;
 use crate::grade::{budget, collect};
 use crate::place::Place;
@@ -66,23 +66,18 @@ fn find(exam: &Exam, place: &Place) -> Result<(Question, String), Error> {
             alike.join(", ")
         ))
     })?;
-    let mut left = place.number - 1;
-    for asked in &item.questions {
-        let count = asked.question.count();
-        if left < count {
-            return Ok((alone(&asked.question, left), wanted(asked, left)));
+    match item.element(place.number) {
+        Some((question, element)) => {
+            let asked = &item.questions[question];
+            Ok((alone(&asked.question, element), wanted(asked, element)))
         }
-        left -= count;
+        None => Err(Error::Replay(format!(
+            "{} asks {} questions: there is no number {}",
+            place.item,
+            item.count(),
+            place.number
+        ))),
     }
-    let count: usize = item
-        .questions
-        .iter()
-        .map(|asked| asked.question.count())
-        .sum();
-    Err(Error::Replay(format!(
-        "{} asks {count} questions: there is no number {}",
-        place.item, place.number
-    )))
 }
 
 /// The same question, with this element only.
@@ -103,50 +98,18 @@ fn alone(question: &Question, element: usize) -> Question {
     question
 }
 
+/// What is right, each on a line of its own where several are. A whole picture is no line.
 fn wanted(asked: &Asked, element: usize) -> String {
-    match &asked.key {
-        Key::Rays { directions, .. } => {
-            format!(
-                "ray from (0, 0, 0) toward {}",
-                describe::point(directions[element])
-            )
-        }
-        Key::Hits { hits, .. } => hits[element].as_ref().map_or("no hit".to_owned(), hit),
-        Key::FirstHits { hits, also } => {
-            let also = also.iter().filter(|(place, _)| *place as usize == element);
-            let all = std::iter::once(&hits[element]).chain(also.map(|(_, answer)| answer));
-            let all: Vec<String> = all
-                .map(|answer| answer.as_ref().map_or("no hit".to_owned(), surface))
-                .collect();
-            all.join(", or\n         ")
-        }
-        Key::Spans { spans } => describe::span(spans[element]),
-        Key::Tree { judged, sweep_cost } => format!(
-            "a tree of which these hold: {judged:?}{}",
-            sweep_cost.map_or(String::new(), |cost| format!("; SAH cost about {cost:.2}"))
-        ),
-        Key::Radiance { .. } => "the reference's picture".to_owned(),
+    match asked.question {
+        Question::Radiance { .. } => "the reference's picture".to_owned(),
+        Question::Camera { .. }
+        | Question::Shapes { .. }
+        | Question::BBox { .. }
+        | Question::Build { .. }
+        | Question::Traverse { .. }
+        | Question::BuildAndTraverse { .. }
+        | Question::Done => describe::answer::wanted(asked, element).join(", or\n         "),
     }
-}
-
-fn hit(hit: &Hit) -> String {
-    format!(
-        "distance {}, position {}, normal {}, uv {}, material {}",
-        describe::number(hit.distance),
-        describe::point(hit.position),
-        describe::point(hit.normal),
-        describe::uv(hit.uv),
-        hit.material
-    )
-}
-
-fn surface(surface: &Surface) -> String {
-    format!(
-        "distance {}, normal {}, uv {}",
-        describe::number(surface.depth),
-        describe::point(surface.normal),
-        describe::uv(surface.uv)
-    )
 }
 
 fn got(answered: Result<Vec<Answer>, Fault>) -> String {
@@ -155,34 +118,8 @@ fn got(answered: Result<Vec<Answer>, Fault>) -> String {
         Err(fault) => return fault.to_string(),
     };
     match answer {
-        Some(Answer::Rays(rays)) => first(&rays, describe::ray),
-        Some(Answer::Hits(hits)) => first(&hits, |hit| describe::trace(hit.as_ref())),
-        Some(Answer::Spans(spans)) => first(&spans, |span| describe::span(*span)),
-        Some(Answer::Tree(tree)) => first(&[tree], |tree| {
-            let nodes = tree.nodes.iter().enumerate().map(|(place, node)| {
-                let corners = (describe::point(node.min), describe::point(node.max));
-                let below = match node.is_leaf() {
-                    true => format!("leaf of {} from {}", node.size, node.start),
-                    false => format!("children {} and {}", node.l, node.r),
-                };
-                format!("\n  {place}: {} to {}, {below}", corners.0, corners.1)
-            });
-            format!("root {}{}", tree.root, nodes.collect::<String>())
-        }),
-        Some(Answer::Picture(picture)) => {
-            first(&[picture], |pixels| format!("{} pixels", pixels.len()))
-        }
-        Some(Answer::Done) | None => "no answer".to_owned(),
-    }
-}
-
-fn first<T>(outcomes: &[Outcome<T>], show: impl Fn(&T) -> String) -> String {
-    match outcomes.first() {
-        Some(Outcome::Value(value)) => show(value),
-        Some(Outcome::Panicked(panic)) => tame(
-            &format!("a panic at {}: {}", panic.place, panic.message),
-            2_000,
-        ),
-        Some(Outcome::GivenUp) | None => "no answer".to_owned(),
+        Some(Answer::Picture(Outcome::Value(pixels))) => format!("{} pixels", pixels.len()),
+        Some(answer) => describe::answer::got(&answer, 0),
+        None => "no answer".to_owned(),
     }
 }

@@ -208,6 +208,20 @@ pub struct Timings {
     pub exam_ms: u64,
 }
 
+impl ItemScore {
+    /// The command that asks the same again: one question where there is one to speak of, else
+    /// the task.
+    pub fn again(&self) -> String {
+        match &self.evidence {
+            Some(evidence) => format!("cargo grade --replay {}#{}", self.id, evidence.number),
+            None => {
+                let task = self.id.split('.').next().unwrap_or_default();
+                format!("cargo grade --task {task}")
+            }
+        }
+    }
+}
+
 impl Score {
     /// All items, in the order of asking.
     pub fn items(&self) -> impl Iterator<Item = &ItemScore> {

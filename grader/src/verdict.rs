@@ -179,12 +179,8 @@ fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
         }
     };
     score.verdict = verdict;
-    let before: usize = item.questions[..question]
-        .iter()
-        .map(|asked| asked.question.count())
-        .sum();
     score.evidence = Some(Evidence {
-        number: before + failure.element + 1,
+        number: item.number(question, failure.element),
         asked: describe::element(&item.questions[question].question, failure.element),
         got,
         wanted,

@@ -53,7 +53,7 @@ impl Canvas {
         format!(
             concat!(
                 r#"<svg xmlns="http://www.w3.org/2000/svg" role="img" viewBox="0 0 {} {:.0}" "#,
-                r#"font-family="system-ui, sans-serif" font-size="{}">"#,
+                r#"font-family="system-ui, sans-serif" font-size="{}" stroke-linejoin="round">"#,
                 "<title>{}</title><desc>{}</desc>{}</svg>"
             ),
             WIDTH, height, FONT, title, description, self.body
@@ -73,15 +73,22 @@ impl Canvas {
 
     /// A closed outline through all the points, or nothing if one of them is far off.
     pub(super) fn polygon(&mut self, corners: &[DVec2], line: Line, fill: Fill) {
-        if !corners.iter().all(|corner| is_near(*corner)) {
-            return;
+        self.polygons(&[corners], line, fill);
+    }
+
+    /// Several of them, alike.
+    pub(super) fn polygons(&mut self, all: &[impl AsRef<[DVec2]>], line: Line, fill: Fill) {
+        let mut path = String::new();
+        for corners in all.iter().map(AsRef::as_ref) {
+            if corners.iter().all(|corner| is_near(*corner)) {
+                let corners: Vec<String> = corners.iter().map(|corner| point(*corner)).collect();
+                write!(path, "M{}Z", corners.join("L")).expect("text takes text");
+            }
         }
-        let corners: Vec<String> = corners.iter().map(|corner| point(*corner)).collect();
-        let path = corners.join("L");
-        // A fill stands before the line's own attribute of the same name: two would be no XML.
-        let line = line.attributes().replacen(r#"fill="none" "#, "", 1);
-        let fill = fill.attributes();
-        self.add(format_args!(r#"<path d="M{path}Z" {fill} {line}/>"#));
+        if !path.is_empty() {
+            let (fill, line) = (fill.attributes(), line.attributes());
+            self.add(format_args!(r#"<path d="{path}" {fill} {line}/>"#));
+        }
     }
 
     /// A rectangle between two corners.
@@ -105,8 +112,7 @@ impl Canvas {
     /// A circle.
     pub(super) fn circle(&mut self, center: DVec2, radius: f64, line: Line, fill: Fill) {
         if is_near(center) && radius.is_finite() && radius < FARTHEST {
-            let line = line.attributes().replacen(r#"fill="none" "#, "", 1);
-            let fill = fill.attributes();
+            let (fill, line) = (fill.attributes(), line.attributes());
             self.add(format_args!(
                 r#"<circle cx="{:.1}" cy="{:.1}" r="{radius:.1}" {fill} {line}/>"#,
                 center.x, center.y
@@ -178,11 +184,14 @@ impl Canvas {
             Anchor::End => "end",
         };
         let (paint, opacity, text) = (ink.paint(), ink.opacity(), escaped(text));
+        let opacity = match opacity {
+            "1" => String::new(),
+            opacity => format!(r#" fill-opacity="{opacity}""#),
+        };
         self.add(format_args!(
             concat!(
-                r#"<text x="{:.1}" y="{:.1}" text-anchor="{}" fill="{}" fill-opacity="{}" "#,
-                r#"stroke="var(--paper, Canvas)" stroke-width="3" stroke-linejoin="round" "#,
-                r#"paint-order="stroke">{}</text>"#
+                r#"<text x="{:.1}" y="{:.1}" text-anchor="{}" fill="{}"{} "#,
+                r#"stroke="var(--paper, Canvas)" stroke-width="3" paint-order="stroke">{}</text>"#
             ),
             at.x, at.y, anchor, paint, opacity, text
         ));

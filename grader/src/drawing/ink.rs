@@ -71,10 +71,12 @@ impl Line {
             "" => String::new(),
             dashes => format!(r#" stroke-dasharray="{dashes}""#),
         };
+        let opacity = match opacity {
+            "1" => String::new(),
+            opacity => format!(r#" stroke-opacity="{opacity}""#),
+        };
         let paint = ink.paint();
-        format!(
-            r#"fill="none" stroke="{paint}" stroke-opacity="{opacity}" stroke-width="{width}"{dashes}"#
-        )
+        format!(r#"stroke="{paint}"{opacity} stroke-width="{width}"{dashes}"#)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Comparing answers with keys: pure, and the only way to points.
 
+mod blemish;
 mod deviation;
 mod first_hits;
 mod hits;
@@ -22,6 +23,7 @@ use rays::CameraRays;
 use spans::Spans;
 use tree::Built;
 
+pub use blemish::{Aspect, Blemish};
 pub use deviation::{Deviation, Measured};
 pub use share::Share;
 pub use threshold::Threshold;
@@ -94,6 +96,12 @@ trait Comparison {
     /// How far off it is, in all that it is judged by. All of it is right if and only if the
     /// judgement is that everything counts.
     fn measure(&self) -> Vec<Measured>;
+
+    /// What is wrong at each position, if this is a picture: something at a position that costs,
+    /// nothing at one that does not.
+    fn blemishes(&self) -> Option<Vec<Option<Blemish>>> {
+        None
+    }
 }
 
 /// Judges the answer to one question.
@@ -110,6 +118,12 @@ pub fn measure(asked: &Asked, answer: &Answer) -> Vec<Measured> {
         Some(comparison) => comparison.measure(),
         None => deviation::worst([Deviation::WRONG]),
     }
+}
+
+/// What is wrong at each position of a picture, in the order of asking, by the same numbers that
+/// decide in [`judge`]. None where no picture was asked for, or none of its size came.
+pub fn blemishes(asked: &Asked, answer: &Answer) -> Option<Vec<Option<Blemish>>> {
+    comparison(asked, answer)?.blemishes()
 }
 
 fn comparison<'a>(asked: &'a Asked, answer: &'a Answer) -> Option<Box<dyn Comparison + 'a>> {

@@ -7,7 +7,8 @@ use protocol::Outcome;
 use crate::describe;
 use crate::judge::measure::in_units_of;
 use crate::judge::{
-    Comparison, Deviation, Failure, How, Judgement, Measured, Share, Threshold, deviation,
+    Aspect, Blemish, Comparison, Deviation, Failure, How, Judgement, Measured, Share, Threshold,
+    deviation,
 };
 
 /// A pixel is off if a channel differs by more than this part of its brightest channel.
@@ -43,6 +44,22 @@ impl Comparison for Radiance<'_> {
                 deviation::worst([Deviation::WRONG])
             }
         }
+    }
+
+    fn blemishes(&self) -> Option<Vec<Option<Blemish>>> {
+        let got = match self.answer {
+            Outcome::Value(got) => got,
+            Outcome::Panicked(_) | Outcome::GivenUp => return None,
+        };
+        let blemish = |(got, wanted): (&Vec3, &Vec3)| {
+            let off = pixel(*got, *wanted);
+            (!off.is_right()).then_some(Blemish {
+                aspect: Aspect::Radiance,
+                off: off.value,
+            })
+        };
+        let is_whole = got.len() == self.pixels.len();
+        is_whole.then(|| got.iter().zip(self.pixels).map(blemish).collect())
     }
 }
 

@@ -10,7 +10,8 @@ use crate::judge::measure::{
     DIRECTION, LENGTH, direction_error, length_error, point_error, unit_error,
 };
 use crate::judge::{
-    Comparison, Deviation, How, Judgement, Measured, Share, Threshold, table, table_measured,
+    Aspect, Blemish, Comparison, Deviation, How, Judgement, Measured, Share, Threshold, table,
+    table_measured,
 };
 
 /// The camera's rays.
@@ -38,14 +39,21 @@ impl Comparison for CameraRays<'_> {
                 self.deviations(element, ray)
             });
         }
-        let places = self.rays.iter().enumerate().map(|(element, outcome)| {
-            let parts = of_outcome(outcome, |ray| self.deviations(element, ray));
-            let worst = parts.into_iter().max_by(|a, b| a.value.total_cmp(&b.value));
-            worst.unwrap_or(Deviation::RIGHT)
-        });
         let allowed = Share::stragglers(self.rays.len());
         let count = Threshold::PicturePositions;
-        vec![Measured::counted(places.collect(), allowed, count)]
+        vec![Measured::counted(self.worst(), allowed, count)]
+    }
+
+    fn blemishes(&self) -> Option<Vec<Option<Blemish>>> {
+        let blemish = |(outcome, worst): (&Outcome<Ray>, Deviation)| match outcome {
+            Outcome::Panicked(_) | Outcome::GivenUp => Some(Blemish::NO_ANSWER),
+            Outcome::Value(_) => (!worst.is_right()).then_some(Blemish {
+                aspect: Aspect::Direction,
+                off: worst.value,
+            }),
+        };
+        let is_picture = self.counted && self.rays.len() == self.directions.len();
+        is_picture.then(|| self.rays.iter().zip(self.worst()).map(blemish).collect())
     }
 }
 
@@ -78,6 +86,17 @@ impl CameraRays<'_> {
                 },
             })
         })
+    }
+
+    /// Of each ray, the part that is farthest off.
+    fn worst(&self) -> Vec<Deviation> {
+        let rays = self.rays.iter().enumerate();
+        let worst = |(element, outcome)| {
+            let parts = of_outcome(outcome, |ray| self.deviations(element, ray));
+            let worst = parts.into_iter().max_by(|a, b| a.value.total_cmp(&b.value));
+            worst.unwrap_or(Deviation::RIGHT)
+        };
+        rays.map(worst).collect()
     }
 
     fn deviations(&self, element: usize, ray: &Ray) -> Vec<Deviation> {

@@ -1,29 +1,6 @@
-//! `score.json`: whole at any moment, because it appears in one step.
-
-use std::fs;
-use std::io::{self, Write};
-use std::path::Path;
-
-use tempfile::NamedTempFile;
+//! `score.json`.
 
 use crate::score::Score;
-
-/// Writes the score to `path`: to a temporary file beside it, then in its place.
-pub fn write(score: &Score, path: &Path) -> io::Result<()> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(folder)?;
-    let mut file = NamedTempFile::new_in(folder)?;
-    file.write_all(text(score).as_bytes())?;
-    // Temporary files are for their owner only; a score is for whoever may read the folder.
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        file.as_file()
-            .set_permissions(fs::Permissions::from_mode(0o644))?;
-    }
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
-}
 
 /// The score as JSON, with a line end.
 pub fn text(score: &Score) -> String {

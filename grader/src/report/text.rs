@@ -204,13 +204,8 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
 
 /// How to ask the same again.
 fn again(out: &mut String, item: &ItemScore) -> fmt::Result {
-    let command = match (&item.evidence, item.id.split('.').next()) {
-        (Some(evidence), _) => format!("--replay {}#{}", item.id, evidence.number),
-        (None, Some(task)) => format!("--task {task}"),
-        (None, None) => return Ok(()),
-    };
-    let label = "again";
-    writeln!(out, "    {FAINT}{label:<7} cargo grade {command}{FAINT:#}")
+    let (label, command) = ("again", item.again());
+    writeln!(out, "    {FAINT}{label:<7} {command}{FAINT:#}")
 }
 
 /// How many items are not shown, and how to see them.

@@ -130,14 +130,11 @@ impl<'a> Flaw<'a> {
                 node.cell.place,
                 counted(node.cell.count, "primitive", "primitives")
             ),
-            Flaw::Partition { lost, doubled } => {
-                let some = |places: &[usize], where_: &str| {
-                    (!places.is_empty()).then(|| format!("{} {where_}", places.len()))
-                };
-                let parts = [some(lost, "in no leaf"), some(doubled, "in more than one")];
-                let parts: Vec<String> = parts.into_iter().flatten().collect();
-                format!("Of {all} primitives there are {}.", parts.join(", "))
-            }
+            Flaw::Partition { lost, doubled } => format!(
+                "Of {all} primitives, in no leaf: {}; in more than one: {}.",
+                lost.len(),
+                doubled.len()
+            ),
             Flaw::Cost(ratio) => format!(
                 "Your tree costs {ratio:.2} times what it does with the best split at every node; \
                  {FULL} times is good enough."

@@ -16,6 +16,8 @@ use crate::shown::Sweep;
 
 /// More primitives than these are not drawn one by one.
 const MOST: usize = 250;
+/// More marks than these hide each other.
+const MOST_MARKS: usize = 60;
 /// A row of so few is drawn with the sides that they went to.
 const FEW: usize = 32;
 
@@ -92,9 +94,8 @@ fn boxes(sheet: &mut Sheet, task: &Task, primitives: &[usize], node: &Placed) {
     let part = sheet.panel(sphere::height(&seen));
     let window = Window::around(part, seen);
     let canvas = &mut sheet.canvas;
-    for &primitive in primitives.iter().take(MOST) {
-        outline(canvas, &window, plane, &task.shapes[primitive]);
-    }
+    let shapes = primitives.iter().map(|&place| &task.shapes[place]);
+    outlines(canvas, &window, plane, shapes);
     frame(canvas, &window, right, Line::Right);
     frame(canvas, &window, got, Line::Wrong);
     sheet.explain(
@@ -130,11 +131,9 @@ fn partition(sheet: &mut Sheet, task: &Task, lost: &[usize], doubled: &[usize]) 
     let part = sheet.panel(sphere::height(&seen));
     let window = Window::around(part, seen);
     let canvas = &mut sheet.canvas;
-    for shape in task.shapes.iter().take(MOST) {
-        outline(canvas, &window, plane, shape);
-    }
+    outlines(canvas, &window, plane, task.shapes.iter());
     let mut mark = |places: &[usize], mark: Mark| {
-        for &place in places.iter().take(MOST) {
+        for &place in places.iter().take(MOST_MARKS) {
             let bounds = Bounds::around(&task.shapes[place]);
             let middle = plane.see(0.5 * (bounds.min + bounds.max));
             canvas.mark(window.page(middle), mark);
@@ -186,20 +185,29 @@ fn row(sheet: &mut Sheet, task: &Task, placed: &[Placed], (axis, at): (u8, f32))
     sheet.explain(Sign::Area(Fill::Of(Ink::Wrong, 1.0)), &words);
 }
 
-fn outline(canvas: &mut Canvas, window: &Window, plane: Plane, shape: &Shape) {
+/// The primitives as they are seen, the first of many.
+fn outlines<'a>(
+    canvas: &mut Canvas,
+    window: &Window,
+    plane: Plane,
+    shapes: impl Iterator<Item = &'a Shape>,
+) {
     let fill = Fill::Of(Ink::Text, 0.12);
-    let mut triangle = |corners: [DVec3; 3]| {
-        let page = corners.map(|corner| window.page(plane.see(corner)));
-        canvas.polygon(&page, Line::Grid, fill);
-    };
-    match *shape {
-        Shape::Triangle { vertices, .. } => {
-            triangle(vertices.map(|vertex| vertex.position.as_dvec3()));
-        }
-        Shape::Facet { corners, .. } => triangle(corners.map(|corner| corner.as_dvec3())),
-        Shape::Sphere { center, radius, .. } => {
-            let at = window.page(plane.see(center.as_dvec3()));
-            canvas.circle(at, window.length(radius.into()), Line::Grid, fill);
+    let page = |at: DVec3| window.page(plane.see(at));
+    let mut triangles = Vec::new();
+    for shape in shapes.take(MOST) {
+        match *shape {
+            Shape::Triangle { vertices, .. } => {
+                triangles.push(vertices.map(|vertex| page(vertex.position.as_dvec3())));
+            }
+            Shape::Facet { corners, .. } => {
+                triangles.push(corners.map(|corner| page(corner.as_dvec3())));
+            }
+            Shape::Sphere { center, radius, .. } => {
+                let radius = window.length(radius.into());
+                canvas.circle(page(center.as_dvec3()), radius, Line::Grid, fill);
+            }
         }
     }
+    canvas.polygons(&triangles, Line::Grid, fill);
 }

@@ -12,7 +12,8 @@ use crate::describe;
 use crate::exam::Surface;
 use crate::judge::measure::{direction_error, length_error, uv_error};
 use crate::judge::{
-    Comparison, Deviation, Failure, How, Judgement, Measured, Share, Threshold, deviation,
+    Aspect, Blemish, Comparison, Deviation, Failure, How, Judgement, Measured, Share, Threshold,
+    deviation,
 };
 
 pub(super) const DEPTH: f32 = 2e-4;
@@ -25,6 +26,9 @@ const QUANTITIES: [(&str, u32); 4] = [
     ("normal", 20),
     ("uv", 10),
 ];
+
+/// The same, for a mask.
+const ASPECTS: [Aspect; 4] = [Aspect::HitOrMiss, Aspect::Depth, Aspect::Normal, Aspect::Uv];
 
 /// A picture.
 pub(super) struct FirstHits<'a> {
@@ -85,22 +89,49 @@ impl Comparison for FirstHits<'_> {
         };
         self.tallies().into_iter().filter_map(measured).collect()
     }
+
+    fn blemishes(&self) -> Option<Vec<Option<Blemish>>> {
+        let blemish = |(outcome, deviations): (&Outcome<_>, Vec<Deviation>)| match outcome {
+            Outcome::Panicked(_) | Outcome::GivenUp => Some(Blemish::NO_ANSWER),
+            // The last one judged is the first that is wrong.
+            Outcome::Value(_) => {
+                let wrong = deviations.iter().zip(ASPECTS);
+                let mut wrong = wrong.filter(|(deviation, _)| !deviation.is_right());
+                wrong.next().map(|(deviation, aspect)| Blemish {
+                    aspect,
+                    off: deviation.value,
+                })
+            }
+        };
+        let is_whole = self.answers.len() == self.hits.len();
+        is_whole.then(|| {
+            let positions = self.answers.iter().zip(self.positions());
+            positions.map(blemish).collect()
+        })
+    }
 }
 
 impl FirstHits<'_> {
-    fn tallies(&self) -> [Tally; QUANTITIES.len()] {
+    /// How far off each quantity is that is judged there, for each position.
+    fn positions(&self) -> impl Iterator<Item = Vec<Deviation>> {
         let mut others: BTreeMap<usize, Vec<&Option<Surface>>> = BTreeMap::new();
         for (position, answer) in self.also {
             others.entry(*position as usize).or_default().push(answer);
         }
-        let mut tallies: [Tally; QUANTITIES.len()] = Default::default();
-        for (position, outcome) in self.answers.iter().enumerate() {
+        let answers = self.answers.iter().enumerate();
+        answers.map(move |(position, outcome)| {
             let others = others.remove(&position).unwrap_or_default();
             let right = others.into_iter().chain([&self.hits[position]]);
-            let deviations = match outcome {
+            match outcome {
                 Outcome::Value(got) => of_position(got.as_ref(), right),
                 Outcome::Panicked(_) | Outcome::GivenUp => vec![Deviation::WRONG],
-            };
+            }
+        })
+    }
+
+    fn tallies(&self) -> [Tally; QUANTITIES.len()] {
+        let mut tallies: [Tally; QUANTITIES.len()] = Default::default();
+        for (position, deviations) in self.positions().enumerate() {
             for (tally, deviation) in tallies.iter_mut().zip(deviations) {
                 tally.places.push(deviation);
                 if !deviation.is_right() {

@@ -1,0 +1,93 @@
+//! All of one answer, and all of what is right, in words.
+
+use protocol::{Answer, Outcome, Tree};
+
+use crate::describe::{number, point, ray, span, trace, uv};
+use crate::exam::{Asked, Hit, Key, Surface};
+use crate::tame::tame;
+
+/// The most characters of a panic's words.
+const LONGEST: usize = 2_000;
+
+/// What a submission answered to one element of a question.
+pub fn got(answer: &Answer, element: usize) -> String {
+    match answer {
+        Answer::Rays(rays) => outcome(rays.get(element), ray),
+        Answer::Hits(hits) => outcome(hits.get(element), |hit| trace(hit.as_ref())),
+        Answer::Spans(spans) => outcome(spans.get(element), |times| span(*times)),
+        Answer::Tree(built) => outcome(Some(built), tree),
+        Answer::Picture(picture) => outcome(Some(picture), |pixels| match pixels.get(element) {
+            Some(pixel) => point(*pixel),
+            None => format!("{} pixels", pixels.len()),
+        }),
+        Answer::Done => "no answer".to_owned(),
+    }
+}
+
+/// What is right for one element of a question; several, where each of them is.
+pub fn wanted(asked: &Asked, element: usize) -> Vec<String> {
+    match &asked.key {
+        Key::Rays { directions, .. } => {
+            let toward = point(directions[element]);
+            vec![format!("ray from (0, 0, 0) toward {toward}")]
+        }
+        Key::Hits { hits, .. } => {
+            vec![hits[element].as_ref().map_or("no hit".to_owned(), hit)]
+        }
+        Key::FirstHits { hits, also } => {
+            let also = also.iter().filter(|(place, _)| *place as usize == element);
+            let all = std::iter::once(&hits[element]).chain(also.map(|(_, answer)| answer));
+            all.map(|answer| answer.as_ref().map_or("no hit".to_owned(), surface))
+                .collect()
+        }
+        Key::Spans { spans } => vec![span(spans[element])],
+        Key::Tree { judged, sweep_cost } => vec![format!(
+            "a tree of which these hold: {judged:?}{}",
+            sweep_cost.map_or(String::new(), |cost| format!("; SAH cost about {cost:.2}"))
+        )],
+        Key::Radiance { pixels, .. } => vec![point(pixels[element])],
+    }
+}
+
+fn outcome<T>(outcome: Option<&Outcome<T>>, show: impl Fn(&T) -> String) -> String {
+    match outcome {
+        Some(Outcome::Value(value)) => show(value),
+        Some(Outcome::Panicked(panic)) => tame(
+            &format!("a panic at {}: {}", panic.place, panic.message),
+            LONGEST,
+        ),
+        Some(Outcome::GivenUp) | None => "no answer".to_owned(),
+    }
+}
+
+fn tree(tree: &Tree) -> String {
+    let nodes = tree.nodes.iter().enumerate().map(|(place, node)| {
+        let (min, max) = (point(node.min), point(node.max));
+        let below = match node.is_leaf() {
+            true => format!("leaf of {} from {}", node.size, node.start),
+            false => format!("children {} and {}", node.l, node.r),
+        };
+        format!("\n  {place}: {min} to {max}, {below}")
+    });
+    format!("root {}{}", tree.root, nodes.collect::<String>())
+}
+
+fn hit(hit: &Hit) -> String {
+    format!(
+        "distance {}, position {}, normal {}, uv {}, material {}",
+        number(hit.distance),
+        point(hit.position),
+        point(hit.normal),
+        uv(hit.uv),
+        hit.material
+    )
+}
+
+fn surface(surface: &Surface) -> String {
+    format!(
+        "distance {}, normal {}, uv {}",
+        number(surface.depth),
+        point(surface.normal),
+        uv(surface.uv)
+    )
+}

@@ -1,0 +1,33 @@
+//! Showing a file to whoever sits before the machine.
+
+use std::path::Path;
+use std::{env, io};
+
+/// Why nothing was opened.
+#[derive(Debug, thiserror::Error)]
+pub enum NotOpened {
+    /// Nobody sees what this machine would show.
+    #[error("there is no desktop here")]
+    NoDesktop,
+    /// There is no program for it, or it does not start.
+    #[error("no program opens pages here ({0})")]
+    NoProgram(#[from] io::Error),
+}
+
+/// Opens the file with the program that the desktop has for it, and does not wait for that.
+pub fn open(file: &Path) -> Result<(), NotOpened> {
+    if !has_desktop() {
+        return Err(NotOpened::NoDesktop);
+    }
+    Ok(open::that_detached(file)?)
+}
+
+/// Elsewhere than on Linux and its like there always is one. There, over a plain ssh connection,
+/// an opener would start and fail unseen.
+fn has_desktop() -> bool {
+    let is_set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
+    cfg!(any(windows, target_os = "macos"))
+        || ["DISPLAY", "WAYLAND_DISPLAY", "WSL_DISTRO_NAME"]
+            .into_iter()
+            .any(is_set)
+}

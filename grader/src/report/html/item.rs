@@ -1,0 +1,175 @@
+//! One item.
+
+use maud::{Markup, PreEscaped, html};
+
+use super::pictures;
+use super::said::{command, rows, said};
+use crate::describe;
+use crate::drawing;
+use crate::exam::Item;
+use crate::exhibit::Exhibits;
+use crate::score::{Hint, ItemScore, Verdict};
+
+/// An item that lacks points: what happened, where to look, how to ask again.
+pub(super) fn failing(
+    score: &ItemScore,
+    item: Option<&Item>,
+    exhibits: &Exhibits,
+    is_open: bool,
+) -> Markup {
+    let (asked, got, wanted) = three_rows(score, item);
+    html! {
+        details .item id=(score.id) open[is_open] {
+            summary {
+                h3 { (said(&score.title)) }
+                span .facts {
+                    (verdict(score))
+                    span .points { (score.points) " / " (score.max_points) }
+                    code { (said(&score.id)) }
+                }
+            }
+            div .body {
+                @if !score.message.is_empty() { p { (said(&score.message)) } }
+                (rows(&asked, &got, &wanted))
+                (drawn(score, item, exhibits))
+                (look(score))
+                (hints(&score.hints))
+                p .again { "Ask it again: " (command(&score.again())) }
+                @if let Some(item) = item { (pictures::failing(item, exhibits)) }
+            }
+        }
+    }
+}
+
+/// An item with all of its points.
+pub(super) fn passed(score: &ItemScore, item: Option<&Item>, exhibits: &Exhibits) -> Markup {
+    html! {
+        (said(&score.title)) " "
+        span .facts {
+            span .points { (score.points) " / " (score.max_points) } " "
+            code { (said(&score.id)) }
+        }
+        @if let Some(item) = item { (pictures::passed(item, exhibits)) }
+    }
+}
+
+/// In words; the sign before them says no more.
+fn verdict(score: &ItemScore) -> Markup {
+    let (class, sign) = match score.verdict {
+        Verdict::Pass => ("good", "✓"),
+        Verdict::Partial => ("part", "◐"),
+        Verdict::Wrong
+        | Verdict::Panicked
+        | Verdict::TimedOut
+        | Verdict::OutOfMemory
+        | Verdict::Crashed
+        | Verdict::Protocol
+        | Verdict::NotCompiled => ("bad", "✗"),
+        Verdict::Unimplemented | Verdict::Blocked { .. } | Verdict::Pending => ("none", "–"),
+    };
+    html! {
+        span class=(format!("verdict {class}")) { (sign) " " (score.verdict.words()) }
+    }
+}
+
+/// Asked, got, wanted. Where there is no evidence, they say why.
+fn three_rows(score: &ItemScore, item: Option<&Item>) -> (String, String, String) {
+    if let Some(evidence) = &score.evidence {
+        let evidence = evidence.clone();
+        return (evidence.asked, evidence.got, evidence.wanted);
+    }
+    let count = item.map_or(0, Item::count);
+    let first = item.and_then(|item| item.questions.first());
+    let first = first.filter(|asked| asked.question.count() > 0);
+    let three = |asked: &str, got: &str, wanted: &str| {
+        (asked.to_owned(), got.to_owned(), wanted.to_owned())
+    };
+    let all = format!("{count} questions, one after the other");
+    match &score.verdict {
+        // What is not written yet is asked for by its first question.
+        Verdict::Unimplemented => match first {
+            Some(first) => (
+                describe::element(&first.question, 0),
+                "no answer: it is not written yet".to_owned(),
+                describe::answer::wanted(first, 0).join(", or "),
+            ),
+            None => three(
+                &all,
+                "no answer: it is not written yet",
+                "an answer to each",
+            ),
+        },
+        Verdict::NotCompiled => three(
+            "nothing: the file is not part of the program",
+            "no answer",
+            "a file that compiles",
+        ),
+        Verdict::Blocked { by } => three(
+            &all,
+            &format!("answers that rest on {by}, so nothing can be said of them"),
+            &format!("{by} first"),
+        ),
+        Verdict::Pending => three("nothing yet", "no answer", "a run that is not stopped"),
+        Verdict::Pass
+        | Verdict::Partial
+        | Verdict::Wrong
+        | Verdict::Panicked
+        | Verdict::TimedOut
+        | Verdict::OutOfMemory
+        | Verdict::Crashed
+        | Verdict::Protocol => (
+            all,
+            format!("no answer: {}", score.message),
+            "an answer to each".to_owned(),
+        ),
+    }
+}
+
+/// Where to look.
+fn look(score: &ItemScore) -> Markup {
+    html! {
+        @if let Some(look) = &score.look {
+            p .look { strong { "Look: " } (said(look)) }
+        }
+    }
+}
+
+/// The question that leads there, and folded away what is wrong.
+fn hints(hints: &[Hint]) -> Markup {
+    html! {
+        @for (place, hint) in hints.iter().enumerate() {
+            div .hint {
+                p {
+                    strong { @if place == 0 { "Hint: " } @else { "Or: " } }
+                    (said(&hint.nudge))
+                }
+                details {
+                    summary { "Say what is wrong" }
+                    p { (said(&hint.hint)) }
+                }
+            }
+        }
+    }
+}
+
+/// The question that went wrong, drawn, where it can be.
+fn drawn(score: &ItemScore, item: Option<&Item>, exhibits: &Exhibits) -> Markup {
+    let drawing = score
+        .evidence
+        .as_ref()
+        .zip(item)
+        .and_then(|(evidence, item)| {
+            let (question, element) = item.element(evidence.number)?;
+            let answer = exhibits.answer(&item.id, question);
+            drawing::of(&item.questions[question], element, answer)
+        });
+    html! {
+        @if let Some(drawing) = drawing {
+            figure .drawing {
+                // It holds numbers and our own words only.
+                (PreEscaped(drawing.svg))
+                figcaption { (said(&drawing.caption)) }
+            }
+        }
+    }
+}

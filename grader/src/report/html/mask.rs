@@ -1,0 +1,103 @@
+//! The mask: what is wrong in each pixel, told by colour and by pattern, so that it reads without
+//! colours as well. The colours are those of Okabe and Ito (2008), "Color universal design".
+
+use glam::UVec2;
+
+use super::png::data_uri;
+use crate::judge::Aspect;
+use crate::picture::{Cell, Colour, Picture};
+
+/// The width of a mask on the screen, in pixels of the screen.
+const WIDTH: u32 = 256;
+/// A pattern repeats after so many pixels of the screen.
+const PATTERN: u32 = 4;
+/// The width of a patch of the legend.
+const PATCH: u32 = 16;
+
+const EMPTY: Colour = [40, 40, 44];
+const RIGHT: Colour = [104, 104, 108];
+const BLACK: Colour = [0, 0, 0];
+
+/// The mask, each pixel of the film a block.
+pub(super) fn mask(picture: &Picture) -> String {
+    let block = (WIDTH / picture.film.max_element()).max(1);
+    let size = picture.film * block;
+    let colour = |place: UVec2| {
+        let pixel = place / block;
+        let cell = picture.mask[(pixel.y * picture.film.x + pixel.x) as usize];
+        match cell {
+            Cell::Empty => EMPTY,
+            Cell::Right => RIGHT,
+            Cell::Wrong(aspect) => pattern(aspect, place),
+        }
+    };
+    paint(size, colour)
+}
+
+/// A patch of the legend.
+pub(super) fn patch(aspect: Aspect) -> String {
+    paint(UVec2::splat(PATCH), |place| pattern(aspect, place))
+}
+
+/// What people call it.
+pub(super) fn title(aspect: Aspect) -> &'static str {
+    match aspect {
+        Aspect::NoAnswer => "no answer",
+        Aspect::HitOrMiss => "hit or miss",
+        Aspect::Depth => "depth",
+        Aspect::Normal => "normal",
+        Aspect::Uv => "uv",
+        Aspect::Direction => "direction",
+        Aspect::Radiance => "light",
+    }
+}
+
+fn paint(size: UVec2, colour: impl Fn(UVec2) -> Colour) -> String {
+    let rows = (0..size.y).flat_map(|y| (0..size.x).map(move |x| UVec2::new(x, y)));
+    data_uri(size, &rows.map(colour).collect::<Vec<_>>())
+}
+
+/// The colour of one place of a pattern.
+fn pattern(aspect: Aspect, place: UVec2) -> Colour {
+    let UVec2 { x, y } = place % PATTERN;
+    let (colour, is_on) = match aspect {
+        // Vermillion, full.
+        Aspect::HitOrMiss | Aspect::Direction | Aspect::Radiance => ([213, 94, 0], true),
+        // Sky blue, lying stripes.
+        Aspect::Depth => ([86, 180, 233], y < 2),
+        // Yellow, standing stripes.
+        Aspect::Normal => ([240, 228, 66], x < 2),
+        // Bluish green, dots.
+        Aspect::Uv => ([0, 158, 115], x < 2 && y < 2),
+        // Reddish purple, crosses.
+        Aspect::NoAnswer => ([204, 121, 167], x == y || x + y == PATTERN - 1),
+    };
+    if is_on { colour } else { BLACK }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    /// Where the colour is, of the aspects that can stand in one mask.
+    #[test]
+    fn no_two_aspects_of_a_mask_have_the_same_pattern() {
+        let aspects = [
+            Aspect::NoAnswer,
+            Aspect::HitOrMiss,
+            Aspect::Depth,
+            Aspect::Normal,
+            Aspect::Uv,
+        ];
+        let shape = |aspect: Aspect| -> Vec<bool> {
+            let places = (0..PATTERN * PATTERN).map(|i| UVec2::new(i % PATTERN, i / PATTERN));
+            places
+                .map(|place| pattern(aspect, place) != BLACK)
+                .collect()
+        };
+        let shapes: BTreeSet<_> = aspects.map(shape).into_iter().collect();
+        assert_eq!(shapes.len(), aspects.len());
+    }
+}

@@ -1,0 +1,91 @@
+//! `report.html`: all that there is to see of one score, in one file that asks no network for
+//! anything. Pure: what it shows follows from the score, the exam and the answers, and not from
+//! the time.
+//!
+//! Whatever a submission has said is text here: `maud` escapes it, [`said`] makes it harmless to
+//! the eye, and the page's policy runs no script and no style but our own, by their hashes.
+
+mod item;
+mod mask;
+mod pictures;
+mod png;
+mod said;
+mod summary;
+mod task;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use sha2::{Digest, Sha256};
+
+use crate::exam::Exam;
+use crate::exhibit::Exhibits;
+use crate::score::Score;
+
+use said::said;
+
+const STYLE: &str = include_str!("page.css");
+const SCRIPT: &str = include_str!("page.js");
+
+/// The page. `exam` is what the score is of; `exhibits` are the answers worth a look.
+pub fn page(score: &Score, exam: &Exam, exhibits: &Exhibits) -> String {
+    let title = format!(
+        "{}: {} of {} points",
+        score.submission, score.points, score.max_points
+    );
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(policy());
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { (said(&title)) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                a .skip href="#next" { "Skip to what to do next" }
+                (summary::header(score))
+                main {
+                    (summary::next(score))
+                    (task::files(score))
+                    @for task in &score.tasks {
+                        (task::section(task, exam, exhibits))
+                    }
+                }
+                (footer(score))
+                // Says to those who listen what a button has done.
+                p #said .quiet role="status" {}
+                script { (PreEscaped(SCRIPT)) }
+            }
+        }
+    };
+    page.into_string()
+}
+
+/// Nothing from elsewhere, and of scripts and styles only these two.
+fn policy() -> String {
+    let hash = |text: &str| STANDARD.encode(Sha256::digest(text));
+    format!(
+        "default-src 'none'; img-src data:; style-src 'sha256-{}'; script-src 'sha256-{}'; \
+         base-uri 'none'; form-action 'none'",
+        hash(STYLE),
+        hash(SCRIPT)
+    )
+}
+
+fn footer(score: &Score) -> Markup {
+    html! {
+        footer {
+            p {
+                "Exam " code { (said(&score.exam.id)) } ", "
+                code { (said(score.exam.hash.get(..12).unwrap_or_default())) } ". "
+                "The same, for programs: " code { "score.json" } " beside this page."
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,26 @@
+//! Small pictures inside the page.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use glam::UVec2;
+
+use crate::picture::Colour;
+
+/// A picture as the address of an image, from rows that begin at the bottom.
+pub(super) fn data_uri(film: UVec2, pixels: &[Colour]) -> String {
+    let from_the_top = pixels.rchunks(film.x as usize);
+    let bytes: Vec<u8> = from_the_top.flatten().flatten().copied().collect();
+    let png = encode(film, &bytes).expect("bytes in memory, as many as the film has");
+    format!("data:image/png;base64,{}", STANDARD.encode(png))
+}
+
+fn encode(film: UVec2, bytes: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
+    let mut out = Vec::new();
+    let mut encoder = png::Encoder::new(&mut out, film.x, film.y);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_compression(png::Compression::High);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(bytes)?;
+    writer.finish()?;
+    Ok(out)
+}

@@ -1,0 +1,114 @@
+//! The top of the page: how many points, and what to do next.
+
+use maud::{Markup, PreEscaped, html};
+
+use super::said::{command, said};
+use crate::score::{ItemScore, Score, TaskScore, Verdict};
+
+/// Name, exam, and points per task.
+pub(super) fn header(score: &Score) -> Markup {
+    html! {
+        header {
+            h1 { span .said { (said(&score.submission)) } }
+            p .total {
+                strong { (score.points) " of " (score.max_points) }
+                " points, " (said(&score.exam.id)) " exam"
+            }
+            @if !score.complete {
+                p .unfinished {
+                    strong { "Not finished." }
+                    " This was written while the exam was being asked. If nothing is running any \
+                     more, it was stopped: what is “not asked yet” was not judged."
+                }
+            }
+            table .points {
+                caption { "Points per task" }
+                thead {
+                    tr {
+                        th scope="col" { "Task" }
+                        th scope="col" .wide { "Share" }
+                        th scope="col" .number { "Points" }
+                        th scope="col" .number { "Items passed" }
+                    }
+                }
+                tbody {
+                    @for task in &score.tasks { (row(task)) }
+                }
+            }
+        }
+    }
+}
+
+fn row(task: &TaskScore) -> Markup {
+    let passed = task
+        .items
+        .iter()
+        .filter(|item| item.verdict == Verdict::Pass);
+    html! {
+        tr {
+            th scope="row" { a href=(format!("#{}", task.id)) { (task.title) } }
+            td .wide { (bar(task)) }
+            td .number { (task.points) " / " (task.max_points) }
+            td .number { (passed.count()) " / " (task.items.len()) }
+        }
+    }
+}
+
+/// Beside its numbers, which say the same.
+fn bar(task: &TaskScore) -> Markup {
+    let width = 100.0 * f64::from(task.points) / f64::from(task.max_points.max(1));
+    PreEscaped(format!(
+        "<svg class=\"bar\" viewBox=\"0 0 100 10\" preserveAspectRatio=\"none\" aria-hidden=\"true\">\
+         <rect class=\"all\" width=\"100\" height=\"10\"/>\
+         <rect class=\"some\" width=\"{width:.1}\" height=\"10\"/></svg>"
+    ))
+}
+
+/// The one thing to do: the first item in lecture order that fails.
+pub(super) fn next(score: &Score) -> Markup {
+    let fails = |item: &&ItemScore| item.points < item.max_points;
+    html! {
+        section aria-labelledby="next" {
+            h2 #next { "What to do next" }
+            @match score.items().find(fails) {
+                None => (nothing(score)),
+                Some(item) => (mend(item)),
+            }
+        }
+    }
+}
+
+fn nothing(score: &Score) -> Markup {
+    html! {
+        p {
+            "Nothing: all that this exam asks is right."
+            @if score.exam.id == "practice" {
+                " The final exam asks the same kinds of questions with other numbers."
+            }
+        }
+    }
+}
+
+fn mend(item: &ItemScore) -> Markup {
+    let place = format!("#{}", item.id);
+    html! {
+        p {
+            a href=(place) { (said(&item.title)) }
+            " (" code { (said(&item.id)) } ")"
+        }
+        @match &item.verdict {
+            Verdict::Pending => p { "It was not asked yet." },
+            Verdict::Unimplemented => p { "Write this method first: " (said(&item.message)) "." },
+            Verdict::NotCompiled => {
+                p { "Mend the file first: " (said(&item.message)) ". " a href="#files" { "The compiler’s words" } }
+            },
+            Verdict::Pass | Verdict::Partial | Verdict::Wrong | Verdict::Panicked
+            | Verdict::TimedOut | Verdict::OutOfMemory | Verdict::Crashed | Verdict::Protocol
+            | Verdict::Blocked { .. } => p { (said(&item.message)) },
+        }
+        @if let Some(look) = &item.look {
+            p { (said(look)) }
+        }
+        p .again { "Ask it again: " (command(&item.again())) }
+    }
+}

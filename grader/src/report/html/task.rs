@@ -1,0 +1,70 @@
+//! A task's section, and what is to be said of files.
+
+use maud::{Markup, html};
+
+use super::item;
+use super::said::said;
+use crate::exam::Exam;
+use crate::exhibit::Exhibits;
+use crate::score::{ItemScore, Score, TaskScore};
+
+/// So many failing items of a task are unfolded from the start.
+const UNFOLDED: usize = 3;
+
+/// What did not compile, and what is worth knowing. Nothing, where there is nothing to say.
+pub(super) fn files(score: &Score) -> Markup {
+    let build = &score.build;
+    if build.not_compiled.is_empty() && build.notes.is_empty() {
+        return html! {};
+    }
+    html! {
+        section aria-labelledby="files" {
+            h2 #files { "Your files" }
+            @for file in &build.not_compiled {
+                h3 { code { (said(&file.file)) } " was not used" }
+                pre { (said(&file.message)) }
+            }
+            @if !build.notes.is_empty() {
+                ul .notes {
+                    @for note in &build.notes { li { (said(note)) } }
+                }
+            }
+        }
+    }
+}
+
+/// One task: failing items first, then what was printed, then what passed.
+pub(super) fn section(task: &TaskScore, exam: &Exam, exhibits: &Exhibits) -> Markup {
+    let is_failing = |item: &&ItemScore| item.points < item.max_points;
+    let (failing, passed): (Vec<&ItemScore>, Vec<&ItemScore>) =
+        task.items.iter().partition(is_failing);
+    let asked = |score: &ItemScore| exam.items.iter().find(|item| item.id == score.id);
+    html! {
+        section aria-labelledby=(task.id) {
+            h2 #(task.id) {
+                (task.title)
+                span .points { " " (task.points) " / " (task.max_points) }
+            }
+            @for (place, score) in failing.iter().enumerate() {
+                @let is_open = place == 0 || (place < UNFOLDED && score.evidence.is_some());
+                (item::failing(score, asked(score), exhibits, is_open))
+            }
+            @if let Some(printed) = &task.printed {
+                details .printed {
+                    summary { "What your code printed meanwhile" }
+                    pre { (said(printed)) }
+                }
+            }
+            @if !passed.is_empty() {
+                details .passed {
+                    summary { "✓ " (passed.len()) " passed" }
+                    ul {
+                        @for score in &passed {
+                            li { (item::passed(score, asked(score), exhibits)) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -129,10 +129,11 @@ impl Graded {
         self.output.status.code().expect("it was not killed")
     }
 
-    /// What is read on a terminal, but for the last line: the score file's place.
+    /// What is read on a terminal, but for the last lines: where the files are.
     pub fn report(&self) -> String {
         let text = String::from_utf8(self.output.stdout.clone()).unwrap();
-        let lines = text.lines().filter(|line| !line.ends_with("score.json"));
+        let is_place = |line: &&str| line.ends_with("score.json") || line.ends_with("report.html");
+        let lines = text.lines().filter(|line| !is_place(line));
         lines
             .collect::<Vec<_>>()
             .join("\n")

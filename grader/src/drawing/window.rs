@@ -68,35 +68,29 @@ impl Window {
         self.world_length(page.distance(page.clamp(self.part.min, self.part.max)))
     }
 
-    /// The part of a segment that is seen, on the page: Liang and Barsky, "A new concept and method
-    /// for line clipping", ACM Transactions on Graphics 3, 1984.
+    /// The part of a segment that is seen, on the page: what is outside of one side after the other
+    /// is cut off (Sutherland and Hodgman, "Reentrant polygon clipping", Communications of the ACM
+    /// 17, 1974).
     pub(super) fn clipped(&self, from: DVec2, to: DVec2) -> Option<(DVec2, DVec2)> {
         let (from, to) = (self.page(from), self.page(to));
         if !(from.is_finite() && to.is_finite()) {
             return None;
         }
         // So far off that nobody sees the difference, and near enough for what f64 can tell apart.
-        let [from, to] = [from, to].map(|at| at.clamp(DVec2::splat(-1e9), DVec2::splat(1e9)));
-        let step = to - from;
-        let (mut first, mut last) = (0.0_f64, 1.0_f64);
+        let farthest = DVec2::splat(1e9);
+        let [mut from, mut to] = [from, to].map(|at| at.clamp(-farthest, farthest));
         for axis in 0..2 {
-            let edges = [
-                (-step[axis], from[axis] - self.part.min[axis]),
-                (step[axis], self.part.max[axis] - from[axis]),
-            ];
-            for (outward, room) in edges {
-                if outward == 0.0 {
-                    if room < 0.0 {
-                        return None;
-                    }
-                } else if outward < 0.0 {
-                    first = first.max(room / outward);
-                } else {
-                    last = last.min(room / outward);
+            for (side, inward) in [(self.part.min[axis], 1.0), (self.part.max[axis], -1.0)] {
+                let [a, b] = [from, to].map(|end| inward * (end[axis] - side));
+                match (a < 0.0, b < 0.0) {
+                    (true, true) => return None,
+                    (true, false) => from = from.lerp(to, a / (a - b)),
+                    (false, true) => to = to.lerp(from, b / (b - a)),
+                    (false, false) => {}
                 }
             }
         }
-        (first <= last).then(|| (from + first * step, from + last * step))
+        Some((from, to))
     }
 }
 

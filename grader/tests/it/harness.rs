@@ -129,10 +129,13 @@ impl Graded {
         self.output.status.code().expect("it was not killed")
     }
 
-    /// What is read on a terminal, but for the last line: the score file's place.
+    /// What is read on a terminal, but for the last lines: the places of what was written.
     pub fn report(&self) -> String {
         let text = String::from_utf8(self.output.stdout.clone()).unwrap();
-        let lines = text.lines().filter(|line| !line.ends_with("score.json"));
+        let places = ["score.json", "report.html"];
+        let lines = text
+            .lines()
+            .filter(|line| !places.iter().any(|place| line.ends_with(place)));
         lines
             .collect::<Vec<_>>()
             .join("\n")

@@ -1,12 +1,14 @@
 //! What grading costs beside compiling: `cargo grade` of a changed submission, whole exam included,
-//! against the bare `rustc` call for the same five files (with the given `lib.rs` and
-//! `primitive.rs`; everything else prebuilt). Turn by turn, so that a noisy machine disturbs both.
+//! and `cargo grade --watch` from a save to the whole report, against the bare `rustc` call for the
+//! same five files (with the given `lib.rs` and `primitive.rs`; everything else prebuilt). Turn by
+//! turn, so that a noisy machine disturbs all.
 //!
-//! `cargo bench -p grader` prints the medians and their ratio.
+//! `cargo bench -p grader` prints the medians and their ratios.
 
 use std::fs;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
@@ -18,11 +20,15 @@ const GIVEN: [&str; 2] = ["lib.rs", "primitive.rs"];
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let folder = TempDir::new().expect("there is room for a folder");
-    let source = root.join("reference/src");
-    for file in FIVE.into_iter().chain(GIVEN) {
-        fs::copy(source.join(file), folder.path().join(file)).expect("the reference is there");
-    }
+    let submission = || {
+        let folder = TempDir::new().expect("there is room for a folder");
+        for file in FIVE.into_iter().chain(GIVEN) {
+            let source = root.join("reference/src").join(file);
+            fs::copy(source, folder.path().join(file)).expect("the reference is there");
+        }
+        folder
+    };
+    let (folder, watched) = (submission(), submission());
     // The probe's way in needs `world`, the floor does not.
     let lib = folder.path().join("lib.rs");
     let text = fs::read_to_string(&lib).expect("it was copied");
@@ -30,30 +36,71 @@ fn main() {
 
     grade(folder.path());
     let dependencies = newest_dependencies(&root.join("target/grade/dependencies"));
+    let mut watch = Watch::start(watched.path());
     let mut rounds = Vec::new();
     for round in 0..ROUNDS {
         change(folder.path(), round);
         let floor = timed(&mut floor(folder.path(), &dependencies));
         let whole = grade(folder.path());
-        rounds.push((whole, floor));
+        change(watched.path(), round);
+        rounds.push([floor, whole, watch.report()].map(|took| took.as_secs_f64()));
     }
 
-    let median = |of: &dyn Fn(&(Duration, Duration)) -> f64| {
+    let median = |of: &dyn Fn(&[f64; 3]) -> f64| {
         let mut values: Vec<f64> = rounds.iter().map(of).collect();
         values.sort_by(f64::total_cmp);
         values[ROUNDS / 2]
     };
     println!("wall time, median of {ROUNDS} rounds");
-    println!(
-        "bare rustc of the five files   {:>6.0} ms",
-        1e3 * median(&|(_, floor)| floor.as_secs_f64())
-    );
-    println!(
-        "cargo grade, whole exam        {:>6.0} ms",
-        1e3 * median(&|(whole, _)| whole.as_secs_f64())
-    );
-    let ratio = median(&|(whole, floor)| whole.as_secs_f64() / floor.as_secs_f64());
-    println!("ratio                          {ratio:>6.2}");
+    let names = [
+        "bare rustc of the five files",
+        "cargo grade, whole exam",
+        "cargo grade --watch, from a save",
+    ];
+    for (which, name) in names.iter().enumerate() {
+        let milliseconds = 1e3 * median(&|round| round[which]);
+        let ratio = median(&|round| round[which] / round[0]);
+        println!("{name:34}{milliseconds:>6.0} ms{ratio:>8.2}");
+    }
+}
+
+/// A grader that waits for saves.
+struct Watch {
+    child: Child,
+    lines: BufReader<ChildStdout>,
+}
+
+impl Watch {
+    fn start(folder: &Path) -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
+        command.arg("--watch").arg(folder);
+        command.arg("--out").arg(folder.join("out"));
+        let child = command.stdout(Stdio::piped()).spawn();
+        let mut child = child.expect("it can be started");
+        let lines = BufReader::new(child.stdout.take().expect("it is a pipe"));
+        let mut watch = Watch { child, lines };
+        watch.report();
+        watch
+    }
+
+    /// How long the next report is in coming.
+    fn report(&mut self) -> Duration {
+        let start = Instant::now();
+        let mut line = String::new();
+        while !line.contains("save a file to grade again") {
+            line.clear();
+            let read = self.lines.read_line(&mut line).expect("it writes text");
+            assert!(read > 0, "it has ended");
+        }
+        start.elapsed()
+    }
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
 }
 
 /// Really changes the submission: a constant in two hot functions.

@@ -37,6 +37,10 @@ pub struct Arguments {
     #[arg(long, value_name = "ITEM#N", conflicts_with_all = ["task", "require", "out"])]
     pub replay: Option<Place>,
 
+    /// Grade again whenever a file is saved, what failed first; Ctrl-C ends it
+    #[arg(long, conflicts_with_all = ["replay", "require"])]
+    pub watch: bool,
+
     /// Judge as on a student's machine: what rests on a failed task is blocked, and not asked again
     /// with the reference's part in its place
     #[arg(long)]

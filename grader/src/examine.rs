@@ -21,13 +21,13 @@ const PATIENCE: usize = 2;
 const LONGEST_PRINT: usize = 1_000;
 
 /// Asks every item of `exam` and notes its score, which is shown to `progress` after each, with
-/// the answers that are worth a look.
+/// the answers that are worth a look; if that is an error, nothing more is asked.
 pub fn examine<E: From<io::Error>>(
     exam: &Exam,
     build: &Build,
     budget: Budget,
     score: &mut Score,
-    mut progress: impl FnMut(&Score, &Exhibits) -> Result<(), E>,
+    mut progress: impl FnMut(&mut Score, &Exhibits) -> Result<(), E>,
 ) -> Result<(), E> {
     let mut exhibits = Exhibits::default();
     for task in Task::ALL {

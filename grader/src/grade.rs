@@ -1,6 +1,6 @@
 //! The main job, from a command line to a score.
 
-use std::path::{Path, PathBuf};
+use std::io;
 use std::time::{Duration, Instant};
 
 use crate::ask::Budget;
@@ -11,101 +11,126 @@ use crate::exam::Exam;
 use crate::exam_file;
 use crate::examine::examine;
 use crate::exhibit::Exhibits;
-use crate::report;
-use crate::score::{BuildReport, FileReport, Score};
+use crate::files::Files;
+use crate::score::{BuildReport, ExamName, FileReport, Score};
 use crate::submission::Submission;
 use crate::verdict::{file_message, unasked};
 use crate::workspace::Workspace;
-
-/// While the exam is asked, the page is written no more often than this.
-const PAGE_PACE: Duration = Duration::from_secs(1);
 
 /// A submission's score, and where it was written, if it was.
 #[derive(Debug)]
 pub struct Graded {
     /// The score.
     pub score: Score,
-    /// The score file.
-    pub file: Option<PathBuf>,
-    /// The page beside it.
-    pub page: Option<PathBuf>,
+    /// The files that tell it.
+    pub files: Option<Files>,
 }
 
 /// Loads the exam, collects the submission, builds it, asks, judges, scores.
 pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
-    let workspace = Workspace::find()?;
-    let exam = exam_file::load(arguments.exam.as_deref())?;
-    let submission = collect(arguments, &workspace)?;
-
-    let began = Instant::now();
-    let build = builder(arguments, &workspace)?.build(&submission)?;
-    let built = Instant::now();
-
-    let asked = match arguments.task {
-        Some(task) => exam.exam.with_what_it_needs(task),
-        None => exam.exam.clone(),
-    };
-    let mut score = unasked(&asked, exam.name(), &submission.name);
-    score.build = build_report(&submission, &build);
-    score.timings.build_ms = millis(built - began);
-    // One task's points are no score.
-    let mut files = arguments
-        .task
-        .is_none()
-        .then(|| Files::in_folder(&folder(arguments, &workspace, &submission)));
-    examine(
-        &asked,
-        &build,
-        budget(arguments),
-        &mut score,
-        |score, exhibits| {
-            let mut score = score.clone();
-            score.timings.exam_ms = millis(built.elapsed());
-            match &mut files {
-                Some(files) => files.write(&score, &asked, exhibits),
-                None => Ok(()),
-            }
-        },
-    )?;
-    score.timings.exam_ms = millis(built.elapsed());
-    let (file, page) = files.map(|files| (files.score, files.page)).unzip();
-    Ok(Graded { score, file, page })
+    let grader = Grader::prepare(arguments)?;
+    let submission = grader.collect()?;
+    let built = grader.build(&submission)?;
+    let exam = grader.exam();
+    let mut files = grader.files(&submission);
+    let mut score = grader.unasked(&submission, &built);
+    grader.examine(exam, &built, &mut score, |score, exhibits| {
+        let files = files.as_mut();
+        files.map_or(Ok(()), |files| files.write(score, exam, exhibits))
+    })?;
+    Ok(Graded { score, files })
 }
 
-/// What is written of a score, and where.
-struct Files {
-    score: PathBuf,
-    page: PathBuf,
-    page_written: Option<Instant>,
+/// All that stays as it is from one version of a submission to the next.
+pub struct Grader<'a> {
+    arguments: &'a Arguments,
+    workspace: Workspace,
+    exam: Exam,
+    exam_name: ExamName,
+    builder: Builder,
 }
 
-impl Files {
-    fn in_folder(folder: &Path) -> Self {
-        Files {
-            score: folder.join("score.json"),
-            page: folder.join("report.html"),
-            page_written: None,
-        }
+/// One version of a submission, built.
+pub struct Built {
+    build: Build,
+    took: Duration,
+}
+
+impl<'a> Grader<'a> {
+    /// Loads the exam, and whatever submissions are built with.
+    pub fn prepare(arguments: &'a Arguments) -> Result<Self, Error> {
+        let workspace = Workspace::find()?;
+        let file = exam_file::load(arguments.exam.as_deref())?;
+        // A submission that is nowhere is told of before anything is compiled.
+        collect(arguments, &workspace)?;
+        Ok(Grader {
+            arguments,
+            exam_name: file.name(),
+            exam: match arguments.task {
+                Some(task) => file.exam.with_what_it_needs(task),
+                None => file.exam,
+            },
+            builder: builder(arguments, &workspace)?,
+            workspace,
+        })
     }
 
-    /// Writes both. The page, which takes longer than most items, at the first item and at the
-    /// end, and between them after each item that took its time.
-    fn write(&mut self, score: &Score, exam: &Exam, exhibits: &Exhibits) -> Result<(), Error> {
-        write(&self.score, &report::json::text(score))?;
-        let is_fresh = self.page_written.is_some_and(|at| at.elapsed() < PAGE_PACE);
-        if score.complete || !is_fresh {
-            write(&self.page, &report::html::page(score, exam, exhibits))?;
-            self.page_written = Some(Instant::now());
-        }
-        Ok(())
+    /// What is asked: all of the exam, or one task of it and what that needs.
+    pub fn exam(&self) -> &Exam {
+        &self.exam
     }
-}
 
-fn write(path: &Path, text: &str) -> Result<(), Error> {
-    report::whole::write(text, path).map_err(|source| Error::Report {
-        path: path.to_owned(),
-        source,
-    })
+    /// The submission, as it is now.
+    pub fn collect(&self) -> Result<Submission, Error> {
+        collect(self.arguments, &self.workspace)
+    }
+
+    /// Makes a program of it, as far as it compiles.
+    pub fn build(&self, submission: &Submission) -> Result<Built, Error> {
+        let began = Instant::now();
+        let build = self.builder.build(submission)?;
+        Ok(Built {
+            build,
+            took: began.elapsed(),
+        })
+    }
+
+    /// The score before anything is asked.
+    pub fn unasked(&self, submission: &Submission, built: &Built) -> Score {
+        let mut score = unasked(&self.exam, self.exam_name.clone(), &submission.name);
+        score.build = build_report(submission, &built.build);
+        score.timings.build_ms = millis(built.took);
+        score
+    }
+
+    /// Asks some or all of the exam, and shows the score to `progress` after each item, with the
+    /// answers that are worth a look.
+    pub fn examine<E: From<io::Error>>(
+        &self,
+        exam: &Exam,
+        built: &Built,
+        score: &mut Score,
+        mut progress: impl FnMut(&Score, &Exhibits) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let began = Instant::now();
+        let budget = budget(self.arguments);
+        examine(exam, &built.build, budget, score, |score, exhibits| {
+            score.timings.exam_ms = millis(began.elapsed());
+            progress(score, exhibits)
+        })
+    }
+
+    /// Where the score goes. One task's points are no score.
+    pub fn files(&self, submission: &Submission) -> Option<Files> {
+        let folder = match &self.arguments.out {
+            Some(folder) => folder.clone(),
+            None => self.workspace.grade().join(&submission.name),
+        };
+        match self.arguments.task {
+            Some(_) => None,
+            None => Some(Files::of(&folder)),
+        }
+    }
 }
 
 /// What submissions are built with: with the reference, where it is at hand and not declined.
@@ -130,13 +155,6 @@ pub fn collect(arguments: &Arguments, workspace: &Workspace) -> Result<Submissio
 pub fn budget(arguments: &Arguments) -> Budget {
     Budget {
         cpu: Duration::from_secs(arguments.cpu_limit),
-    }
-}
-
-fn folder(arguments: &Arguments, workspace: &Workspace, submission: &Submission) -> PathBuf {
-    match &arguments.out {
-        Some(folder) => folder.clone(),
-        None => workspace.grade().join(&submission.name),
     }
 }
 

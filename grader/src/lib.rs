@@ -7,7 +7,7 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | the job | [`grade`], [`replay`] |
+//! | the job | [`grade`], [`replay`], [`watch`]; [`files`] |
 //! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`] |
 //! | its steps | [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
 //! | data | [`exam`], [`tells`], [`exam_file`], [`place`], [`submission`], [`given`], [`score`] |
@@ -25,6 +25,7 @@ pub mod exam;
 pub mod exam_file;
 pub mod examine;
 pub mod exhibit;
+pub mod files;
 pub mod given;
 pub mod grade;
 pub mod judge;
@@ -39,4 +40,5 @@ pub mod submission;
 pub mod tame;
 pub mod tells;
 pub mod verdict;
+pub mod watch;
 pub mod workspace;

@@ -11,6 +11,7 @@ use grader::grade::grade;
 use grader::replay::replay;
 use grader::report::text::{Hints, report};
 use grader::score::Score;
+use grader::watch::watch;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -29,19 +30,25 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         anstream::print!("{}", replay(arguments, place)?);
         return Ok(ExitCode::SUCCESS);
     }
-    let graded = grade(arguments)?;
     let hints = match arguments.hints {
         true => Hints::Full,
         false => Hints::Nudge,
     };
+    if arguments.watch {
+        let never = watch(arguments, hints)?;
+        match never {}
+    }
+    let graded = grade(arguments)?;
     anstream::print!("{}", report(&graded.score, arguments.task, hints));
-    for file in graded.file.iter().chain(&graded.page) {
-        anstream::println!("  {}", from_here(file).display());
+    if let Some(files) = &graded.files {
+        for file in [&files.score, &files.page] {
+            anstream::println!("  {}", from_here(file).display());
+        }
+        if arguments.open {
+            show(&files.page);
+        }
     }
     anstream::println!();
-    if let Some(page) = graded.page.as_ref().filter(|_| arguments.open) {
-        show(page);
-    }
     let required = arguments.require.unwrap_or(0);
     Ok(if graded.score.points < required {
         ExitCode::from(1)

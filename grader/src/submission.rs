@@ -12,7 +12,7 @@ const LONGEST_FILE: u64 = 1 << 20;
 const MOST_NAMED: usize = 20;
 
 /// Five files as they were handed in.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Submission {
     /// The folder's name, for reports.
     pub name: String,

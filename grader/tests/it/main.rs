@@ -9,3 +9,4 @@ mod harness;
 mod hints;
 mod scores;
 mod walls;
+mod watch;

@@ -1,8 +1,9 @@
 //! Pictures of first hits.
 //!
 //! At an edge, honest answers differ in the last bit and so see different surfaces. Therefore a
-//! position's key is the set of what is seen there and at four neighbours, closer to it than any
-//! mistake would move an edge.
+//! position's key is the set of what is seen there, at four neighbours closer to it than any mistake
+//! would move an edge, and on the way to these: the depth of a sphere's rim falls so steeply that
+//! an honest answer may lie between those of two neighbours.
 
 use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
 use grader::exam::{Asked, Key, Surface};
@@ -12,6 +13,8 @@ use crate::oracle::{Beam, Meeting, scan};
 
 /// How far the neighbours are, in pixels, across and up.
 const NEIGHBOUR: f32 = 5e-4;
+/// How often the way to a neighbour that sees something else is halved.
+const HALVINGS: u32 = 12;
 
 /// A camera at the origin that looks down −z, with a view of 90 degrees.
 ///
@@ -54,17 +57,38 @@ pub fn first_hits(view: &View, sees: impl Fn(&Beam) -> Option<Meeting>) -> Key {
     let mut hits = Vec::new();
     let mut also: Vec<(u32, Option<Surface>)> = Vec::new();
     for (place, sample) in (0..).zip(every_pixel(view.film)) {
-        let mut members = vec![seen(sample, Vec2::ZERO)];
+        let here = seen(sample, Vec2::ZERO);
+        let mut members = vec![here];
         for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
-            let member = seen(sample, NEIGHBOUR * vec2(x, y));
-            if !members.iter().any(|other| is_alike(other, &member)) {
-                members.push(member);
+            let toward = |part: f32| seen(sample, part * NEIGHBOUR * vec2(x, y));
+            for member in between(&toward, (0.0, here), (1.0, toward(1.0)), HALVINGS) {
+                if !members.iter().any(|other| is_alike(other, &member)) {
+                    members.push(member);
+                }
             }
         }
         hits.push(members[0]);
         also.extend(members[1..].iter().map(|&member| (place, member)));
     }
     Key::FirstHits { hits, also }
+}
+
+/// What is seen on the way from one part of it to another, and at its end, in steps so small that
+/// each is like the next: or else halved so often that they are at an edge.
+fn between(
+    toward: &impl Fn(f32) -> Option<Surface>,
+    start: (f32, Option<Surface>),
+    end: (f32, Option<Surface>),
+    halvings: u32,
+) -> Vec<Option<Surface>> {
+    if halvings == 0 || is_alike(&start.1, &end.1) {
+        return vec![end.1];
+    }
+    let part = (start.0 + end.0) / 2.0;
+    let middle = (part, toward(part));
+    let mut members = between(toward, start, middle, halvings - 1);
+    members.extend(between(toward, middle, end, halvings - 1));
+    members
 }
 
 /// Whether the judge takes one for the other.

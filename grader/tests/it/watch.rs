@@ -1,0 +1,86 @@
+//! `--watch`, where it is no terminal that takes the reports.
+
+use std::fs;
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Child, ChildStdout, Stdio};
+
+use crate::harness::{Submission, grader};
+
+/// A grader that waits for saves, and ends with the test.
+struct Watching {
+    child: Child,
+    lines: BufReader<ChildStdout>,
+}
+
+impl Watching {
+    fn start(submission: &Submission) -> Self {
+        let mut child = grader()
+            .arg("--watch")
+            .arg(submission.path())
+            .args(["--no-reference", "--out"])
+            .arg(submission.path().join("out"))
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let lines = BufReader::new(child.stdout.take().unwrap());
+        Watching { child, lines }
+    }
+
+    /// The next report, up to the line that says that it waits.
+    fn report(&mut self) -> String {
+        let lines = self.lines.by_ref().lines().map(Result::unwrap);
+        let mut report = String::new();
+        for line in lines {
+            if line.contains("save a file to grade again") {
+                return report;
+            }
+            report += &line;
+            report.push('\n');
+        }
+        panic!("it has ended: {report}");
+    }
+}
+
+impl Drop for Watching {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+#[test]
+fn every_save_is_graded_and_the_score_file_follows() {
+    let submission = Submission::case("not_compiling");
+    let sphere = submission.path().join("sphere.rs");
+    let right = fs::read_to_string(Submission::reference("right").path().join("sphere.rs"));
+    let score = || {
+        let text = fs::read(submission.path().join("out/score.json")).unwrap();
+        let score: serde_json::Value = serde_json::from_slice(&text).unwrap();
+        (score["points"].as_u64(), score["complete"].as_bool())
+    };
+
+    let mut watching = Watching::start(&submission);
+    let report = watching.report();
+    assert!(report.contains("sphere.rs does not compile"), "{report}");
+    let (points, complete) = score();
+    assert!(points < Some(100) && complete == Some(true));
+
+    fs::write(&sphere, right.unwrap()).unwrap();
+    let report = watching.report();
+    assert!(report.contains("100 / 100"), "{report}");
+    assert_eq!(score(), (Some(100), Some(true)));
+
+    // Away for a while, as with editors that write another file and rename it.
+    let aside = submission.path().join("sphere.away");
+    fs::rename(&sphere, &aside).unwrap();
+    let report = watching.report();
+    assert!(report.contains("sphere.rs is missing"), "{report}");
+    fs::rename(&aside, &sphere).unwrap();
+    assert!(watching.report().contains("100 / 100"));
+}
+
+#[test]
+fn a_place_without_a_submission_is_told_of_at_once() {
+    let output = grader().args(["--watch", "nowhere"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+}

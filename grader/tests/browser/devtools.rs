@@ -81,13 +81,16 @@ impl Tab {
         self.events.clear();
         let url = format!("file://{}", file.display());
         self.call("Page.navigate", json!({ "url": url }));
-        while !self
-            .events
-            .iter()
-            .any(|event| event["method"] == "Page.loadEventFired")
-        {
+        self.loaded();
+    }
+
+    /// Waits until a page is there, from now on.
+    pub fn loaded(&mut self) {
+        let is_load = |event: &Value| event["method"] == "Page.loadEventFired";
+        while !self.events.iter().any(is_load) {
             self.listen();
         }
+        self.events.retain(|event| !is_load(event));
     }
 
     /// The value of an expression, awaited if it is a promise.

@@ -158,3 +158,27 @@ fn everything_can_be_reached_and_unfolded_by_keyboard() {
     let outline = "getComputedStyle(document.activeElement).outlineStyle";
     assert_eq!(tab.eval(outline), "solid");
 }
+
+#[test]
+fn a_watched_page_shows_what_is_new_and_keeps_what_is_unfolded() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let text = std::fs::read_to_string(&*pages::NOISY).unwrap();
+    let watched = text.replace("<body>", "<body data-reload>");
+    let place = pages::NOISY.with_file_name("watched.html");
+    std::fs::write(&place, &watched).unwrap();
+    let mut tab = chromium.tab();
+    tab.load(&place, DESK);
+    let [opened, folded] = ["bbox-passed", "triangle.inside"]
+        .map(|id| format!("document.getElementById('{id}').open"));
+    tab.eval(&format!("{opened} = true; {folded} = false; 0"));
+    std::fs::write(&place, watched.replace("<h1>", "<h1>newer ")).unwrap();
+    // Its reader is at the editor.
+    tab.eval("document.hasFocus = () => false; 0");
+    tab.loaded();
+    let title = tab.eval("document.querySelector('h1').textContent");
+    assert_eq!(title, "newer alice");
+    assert_eq!(tab.eval(&opened), true);
+    assert_eq!(tab.eval(&folded), false);
+}

@@ -8,7 +8,7 @@ use crate::describe;
 use crate::drawing;
 use crate::exam::Item;
 use crate::exhibit::Exhibits;
-use crate::score::{Hint, ItemScore, Verdict};
+use crate::score::{ItemScore, Verdict};
 
 /// An item that lacks points: what happened, where to look, how to ask again.
 pub(super) fn failing(
@@ -33,7 +33,7 @@ pub(super) fn failing(
                 (rows(&asked, &got, &wanted))
                 (drawn(score, item, exhibits))
                 (look(score))
-                (hints(&score.hints))
+                (hints(score))
                 p .again { "Ask it again: " (command(&score.again())) }
                 @if let Some(item) = item { (pictures::failing(item, exhibits)) }
             }
@@ -135,15 +135,15 @@ fn look(score: &ItemScore) -> Markup {
 }
 
 /// The question that leads there, and folded away what is wrong.
-fn hints(hints: &[Hint]) -> Markup {
+fn hints(score: &ItemScore) -> Markup {
     html! {
-        @for (place, hint) in hints.iter().enumerate() {
+        @for (place, hint) in score.hints.iter().enumerate() {
             div .hint {
                 p {
                     strong { @if place == 0 { "Hint: " } @else { "Or: " } }
                     (said(&hint.nudge))
                 }
-                details {
+                details #(format!("{}-hint-{place}", score.id)) {
                     summary { "Say what is wrong" }
                     p { (said(&hint.hint)) }
                 }

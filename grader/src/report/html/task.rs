@@ -51,13 +51,13 @@ pub(super) fn section(task: &TaskScore, exam: &Exam, exhibits: &Exhibits) -> Mar
                 (item::failing(score, asked(score), exhibits, is_open))
             }
             @if let Some(printed) = &task.printed {
-                details .printed {
+                details #(format!("{}-printed", task.id)) .printed {
                     summary { "What your code printed meanwhile" }
                     pre { (said(printed)) }
                 }
             }
             @if !passed.is_empty() {
-                details .passed {
+                details #(format!("{}-passed", task.id)) .passed {
                     summary { "✓ " (passed.len()) " passed" }
                     ul {
                         @for score in &passed {

@@ -1,5 +1,6 @@
 use protocol::{Answer, Outcome, Panic};
 
+use super::Reload;
 use crate::exam::Exam;
 use crate::exam_file;
 use crate::exhibit::Exhibits;
@@ -24,7 +25,7 @@ fn unjudged(exam: &Exam, submission: &str) -> Score {
 
 /// The page but for its own style and script.
 fn page(score: &Score, exam: &Exam, exhibits: &Exhibits) -> String {
-    let page = super::page(score, exam, exhibits);
+    let page = super::page(score, exam, exhibits, Reload::Never);
     page.replace(super::STYLE, "").replace(super::SCRIPT, "")
 }
 
@@ -165,8 +166,16 @@ fn an_unfinished_page_says_so() {
 #[test]
 fn nothing_on_the_page_leads_elsewhere() {
     let (exam, score) = all_but("none of them", |_| {});
-    let page = super::page(&score, &exam, &Exhibits::default());
+    let page = super::page(&score, &exam, &Exhibits::default(), Reload::Never);
     for elsewhere in ["http://", "https://", "url(", "@import", "//cdn"] {
         assert!(!page.contains(elsewhere), "{elsewhere}");
     }
+}
+
+#[test]
+fn only_a_watched_page_reloads_itself() {
+    let (exam, score) = all_but("none of them", |_| {});
+    let page = |reload| super::page(&score, &exam, &Exhibits::default(), reload);
+    assert!(page(Reload::WhileAway).contains("<body data-reload>"));
+    assert!(page(Reload::Never).contains("<body>"));
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use protocol::Answer;
 
-use crate::ask::{Budget, Budgeted, Fault, Launcher, Probe};
+use crate::ask::{Budget, Budgeted, Fault, Launcher, Probe, culprit};
 use crate::build::{Build, Carried};
 use crate::exam::{Exam, Item, Task};
 use crate::exhibit::Exhibits;
@@ -174,9 +174,10 @@ impl Session {
             }
             Err(fault) => {
                 self.out_of_time += usize::from(matches!(fault, Fault::TimedOut(_)));
+                let place = culprit(launcher, item)?;
                 self.hear(probe);
                 self.sightings.note(item, Err(&fault));
-                Ok((Outcome::Fault(fault), Vec::new()))
+                Ok((Outcome::Fault { fault, place }, Vec::new()))
             }
         }
     }

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use protocol::{Answer, Outcome, Question, Rays, Samples};
+use protocol::{Answer, Outcome, Question};
 
-use crate::ask::{Fault, Launcher};
+use crate::ask::{Fault, Launcher, part};
 use crate::build::Builder;
 use crate::cli::Arguments;
 use crate::describe;
@@ -69,7 +69,8 @@ fn find(exam: &Exam, place: &Place) -> Result<(Question, String), Error> {
     match item.element(place.number) {
         Some((question, element)) => {
             let asked = &item.questions[question];
-            Ok((alone(&asked.question, element), wanted(asked, element)))
+            let alone = part(&asked.question, element..element + 1);
+            Ok((alone, wanted(asked, element)))
         }
         None => Err(Error::Replay(format!(
             "{} asks {} questions: there is no number {}",
@@ -78,24 +79,6 @@ fn find(exam: &Exam, place: &Place) -> Result<(Question, String), Error> {
             place.number
         ))),
     }
-}
-
-/// The same question, with this element only.
-fn alone(question: &Question, element: usize) -> Question {
-    let one = |rays: &Rays| Rays::List(rays.to_vec()[element..=element].to_vec());
-    let mut question = question.clone();
-    match &mut question {
-        Question::Camera { camera, samples } => {
-            let sample = samples.on(camera.film)[element];
-            *samples = Samples::List(vec![sample]);
-        }
-        Question::Shapes { rays, .. }
-        | Question::Traverse { rays, .. }
-        | Question::BuildAndTraverse { rays, .. } => *rays = one(rays),
-        Question::BBox { shots, .. } => *shots = vec![shots[element]],
-        Question::Build { .. } | Question::Radiance { .. } | Question::Done => {}
-    }
-    question
 }
 
 /// What is right, each on a line of its own where several are. A whole picture is no line.

@@ -23,7 +23,12 @@ pub enum Outcome<'a> {
     /// Its file is not part of the program.
     NotCompiled(&'a NotCompiled),
     /// No answer.
-    Fault(Fault),
+    Fault {
+        /// Why.
+        fault: Fault,
+        /// The question and its element that bring it about alone, if any does.
+        place: Option<(usize, usize)>,
+    },
     /// Not asked, because other items of the task had run out of time.
     GivenUp(Fault),
     /// An answer to each question, judged.
@@ -87,9 +92,15 @@ pub fn item_score(item: &Item, outcome: &Outcome) -> ItemScore {
             score.verdict = Verdict::NotCompiled;
             score.message = not_compiled(item, why);
         }
-        Outcome::Fault(fault) => {
+        Outcome::Fault { fault, place } => {
             score.verdict = verdict_of(fault);
             score.message = fault.to_string();
+            score.evidence = place.map(|(question, element)| Evidence {
+                number: item.number(question, element),
+                asked: describe::element(&item.questions[question].question, element),
+                got: "no answer".to_owned(),
+                wanted: "an answer".to_owned(),
+            });
         }
         Outcome::GivenUp(fault) => {
             score.verdict = verdict_of(fault);

@@ -2,7 +2,9 @@
 //! grader up.
 
 mod budget;
+mod culprit;
 mod fault;
+mod part;
 
 use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -20,7 +22,9 @@ use crate::sandbox::{Ending, Limits, Process};
 use budget::Watch;
 
 pub use budget::Budget;
+pub use culprit::culprit;
 pub use fault::{Budgeted, Crash, Fault};
+pub use part::part;
 
 /// How much is kept of what a submission prints.
 const KEPT: usize = 64 << 10;

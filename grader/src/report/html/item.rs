@@ -152,17 +152,19 @@ fn hints(score: &ItemScore) -> Markup {
     }
 }
 
-/// The question that went wrong, drawn, where it can be.
+/// The question that went wrong, drawn, where it can be. Of what is not written yet, the first one:
+/// that is what is to be written.
 fn drawn(score: &ItemScore, item: Option<&Item>, exhibits: &Exhibits) -> Markup {
-    let drawing = score
-        .evidence
-        .as_ref()
-        .zip(item)
-        .and_then(|(evidence, item)| {
-            let (question, element) = item.element(evidence.number)?;
-            let answer = exhibits.answer(&item.id, question);
-            drawing::of(&item.questions[question], element, answer)
-        });
+    let number = match (&score.evidence, &score.verdict) {
+        (Some(evidence), _) => Some(evidence.number),
+        (None, Verdict::Unimplemented) => Some(1),
+        (None, _) => None,
+    };
+    let drawing = number.zip(item).and_then(|(number, item)| {
+        let (question, element) = item.element(number)?;
+        let answer = exhibits.answer(&item.id, question);
+        drawing::of(&item.questions[question], element, answer)
+    });
     html! {
         @if let Some(drawing) = drawing {
             figure .drawing {

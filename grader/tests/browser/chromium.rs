@@ -17,6 +17,8 @@ const NAMES: [&str; 5] = [
     "chrome",
 ];
 
+const SKIPPED: &[u8] = b"SKIPPED, no Chromium: the page was not tested in a browser\n";
+
 /// A browser of one's own, with a profile that vanishes with it.
 pub struct Chromium {
     process: Child,
@@ -33,11 +35,7 @@ impl Chromium {
                 "CI is set, and there is no Chromium: apt-get install chromium"
             );
             // Not `eprintln!`, which a passing test swallows.
-            writeln!(
-                std::io::stderr(),
-                "SKIPPED, no Chromium: the page was not tested in a browser"
-            )
-            .unwrap();
+            std::io::stderr().write_all(SKIPPED).unwrap();
             return None;
         };
         let profile = TempDir::new().unwrap();

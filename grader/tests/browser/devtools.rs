@@ -107,6 +107,11 @@ impl Tab {
         answer["result"]["value"].clone()
     }
 
+    /// From now on the page is one to be printed.
+    pub fn print(&mut self) {
+        self.call("Emulation.setEmulatedMedia", json!({ "media": "print" }));
+    }
+
     /// Presses a key and lets it go; `code` is the number that Windows has for it.
     pub fn press(&mut self, key: &str, code: u32) {
         // Enter is a character as well, and only as such opens things.

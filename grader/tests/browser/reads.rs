@@ -97,6 +97,29 @@ fn by_night_the_paper_is_dark_and_the_ink_is_light() {
 }
 
 #[test]
+fn on_paper_all_is_unfolded_and_there_is_nothing_to_press() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let mut tab = chromium.tab();
+    tab.load(&pages::NOISY, DESK);
+    let shown = |what| {
+        format!(
+            "[...document.querySelectorAll('{what}')].filter((one) => one.checkVisibility()).length"
+        )
+    };
+    let folded = shown("details:not([open])");
+    assert_ne!(tab.eval(&shown("button")), 0);
+    assert_ne!(tab.eval(&folded), 0);
+    tab.print();
+    tab.eval("dispatchEvent(new Event('beforeprint')); 0");
+    assert_eq!(tab.eval(&shown("button")), 0);
+    assert_eq!(tab.eval(&folded), 0);
+    tab.eval("dispatchEvent(new Event('afterprint')); 0");
+    assert_ne!(tab.eval(&folded), 0);
+}
+
+#[test]
 fn the_largest_page_is_below_two_megabytes() {
     for page in pages::all() {
         let size = std::fs::metadata(page).unwrap().len();

@@ -2,7 +2,7 @@
 //! anything. Pure: what it shows follows from the score, the exam and the answers, and not from
 //! the time.
 //!
-//! Whatever a submission has said is text here: `maud` escapes it, [`said`] makes it harmless to
+//! Whatever a submission has said is text here: `maud` escapes it, `said` makes it harmless to
 //! the eye, and the page's policy runs no script and no style but our own, by their hashes.
 
 mod item;

@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::section::Section;
+use crate::shown::Shown;
 use crate::tells::{KnownMistake, Tells};
 
 /// The six things to write, in lecture order.
@@ -195,6 +196,20 @@ pub struct Asked {
     pub question: Question,
     /// What it is never told.
     pub key: Key,
+    /// The right way there, for a drawing; neither told nor judged by.
+    #[serde(default, skip_serializing_if = "Shown::is_nothing")]
+    pub shown: Shown,
+}
+
+impl Asked {
+    /// Of which nothing is shown beside its key.
+    pub fn new(question: Question, key: Key) -> Self {
+        Asked {
+            question,
+            key,
+            shown: Shown::Nothing,
+        }
+    }
 }
 
 /// What counts as right for one question.

@@ -154,7 +154,10 @@ fn item_problem(item: &Item, earlier: &BTreeSet<&str>) -> Option<String> {
             (true, false) => Some(format!(
                 "question {number} asks {count} times, and its key answers {keys}"
             )),
-            (true, true) => None,
+            (true, true) => {
+                let problem = asked.shown.problem(&asked.question)?;
+                Some(format!("question {number}: {problem}"))
+            }
         }
     };
     (1..).zip(&item.questions).find_map(misfit)

@@ -10,7 +10,7 @@ mod rays;
 mod share;
 mod spans;
 mod threshold;
-mod tree;
+pub(crate) mod tree;
 
 use protocol::{Answer, Outcome, Panic, Samples};
 

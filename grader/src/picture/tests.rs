@@ -7,19 +7,18 @@ use crate::judge::{Aspect, judge};
 
 /// A path-traced picture of 10 × 10 grey pixels.
 fn asked() -> Asked {
-    Asked {
-        question: Question::Radiance {
-            scene: String::new(),
-            film: UVec2::splat(10),
-            samples: 1,
-            bounces: 1,
-            seed: 1,
-        },
-        key: Key::Radiance {
-            pixels: vec![Vec3::splat(0.5); 100],
-            allowed: 0,
-        },
-    }
+    let question = Question::Radiance {
+        scene: String::new(),
+        film: UVec2::splat(10),
+        samples: 1,
+        bounces: 1,
+        seed: 1,
+    };
+    let key = Key::Radiance {
+        pixels: vec![Vec3::splat(0.5); 100],
+        allowed: 0,
+    };
+    Asked::new(question, key)
 }
 
 fn answered(wrong: &[usize]) -> Option<Picture> {

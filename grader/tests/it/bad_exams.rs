@@ -115,6 +115,10 @@ fn bad_ones_are_refused_with_place_and_remedy() {
                 r#""tree": { "judged": [] }"#,
             ),
         ),
+        (
+            "shows too little",
+            GOOD.replace(r#""key":"#, r#""shown": { "slabs": "AA" }, "key":"#),
+        ),
         ("key too short", GOOD.replace("[[2, 4], null]", "[[2, 4]]")),
         (
             "needs what is not there",

@@ -12,6 +12,7 @@ use crate::proof::exhibits::{Exhibits, NotProven};
 use crate::proof::workbench::Workbench;
 use crate::recorded::{NotRecorded, Recorded, Recorder};
 use crate::seed::Seed;
+use crate::shown::with_shown;
 
 /// The version of the exam file's format.
 const SCHEMA: u32 = 1;
@@ -52,7 +53,7 @@ pub fn final_text(seed: u64) -> Result<String, NoExam> {
 fn whole_text(id: &str, seed: Seed) -> Result<String, NoExam> {
     let exhibits = Exhibits::prepare(Workbench::open().map_err(NotProven::from)?)?;
     let exam = whole(id, seed, &exhibits.recorder).map_err(NotProven::from)?;
-    Ok(text(&with_hints(exam, &exhibits)?)?)
+    Ok(text(&with_shown(with_hints(exam, &exhibits)?))?)
 }
 
 /// A whole exam, with the reference's picture.

@@ -15,5 +15,6 @@ pub mod proof;
 pub mod recorded;
 pub mod scenes;
 pub mod seed;
+pub mod shown;
 pub mod starter;
 pub mod tree;

@@ -5,25 +5,25 @@ use protocol::{Shape, TreeNode};
 
 /// A box in f64, so that the judge's own rounding does not matter.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
-    pub(super) min: DVec3,
-    pub(super) max: DVec3,
+pub(crate) struct Bounds {
+    pub(crate) min: DVec3,
+    pub(crate) max: DVec3,
 }
 
 impl Bounds {
-    pub(super) const EMPTY: Bounds = Bounds {
+    pub(crate) const EMPTY: Bounds = Bounds {
         min: DVec3::INFINITY,
         max: DVec3::NEG_INFINITY,
     };
 
-    pub(super) fn of(node: &TreeNode) -> Self {
+    pub(crate) fn of(node: &TreeNode) -> Self {
         Bounds {
             min: node.min.as_dvec3(),
             max: node.max.as_dvec3(),
         }
     }
 
-    pub(super) fn around(shape: &Shape) -> Self {
+    pub(crate) fn around(shape: &Shape) -> Self {
         let corners = |corners: [glam::Vec3; 3]| {
             let [a, b, c] = corners.map(|corner| corner.as_dvec3());
             Bounds {
@@ -43,23 +43,23 @@ impl Bounds {
         }
     }
 
-    pub(super) fn enclose(&mut self, other: Bounds) {
+    pub(crate) fn enclose(&mut self, other: Bounds) {
         self.min = self.min.min(other.min);
         self.max = self.max.max(other.max);
     }
 
-    pub(super) fn diagonal(self) -> f64 {
+    pub(crate) fn diagonal(self) -> f64 {
         (self.max - self.min).length()
     }
 
-    pub(super) fn area(self) -> f64 {
+    pub(crate) fn area(self) -> f64 {
         let size = self.max - self.min;
         2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
     }
 
     /// How far this box sticks out of `outer`, beyond the last bits of an f32. Never NaN: a box
     /// with one sticks out infinitely.
-    pub(super) fn sticks_out_of(self, outer: Bounds) -> f64 {
+    pub(crate) fn sticks_out_of(self, outer: Bounds) -> f64 {
         let last_bits = self.min.abs().max(self.max.abs()) * 2.0 * f64::from(f32::EPSILON);
         let below = (outer.min - self.min - last_bits).to_array();
         let above = (self.max - outer.max - last_bits).to_array();

@@ -8,26 +8,26 @@ use super::bounds::Bounds;
 use crate::describe;
 
 /// What is wrong with a tree, in the words of a report.
-pub(super) struct Mistake {
-    pub(super) what: &'static str,
-    pub(super) got: String,
-    pub(super) wanted: String,
+pub(crate) struct Mistake {
+    pub(crate) what: &'static str,
+    pub(crate) got: String,
+    pub(crate) wanted: String,
 }
 
 /// A node that is reached from the root.
-pub(super) struct Cell<'a> {
-    pub(super) place: u32,
-    pub(super) node: &'a TreeNode,
+pub(crate) struct Cell<'a> {
+    pub(crate) place: u32,
+    pub(crate) node: &'a TreeNode,
     /// The places of the primitives below, as the submission ordered them; only of a leaf.
-    pub(super) leaf: Option<Vec<usize>>,
+    pub(crate) leaf: Option<Vec<usize>>,
     /// How many primitives are below.
-    pub(super) count: usize,
+    pub(crate) count: usize,
     /// The tightest box around them.
-    pub(super) needs: Bounds,
+    pub(crate) needs: Bounds,
 }
 
 /// All nodes that are reached from the root, parents before children.
-pub(super) fn cells<'a>(shapes: &[Shape], tree: &'a Tree) -> Result<Vec<Cell<'a>>, Mistake> {
+pub(crate) fn cells<'a>(shapes: &[Shape], tree: &'a Tree) -> Result<Vec<Cell<'a>>, Mistake> {
     if tree.nodes.is_empty() {
         if shapes.is_empty() {
             return Ok(Vec::new());
@@ -115,7 +115,7 @@ fn leaf(node: &TreeNode, place: u32, order: &[Option<usize>]) -> Result<Vec<usiz
 }
 
 impl Cell<'_> {
-    pub(super) fn box_mistake(&self, what: &'static str) -> Mistake {
+    pub(crate) fn box_mistake(&self, what: &'static str) -> Mistake {
         let corners = |min, max| format!("{} to {}", describe::point(min), describe::point(max));
         Mistake {
             what,

@@ -52,10 +52,7 @@ fn ray(from: DVec3, toward: DVec3) -> Ray {
 fn shapes(judged: &[Part], shapes: Vec<Shape>, rays: Vec<Ray>) -> Asked {
     let key = hits(judged, &rays, |beam| scan::closest(beam, &shapes));
     let rays = Rays::List(rays);
-    Asked {
-        question: Question::Shapes { shapes, rays },
-        key,
-    }
+    Asked::new(Question::Shapes { shapes, rays }, key)
 }
 
 /// The key to a list of rays.

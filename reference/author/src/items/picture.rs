@@ -41,10 +41,7 @@ pub fn narrow(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> View {
 pub fn shapes(view: View, shapes: Vec<Shape>) -> Asked {
     let key = first_hits(&view, |beam| scan::closest(beam, &shapes));
     let rays = Rays::View(view);
-    Asked {
-        question: Question::Shapes { shapes, rays },
-        key,
-    }
+    Asked::new(Question::Shapes { shapes, rays }, key)
 }
 
 /// The key to a picture of what a ray sees.

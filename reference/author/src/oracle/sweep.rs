@@ -1,5 +1,7 @@
 //! The surface area heuristic, exactly: at each node the best of all partitions by a plane.
 
+use grader::shown::{LevelNode, Sweep};
+
 use super::bbox::Bounds;
 
 /// The cost of the tree that the greedy sweep builds, with C_trav = C_isect = 1: the sum over
@@ -11,8 +13,27 @@ use super::bbox::Bounds;
 /// the axis stay together; if that holds along all axes, half of them go to each side.
 pub fn cost(boxes: &[Bounds], max_leaf_size: usize) -> f64 {
     let mut places: Vec<usize> = (0..boxes.len()).collect();
-    let root = around(boxes, &places).area();
-    node_cost(boxes, &mut places, max_leaf_size, root)
+    Sweeping::of(boxes, max_leaf_size).node_cost(&mut places, 0, 0)
+}
+
+/// The upper levels of that tree, and where its root is parted.
+pub fn upper_levels(boxes: &[Bounds], max_leaf_size: usize) -> Sweep {
+    let mut places: Vec<usize> = (0..boxes.len()).collect();
+    let mut sweeping = Sweeping::of(boxes, max_leaf_size);
+    sweeping.node_cost(&mut places, 0, 0);
+    let root = (boxes.len() > max_leaf_size).then(|| cheapest(boxes, &places));
+    Sweep {
+        nodes: sweeping.upper,
+        plane: root.flatten().map(|partition| {
+            let mut centers: Vec<f64> = boxes
+                .iter()
+                .map(|bounds| bounds.center()[partition.axis])
+                .collect();
+            centers.sort_by(f64::total_cmp);
+            let middle = 0.5 * (centers[partition.left - 1] + centers[partition.left]);
+            (partition.axis as u8, middle as f32)
+        }),
+    }
 }
 
 /// From where to where there is no center along this axis, at the best of all partitions; `None` if
@@ -35,25 +56,57 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
         .then(|| (centers[best.left - 1], centers[best.left]))
 }
 
-fn node_cost(boxes: &[Bounds], places: &mut [usize], max_leaf_size: usize, root: f64) -> f64 {
-    let share = around(boxes, places).area() / root;
-    if places.len() <= max_leaf_size {
-        return share * places.len() as f64;
-    }
-    let middle = match (0..3)
-        .filter_map(|axis| best(boxes, places, axis))
-        .min_by(|a, b| a.cost.total_cmp(&b.cost))
-    {
-        Some(partition) => {
-            sort(boxes, places, partition.axis);
-            partition.left
+/// A sweep under way.
+struct Sweeping<'a> {
+    boxes: &'a [Bounds],
+    max_leaf_size: usize,
+    root_area: f64,
+    upper: Vec<LevelNode>,
+}
+
+impl Sweeping<'_> {
+    fn of(boxes: &[Bounds], max_leaf_size: usize) -> Sweeping<'_> {
+        let all: Vec<usize> = (0..boxes.len()).collect();
+        Sweeping {
+            boxes,
+            max_leaf_size,
+            root_area: around(boxes, &all).area(),
+            upper: Vec::new(),
         }
-        None => places.len() / 2,
-    };
-    let (left, right) = places.split_at_mut(middle);
-    share
-        + node_cost(boxes, left, max_leaf_size, root)
-        + node_cost(boxes, right, max_leaf_size, root)
+    }
+
+    /// The cost of the tree over these primitives, with so many to the left of it.
+    fn node_cost(&mut self, places: &mut [usize], level: u32, start: usize) -> f64 {
+        let share = around(self.boxes, places).area() / self.root_area;
+        let is_leaf = places.len() <= self.max_leaf_size;
+        let own = if is_leaf {
+            share * places.len() as f64
+        } else {
+            share
+        };
+        if level < Sweep::LEVELS {
+            self.upper.push(LevelNode {
+                level,
+                start: start as u32,
+                count: places.len() as u32,
+                is_leaf,
+                cost: own as f32,
+            });
+        }
+        if is_leaf {
+            return own;
+        }
+        let middle = match cheapest(self.boxes, places) {
+            Some(partition) => {
+                sort(self.boxes, places, partition.axis);
+                partition.left
+            }
+            None => places.len() / 2,
+        };
+        let (left, right) = places.split_at_mut(middle);
+        own + self.node_cost(left, level + 1, start)
+            + self.node_cost(right, level + 1, start + middle)
+    }
 }
 
 /// So many of the primitives, in the order along an axis, go to the left.
@@ -63,8 +116,9 @@ struct Partition {
     cost: f64,
 }
 
-fn best(boxes: &[Bounds], places: &[usize], axis: usize) -> Option<Partition> {
-    let all = partitions(boxes, places, axis).into_iter();
+/// The cheapest partition along any axis.
+fn cheapest(boxes: &[Bounds], places: &[usize]) -> Option<Partition> {
+    let all = (0..3).flat_map(|axis| partitions(boxes, places, axis));
     all.min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
 
@@ -143,6 +197,29 @@ mod tests {
         let root = 2.0 * (23.0 + 23.0 + 1.0);
         let expected = 1.0 + 6.0 / root + 3.0 * 14.0 / root;
         assert!((cost(&cubes, 3) - expected).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_upper_levels_are_those_of_the_same_tree() {
+        let cubes = [cube(22.0), cube(0.0), cube(20.0), cube(21.0)];
+        let sweep = upper_levels(&cubes, 3);
+        let root = 2.0 * (23.0 + 23.0 + 1.0);
+        let node = |level, start, count, is_leaf, cost: f64| LevelNode {
+            level,
+            start,
+            count,
+            is_leaf,
+            cost: cost as f32,
+        };
+        let expected = [
+            node(0, 0, 4, false, 1.0),
+            node(1, 0, 1, true, 6.0 / root),
+            node(1, 1, 3, true, 3.0 * 14.0 / root),
+        ];
+        assert_eq!(sweep.nodes, expected);
+        // Between the centers of the first and the second.
+        assert_eq!(sweep.plane, Some((0, 10.5)));
+        assert_eq!(upper_levels(&cubes, 4).plane, None);
     }
 
     #[test]

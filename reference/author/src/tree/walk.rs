@@ -49,6 +49,8 @@ pub struct Walk {
     pub closest: Option<Meeting>,
     /// The places of all primitives that were tested.
     pub tested: Vec<usize>,
+    /// The places of all nodes that were come to, in order, and whether they were entered.
+    pub nodes: Vec<(usize, bool)>,
 }
 
 impl Walk {
@@ -56,17 +58,20 @@ impl Walk {
     /// beyond the closest hit is not entered.
     pub fn right(tree: &Tree, beam: &Beam, manner: Manner) -> Walk {
         let mut walk = Walk::default();
-        if !tree.nodes.is_empty()
-            && let Some(begin) = walk.entry(tree, tree.root, beam, manner)
-        {
-            walk.visit(tree, tree.root, begin, beam, manner);
+        if !tree.nodes.is_empty() {
+            match walk.entry(tree, tree.root, beam, manner) {
+                Some(begin) => walk.visit(tree, tree.root, begin, beam, manner),
+                None => walk.nodes.push((tree.root, false)),
+            }
         }
         walk
     }
 
     fn visit(&mut self, tree: &Tree, place: usize, begin: f64, beam: &Beam, manner: Manner) {
         let node = &tree.nodes[place];
-        if self.is_beyond(begin, tree.bounds(place), manner) {
+        let is_entered = !self.is_beyond(begin, tree.bounds(place), manner);
+        self.nodes.push((place, is_entered));
+        if !is_entered {
             return;
         }
         if node.is_leaf() {
@@ -79,6 +84,9 @@ impl Walk {
             .into_iter()
             .filter_map(|child| Some((child, self.entry(tree, child, beam, manner)?)))
             .collect();
+        let is_ahead = |child: &usize| ahead.iter().any(|(other, _)| other == child);
+        let missed = children.iter().filter(|child| !is_ahead(child));
+        self.nodes.extend(missed.map(|&child| (child, false)));
         if let [(_, l), (_, r)] = ahead[..] {
             let tie = (l - r).abs() < MARGIN * tree.bounds(place).diagonal();
             if (tie && !manner.left_first) || (!tie && r < l) {
@@ -92,8 +100,9 @@ impl Walk {
             } else {
                 Some(begin)
             };
-            if let Some(begin) = begin {
-                self.visit(tree, child, begin, beam, manner);
+            match begin {
+                Some(begin) => self.visit(tree, child, begin, beam, manner),
+                None => self.nodes.push((child, false)),
             }
         }
     }

@@ -41,16 +41,15 @@ fn asked(bounds: Bounds, shots: Vec<Shot>) -> Asked {
         let span = bounds.span(&Beam::from(ray).within(*times));
         span.map(|(enter, leave)| Interval::new(enter as f32, leave as f32))
     };
-    Asked {
-        key: Key::Spans {
-            spans: shots.iter().map(truth).collect(),
-        },
-        question: Question::BBox {
-            min: bounds.min.as_vec3(),
-            max: bounds.max.as_vec3(),
-            shots,
-        },
-    }
+    let key = Key::Spans {
+        spans: shots.iter().map(truth).collect(),
+    };
+    let question = Question::BBox {
+        min: bounds.min.as_vec3(),
+        max: bounds.max.as_vec3(),
+        shots,
+    };
+    Asked::new(question, key)
 }
 
 /// A box of sides from 1 to 4, its corners in single precision.

@@ -13,16 +13,15 @@ use crate::seed::{Draw, Seed};
 pub(super) fn cost(shapes: Vec<Shape>, max_leaf_size: u32) -> Asked {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let sweep_cost = Some(sweep::cost(&boxes, max_leaf_size as usize));
-    Asked {
-        question: Question::Build {
-            shapes,
-            max_leaf_size,
-        },
-        key: Key::Tree {
-            judged: Vec::new(),
-            sweep_cost,
-        },
-    }
+    let question = Question::Build {
+        shapes,
+        max_leaf_size,
+    };
+    let key = Key::Tree {
+        judged: Vec::new(),
+        sweep_cost,
+    };
+    Asked::new(question, key)
 }
 
 fn cost_item(name: &str, points: u32, text: [&str; 2], draw_of: Draw, mesh: Mesh) -> Item {

@@ -45,14 +45,13 @@ fn item(name: &str, points: u32, text: [&str; 2], mut questions: Vec<Asked>) -> 
 }
 
 fn asked(judged: &[TreePart], shapes: Vec<Shape>, max_leaf_size: u32) -> Asked {
-    Asked {
-        question: Question::Build {
-            shapes,
-            max_leaf_size,
-        },
-        key: Key::Tree {
-            judged: judged.to_vec(),
-            sweep_cost: None,
-        },
-    }
+    let question = Question::Build {
+        shapes,
+        max_leaf_size,
+    };
+    let key = Key::Tree {
+        judged: judged.to_vec(),
+        sweep_cost: None,
+    };
+    Asked::new(question, key)
 }

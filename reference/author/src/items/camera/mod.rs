@@ -42,13 +42,11 @@ fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<Asked>) -> Item
 fn asked(judged: &[RayPart], camera: PinholeCamera, samples: Samples) -> Asked {
     let truth = |sample| oracle::camera::direction(&camera, sample).as_vec3();
     let directions = samples.on(camera.film).into_iter().map(truth).collect();
-    Asked {
-        question: Question::Camera { camera, samples },
-        key: Key::Rays {
-            judged: judged.to_vec(),
-            directions,
-        },
-    }
+    let key = Key::Rays {
+        judged: judged.to_vec(),
+        directions,
+    };
+    Asked::new(Question::Camera { camera, samples }, key)
 }
 
 fn directions(camera: PinholeCamera, samples: Vec<Sample>) -> Asked {

@@ -54,10 +54,8 @@ const FIRST_ORPHAN: u32 = 10_000;
 /// What the rays meet in the tree. Distances tell everything: no two primitives that a ray could
 /// answer are at the same.
 fn asked(tree: &Tree, rays: Vec<Ray>) -> Asked {
-    Asked {
-        key: super::hits(&[Part::Distance], &rays, |beam| tree.truth(beam)),
-        question: tree.question(rays),
-    }
+    let key = super::hits(&[Part::Distance], &rays, |beam| tree.truth(beam));
+    Asked::new(tree.question(rays), key)
 }
 
 /// A ray from around the tree toward somewhere in it.

@@ -23,13 +23,10 @@ pub(super) fn own_tree(seed: Seed) -> Item {
     let key = hits(&[Part::Distance], &rays, |beam| {
         scan::closest(beam, &tree.shapes)
     });
-    let own = Asked {
-        question: Question::BuildAndTraverse {
-            shapes: tree.shapes,
-            max_leaf_size: 4,
-            rays: Rays::List(rays),
-        },
-        key,
+    let own = Question::BuildAndTraverse {
+        shapes: tree.shapes,
+        max_leaf_size: 4,
+        rays: Rays::List(rays),
     };
     let item = item(
         "own_tree",
@@ -39,7 +36,7 @@ pub(super) fn own_tree(seed: Seed) -> Item {
             "If all other items of both tasks pass, see what the tree that you build has and the \
              exam's do not.",
         ],
-        vec![own, orphans_alone(&mut draw)],
+        vec![Asked::new(own, key), orphans_alone(&mut draw)],
     );
     needs::on(item, &needs::TREES)
 }
@@ -70,7 +67,7 @@ pub(super) fn picture(seed: Seed) -> Item {
             "If pieces are missing, some nodes are skipped that should be entered; if pieces that \
              lie behind show, the closest hit is not kept.",
         ],
-        vec![Asked { question, key }, orphans_alone(&mut draw)],
+        vec![Asked::new(question, key), orphans_alone(&mut draw)],
     );
     needs::on(item, &needs::SURFACES)
 }
@@ -91,13 +88,11 @@ pub fn radiance_question(seed: Seed, scene: String) -> Question {
 pub fn radiance_item(seed: Seed, recorded: Recorded) -> Item {
     /// Of 1024 pixels. Measured: other right formulas are off in none, cracks of 1e-4 in 13.
     const ALLOWED: u32 = 7;
-    let picture = Asked {
-        question: recorded.question,
-        key: Key::Radiance {
-            pixels: recorded.pixels,
-            allowed: ALLOWED,
-        },
+    let key = Key::Radiance {
+        pixels: recorded.pixels,
+        allowed: ALLOWED,
     };
+    let picture = Asked::new(recorded.question, key);
     let mut draw = seed.draw("traverse.radiance");
     let item = item(
         "radiance",

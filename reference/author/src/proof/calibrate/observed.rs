@@ -54,16 +54,15 @@ mod tests {
 
     /// Boxes that are entered after 1 and left after 2.
     fn item(questions: usize) -> Item {
-        let asked = Asked {
-            question: Question::BBox {
-                min: Vec3::ZERO,
-                max: Vec3::ONE,
-                shots: vec![(Ray::new(Vec3::NEG_X, Vec3::X), Interval::AHEAD)],
-            },
-            key: Key::Spans {
-                spans: vec![Some(Interval::new(1.0, 2.0))],
-            },
+        let question = Question::BBox {
+            min: Vec3::ZERO,
+            max: Vec3::ONE,
+            shots: vec![(Ray::new(Vec3::NEG_X, Vec3::X), Interval::AHEAD)],
         };
+        let key = Key::Spans {
+            spans: vec![Some(Interval::new(1.0, 2.0))],
+        };
+        let asked = Asked::new(question, key);
         Item {
             id: "bbox.through".to_owned(),
             title: String::new(),

@@ -1,0 +1,195 @@
+//! Intervals as bars, one below the other, over an axis of distances along a ray.
+
+use glam::dvec2;
+use protocol::Interval;
+
+use super::canvas::{Anchor, Canvas, WIDTH};
+use super::ink::{Fill, Ink, Line};
+use super::words::short;
+
+/// The height of a bar's row.
+const ROW: f64 = 20.0;
+/// Left of it stand the names.
+const LEFT: f64 = 58.0;
+const RIGHT: f64 = WIDTH - 12.0;
+
+/// How a bar looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Bar {
+    /// For comparison.
+    Plain,
+    /// What counts.
+    Range,
+    /// What is right.
+    Right,
+    /// What came and is not.
+    Wrong,
+}
+
+/// A row: what it is called, from when to when, and what to write where that is nothing.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    pub(super) name: &'static str,
+    pub(super) bar: Bar,
+    pub(super) span: Option<Interval>,
+    pub(super) otherwise: String,
+}
+
+/// An axis of distances.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Axis {
+    first: f64,
+    last: f64,
+    left: f64,
+    right: f64,
+}
+
+impl Axis {
+    /// An axis over the page's width but for `left`, on which these distances can be seen, those
+    /// of them that are finite.
+    pub(super) fn over(left: f64, distances: impl IntoIterator<Item = f64>) -> Axis {
+        let finite = distances.into_iter().filter(|t| t.abs() < 1e9);
+        let (first, last) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), t| {
+            (t.min(min), t.max(max))
+        });
+        let (first, last) = if first <= last {
+            (first, last)
+        } else {
+            (0.0, 1.0)
+        };
+        let margin = match last - first {
+            0.0 => 1.0,
+            size => 0.12 * size,
+        };
+        Axis {
+            first: first - margin,
+            last: last + margin,
+            left,
+            right: RIGHT,
+        }
+    }
+
+    /// Where on the page a distance stands; those outside at the ends. Never NaN.
+    pub(super) fn page(&self, t: f64) -> f64 {
+        let share = (t - self.first) / (self.last - self.first);
+        if share.is_nan() {
+            return self.left;
+        }
+        self.left + share.clamp(0.0, 1.0) * (self.right - self.left)
+    }
+
+    /// Whether it is on the axis.
+    pub(super) fn shows(&self, t: f64) -> bool {
+        self.first <= t && t <= self.last
+    }
+
+    /// The line at its foot, with a few distances.
+    pub(super) fn draw(&self, canvas: &mut Canvas, y: f64) {
+        canvas.line(dvec2(self.left, y), dvec2(self.right, y), Line::Outline);
+        let step = step((self.last - self.first) / 5.0);
+        let first = (self.first / step).ceil();
+        for tick in 0..12 {
+            let t = (first + f64::from(tick)) * step;
+            if !self.shows(t) {
+                break;
+            }
+            let x = self.page(t);
+            canvas.line(dvec2(x, y), dvec2(x, y + 4.0), Line::Outline);
+            let at = dvec2(x, y + 17.0);
+            canvas.text(at, Anchor::Middle, Ink::Faint, &short(t));
+        }
+    }
+}
+
+/// One, two or five times a power of ten: the least that is at least this.
+fn step(least: f64) -> f64 {
+    let power = 10f64.powf(least.log10().floor());
+    let steps = [1.0, 2.0, 5.0].map(|step| step * power);
+    steps
+        .into_iter()
+        .find(|step| *step >= least)
+        .unwrap_or(10.0 * power)
+}
+
+/// The rows from `y` on; returns where they end. `distances` are to be seen.
+pub(super) fn draw(
+    canvas: &mut Canvas,
+    y: f64,
+    rows: &[Row],
+    distances: impl IntoIterator<Item = f64>,
+) -> f64 {
+    let axis = Axis::over(LEFT, distances);
+    let foot = y + ROW * rows.len() as f64;
+    // Where the right interval begins and ends, through all rows.
+    let right = rows.iter().find(|row| row.bar == Bar::Right);
+    if let Some(span) = right.and_then(|row| row.span) {
+        for t in [span.min, span.max].map(f64::from) {
+            if axis.shows(t) {
+                let x = axis.page(t);
+                canvas.line(dvec2(x, y), dvec2(x, foot), Line::Grid);
+            }
+        }
+    }
+    for (i, row) in rows.iter().enumerate() {
+        draw_row(canvas, &axis, y + ROW * i as f64, row);
+    }
+    axis.draw(canvas, foot + 2.0);
+    foot + 24.0
+}
+
+fn draw_row(canvas: &mut Canvas, axis: &Axis, y: f64, row: &Row) {
+    let ink = match row.bar {
+        Bar::Plain | Bar::Range => Ink::Text,
+        Bar::Right => Ink::Right,
+        Bar::Wrong => Ink::Wrong,
+    };
+    let name = dvec2(LEFT - 8.0, y + 14.5);
+    canvas.text(name, Anchor::End, ink, row.name);
+    let middle = y + 0.5 * ROW;
+    let Some(span) = row.span.filter(|span| !span.is_empty()) else {
+        let at = dvec2(LEFT + 4.0, y + 14.5);
+        canvas.text(at, Anchor::Start, ink, &row.otherwise);
+        return;
+    };
+    let (min, max) = (f64::from(span.min), f64::from(span.max));
+    let (from, to) = (axis.page(min), axis.page(max));
+    let (line, share, half) = match row.bar {
+        Bar::Plain => (Line::Grid, 0.18, 5.0),
+        Bar::Range => (Line::Grid, 0.4, 5.0),
+        Bar::Right => (Line::Right, 0.6, 5.0),
+        Bar::Wrong => (Line::Wrong, 0.15, 5.0),
+    };
+    // An interval of one point is seen as well.
+    let to = to.max(from + 1.5);
+    let corner = |x: f64, up: f64| dvec2(x, middle + up * half);
+    let fill = Fill::Of(ink, share);
+    canvas.rectangle(corner(from, -1.0), corner(to, 1.0), line, fill);
+    // Arrows, where it goes on.
+    let goes_on = [(min < axis.first, from, -1.0), (max > axis.last, to, 1.0)];
+    for (goes_on, x, dir) in goes_on {
+        if goes_on {
+            let tip = dvec2(x + 8.0 * dir, middle);
+            canvas.polygon(&[tip, corner(x, -1.0), corner(x, 1.0)], line, fill);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_shows_what_it_should_and_ends_there() {
+        let axis = Axis::over(40.0, [2.0, 4.0, f64::INFINITY, f64::NAN, 1e30]);
+        assert!(axis.shows(2.0) && axis.shows(4.0) && !axis.shows(9.0));
+        assert_eq!(axis.page(f64::NEG_INFINITY), 40.0);
+        assert_eq!(axis.page(f64::INFINITY), RIGHT);
+        assert_eq!(axis.page(f64::NAN), 40.0);
+        assert!((axis.page(3.0) - 0.5 * (40.0 + RIGHT)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn steps_are_round() {
+        assert_eq!([0.3, 1.0, 1.1, 6.0].map(step), [0.5, 1.0, 2.0, 10.0]);
+    }
+}

@@ -1,0 +1,134 @@
+//! The camera from the side.
+
+use glam::{DVec2, DVec3, dvec2};
+use protocol::{Interval, Ray};
+
+use super::Aim;
+use super::sensor::Sensor;
+use crate::describe;
+use crate::drawing::Drawing;
+use crate::drawing::bars::{self, Bar, Row};
+use crate::drawing::canvas::{Anchor, Canvas, Mark};
+use crate::drawing::ink::{Ink, Line};
+use crate::drawing::sheet::{Sheet, Sign};
+use crate::drawing::window::Window;
+
+/// The drawing, in the plane of -z and the wanted ray.
+pub(super) fn draw(aim: &Aim, ray: &Ray, sensor: &Sensor) -> Drawing {
+    let lateral = aim.wanted.truncate().try_normalize().unwrap_or(DVec2::Y);
+    let see = |point: DVec3| dvec2(-point.z, point.truncate().dot(lateral));
+    let (start, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+    let tip = see(start + dir);
+    let length = dir.length();
+    let mut sheet = Sheet::default();
+    let part = sheet.panel(170.0);
+    let near = |at: &DVec2| at.length() < 4.0;
+    let seen = [
+        DVec2::ZERO,
+        dvec2(1.3, 0.5),
+        dvec2(1.0, -0.5),
+        see(aim.wanted),
+    ];
+    let others = [tip, see(start)].into_iter().filter(near);
+    let window = Window::around(part, seen.into_iter().chain(others));
+
+    let canvas = &mut sheet.canvas;
+    let half = 0.5 * sensor.size.max_element();
+    if let Some((from, to)) = window.clipped(dvec2(1.0, -half), dvec2(1.0, half)) {
+        canvas.line(from, to, Line::Outline);
+        let at = from.max(to) + dvec2(4.0, -4.0);
+        canvas.text(at, Anchor::Start, Ink::Faint, "z = -1");
+    }
+    arc(canvas, &window);
+    let mut arrow = |from: DVec2, to: DVec2, line, ink| {
+        if let Some((from, to)) = window.clipped(from, to) {
+            canvas.arrow(from, to, line, ink);
+        }
+    };
+    arrow(DVec2::ZERO, see(aim.wanted), Line::Right, Ink::Right);
+    arrow(see(start), tip, Line::Wrong, Ink::Wrong);
+    canvas.mark(window.page(DVec2::ZERO), Mark::Origin);
+    if see(start).length() > 1e-4
+        && let Some((at, _)) = window.pinned(see(start))
+    {
+        canvas.mark(at, Mark::Wrong);
+    }
+    let is_range_right = ray.range == Interval::AHEAD;
+    if !is_range_right {
+        sheet.y = bars::draw(
+            &mut sheet.canvas,
+            sheet.y,
+            &ranges(ray.range),
+            range_ends(ray.range),
+        );
+    }
+    sheet.explain(
+        Sign::Line(Line::Right),
+        "wanted: from (0, 0, 0), length 1, range [0, ∞]",
+    );
+    let words = format!(
+        "got: from {}, length {}, range {}",
+        describe::point(ray.origin),
+        describe::number(length as f32),
+        describe::interval(ray.range)
+    );
+    sheet.explain(Sign::Line(Line::Wrong), &words);
+    sheet.explain(
+        Sign::Line(Line::Behind),
+        "all directions of length 1 end here",
+    );
+    sheet.explain(Sign::Mark(Mark::Origin), "the camera, at (0, 0, 0)");
+    let title = "The camera's ray from the side";
+    sheet.finish(title, side_sentence(ray, length))
+}
+
+/// The unit circle, as far as it is before the camera.
+fn arc(canvas: &mut Canvas, window: &Window) {
+    const STEPS: i32 = 24;
+
+    let at = |step: i32| DVec2::from_angle(f64::from(step) / f64::from(STEPS) * 1.4);
+    for step in -STEPS..STEPS {
+        if let Some((from, to)) = window.clipped(at(step), at(step + 1)) {
+            canvas.line(from, to, Line::Behind);
+        }
+    }
+}
+
+fn ranges(range: Interval) -> [Row; 2] {
+    let row = |name, bar, span| Row {
+        name,
+        bar,
+        span: Some(span),
+        otherwise: describe::interval(span),
+    };
+    [
+        row("wanted", Bar::Right, Interval::AHEAD),
+        row("got", Bar::Wrong, range),
+    ]
+}
+
+fn range_ends(range: Interval) -> [f64; 4] {
+    [0.0, 1.0, range.min.into(), range.max.into()]
+}
+
+fn side_sentence(ray: &Ray, length: f64) -> String {
+    let start = ray.origin.as_dvec3().length();
+    if is_off(start, 0.0) {
+        let origin = describe::point(ray.origin);
+        format!("Your ray goes the right way, but starts at {origin}.")
+    } else if is_off(length, 1.0) {
+        let length = describe::number(length as f32);
+        format!("Your ray goes the right way, but its direction has length {length}.")
+    } else if ray.range != Interval::AHEAD {
+        let range = describe::interval(ray.range);
+        format!("Your ray goes the right way, but only {range} of it counts.")
+    } else {
+        "Your ray goes the right way.".to_owned()
+    }
+}
+
+/// Only to choose the words. What is not a number is off.
+fn is_off(value: f64, wanted: f64) -> bool {
+    let is_close = (value - wanted).abs() <= 1e-3;
+    !is_close
+}

@@ -1,0 +1,259 @@
+//! SVG, element by element, in page units: x to the right, y down.
+//!
+//! Numbers come from submissions: what is not finite or far off the page is left out, and after
+//! [`LONGEST`] bytes nothing is added any more. Text is escaped here and nowhere else.
+
+use std::fmt::{Display, Write};
+
+use glam::{DVec2, dvec2};
+
+use super::ink::{Fill, Ink, Line};
+
+/// The width of every drawing. At 360 pixels a phone shows it one to one, with some room around.
+pub(super) const WIDTH: f64 = 340.0;
+/// The height of letters.
+const FONT: f64 = 12.5;
+/// The most bytes of one drawing.
+const LONGEST: usize = 120_000;
+/// Coordinates beyond are no part of any page.
+const FARTHEST: f64 = 1e4;
+
+/// Where text stands, seen from its point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Anchor {
+    /// To the right of it.
+    Start,
+    /// To both sides.
+    Middle,
+    /// To the left.
+    End,
+}
+
+/// A mark at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mark {
+    /// Where it is right: a disc.
+    Right,
+    /// Where it came and is not: a cross.
+    Wrong,
+    /// Where a ray begins: a ring.
+    Origin,
+}
+
+/// What is drawn so far.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Canvas {
+    body: String,
+}
+
+impl Canvas {
+    /// The whole image: `height` high, with these words for whoever can not see it.
+    pub(super) fn finish(self, height: f64, title: &str, description: &str) -> String {
+        let (title, description) = (escaped(title), escaped(description));
+        format!(
+            concat!(
+                r#"<svg xmlns="http://www.w3.org/2000/svg" role="img" viewBox="0 0 {} {:.0}" "#,
+                r#"font-family="system-ui, sans-serif" font-size="{}" stroke-linejoin="round">"#,
+                "<title>{}</title><desc>{}</desc>{}</svg>"
+            ),
+            WIDTH, height, FONT, title, description, self.body
+        )
+    }
+
+    /// A straight line.
+    pub(super) fn line(&mut self, from: DVec2, to: DVec2, line: Line) {
+        if is_near(from) && is_near(to) {
+            let (a, b) = (point(from), point(to));
+            self.add(format_args!(
+                r#"<path d="M{a}L{b}" {}/>"#,
+                line.attributes()
+            ));
+        }
+    }
+
+    /// A closed outline through all the points, or nothing if one of them is far off.
+    pub(super) fn polygon(&mut self, corners: &[DVec2], line: Line, fill: Fill) {
+        self.polygons(&[corners], line, fill);
+    }
+
+    /// Several of them, alike.
+    pub(super) fn polygons(&mut self, all: &[impl AsRef<[DVec2]>], line: Line, fill: Fill) {
+        let mut path = String::new();
+        for corners in all.iter().map(AsRef::as_ref) {
+            if corners.iter().all(|corner| is_near(*corner)) {
+                let corners: Vec<String> = corners.iter().map(|corner| point(*corner)).collect();
+                write!(path, "M{}Z", corners.join("L")).expect("text takes text");
+            }
+        }
+        if !path.is_empty() {
+            let (fill, line) = (fill.attributes(), line.attributes());
+            self.add(format_args!(r#"<path d="{path}" {fill} {line}/>"#));
+        }
+    }
+
+    /// A rectangle between two corners.
+    pub(super) fn rectangle(&mut self, from: DVec2, to: DVec2, line: Line, fill: Fill) {
+        let corners = [from, dvec2(to.x, from.y), to, dvec2(from.x, to.y)];
+        self.polygon(&corners, line, fill);
+    }
+
+    /// An area between two corners, without a line around it.
+    pub(super) fn area(&mut self, from: DVec2, to: DVec2, fill: Fill) {
+        if is_near(from) && is_near(to) {
+            let (min, size) = (from.min(to), (to - from).abs());
+            let fill = fill.attributes();
+            self.add(format_args!(
+                r#"<rect x="{:.1}" y="{:.1}" width="{:.1}" height="{:.1}" {fill}/>"#,
+                min.x, min.y, size.x, size.y
+            ));
+        }
+    }
+
+    /// A circle.
+    pub(super) fn circle(&mut self, center: DVec2, radius: f64, line: Line, fill: Fill) {
+        if is_near(center) && radius.is_finite() && radius < FARTHEST {
+            let (fill, line) = (fill.attributes(), line.attributes());
+            self.add(format_args!(
+                r#"<circle cx="{:.1}" cy="{:.1}" r="{radius:.1}" {fill} {line}/>"#,
+                center.x, center.y
+            ));
+        }
+    }
+
+    /// An arrow with its head at `to`.
+    pub(super) fn arrow(&mut self, from: DVec2, to: DVec2, line: Line, ink: Ink) {
+        self.line(from, to, line);
+        let Some(dir) = (to - from).try_normalize() else {
+            return;
+        };
+        let (back, across) = (to - 9.0 * dir, 4.0 * dir.perp());
+        if is_near(to) {
+            let head = [to, back + across, back - across].map(point).join("L");
+            let paint = ink.paint();
+            self.add(format_args!(r#"<path d="M{head}Z" fill="{paint}"/>"#));
+        }
+    }
+
+    /// A mark.
+    pub(super) fn mark(&mut self, at: DVec2, mark: Mark) {
+        if !is_near(at) {
+            return;
+        }
+        let paper = r#"stroke="var(--paper, Canvas)" stroke-width="1.5""#;
+        match mark {
+            Mark::Right => {
+                let paint = Ink::Right.paint();
+                let (x, y) = (at.x, at.y);
+                self.add(format_args!(
+                    r#"<circle cx="{x:.1}" cy="{y:.1}" r="5.5" fill="{paint}" {paper}/>"#
+                ));
+            }
+            Mark::Wrong => {
+                let arm = |x: f64, y: f64| point(at + 5.5 * dvec2(x, y));
+                let path = format!(
+                    "M{}L{}M{}L{}",
+                    arm(-1.0, -1.0),
+                    arm(1.0, 1.0),
+                    arm(-1.0, 1.0),
+                    arm(1.0, -1.0)
+                );
+                // Twice, so that it shows on whatever is below.
+                for (paint, width) in [("var(--paper, Canvas)", 6.0), (Ink::Wrong.paint(), 3.0)] {
+                    self.add(format_args!(
+                        r#"<path d="{path}" fill="none" stroke="{paint}" stroke-width="{width}"/>"#
+                    ));
+                }
+            }
+            Mark::Origin => {
+                let (x, y) = (at.x, at.y);
+                self.add(format_args!(
+                    r#"<circle cx="{x:.1}" cy="{y:.1}" r="4" fill="var(--paper, Canvas)" stroke="currentColor" stroke-width="2"/>"#
+                ));
+            }
+        }
+    }
+
+    /// Words, with a little paper around them, so that they can be read on lines.
+    pub(super) fn text(&mut self, at: DVec2, anchor: Anchor, ink: Ink, text: &str) {
+        if !is_near(at) {
+            return;
+        }
+        let anchor = match anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        let (paint, opacity, text) = (ink.paint(), ink.opacity(), escaped(text));
+        let opacity = match opacity {
+            "1" => String::new(),
+            opacity => format!(r#" fill-opacity="{opacity}""#),
+        };
+        self.add(format_args!(
+            concat!(
+                r#"<text x="{:.1}" y="{:.1}" text-anchor="{}" fill="{}"{} "#,
+                r#"stroke="var(--paper, Canvas)" stroke-width="3" paint-order="stroke">{}</text>"#
+            ),
+            at.x, at.y, anchor, paint, opacity, text
+        ));
+    }
+
+    fn add(&mut self, element: impl Display) {
+        if self.body.len() < LONGEST {
+            write!(self.body, "{element}").expect("text takes text");
+        }
+    }
+}
+
+fn is_near(at: DVec2) -> bool {
+    // A NaN compares as false.
+    at.abs().max_element() < FARTHEST && at.is_finite()
+}
+
+fn point(at: DVec2) -> String {
+    format!("{:.1} {:.1}", at.x, at.y)
+}
+
+fn escaped(text: &str) -> String {
+    let mut escaped = String::new();
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            // What XML can not hold at all.
+            c if c.is_control() => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_can_not_become_elements() {
+        let mut canvas = Canvas::default();
+        let words = "<script>&\"\u{0}";
+        canvas.text(DVec2::ZERO, Anchor::Start, Ink::Text, words);
+        let svg = canvas.finish(10.0, words, words);
+        assert!(!svg.contains("<script>") && !svg.contains('\u{0}'), "{svg}");
+    }
+
+    #[test]
+    fn what_is_no_place_on_the_page_is_left_out() {
+        let mut canvas = Canvas::default();
+        for wild in [f64::NAN, f64::INFINITY, -1e38] {
+            let at = dvec2(1.0, wild);
+            canvas.line(at, DVec2::ZERO, Line::Ray);
+            canvas.polygon(&[at, DVec2::ZERO], Line::Ray, Fill::None);
+            canvas.area(at, DVec2::ZERO, Fill::None);
+            canvas.circle(DVec2::ZERO, wild.abs(), Line::Ray, Fill::None);
+            canvas.mark(at, Mark::Wrong);
+            canvas.text(at, Anchor::End, Ink::Text, "nowhere");
+        }
+        assert_eq!(canvas.body, "");
+    }
+}

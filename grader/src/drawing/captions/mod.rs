@@ -1,0 +1,60 @@
+//! What drawings say of mistakes that people make.
+
+mod rays;
+mod trees;
+
+use glam::{Vec3, vec2, vec3};
+use protocol::{Answer, Outcome, Ray, Shape, Trace};
+
+use super::of;
+use crate::exam::{Asked, Hit};
+
+fn caption(asked: &Asked, answer: Answer) -> String {
+    let drawing = of(asked, 0, Some(&answer));
+    drawing.map_or("(nothing)".to_owned(), |drawing| drawing.caption)
+}
+
+/// A line for each answer.
+fn captions(asked: &Asked, answers: impl IntoIterator<Item = Answer>) -> String {
+    let answers = answers.into_iter();
+    let lines: Vec<String> = answers.map(|answer| caption(asked, answer)).collect();
+    lines.join("\n")
+}
+
+fn ball(x: f32, material: u32) -> Shape {
+    Shape::Sphere {
+        center: vec3(x, 0.0, -5.0),
+        radius: 1.0,
+        material,
+    }
+}
+
+fn ahead(min: f32, max: f32) -> Ray {
+    Ray::new(Vec3::ZERO, Vec3::NEG_Z).within(min, max)
+}
+
+fn hit(distance: f32) -> Hit {
+    Hit {
+        distance,
+        position: vec3(0.0, 0.0, -distance),
+        normal: Vec3::Z,
+        uv: vec2(0.25, 0.5),
+        material: 7,
+    }
+}
+
+fn trace(distance: f32) -> Trace {
+    let hit = hit(distance);
+    Trace {
+        distance,
+        position: hit.position,
+        normal: hit.normal,
+        uv: hit.uv,
+        origin: Vec3::ZERO,
+        material: hit.material,
+    }
+}
+
+fn hits(trace: Option<Trace>) -> Answer {
+    Answer::Hits(vec![Outcome::Value(trace)])
+}

@@ -1,0 +1,145 @@
+//! Rays, shapes and boxes.
+
+use glam::{UVec2, Vec2, Vec3, vec2, vec3};
+use insta::assert_snapshot;
+use protocol::{
+    Answer, Interval, Outcome, PinholeCamera, Question, Ray, Rays, Sample, Samples, Trace,
+};
+
+use super::{ahead, ball, caption, captions, hit, hits, trace};
+use crate::exam::{Asked, Hit, Key, Part, RayPart};
+use crate::shown::Shown;
+
+fn sphere(ray: Ray, judged: Part, hit: Option<Hit>) -> Asked {
+    let question = Question::Shapes {
+        shapes: vec![ball(0.0, 7)],
+        rays: Rays::List(vec![ray]),
+    };
+    let key = Key::Hits {
+        judged: vec![judged],
+        hits: vec![hit],
+    };
+    Asked::new(question, key)
+}
+
+#[test]
+fn a_hit_is_missing_or_elsewhere() {
+    let near = sphere(ahead(0.0, f32::INFINITY), Part::Distance, Some(hit(4.0)));
+    let far = sphere(ahead(4.5, 9.0), Part::Distance, Some(hit(6.0)));
+    let none = sphere(ahead(0.0, 3.0), Part::Distance, None);
+    let of_near = [
+        None,
+        Some(trace(6.0)),
+        Some(trace(-4.0)),
+        Some(trace(f32::NAN)),
+    ];
+    let lines = [
+        captions(&near, of_near.map(hits)),
+        caption(&near, Answer::Hits(vec![Outcome::GivenUp])),
+        captions(&far, [None, Some(trace(4.0))].map(hits)),
+        captions(&none, [Some(trace(4.0))].map(hits)),
+    ];
+    assert_snapshot!(lines.join("\n"));
+}
+
+#[test]
+fn a_hit_is_wrong_in_something_else() {
+    let with = |change: fn(&mut Trace)| {
+        let mut trace = trace(4.0);
+        change(&mut trace);
+        hits(Some(trace))
+    };
+    let ray = ahead(0.0, f32::INFINITY);
+    let asked = |part| sphere(ray, part, Some(hit(4.0)));
+    let lines = [
+        caption(&asked(Part::Position), with(|trace| trace.position.z = 4.0)),
+        caption(
+            &asked(Part::Normal),
+            with(|trace| trace.normal = Vec3::NEG_Z),
+        ),
+        caption(
+            &asked(Part::Normal),
+            with(|trace| trace.normal = vec3(0.0, 1.0, 1.0)),
+        ),
+        caption(
+            &asked(Part::Normal),
+            with(|trace| trace.normal = Vec3::ZERO),
+        ),
+        caption(&asked(Part::UnitNormal), with(|trace| trace.normal *= 2.0)),
+        caption(&asked(Part::Uv), with(|trace| trace.uv = vec2(0.5, 0.25))),
+        caption(&asked(Part::Origin), with(|trace| trace.origin = Vec3::ONE)),
+        caption(&asked(Part::Material), with(|trace| trace.material = 0)),
+    ];
+    assert_snapshot!(lines.join("\n"));
+}
+
+#[test]
+fn times_in_a_box() {
+    let question = Question::BBox {
+        min: vec3(2.0, -1.0, -1.0),
+        max: vec3(4.0, 1.0, 1.0),
+        shots: vec![(Ray::new(Vec3::ZERO, Vec3::X), Interval::AHEAD)],
+    };
+    let always = Interval::new(f32::NEG_INFINITY, f32::INFINITY);
+    let asked = |span| Asked {
+        question: question.clone(),
+        key: Key::Spans { spans: vec![span] },
+        shown: Shown::Slabs(vec![[Interval::new(2.0, 4.0), always, always]]),
+    };
+    let span = |min, max| Some(Interval::new(min, max));
+    let answer = |span| Answer::Spans(vec![Outcome::Value(span)]);
+    let lines = [
+        captions(
+            &asked(span(2.0, 4.0)),
+            [None, span(0.0, f32::INFINITY)].map(answer),
+        ),
+        captions(&asked(None), [span(4.0, 2.0)].map(answer)),
+    ];
+    assert_snapshot!(lines.join("\n"));
+}
+
+#[test]
+fn a_ray_of_the_camera() {
+    let camera = PinholeCamera {
+        vertical_fov: 90.0,
+        aspect_ratio: 1.0,
+        film: UVec2::new(4, 4),
+    };
+    let sample = Sample {
+        pixel: UVec2::new(2, 2),
+        offset: Vec2::ZERO,
+    };
+    let asked = Asked::new(
+        Question::Camera {
+            camera,
+            samples: Samples::List(vec![sample]),
+        },
+        Key::Rays {
+            judged: vec![RayPart::Direction, RayPart::UnitLength],
+            directions: vec![Vec3::NEG_Z],
+        },
+    );
+    let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
+    let rays = [
+        Ray::new(Vec3::ZERO, vec3(0.25, -0.5, -1.0)),
+        Ray {
+            dir: Vec3::Z,
+            ..ray
+        },
+        Ray {
+            dir: Vec3::NAN,
+            ..ray
+        },
+        Ray {
+            dir: ray.dir * 2.0,
+            ..ray
+        },
+        Ray {
+            origin: Vec3::ONE,
+            ..ray
+        },
+        ray.within(0.0, 1.0),
+    ];
+    let answers = rays.map(|ray| Answer::Rays(vec![Outcome::Value(ray)]));
+    assert_snapshot!(captions(&asked, answers));
+}

@@ -1,0 +1,120 @@
+//! Trees, built and walked.
+
+use glam::vec3;
+use insta::assert_snapshot;
+use protocol::{Answer, Interval, Outcome, Question, Rays, Trace, Tree, TreeNode};
+
+use super::{ahead, ball, caption, captions, hit, hits, trace};
+use crate::exam::{Asked, Hit, Key, Part, TreePart};
+use crate::shown::{Shown, Step};
+
+fn node(x: [f32; 2], leaf: Option<[u32; 2]>, [l, r]: [u32; 2]) -> TreeNode {
+    let [start, size] = leaf.unwrap_or_default();
+    TreeNode {
+        min: vec3(x[0], -1.0, -6.0),
+        max: vec3(x[1], 1.0, -4.0),
+        start,
+        size,
+        l,
+        r,
+    }
+}
+
+/// Two balls, far apart, in a leaf each.
+fn two() -> Vec<TreeNode> {
+    vec![
+        node([-1.0, 11.0], None, [1, 2]),
+        node([-1.0, 1.0], Some([0, 1]), [0, 0]),
+        node([9.0, 11.0], Some([1, 1]), [0, 0]),
+    ]
+}
+
+#[test]
+fn a_tree_that_was_built() {
+    let asked = |judged: &[TreePart], max_leaf_size, sweep_cost| {
+        let question = Question::Build {
+            shapes: vec![ball(0.0, 0), ball(10.0, 1)],
+            max_leaf_size,
+        };
+        let judged = judged.to_vec();
+        Asked::new(question, Key::Tree { judged, sweep_cost })
+    };
+    let tree = |nodes: Vec<TreeNode>| {
+        let order = vec![0, 1];
+        Answer::Tree(Outcome::Value(Tree {
+            nodes,
+            root: 0,
+            order,
+        }))
+    };
+    let with = |place: usize, node: TreeNode| {
+        let mut nodes = two();
+        nodes[place] = node;
+        tree(nodes)
+    };
+    let one_leaf = || tree(vec![node([-1.0, 11.0], Some([0, 2]), [0, 0])]);
+    let half = || with(2, node([9.0, 10.0], Some([1, 1]), [0, 0]));
+    let wide = || with(2, node([9.0, 12.0], Some([1, 1]), [0, 0]));
+    let twice = || with(2, node([-1.0, 1.0], Some([0, 1]), [0, 0]));
+    let circle = || with(2, node([9.0, 11.0], None, [0, 1]));
+    let lines = [
+        caption(&asked(&[TreePart::Contains], 1, None), half()),
+        caption(&asked(&[TreePart::Tight], 1, None), wide()),
+        caption(&asked(&[TreePart::Partition], 1, None), twice()),
+        caption(&asked(&[TreePart::LeafSize], 1, None), one_leaf()),
+        caption(&asked(&[TreePart::Split], 1, None), one_leaf()),
+        caption(&asked(&[TreePart::Stops], 2, None), tree(two())),
+        caption(&asked(&[], 1, Some(1.0)), tree(two())),
+        caption(&asked(&[], 1, None), circle()),
+    ];
+    assert_snapshot!(lines.join("\n"));
+}
+
+#[test]
+fn a_walk_through_a_tree() {
+    // The leaf to the right holds what is before the ray as well, and the ray misses its box.
+    let mut nodes = two();
+    nodes[2].size = 2;
+    let span = |min, max| Some(Interval::new(min, max));
+    let asked = |third: Option<Interval>| {
+        let step = |node, is_entered, span| Step {
+            node,
+            is_entered,
+            span,
+        };
+        Asked {
+            question: Question::Traverse {
+                shapes: (0..4).map(|i| ball(10.0 * i as f32, i)).collect(),
+                nodes: nodes.clone(),
+                root: 0,
+                rays: Rays::List(vec![ahead(0.0, f32::INFINITY)]),
+            },
+            key: Key::Hits {
+                judged: vec![Part::Distance],
+                hits: vec![Some(Hit {
+                    material: 0,
+                    ..hit(4.0)
+                })],
+            },
+            shown: Shown::Walks(vec![vec![
+                step(0, true, span(4.0, 6.0)),
+                step(1, true, span(4.0, 6.0)),
+                step(2, false, third),
+            ]]),
+        }
+    };
+    let answer = |material, distance| {
+        hits(Some(Trace {
+            material,
+            ..trace(distance)
+        }))
+    };
+    let lines = [
+        captions(
+            &asked(None),
+            [answer(2, 1.0), answer(3, 1.0), answer(0, 6.0), hits(None)],
+        ),
+        captions(&asked(span(5.0, 7.0)), [answer(2, 1.0), answer(2, 6.0)]),
+    ];
+    assert_snapshot!(lines.join("\n"));
+}

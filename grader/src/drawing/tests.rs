@@ -1,0 +1,191 @@
+//! Whatever a submission answers, there is a small well-formed image, or none.
+
+use std::sync::LazyLock;
+
+use glam::{Vec2, Vec3};
+use proptest::prelude::*;
+use protocol::{Answer, Interval, Outcome, Panic, Question, Ray, Trace, Tree, TreeNode};
+use roxmltree::Document;
+
+use super::{Drawing, of};
+use crate::exam::Asked;
+use crate::exam_file;
+
+/// Larger than any honest drawing.
+const LARGEST: usize = 130_000;
+
+/// One question of each item of the practice exam.
+static QUESTIONS: LazyLock<Vec<Asked>> = LazyLock::new(|| {
+    let exam = exam_file::load(None)
+        .expect("it was built with this program")
+        .exam;
+    let items = exam.items.into_iter();
+    items
+        .filter_map(|item| item.questions.into_iter().next())
+        .collect()
+});
+
+/// Numbers as submissions answer them, now and then.
+fn number() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        4 => -5.0f32..5.0,
+        2 => prop::num::f32::ANY,
+        1 => prop::sample::select(vec![0.0, -0.0, f32::NAN, f32::INFINITY, 1e38, -1e38, 1e-40]),
+    ]
+}
+
+fn point() -> impl Strategy<Value = Vec3> {
+    [number(), number(), number()].prop_map(Vec3::from_array)
+}
+
+fn interval() -> impl Strategy<Value = Interval> {
+    [number(), number()].prop_map(|[min, max]| Interval::new(min, max))
+}
+
+fn outcome<T: Clone + std::fmt::Debug>(
+    value: impl Strategy<Value = T>,
+) -> impl Strategy<Value = Outcome<T>> {
+    let panic = Panic {
+        message: "<script>\"&".to_owned(),
+        place: "bvh.rs:1".to_owned(),
+    };
+    prop_oneof![
+        8 => value.prop_map(Outcome::Value),
+        1 => Just(Outcome::Panicked(panic)),
+        1 => Just(Outcome::GivenUp),
+    ]
+}
+
+fn trace() -> impl Strategy<Value = Trace> {
+    let places = (
+        point(),
+        point(),
+        point(),
+        number(),
+        [number(), number()],
+        0..30u32,
+    );
+    places.prop_map(|(position, normal, origin, distance, uv, material)| Trace {
+        distance,
+        position,
+        normal,
+        uv: Vec2::from_array(uv),
+        origin,
+        material,
+    })
+}
+
+fn tree() -> impl Strategy<Value = Tree> {
+    let node = (point(), point(), [0..9u32, 0..9u32, 0..9u32, 0..9u32]);
+    let node = node.prop_map(|(min, max, [start, size, l, r])| TreeNode {
+        min,
+        max,
+        start,
+        size,
+        l,
+        r,
+    });
+    let order = prop::collection::vec(0..12u32, 0..12);
+    (prop::collection::vec(node, 0..9), 0..9u32, order).prop_map(|(nodes, root, order)| Tree {
+        nodes,
+        root,
+        order,
+    })
+}
+
+/// An answer of the right kind to one of the questions, and the element that is drawn.
+fn answered() -> impl Strategy<Value = (usize, usize, Answer)> {
+    let ray = (point(), point(), interval());
+    let ray = ray.prop_map(|(origin, dir, range)| Ray { origin, dir, range });
+    let answers = (
+        outcome(ray),
+        outcome(prop::option::of(trace())),
+        outcome(prop::option::of(interval())),
+        outcome(tree()),
+    );
+    (0..QUESTIONS.len(), any::<prop::sample::Index>(), answers).prop_map(
+        |(question, element, (ray, hit, span, tree))| {
+            let asked = &QUESTIONS[question].question;
+            let count = asked.count();
+            let answer = match asked {
+                Question::Camera { .. } => Answer::Rays(vec![ray; count]),
+                Question::Shapes { .. }
+                | Question::Traverse { .. }
+                | Question::BuildAndTraverse { .. } => Answer::Hits(vec![hit; count]),
+                Question::BBox { .. } => Answer::Spans(vec![span; count]),
+                Question::Build { .. } => Answer::Tree(tree),
+                Question::Radiance { .. } | Question::Done => Answer::Done,
+            };
+            (question, element.index(count.max(1)), answer)
+        },
+    )
+}
+
+fn assert_well_formed(drawing: &Drawing) {
+    let svg = &drawing.svg;
+    assert!(svg.len() < LARGEST, "{} bytes", svg.len());
+    let document = Document::parse(svg).expect("it is XML");
+    let root = document.root_element();
+    assert_eq!(root.tag_name().name(), "svg");
+    assert_eq!(root.attribute("role"), Some("img"));
+    for name in ["title", "desc"] {
+        let found = root
+            .children()
+            .find(|child| child.tag_name().name() == name);
+        assert!(
+            found.is_some_and(|found| found.text().is_some()),
+            "no {name}"
+        );
+    }
+    for element in root.descendants().filter(|node| node.is_element()) {
+        let name = element.tag_name().name();
+        let known = ["svg", "title", "desc", "path", "rect", "circle", "text"];
+        assert!(known.contains(&name), "<{name}>");
+        for attribute in element.attributes() {
+            let (name, value) = (attribute.name(), attribute.value());
+            assert_ne!(name, "id", "a page holds several drawings");
+            let wild = ["NaN", "inf"].iter().any(|word| value.contains(word));
+            assert!(!wild, "{name}={value}");
+        }
+    }
+    assert!(!drawing.caption.is_empty() && drawing.caption.len() < 400);
+    assert!(!svg.contains("script") && !drawing.caption.contains("script"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_answer_is_drawn_small_and_well_formed_or_not_at_all((question, element, answer) in answered()) {
+        if let Some(drawing) = of(&QUESTIONS[question], element, Some(&answer)) {
+            assert_well_formed(&drawing);
+        }
+    }
+}
+
+#[test]
+fn without_an_answer_what_is_right_is_drawn() {
+    for asked in QUESTIONS.iter() {
+        let drawing = of(asked, 0, None);
+        drawing.iter().for_each(assert_well_formed);
+        let is_expected = match asked.question {
+            Question::Camera { .. }
+            | Question::Shapes { .. }
+            | Question::BBox { .. }
+            | Question::Traverse { .. }
+            | Question::BuildAndTraverse { .. } => true,
+            Question::Build { .. } | Question::Radiance { .. } | Question::Done => false,
+        };
+        assert_eq!(drawing.is_some(), is_expected, "{:?}", asked.key);
+    }
+}
+
+#[test]
+fn an_element_that_is_not_there_or_an_answer_of_another_kind_is_not_drawn() {
+    for asked in QUESTIONS.iter() {
+        assert_eq!(of(asked, usize::MAX, Some(&Answer::Done)), None);
+        if let Some(drawing) = of(asked, 0, Some(&Answer::Done)) {
+            assert_well_formed(&drawing);
+        }
+    }
+}

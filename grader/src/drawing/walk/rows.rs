@@ -1,0 +1,116 @@
+//! The rows of a walk: an outline of nodes to the left, their parts of the ray to the right.
+
+use glam::dvec2;
+
+use super::plan::{Fate, Plan, Row};
+use crate::drawing::bars::Axis;
+use crate::drawing::canvas::{Anchor, Canvas, Mark, WIDTH};
+use crate::drawing::encounter::{Encounter, Got};
+use crate::drawing::ink::{Fill, Ink, Line};
+
+/// The height of a row.
+const ROW: f64 = 17.0;
+/// Where the axis begins.
+pub(super) const LEFT: f64 = 142.0;
+/// So far a child stands to the right of its parent.
+const INDENT: f64 = 5.0;
+/// Deeper nodes are not indented any more.
+const DEEPEST: usize = 9;
+
+/// The rows from `y` on; returns where they end.
+pub(super) fn draw(
+    canvas: &mut Canvas,
+    y: f64,
+    axis: &Axis,
+    encounter: &Encounter,
+    plan: &Plan,
+) -> f64 {
+    let foot = y + ROW * plan.rows.len() as f64 + 3.0;
+    let range = encounter.ray.range;
+    if encounter.range().is_some() {
+        let [from, to] = [range.min, range.max].map(|end| axis.page(end.into()));
+        let line = foot + 2.0;
+        canvas.line(dvec2(from, line), dvec2(to.max(from), line), Line::Range);
+    }
+    let hits = [
+        (encounter.wanted.map(|met| met.distance), Line::Right),
+        (got(encounter), Line::Wrong),
+    ];
+    for (distance, line) in hits {
+        if let Some(t) = distance.filter(|t| axis.shows(*t)) {
+            let x = axis.page(t);
+            canvas.line(dvec2(x, y), dvec2(x, foot), line);
+        }
+    }
+    for (i, row) in plan.rows.iter().enumerate() {
+        let y = y + ROW * i as f64;
+        draw_name(canvas, y, row);
+        draw_span(canvas, axis, y, row);
+        let marks = [
+            (hits[0].0, plan.wanted, Mark::Right),
+            (hits[1].0, plan.got_row().map(|row| row.node), Mark::Wrong),
+        ];
+        for (distance, node, mark) in marks {
+            let is_here = node == Some(row.node) && row.fate != Fate::Elided;
+            if let Some(t) = distance.filter(|_| is_here) {
+                canvas.mark(dvec2(axis.page(t), y + 0.5 * ROW), mark);
+            }
+        }
+    }
+    axis.draw(canvas, foot + 2.0);
+    foot + 26.0
+}
+
+fn got(encounter: &Encounter) -> Option<f64> {
+    match encounter.got {
+        Got::Hit(met) => Some(met.distance),
+        Got::Miss | Got::NoAnswer => None,
+    }
+}
+
+fn draw_name(canvas: &mut Canvas, y: f64, row: &Row) {
+    let foot = y + 13.0;
+    let x = 26.0 + INDENT * row.depth.min(DEEPEST) as f64;
+    let kind = if row.is_leaf { "leaf" } else { "node" };
+    let (ink, words) = match row.fate {
+        Fate::Entered => (Ink::Text, format!("{kind} {}", row.node)),
+        Fate::Missed | Fate::OutOfRange | Fate::Beyond => {
+            (Ink::Faint, format!("{kind} {}", row.node))
+        }
+        Fate::Elided => (Ink::Faint, format!("… {} more", row.node)),
+    };
+    canvas.text(dvec2(x, foot), Anchor::Start, ink, &words);
+    if row.fate == Fate::Entered {
+        let at = dvec2(20.0, foot);
+        canvas.text(at, Anchor::End, ink, &row.number.to_string());
+    }
+}
+
+fn draw_span(canvas: &mut Canvas, axis: &Axis, y: f64, row: &Row) {
+    let foot = y + 13.0;
+    let words = match row.fate {
+        Fate::Entered | Fate::Elided => "",
+        Fate::Missed => "missed",
+        Fate::OutOfRange => "out of range",
+        Fate::Beyond => "beyond",
+    };
+    let Some(span) = row.span else {
+        canvas.text(dvec2(LEFT + 4.0, foot), Anchor::Start, Ink::Faint, words);
+        return;
+    };
+    let from = axis.page(span.min.into());
+    // A flat box is seen as well.
+    let to = axis.page(span.max.into()).max(from + 2.0);
+    let fill = match row.fate {
+        Fate::Entered => Fill::Of(Ink::Text, if row.is_leaf { 0.4 } else { 0.15 }),
+        Fate::Missed | Fate::OutOfRange | Fate::Beyond | Fate::Elided => Fill::None,
+    };
+    let (low, high) = (dvec2(from, y + 3.0), dvec2(to, y + ROW - 3.0));
+    canvas.rectangle(low, high, Line::Grid, fill);
+    // Beside the bar, on the side with more room.
+    let (x, anchor) = match from - LEFT > WIDTH - to {
+        true => (from - 4.0, Anchor::End),
+        false => (to + 4.0, Anchor::Start),
+    };
+    canvas.text(dvec2(x, foot), anchor, Ink::Faint, words);
+}

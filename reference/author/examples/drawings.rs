@@ -1,0 +1,89 @@
+//! A page with the drawings of what every known mistake answers: to look at.
+//!
+//! `cargo run --release -p author --example drawings -- target/drawings.html [WORD]` draws all, or
+//! only those whose mistake or item has the word in its name.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::{env, error, fs};
+
+use author::exams;
+use author::proof::exhibits::Exhibits;
+use author::proof::workbench::Workbench;
+use grader::drawing::{self, Drawing};
+use grader::exam::Item;
+use grader::judge::{Share, judge};
+use protocol::Answer;
+use rayon::prelude::*;
+
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+
+const STYLE: &str = "
+:root { color-scheme: light dark; --paper: #fff; --ink: #1b1b1f; }
+@media (prefers-color-scheme: dark) {
+  :root { --paper: #16181d; --ink: #e8e8ec; --right: #56b4e9; --wrong: #f0883e; }
+}
+body { margin: 10px; background: var(--paper); color: var(--ink); font: 14px system-ui, sans-serif;
+  display: grid; grid-template-columns: repeat(auto-fill, minmax(min(340px, 100%), 1fr)); gap: 24px; }
+figure { margin: 0; max-width: 420px; } h2 { font-size: 13px; margin: 0; }
+svg { width: 100%; height: auto; }
+";
+
+fn main() -> Result<(), Box<dyn error::Error>> {
+    let file = env::args()
+        .nth(1)
+        .ok_or("where shall the page be written?")?;
+    let word = env::args().nth(2).unwrap_or_default();
+    let exhibits = Exhibits::prepare(Workbench::open()?)?;
+    let exam = exams::practice(Path::new(ROOT))?;
+    let figures = exhibits
+        .mistakes
+        .par_iter()
+        .map(|(mistake, sources)| {
+            let solution = exhibits.workbench.build(sources, &mistake.id)?;
+            let mut figures = String::new();
+            let items = exam.items.iter().filter(|item| item.task == mistake.task());
+            let named = items.filter(|item| item.id.contains(&word) || mistake.id.contains(&word));
+            for item in named {
+                let Ok(answers) = solution.answers(item)? else {
+                    continue;
+                };
+                if let Some((words, drawing)) = first_failure(item, &answers) {
+                    let title = format!("{} in {}{words}", mistake.id, item.id);
+                    write!(figures, "{}", figure(&title, drawing)).expect("text takes text");
+                    // One of a mistake is enough, if not asked for by name.
+                    if word.is_empty() {
+                        break;
+                    }
+                }
+            }
+            Ok(figures)
+        })
+        .collect::<Result<Vec<String>, author::proof::workbench::NotTried>>()?;
+    let page = format!(
+        "<!doctype html><meta charset=utf-8><meta name=viewport content='width=device-width'>\
+         <title>Drawings</title><style>{STYLE}</style>{}",
+        figures.concat()
+    );
+    Ok(fs::write(file, page)?)
+}
+
+/// The first question that an item fails by, drawn.
+fn first_failure(item: &Item, answers: &[Answer]) -> Option<(String, Option<Drawing>)> {
+    let asked = item.questions.iter().zip(answers).enumerate();
+    let mut failures = asked.filter_map(|(number, (asked, answer))| {
+        let judgement = judge(asked, answer);
+        let failure = judgement.failure.filter(|_| judgement.share < Share::ALL)?;
+        let words = format!(", question {number}, element {}", failure.element);
+        Some((words, drawing::of(asked, failure.element, Some(answer))))
+    });
+    failures.next()
+}
+
+fn figure(title: &str, drawing: Option<Drawing>) -> String {
+    let (svg, caption) = match drawing {
+        Some(drawing) => (drawing.svg, drawing.caption),
+        None => (String::new(), "nothing to see".to_owned()),
+    };
+    format!("<figure><h2>{title}</h2>{svg}<figcaption>{caption}</figcaption></figure>\n")
+}

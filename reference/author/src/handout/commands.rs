@@ -15,7 +15,15 @@ const RENDER_OPTIONS: &str = "student/framework/src/cli/options.rs";
 /// What the handout uses of the test harness.
 const HARNESS: [&str; 1] = ["--nocapture"];
 /// Commands that are not this repository's.
-const FOREIGN: [&str; 5] = ["rustc", "rustup", "git", "cd", "unzip"];
+pub(super) const FOREIGN: [&str; 7] = [
+    "rustc",
+    "rustup",
+    "git",
+    "cd",
+    "unzip",
+    "gcc",
+    "xcode-select",
+];
 
 /// Commands, flags and arguments that nobody takes, each with its place. `aliases` are cargo's.
 pub fn unknown_commands(

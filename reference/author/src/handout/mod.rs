@@ -47,8 +47,13 @@ pub fn generated() -> Vec<Generated> {
 pub fn complaints(root: &Path, exam: &Exam) -> Result<Vec<String>, Unreadable> {
     let pages = pages(&root.join(CHAPTERS))?;
     let figures = figures::all().map(|(name, _)| format!("figures/{name}"));
-    let (files, sources) = (files(root)?, sources(root)?);
-    let aliases = aliases(&read(&root.join(".cargo/config.toml"))?);
+    let (files, mut sources) = (files(root)?, sources(root)?);
+    let config = Source {
+        path: ".cargo/config.toml".to_owned(),
+        text: read(&root.join(".cargo/config.toml"))?,
+    };
+    let aliases = aliases(&config.text);
+    sources.push(config);
     let known = Known {
         sources: &sources,
         files: &files,

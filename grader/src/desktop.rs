@@ -5,7 +5,7 @@ use std::{env, io};
 
 /// Why nothing was opened.
 #[derive(Debug, thiserror::Error)]
-pub enum NotOpened {
+enum NotOpened {
     /// Nobody sees what this machine would show.
     #[error("there is no desktop here")]
     NoDesktop,
@@ -14,8 +14,15 @@ pub enum NotOpened {
     NoProgram(#[from] io::Error),
 }
 
-/// Opens the file with the program that the desktop has for it, and does not wait for that.
-pub fn open(file: &Path) -> Result<(), NotOpened> {
+/// Opens the file with the program that the desktop has for it, and does not wait for that. Where
+/// there is none it says where the file is: that is no failure.
+pub fn show(file: &Path) {
+    if let Err(why) = open(file) {
+        anstream::eprintln!("{why}: open {} yourself", file.display());
+    }
+}
+
+fn open(file: &Path) -> Result<(), NotOpened> {
     if !has_desktop() {
         return Err(NotOpened::NoDesktop);
     }

@@ -9,6 +9,7 @@ use protocol::{Interval, Question, packed};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::section::Section;
 use crate::shown::Shown;
 use crate::tells::{KnownMistake, Tells};
 
@@ -144,6 +145,9 @@ pub struct Item {
     pub points: u32,
     /// Where to look if it is wrong; one or two sentences for students.
     pub look: String,
+    /// What teaches it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub section: Option<Section>,
     /// Items of other tasks without which this one says nothing of its own task.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub needs: Vec<String>,

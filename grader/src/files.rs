@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 use crate::error::Error;
 use crate::exam::Exam;
 use crate::exhibit::Exhibits;
-use crate::report;
+use crate::report::html::{self, Reload};
+use crate::report::{json, whole};
 use crate::score::Score;
 
 /// While the exam is asked, the page is written no more often than this.
@@ -20,25 +21,27 @@ pub struct Files {
     /// For people.
     pub page: PathBuf,
     page_written: Option<Instant>,
+    reload: Reload,
 }
 
 impl Files {
     /// Those in this folder.
-    pub fn of(folder: &Path) -> Self {
+    pub fn of(folder: &Path, reload: Reload) -> Self {
         Files {
             score: folder.join("score.json"),
             page: folder.join("report.html"),
             page_written: None,
+            reload,
         }
     }
 
     /// Writes both. The page, which takes longer than most items, at the first item and at the
     /// end, and between them after each item that took its time.
     pub fn write(&mut self, score: &Score, exam: &Exam, exhibits: &Exhibits) -> Result<(), Error> {
-        write(&self.score, &report::json::text(score))?;
+        write(&self.score, &json::text(score))?;
         let is_fresh = self.page_written.is_some_and(|at| at.elapsed() < PAGE_PACE);
         if score.complete || !is_fresh {
-            write(&self.page, &report::html::page(score, exam, exhibits))?;
+            write(&self.page, &html::page(score, exam, exhibits, self.reload))?;
             self.page_written = Some(Instant::now());
         }
         Ok(())
@@ -46,7 +49,7 @@ impl Files {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), Error> {
-    report::whole::write(text, path).map_err(|source| Error::Report {
+    whole::write(text, path).map_err(|source| Error::Report {
         path: path.to_owned(),
         source,
     })

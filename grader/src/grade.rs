@@ -12,6 +12,7 @@ use crate::exam_file;
 use crate::examine::examine;
 use crate::exhibit::Exhibits;
 use crate::files::Files;
+use crate::report::html::Reload;
 use crate::score::{BuildReport, ExamName, FileReport, Score};
 use crate::submission::Submission;
 use crate::verdict::{file_message, unasked};
@@ -126,9 +127,13 @@ impl<'a> Grader<'a> {
             Some(folder) => folder.clone(),
             None => self.workspace.grade().join(&submission.name),
         };
+        let reload = match self.arguments.watch {
+            true => Reload::WhileAway,
+            false => Reload::Never,
+        };
         match self.arguments.task {
             Some(_) => None,
-            None => Some(Files::of(&folder)),
+            None => Some(Files::of(&folder, reload)),
         }
     }
 }

@@ -10,8 +10,8 @@
 //! | the job | [`grade`], [`replay`], [`watch`]; [`files`] |
 //! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`] |
 //! | its steps | [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
-//! | data | [`exam`], [`shown`], [`tells`], [`exam_file`], [`place`], [`submission`], [`given`], [`score`] |
-//! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`] |
+//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`submission`], [`given`], [`score`] |
+//! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`] |
 
 pub mod ask;
 pub mod build;
@@ -36,8 +36,10 @@ pub mod replay;
 pub mod report;
 pub mod sandbox;
 pub mod score;
+pub mod section;
 pub mod shown;
 pub mod submission;
+pub mod system;
 pub mod tame;
 pub mod tells;
 pub mod verdict;

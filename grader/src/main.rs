@@ -45,7 +45,7 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
             anstream::println!("  {}", from_here(file).display());
         }
         if arguments.open {
-            show(&files.page);
+            desktop::show(&files.page);
         }
     }
     anstream::println!();
@@ -55,13 +55,6 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     } else {
         ExitCode::SUCCESS
     })
-}
-
-/// Opens the page where there is a desktop, and else says where it is: that is no failure.
-fn show(page: &Path) {
-    if let Err(why) = desktop::open(page) {
-        anstream::eprintln!("{why}: open {} yourself", page.display());
-    }
 }
 
 /// The path as it would be typed from the current folder.

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::exam::Task;
+use crate::section::Section;
 
 /// The version of this format.
 pub const SCHEMA: u32 = 1;
@@ -91,6 +92,10 @@ pub struct ItemScore {
     /// For students: where to look. Only where something is wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub look: Option<String>,
+    /// For students: the section of the handout that teaches it, such as
+    /// `boxes.md#zero-and-minus-zero`. Only where something is wrong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub section: Option<Section>,
     /// For students: the known mistake that answers the same; several if nothing tells them apart.
     pub hints: Vec<Hint>,
     /// For students: the first thing that went wrong.

@@ -153,7 +153,9 @@ fn notes(source: &Path) -> Vec<String> {
         Some((main, _)) if main == MAIN.0 => None,
         Some((_, text)) => {
             let theirs = fs::read_to_string(source.join(name)).unwrap_or_default();
-            (theirs != text).then(|| format!("{name} differs from the given one, which is used"))
+            // Line ends are a matter between git, editors and systems.
+            let same = theirs.lines().eq(text.lines());
+            (!same).then(|| format!("{name} differs from the given one, which is used"))
         }
         None => Some(format!("{name} is not one of the five files: ignored")),
     };

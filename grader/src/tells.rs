@@ -3,6 +3,8 @@
 use protocol::packed;
 use serde::{Deserialize, Serialize};
 
+use crate::section::Section;
+
 /// A known mistake, in the words of a report.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -13,6 +15,9 @@ pub struct KnownMistake {
     pub nudge: String,
     /// What is wrong.
     pub hint: String,
+    /// What teaches it, where that is not what teaches the item.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub section: Option<Section>,
 }
 
 /// What is told of one item: what each known mistake of its task answers to some of its elements.

@@ -9,6 +9,7 @@ use crate::score::{
     BuildReport, Evidence, ExamName, Hint, Isolation, ItemScore, SCHEMA, Score, TaskScore, Timings,
     Verdict,
 };
+use crate::section::Section;
 use crate::tame::tame;
 use crate::tells::KnownMistake;
 
@@ -80,6 +81,7 @@ pub fn item_score(item: &Item, outcome: &Outcome) -> ItemScore {
         verdict: Verdict::Pending,
         message: String::new(),
         look: None,
+        section: None,
         hints: Vec::new(),
         evidence: None,
         carried_forward: false,
@@ -95,6 +97,7 @@ pub fn item_score(item: &Item, outcome: &Outcome) -> ItemScore {
         Outcome::Fault { fault, place } => {
             score.verdict = verdict_of(fault);
             score.message = fault.to_string();
+            score.section = item.section.clone();
             score.evidence = place.map(|(question, element)| Evidence {
                 number: item.number(question, element),
                 asked: describe::element(&item.questions[question].question, element),
@@ -152,6 +155,7 @@ fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
         return;
     }
     score.look = Some(item.look.clone());
+    score.section = item.section.clone();
 
     // Of the worst question: that is the one that the points are those of.
     let worst = judgements
@@ -175,6 +179,7 @@ fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
             score.verdict = Verdict::Unimplemented;
             score.message = format!("{} still says `todo!`", tame(&panic.place, LONGEST));
             score.look = None;
+            score.section = item.section.as_ref().map(Section::whole_chapter);
             return;
         }
         How::Panicked(panic) => {
@@ -223,6 +228,7 @@ pub fn blocked(by: &str, line: ItemScore) -> ItemScore {
         verdict: Verdict::Blocked { by: by.to_owned() },
         message: format!("rests on {by}: mend that first"),
         look: None,
+        section: None,
         evidence: None,
         ..line
     }
@@ -239,6 +245,10 @@ pub fn hinted(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
         hint: mistake.hint.clone(),
     };
     line.hints = mistakes.iter().map(hint).collect();
+    // The likeliest mistake comes first.
+    if let Some(section) = mistakes.first().and_then(|mistake| mistake.section.clone()) {
+        line.section = Some(section);
+    }
     let ids: Vec<&str> = mistakes.iter().map(|mistake| mistake.id.as_str()).collect();
     line.staff = Some(format!("answers like {}", ids.join(" or ")));
 }

@@ -86,8 +86,13 @@ mod tests {
         BBox::new(Vec3::NEG_ONE, Vec3::ONE)
     }
 
-    fn close(got: Option<Interval>, min: f32, max: f32) -> bool {
-        got.is_some_and(|got| (got.min - min).abs() < 1e-5 && (got.max - max).abs() < 1e-5)
+    #[track_caller]
+    fn assert_inside(got: Option<Interval>, min: f32, max: f32) {
+        let close = |got: Interval| (got.min - min).abs() < 1e-5 && (got.max - max).abs() < 1e-5;
+        assert!(
+            got.is_some_and(close),
+            "got {got:?}, wanted from {min} to {max}"
+        );
     }
 
     #[ignore = "task 3: not written yet"]
@@ -95,7 +100,7 @@ mod tests {
     fn straight_through_the_middle() {
         let ray = Ray::new(vec3(-3.0, 0.0, 0.0), Vec3::X);
         let inside = cube().hit(&ray, Interval::AHEAD);
-        assert!(close(inside, 2.0, 4.0), "{inside:?}");
+        assert_inside(inside, 2.0, 4.0);
     }
 
     #[ignore = "task 3: not written yet"]
@@ -103,7 +108,7 @@ mod tests {
     fn from_inside_the_times_are_clipped() {
         let ray = Ray::new(Vec3::ZERO, Vec3::X);
         let inside = cube().hit(&ray, Interval::new(0.25, 9.0));
-        assert!(close(inside, 0.25, 1.0), "{inside:?}");
+        assert_inside(inside, 0.25, 1.0);
     }
 
     #[ignore = "task 3: not written yet"]
@@ -111,6 +116,6 @@ mod tests {
     fn one_slab_after_the_other_is_not_enough() {
         // It leaves the x slab before it enters the y slab.
         let ray = Ray::new(vec3(0.0, -4.0, 0.0), vec3(1.0, 1.0, 0.0));
-        assert_eq!(cube().hit(&ray, Interval::AHEAD), None);
+        assert_eq!(cube().hit(&ray, Interval::AHEAD), None, "it misses the box");
     }
 }

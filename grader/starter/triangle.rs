@@ -76,17 +76,32 @@ mod tests {
     fn a_ray_through_the_inside_hits() {
         let ray = Ray::new(vec3(0.2, 0.3, 2.0), Vec3::NEG_Z);
         let trace = half_square().hit(&ray).expect("it points at the triangle");
-        assert!((trace.distance - 2.0).abs() < 1e-5, "{trace:?}");
-        assert!(trace.position.abs_diff_eq(vec3(0.2, 0.3, 0.0), 1e-5));
-        assert!(trace.uv.abs_diff_eq(vec2(0.2, 0.3), 1e-5), "{trace:?}");
-        assert_eq!(trace.material, 7);
+        let Trace {
+            distance,
+            position,
+            uv,
+            ..
+        } = trace;
+        assert!(
+            (distance - 2.0).abs() < 1e-5,
+            "distance is {distance}, wanted 2"
+        );
+        let wanted = vec3(0.2, 0.3, 0.0);
+        assert!(
+            position.abs_diff_eq(wanted, 1e-5),
+            "position is {position}, wanted {wanted}"
+        );
+        let wanted = vec2(0.2, 0.3);
+        assert!(uv.abs_diff_eq(wanted, 1e-5), "uv is {uv}, wanted {wanted}");
+        assert_eq!(trace.material, 7, "the material");
     }
 
     #[ignore = "task 2: not written yet"]
     #[test]
     fn the_other_half_of_the_square_is_not_hit() {
         let ray = Ray::new(vec3(0.8, 0.7, 2.0), Vec3::NEG_Z);
-        assert!(half_square().hit(&ray).is_none());
+        let trace = half_square().hit(&ray);
+        assert!(trace.is_none(), "wanted None, got {trace:?}");
     }
 
     #[ignore = "task 2: not written yet"]
@@ -94,6 +109,10 @@ mod tests {
     fn from_behind_the_normal_stays_as_it_is() {
         let ray = Ray::new(vec3(0.2, 0.3, -2.0), Vec3::Z);
         let trace = half_square().hit(&ray).expect("both sides count");
-        assert!(trace.normal.abs_diff_eq(Vec3::Z, 1e-5), "{trace:?}");
+        let (got, wanted) = (trace.normal, Vec3::Z);
+        assert!(
+            got.abs_diff_eq(wanted, 1e-5),
+            "normal is {got}, wanted {wanted}"
+        );
     }
 }

@@ -99,14 +99,34 @@ mod tests {
         Sphere::new(vec3(0.0, 0.0, -5.0), 2.0, 3)
     }
 
+    #[track_caller]
+    fn assert_at(trace: &Trace, wanted: f32, normal: Vec3) {
+        let Trace {
+            distance,
+            normal: got,
+            ..
+        } = *trace;
+        assert!(
+            (distance - wanted).abs() < 1e-5,
+            "distance is {distance}, wanted {wanted}"
+        );
+        assert!(
+            got.abs_diff_eq(normal, 1e-5),
+            "normal is {got}, wanted {normal}"
+        );
+    }
+
     // starter: #[ignore = "task 2: not written yet"]
     #[test]
     fn head_on_the_near_side_is_hit() {
         let trace = ball().hit(&Ray::new(Vec3::ZERO, Vec3::NEG_Z));
         let trace = trace.expect("it points at the centre");
-        assert!((trace.distance - 3.0).abs() < 1e-5, "{trace:?}");
-        assert!(trace.normal.abs_diff_eq(Vec3::Z, 1e-5), "{trace:?}");
-        assert!(trace.uv.abs_diff_eq(vec2(0.25, 0.5), 1e-5), "{trace:?}");
+        assert_at(&trace, 3.0, Vec3::Z);
+        let (got, wanted) = (trace.uv, vec2(0.25, 0.5));
+        assert!(
+            got.abs_diff_eq(wanted, 1e-5),
+            "uv is {got}, wanted {wanted}"
+        );
     }
 
     // starter: #[ignore = "task 2: not written yet"]
@@ -114,14 +134,14 @@ mod tests {
     fn from_inside_the_far_side_is_hit() {
         let trace = ball().hit(&Ray::new(ball().center, Vec3::NEG_Z));
         let trace = trace.expect("it starts at the centre");
-        assert!((trace.distance - 2.0).abs() < 1e-5, "{trace:?}");
-        assert!(trace.normal.abs_diff_eq(Vec3::NEG_Z, 1e-5), "{trace:?}");
+        assert_at(&trace, 2.0, Vec3::NEG_Z);
     }
 
     // starter: #[ignore = "task 2: not written yet"]
     #[test]
     fn what_lies_beyond_the_range_is_not_hit() {
         let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z).within(0.0, 2.5);
-        assert!(ball().hit(&ray).is_none());
+        let trace = ball().hit(&ray);
+        assert!(trace.is_none(), "wanted None, got {trace:?}");
     }
 }

@@ -138,8 +138,12 @@ mod tests {
     fn every_primitive_is_in_one_leaf_and_no_leaf_is_too_large() {
         let bvh = Bvh::build(row(10), 2);
         let leaves: Vec<&Node> = bvh.nodes.iter().filter(|node| node.is_leaf()).collect();
-        assert!(leaves.iter().all(|leaf| leaf.size <= 2), "{leaves:?}");
-        assert_eq!(leaves.iter().map(|leaf| leaf.size).sum::<usize>(), 10);
+        assert!(
+            leaves.iter().all(|leaf| leaf.size <= 2),
+            "a leaf is too large: {leaves:?}"
+        );
+        let count = leaves.iter().map(|leaf| leaf.size).sum::<usize>();
+        assert_eq!(count, 10, "primitives in all leaves");
     }
 
     #[ignore = "task 3: not written yet"]
@@ -148,8 +152,12 @@ mod tests {
         let bvh = Bvh::build(row(10), 1);
         let trace = bvh.hit(&Ray::new(vec3(25.0, 0.0, 0.0), Vec3::NEG_X));
         let trace = trace.expect("the row lies ahead");
-        assert!((trace.distance - 6.5).abs() < 1e-5, "{trace:?}");
-        assert_eq!(trace.material, 9);
+        let distance = trace.distance;
+        assert!(
+            (distance - 6.5).abs() < 1e-5,
+            "distance is {distance}, wanted 6.5"
+        );
+        assert_eq!(trace.material, 9, "the ball that is hit");
     }
 
     #[ignore = "task 3: not written yet"]
@@ -167,6 +175,10 @@ mod tests {
         ];
         let bvh = Bvh::from_nodes(balls, nodes, 0);
         let trace = bvh.hit(&Ray::new(vec3(25.0, 0.0, 0.0), Vec3::NEG_X));
-        assert_eq!(trace.map(|trace| trace.material), Some(0), "{trace:?}");
+        assert_eq!(
+            trace.map(|trace| trace.material),
+            Some(0),
+            "the ball that is hit"
+        );
     }
 }

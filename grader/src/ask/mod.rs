@@ -18,6 +18,7 @@ use protocol::{Answer, Question};
 
 use crate::capture::Capture;
 use crate::sandbox::{Ending, Limits, Process};
+use crate::system;
 
 use budget::Watch;
 
@@ -72,7 +73,7 @@ impl Launcher {
     pub fn start(&self, budget: Budget) -> std::io::Result<Probe> {
         let folder = self.program.parent().unwrap_or(Path::new("."));
         let mut command = Command::new(&self.program);
-        command.env_clear();
+        system::clear_environment(&mut command);
         let limits = Limits {
             memory: Self::MEMORY,
             cpu: Self::ITEMS * budget.cpu,

@@ -34,18 +34,24 @@ pub mod primitive;
 pub mod sphere;
 pub mod triangle;
 ";
-/// The crate around the submission's `bvh.rs`.
-const AROUND: &str = include_str!("../../carried/around.rs");
-/// The crate that asks it: ours, and compiled apart from the submission's text.
-const ASKING: [(&str, &str); 2] = [
-    ("probe.rs", include_str!("../../carried/probe.rs")),
-    ("bvh.rs", include_str!("../../carried/bvh.rs")),
-];
+/// What stands around the submission's `bvh.rs`, beside the reference's files and not in this
+/// program: students have it too, and the plain `build` is not for them.
+const AROUND: [&str; 3] = ["around.rs", "probe.rs", "bvh.rs"];
 
-/// The compiled parts.
+/// The compiled parts, and what stands around the submission on them.
 #[derive(Clone, Debug)]
 pub struct Parts {
     folder: PathBuf,
+    around: Around,
+}
+
+/// Two crates of ours.
+#[derive(Clone, Debug)]
+struct Around {
+    /// The root of the crate that the submission's `bvh.rs` finds itself in.
+    root: String,
+    /// The files of the crate that asks it, compiled apart from the submission's text.
+    asking: [(&'static str, String); 2],
 }
 
 /// The reference, from which the parts are made, is not as it should be: not a student's fault.
@@ -67,20 +73,28 @@ pub enum NoParts {
 impl Parts {
     /// Those made earlier from the same files, or newly made ones, kept below `cache`.
     pub fn prepare(reference: &Path, cache: &Path, rustc: &Rustc) -> Result<Self, NoParts> {
-        let texts = read(reference)?;
-        let folder = cache.join(key(&texts, rustc));
+        let texts = read(reference, FILES)?;
+        let [(_, root), probe, bvh] = read(&reference.join("../carried"), AROUND)?;
+        let parts = Parts {
+            folder: cache.join(key(&texts, rustc)),
+            around: Around {
+                root,
+                asking: [probe, bvh],
+            },
+        };
+        let folder = &parts.folder;
         if folder.is_dir() {
-            return Ok(Parts { folder });
+            return Ok(parts);
         }
         fs::create_dir_all(cache).map_err(at(cache))?;
         let work = TempDir::new_in(cache).map_err(at(cache))?;
         compile_parts(&texts, work.path(), rustc)?;
         // Complete or not at all. Somebody else may have been faster with the same.
-        match fs::rename(work.path(), &folder) {
+        match fs::rename(work.path(), folder) {
             Err(_) if folder.is_dir() => {}
-            renamed => renamed.map_err(at(&folder))?,
+            renamed => renamed.map_err(at(folder))?,
         }
-        Ok(Parts { folder })
+        Ok(parts)
     }
 
     fn metadata(&self) -> PathBuf {
@@ -97,13 +111,17 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> NoParts {
     move |source| NoParts::Io { path, source }
 }
 
-fn read(reference: &Path) -> Result<Vec<(&'static str, String)>, NoParts> {
-    let text = |name| {
-        let path = reference.join(name);
-        let text = fs::read_to_string(&path).map_err(at(&path))?;
-        Ok((name, text))
-    };
-    FILES.into_iter().map(text).collect()
+/// The texts of these files, in their order.
+fn read<const N: usize>(
+    folder: &Path,
+    names: [&'static str; N],
+) -> Result<[(&'static str, String); N], NoParts> {
+    let mut texts = names.map(|name| (name, String::new()));
+    for (name, text) in &mut texts {
+        let path = folder.join(name);
+        *text = fs::read_to_string(&path).map_err(at(&path))?;
+    }
+    Ok(texts)
 }
 
 /// What the parts follow from: their texts, and what they are compiled with.
@@ -168,7 +186,8 @@ impl CarryForward {
     }
 
     fn compile(&self) -> io::Result<Option<PathBuf>> {
-        let ours = [AROUND].into_iter().chain(ASKING.map(|(_, text)| text));
+        let Around { root, asking } = &self.parts.around;
+        let ours = asking.iter().map(|(_, text)| text).chain([root]);
         let content = ours.fold(
             Content::default()
                 .with(self.parts.folder.as_os_str().as_encoded_bytes())
@@ -183,7 +202,8 @@ impl CarryForward {
 
     fn compile_afresh(&self) -> io::Result<Compiled> {
         fs::create_dir_all(&self.folder)?;
-        fs::write(self.folder.join("around.rs"), AROUND)?;
+        let Around { root, asking } = &self.parts.around;
+        fs::write(self.folder.join("around.rs"), root)?;
         fs::write(self.folder.join("bvh.rs"), &self.bvh)?;
         let submission = self.rustc.compile(&Crate {
             name: "submission",
@@ -203,7 +223,8 @@ impl CarryForward {
         let world = GIVEN_FILES
             .into_iter()
             .filter(|(name, _)| *name == "world.rs");
-        for (name, text) in world.chain(ASKING) {
+        let asking = asking.iter().map(|(name, text)| (*name, text.as_str()));
+        for (name, text) in world.chain(asking) {
             fs::write(joined.join(name), text)?;
         }
         self.rustc.compile(&Crate {

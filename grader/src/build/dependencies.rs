@@ -128,7 +128,7 @@ fn make(
     toolchain: &Toolchain,
     target: &Path,
 ) -> Result<Dependencies, NoDependencies> {
-    eprintln!("Preparing what submissions are built with; this happens once.");
+    eprintln!("Preparing what submissions are built with: this once, it takes half a minute.");
     let run = |offline: bool| {
         let mut cargo = Command::new(&toolchain.cargo);
         cargo

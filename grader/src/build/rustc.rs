@@ -14,6 +14,7 @@ use crate::build::kept::{Content, Kept};
 use crate::build::toolchain::Toolchain;
 use crate::capture::Capture;
 use crate::sandbox::{Ending, Limits, Process};
+use crate::system;
 
 const LIMITS: Limits = Limits {
     memory: 4 << 30,
@@ -111,8 +112,8 @@ impl Rustc {
     /// Compiles one crate.
     pub fn compile(&self, source: &Crate) -> io::Result<Compiled> {
         let mut command = Command::new(&self.toolchain.rustc);
+        system::clear_environment(&mut command);
         command
-            .env_clear()
             .env("PATH", std::env::var_os("PATH").unwrap_or_default())
             .env("TMPDIR", source.folder)
             .args(FLAGS)

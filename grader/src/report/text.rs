@@ -6,6 +6,7 @@ use anstyle::{AnsiColor, Style};
 
 use crate::exam::Task;
 use crate::score::{Hint, ItemScore, Score, TaskScore, Verdict};
+use crate::section::Section;
 use crate::tame::tame;
 
 const WIDTH: usize = 80;
@@ -138,6 +139,7 @@ fn item(out: &mut String, item: &ItemScore, hints: Hints) -> fmt::Result {
         writeln!(out, "    {line}")?;
     }
     let hint = said(&item.hints, hints);
+    let section = item.section.as_ref().map(Section::words);
     let rows = [
         ("what", Some(&item.message)),
         (
@@ -151,6 +153,7 @@ fn item(out: &mut String, item: &ItemScore, hints: Hints) -> fmt::Result {
         ),
         ("look", item.look.as_ref()),
         ("hint", hint.as_ref()),
+        ("read", section.as_ref()),
     ];
     for (label, text) in rows {
         if let Some(text) = text.filter(|text| !text.is_empty()) {

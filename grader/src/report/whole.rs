@@ -6,6 +6,8 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
+use crate::system;
+
 /// Writes a file for whoever may read its folder, which is made if it is not there: to a temporary
 /// file beside it, then in its place.
 pub fn write(text: &str, path: &Path) -> io::Result<()> {
@@ -13,13 +15,7 @@ pub fn write(text: &str, path: &Path) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     let mut file = NamedTempFile::new_in(folder)?;
     file.write_all(text.as_bytes())?;
-    // Temporary files are for their owner only; a score is for whoever may read the folder.
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        file.as_file()
-            .set_permissions(fs::Permissions::from_mode(0o644))?;
-    }
+    system::readable_by_all(file.as_file())?;
     file.persist(path).map_err(|error| error.error)?;
     Ok(())
 }

@@ -7,6 +7,7 @@ use std::convert::Infallible;
 use std::io;
 
 use crate::cli::Arguments;
+use crate::desktop;
 use crate::error::Error;
 use crate::exam::{Exam, Item};
 use crate::grade::Grader;
@@ -23,11 +24,16 @@ pub fn watch(arguments: &Arguments, hints: Hints) -> Result<Infallible, Error> {
     let mut screen = Screen::open(arguments.task, hints);
     let mut submission = grader.collect()?;
     let mut last: Option<Score> = None;
+    let mut page = arguments.open.then(|| grader.files(&submission)).flatten();
     loop {
         match round(&grader, &submission, &saves, last.as_ref(), &mut screen) {
             Ok(score) => {
                 screen.show(&score, State::Waiting)?;
                 last = Some(score);
+                // Once: from now on it reloads itself.
+                if let Some(files) = page.take() {
+                    desktop::show(&files.page);
+                }
             }
             // What is on the screen is of an older version: the next round begins at once.
             Err(Stopped::Saved) => {}

@@ -117,3 +117,30 @@ fn a_question_that_is_not_there_is_answered_with_those_that_are() {
     assert_eq!(code, 2);
     assert!(error.contains("such as sphere.from_inside#7"), "{error}");
 }
+
+/// Elsewhere there always is a desktop.
+#[cfg(target_os = "linux")]
+#[test]
+fn without_a_desktop_the_pages_place_is_told_and_nothing_fails() {
+    let submission = Submission::starter("alice");
+    let out = submission.path().join("out");
+    let output = grader()
+        .args(["--open", "--no-reference", "--out"])
+        .args([&out, &submission.path()])
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WSL_DISTRO_NAME")
+        .output()
+        .unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{error}");
+    let page = out.join("report.html");
+    assert!(page.is_file());
+    let told = format!("there is no desktop here: open {} yourself", page.display());
+    assert!(error.contains(&told), "{error}");
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        told.lines().any(|line| line.ends_with("report.html")),
+        "{told}"
+    );
+}

@@ -3,7 +3,7 @@
 use insta::assert_snapshot;
 use serde_json::Value;
 
-use crate::harness::{FULL, Submission, grader, workspace};
+use crate::harness::{FIVE, FULL, Submission, grader, workspace};
 
 #[test]
 fn the_reference_has_all_points() {
@@ -11,6 +11,20 @@ fn the_reference_has_all_points() {
     assert_eq!(graded["points"], 100);
     assert_eq!(graded["max_points"], 100);
     assert_eq!(graded["complete"], true);
+}
+
+#[test]
+fn line_ends_and_byte_order_marks_of_windows_change_nothing() {
+    let windows = |text: String| format!("\u{feff}{}", text.replace('\n', "\r\n"));
+    let read = |place: &str| std::fs::read_to_string(workspace().join(place)).unwrap();
+    let mut submission = Submission::reference("windows");
+    for file in FIVE {
+        submission = submission.with(file, windows(read(&format!("reference/src/{file}"))));
+    }
+    let world = read("grader/starter/world.rs").replace('\n', "\r\n");
+    let graded = submission.with("world.rs", world).grade();
+    assert_eq!(graded.points(), FULL);
+    assert_eq!(graded.score()["build"]["notes"], serde_json::json!([]));
 }
 
 #[test]

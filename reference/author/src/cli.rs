@@ -1,10 +1,14 @@
 //! The command line, as data.
 
 use std::ops::Range;
+use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
 use crate::generated::Mode;
+
+/// Where the book goes unless told otherwise: beside everything else that is built.
+const BOOK: &str = "target/handout";
 
 /// Writes all that is generated in this repository.
 #[derive(Debug, Parser)]
@@ -30,6 +34,27 @@ pub enum Command {
     },
     /// The scenes' meshes
     Scenes(Check),
+    /// The handout's figures; with `--check`, its links, names and commands as well
+    Handout {
+        /// Whether to write the figures.
+        #[command(flatten)]
+        check: Check,
+        /// Make it into a book, in this folder; only `cargo book` can
+        #[arg(long, value_name = "FOLDER", num_args = 0..=1, default_missing_value = BOOK)]
+        book: Option<PathBuf>,
+    },
+    /// What students get, as an archive or as a folder for a Git repository
+    Bundle {
+        /// A name that ends with .zip, or a new folder
+        #[arg(long, value_name = "PLACE", required_unless_present = "check")]
+        out: Option<PathBuf>,
+        /// The handout as a built book, to be put into handout/book
+        #[arg(long, value_name = "FOLDER")]
+        book: Option<PathBuf>,
+        /// Unpack it on an empty home, do what its texts say, grade the starter and the reference
+        #[arg(long)]
+        check: bool,
+    },
     /// The table of which known mistake fails which item of the practice exam
     Mistakes(Check),
     /// How well the practice exam's hints recognise known mistakes, and take unknown ones for others

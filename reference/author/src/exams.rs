@@ -118,6 +118,7 @@ mod tests {
                 id: "bbox.none".to_owned(),
                 nudge: "Really?".to_owned(),
                 hint: "No.".to_owned(),
+                section: None,
             }],
             items: bbox::items(Seed(1)),
         };

@@ -38,6 +38,7 @@ pub fn with_hints(mut exam: Exam, exhibits: &Exhibits) -> Result<Exam, NotProven
         id: mistake.id.clone(),
         nudge: mistake.nudge.clone(),
         hint: mistake.hint.clone(),
+        section: mistake.section.clone(),
     });
     exam.mistakes = mistakes.collect();
     for (place, item) in exam.items.iter_mut().enumerate() {

@@ -4,6 +4,8 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
+use author::bundle::secrets::Secrets;
+use author::bundle::{self, Bundle, archive};
 use author::cli::{Cli, Command};
 use author::generated::{Generated, Mode, deliver};
 use author::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, calibrate, table};
@@ -13,7 +15,7 @@ use author::proof::mutants::{self, Extent};
 use author::proof::prove::prove;
 use author::proof::recognition::recognise;
 use author::proof::workbench::Workbench;
-use author::{exams, scenes, starter};
+use author::{exams, handout, scenes, starter};
 use clap::Parser;
 
 /// The workspace's root, where all paths of generated files start.
@@ -41,6 +43,11 @@ fn run(command: Command) -> Done {
             Ok(io::stdout().write_all(exam.as_bytes())?)
         }
         Command::Scenes(check) => put(&scenes::generated(), check.mode(), "scenes"),
+        Command::Handout { check, book } => make_handout(root, check.mode(), book.as_deref()),
+        Command::Bundle { out, book, check } => {
+            let bundle = Bundle::collect(root, book.as_deref())?;
+            hand_out(root, &bundle, out.as_deref(), check)
+        }
         Command::Mistakes(check) => put(&[matrix::generated()?], check.mode(), "mistakes"),
         Command::Mutants { fast, check } => ask_mutants(root, Extent::new(fast), check.mode()),
         Command::Hints => {
@@ -84,8 +91,47 @@ fn put(files: &[Generated], mode: Mode, name: &str) -> Done {
     Ok(deliver(files, Path::new(ROOT), mode, &mend)?)
 }
 
+fn make_handout(root: &Path, mode: Mode, book: Option<&Path>) -> Done {
+    put(&handout::generated(), mode, "handout")?;
+    let complaints = handout::complaints(root, &exams::practice(root)?)?;
+    conclude(
+        &complaints,
+        "the handout: every link, name and command is there",
+    )?;
+    book.map_or(Ok(()), |folder| make_book(root, &root.join(folder)))
+}
+
+#[cfg(feature = "book")]
+fn make_book(root: &Path, folder: &Path) -> Done {
+    handout::book::build(root, folder)?;
+    println!("{}", folder.join("index.html").display());
+    Ok(())
+}
+
+#[cfg(not(feature = "book"))]
+fn make_book(_: &Path, _: &Path) -> Done {
+    Err("this program was built without mdBook; `cargo book` builds one with it".into())
+}
+
 fn exhibits() -> Result<Exhibits, NotProven> {
     Exhibits::prepare(Workbench::open()?)
+}
+
+/// Hands out what students get; refuses if there is a secret in it.
+fn hand_out(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -> Done {
+    let secrets = Secrets::gather(root, bundle)?;
+    let leaks = secrets.search(bundle);
+    let mut complaints: Vec<String> = leaks.iter().map(ToString::to_string).collect();
+    if check && leaks.is_empty() {
+        complaints = bundle::check::check(root, bundle)?;
+    }
+    let (count, size) = (bundle.files.len(), bundle.size() / 1000);
+    let line = format!("{count} files, {size} kB, {secrets} in none of them");
+    conclude(&complaints, &line)?;
+    if let Some(out) = out {
+        archive::write(bundle, out)?;
+    }
+    Ok(())
 }
 
 fn ask_mutants(root: &Path, extent: Extent, mode: Mode) -> Done {

@@ -46,6 +46,11 @@ fn the_table_of_mistakes_is_in_sync() {
 }
 
 #[test]
+fn the_handout_is_in_sync_and_its_links_names_and_commands_are_there() {
+    assert_in_sync("handout");
+}
+
+#[test]
 fn the_scenes_are_in_sync() {
     assert_in_sync("scenes");
 }

@@ -19,5 +19,6 @@ pub mod probe;
 pub mod sampler;
 pub mod scene;
 pub mod submission;
+mod system;
 #[cfg(feature = "cli")]
 mod view;

@@ -3,8 +3,7 @@
 //! It is told questions, never what counts as right, and nothing that it says of itself earns a
 //! point: exit code, output and claims are diagnosis only.
 
-use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::io::{BufReader, BufWriter, Read, Write};
 use std::process::ExitCode;
 use std::thread;
 
@@ -13,6 +12,7 @@ use protocol::wire::{self, WireError};
 use crate::answer;
 use crate::attempt::keep_panics_quiet;
 use crate::submission::Submission;
+use crate::system::claim_standard_streams;
 
 /// The stack that a submission's recursion may use.
 pub const STACK_BYTES: usize = 64 << 20;
@@ -70,29 +70,4 @@ fn serve(
         let answer = answer::question(submission, &frame.decode()?);
         wire::write(&mut answers, frame.nonce, &answer)?;
     }
-}
-
-/// Moves the grader's pipes away from standard input and output. What a submission prints then
-/// goes to standard error, and what it tries to read is at its end.
-#[cfg(unix)]
-fn claim_standard_streams() -> io::Result<(File, File)> {
-    use std::os::fd::AsFd;
-
-    let questions = io::stdin().as_fd().try_clone_to_owned()?;
-    let answers = io::stdout().as_fd().try_clone_to_owned()?;
-    // A pipe whose other end is closed: no file is opened, so this also works in a sandbox.
-    let (nothing, _) = rustix::pipe::pipe()?;
-    rustix::stdio::dup2_stdin(nothing)?;
-    rustix::stdio::dup2_stdout(io::stderr())?;
-    Ok((File::from(questions), File::from(answers)))
-}
-
-/// Elsewhere the pipes stay where they are: a submission that prints spoils its own answers.
-#[cfg(windows)]
-fn claim_standard_streams() -> io::Result<(File, File)> {
-    use std::os::windows::io::AsHandle;
-
-    let questions = io::stdin().as_handle().try_clone_to_owned()?;
-    let answers = io::stdout().as_handle().try_clone_to_owned()?;
-    Ok((File::from(questions), File::from(answers)))
 }

@@ -13,6 +13,16 @@ fn judge(
         answers,
     };
     let judgement = picture.judge();
+    // A mask shows what is counted, neither more nor less.
+    let blemishes = picture.blemishes().expect("as many answers as rays");
+    let tallies = picture.tallies();
+    for (aspect, tally) in ASPECTS.iter().zip(&tallies) {
+        let found = blemishes.iter().flatten();
+        assert_eq!(
+            found.filter(|found| found.aspect == *aspect).count(),
+            tally.wrong
+        );
+    }
     let mut measured = picture.measure().into_iter();
     let is_right = measured.all(|measured| measured.decider().is_right());
     assert_eq!(is_right, judgement.share == Share::ALL);

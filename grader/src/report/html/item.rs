@@ -8,7 +8,7 @@ use crate::describe;
 use crate::drawing;
 use crate::exam::Item;
 use crate::exhibit::Exhibits;
-use crate::score::{Hint, ItemScore, Verdict};
+use crate::score::{ItemScore, Verdict};
 
 /// An item that lacks points: what happened, where to look, how to ask again.
 pub(super) fn failing(
@@ -33,7 +33,7 @@ pub(super) fn failing(
                 (rows(&asked, &got, &wanted))
                 (drawn(score, item, exhibits))
                 (look(score))
-                (hints(&score.hints))
+                (hints(score))
                 p .again { "Ask it again: " (command(&score.again())) }
                 @if let Some(item) = item { (pictures::failing(item, exhibits)) }
             }
@@ -125,25 +125,28 @@ fn three_rows(score: &ItemScore, item: Option<&Item>) -> (String, String, String
     }
 }
 
-/// Where to look.
+/// Where to look, and what to read.
 fn look(score: &ItemScore) -> Markup {
     html! {
         @if let Some(look) = &score.look {
             p .look { strong { "Look: " } (said(look)) }
         }
+        @if let Some(section) = &score.section {
+            p .look { strong { "Read: " } (said(&section.words())) }
+        }
     }
 }
 
 /// The question that leads there, and folded away what is wrong.
-fn hints(hints: &[Hint]) -> Markup {
+fn hints(score: &ItemScore) -> Markup {
     html! {
-        @for (place, hint) in hints.iter().enumerate() {
+        @for (place, hint) in score.hints.iter().enumerate() {
             div .hint {
                 p {
                     strong { @if place == 0 { "Hint: " } @else { "Or: " } }
                     (said(&hint.nudge))
                 }
-                details {
+                details #(format!("{}-hint-{place}", score.id)) {
                     summary { "Say what is wrong" }
                     p { (said(&hint.hint)) }
                 }
@@ -152,17 +155,19 @@ fn hints(hints: &[Hint]) -> Markup {
     }
 }
 
-/// The question that went wrong, drawn, where it can be.
+/// The question that went wrong, drawn, where it can be. Of what is not written yet, the first one:
+/// that is what is to be written.
 fn drawn(score: &ItemScore, item: Option<&Item>, exhibits: &Exhibits) -> Markup {
-    let drawing = score
-        .evidence
-        .as_ref()
-        .zip(item)
-        .and_then(|(evidence, item)| {
-            let (question, element) = item.element(evidence.number)?;
-            let answer = exhibits.answer(&item.id, question);
-            drawing::of(&item.questions[question], element, answer)
-        });
+    let number = match (&score.evidence, &score.verdict) {
+        (Some(evidence), _) => Some(evidence.number),
+        (None, Verdict::Unimplemented) => Some(1),
+        (None, _) => None,
+    };
+    let drawing = number.zip(item).and_then(|(number, item)| {
+        let (question, element) = item.element(number)?;
+        let answer = exhibits.answer(&item.id, question);
+        drawing::of(&item.questions[question], element, answer)
+    });
     html! {
         @if let Some(drawing) = drawing {
             figure .drawing {

@@ -2,7 +2,7 @@
 //! anything. Pure: what it shows follows from the score, the exam and the answers, and not from
 //! the time.
 //!
-//! Whatever a submission has said is text here: `maud` escapes it, [`said`] makes it harmless to
+//! Whatever a submission has said is text here: `maud` escapes it, `said` makes it harmless to
 //! the eye, and the page's policy runs no script and no style but our own, by their hashes.
 
 mod item;
@@ -27,8 +27,17 @@ use said::said;
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
+/// Whether an open page looks for a newer one in its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reload {
+    /// It stays as it is.
+    Never,
+    /// Every moment, but while its reader is at it.
+    WhileAway,
+}
+
 /// The page. `exam` is what the score is of; `exhibits` are the answers worth a look.
-pub fn page(score: &Score, exam: &Exam, exhibits: &Exhibits) -> String {
+pub fn page(score: &Score, exam: &Exam, exhibits: &Exhibits, reload: Reload) -> String {
     let title = format!(
         "{}: {} of {} points",
         score.submission, score.points, score.max_points
@@ -44,7 +53,7 @@ pub fn page(score: &Score, exam: &Exam, exhibits: &Exhibits) -> String {
                 title { (said(&title)) }
                 style { (PreEscaped(STYLE)) }
             }
-            body {
+            body data-reload[reload == Reload::WhileAway] {
                 a .skip href="#next" { "Skip to what to do next" }
                 (summary::header(score))
                 main {

@@ -21,7 +21,25 @@ addEventListener('click', (event) => {
   const link = event.target.closest('a[href^="#"]');
   if (link && link.getAttribute('href') === location.hash) toTarget();
 });
-toTarget();
+if (!history.state) toTarget();
+
+// While files are watched, a newer page takes this one's place, and looks the same: what is
+// unfolded stays so. Not while somebody is at it.
+const before = history.state;
+if (before) {
+  for (const details of document.querySelectorAll('details[id]')) {
+    // What was not there before is shown as a new page shows it.
+    if (before.all.includes(details.id)) details.open = before.open.includes(details.id);
+  }
+}
+if ('reload' in document.body.dataset) {
+  setInterval(() => {
+    if (document.hasFocus()) return;
+    const ids = (which) => [...document.querySelectorAll(which)].map((details) => details.id);
+    history.replaceState({ all: ids('details[id]'), open: ids('details[id][open]') }, '');
+    location.reload();
+  }, 1500);
+}
 
 for (const button of document.querySelectorAll('.copy')) {
   const code = button.previousElementSibling;
@@ -91,7 +109,8 @@ for (const picture of document.querySelectorAll('.picture')) {
   for (const radio of compare.querySelectorAll('input[type=radio]')) {
     radio.addEventListener('change', () => show(radio.value));
   }
-  show(rows[0].dataset.view);
+  // A browser that reloads a page keeps what was chosen on it.
+  show(compare.querySelector('input[type=radio]:checked')?.value ?? rows[0].dataset.view);
   slide();
   compare.hidden = false;
 

@@ -2,7 +2,6 @@
 //!
 //! Without a script all of them stand side by side. `page.js` adds the slider and the flicker.
 
-use glam::UVec2;
 use maud::{Markup, html};
 
 use super::mask;
@@ -15,6 +14,8 @@ use crate::picture::{self, Picture, Spot, View};
 
 /// The width of the plane on which marks are placed, whatever the film.
 const PLANE: f32 = 64.0;
+/// The radius of a mark: at the mask's width of 256 pixels of the screen, large enough to be hit.
+const RING: f32 = 3.2;
 
 /// The pictures of an item that failed, question by question.
 pub(super) fn failing(item: &Item, exhibits: &Exhibits) -> Markup {
@@ -65,13 +66,15 @@ impl<F: Fn(usize) -> String> Shown<'_, F> {
         html! {
             div .picture data-columns=(picture.film.x) data-rows=(picture.film.y) {
                 h4 { (self.title()) }
-                (self.compare())
+                div .overview {
+                    (self.compare())
+                    div { (self.mask()) (legend(picture)) }
+                }
+                (self.spots())
+                h5 { "Side by side" }
                 div .panels {
                     @for view in &picture.views { (row(picture, view)) }
-                    (self.mask())
                 }
-                (legend(picture))
-                (self.spots())
             }
         }
     }
@@ -90,7 +93,7 @@ impl<F: Fn(usize) -> String> Shown<'_, F> {
 
     /// What the script brings to life: one view at a time, the right one beneath the submission's.
     fn compare(&self) -> Markup {
-        let id = |what: &str| format!("{}-{}-{what}", self.item.id, self.question);
+        let group = format!("{}-{}-view", self.item.id, self.question);
         html! {
             div .compare hidden {
                 @if self.picture.views.len() > 1 {
@@ -98,7 +101,7 @@ impl<F: Fn(usize) -> String> Shown<'_, F> {
                         legend { "Compare" }
                         @for (place, view) in self.picture.views.iter().enumerate() {
                             label {
-                                input type="radio" name=(id("view")) value=(view.name) checked[place == 0];
+                                input type="radio" name=(group) value=(view.name) checked[place == 0];
                                 " " (view.name)
                             }
                         }
@@ -109,11 +112,10 @@ impl<F: Fn(usize) -> String> Shown<'_, F> {
                     img .got alt="";
                 }
                 div .controls {
-                    label for=(id("slider")) { "From the right one to yours" }
-                    span .ends {
-                        span aria-hidden="true" { "right" }
-                        input #(id("slider")) type="range" min="0" max="100" value="50" step="1";
-                        span aria-hidden="true" { "yours" }
+                    label .ends {
+                        span { "right" span .quiet { " to " } }
+                        input type="range" min="0" max="100" value="50" step="1";
+                        span { "yours" }
                     }
                     button type="button" .flicker aria-pressed="false" { "Flicker" }
                 }
@@ -199,16 +201,14 @@ fn panel(picture: &Picture, view: &str, pixels: &[picture::Colour], what: &str) 
 
 /// A ring around a pixel of the mask, with its number; it leads to what is said of it.
 fn mark(picture: &Picture, spot: &Spot, number: usize, id: &str) -> Markup {
-    let UVec2 { x, y } = picture.film;
     let place = (spot.pixel.as_vec2() + 0.5) / picture.film.as_vec2();
-    let (across, down) = (place.x * PLANE, (1.0 - place.y) * PLANE);
-    // Beside the ring, on the side where there is room.
-    let beside = if spot.pixel.x * 2 < x { 5.6 } else { -5.6 };
-    let below = if spot.pixel.y * 10 < y { -0.5 } else { 2.0 };
+    // Not so near to the border that half of it is cut off; the pixel stays within.
+    let inside = |along: f32| (along * PLANE).clamp(RING + 0.4, PLANE - RING - 0.4);
+    let (across, down) = (inside(place.x), inside(1.0 - place.y));
     html! {
         a href=(format!("#{id}")) aria-label=(format!("{number}: {}", words(spot))) {
-            circle cx=(across) cy=(down) r="3.2" {}
-            text x=(across + beside) y=(down + below) text-anchor="middle" aria-hidden="true" { (number) }
+            circle cx=(across) cy=(down) r=(RING) {}
+            text x=(across) y=(down) dy="0.35em" text-anchor="middle" aria-hidden="true" { (number) }
         }
     }
 }

@@ -28,7 +28,7 @@ pub(super) fn header(score: &Score) -> Markup {
                         th scope="col" { "Task" }
                         th scope="col" .wide { "Share" }
                         th scope="col" .number { "Points" }
-                        th scope="col" .number { "Items passed" }
+                        th scope="col" .number .items { "Items passed" }
                     }
                 }
                 tbody {
@@ -49,7 +49,7 @@ fn row(task: &TaskScore) -> Markup {
             th scope="row" { a href=(format!("#{}", task.id)) { (task.title) } }
             td .wide { (bar(task)) }
             td .number { (task.points) " / " (task.max_points) }
-            td .number { (passed.count()) " / " (task.items.len()) }
+            td .number .items { (passed.count()) " / " (task.items.len()) }
         }
     }
 }

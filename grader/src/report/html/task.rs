@@ -4,11 +4,12 @@ use maud::{Markup, html};
 
 use super::item;
 use super::said::said;
-use crate::exam::Exam;
+use crate::exam::{Exam, Item};
 use crate::exhibit::Exhibits;
+use crate::picture;
 use crate::score::{ItemScore, Score, TaskScore};
 
-/// So many failing items of a task are unfolded from the start.
+/// So many failing items of a task are unfolded from the start, and those with pictures.
 const UNFOLDED: usize = 3;
 
 /// What did not compile, and what is worth knowing. Nothing, where there is nothing to say.
@@ -46,17 +47,17 @@ pub(super) fn section(task: &TaskScore, exam: &Exam, exhibits: &Exhibits) -> Mar
                 span .points { " " (task.points) " / " (task.max_points) }
             }
             @for (place, score) in failing.iter().enumerate() {
-                @let is_open = place == 0 || (place < UNFOLDED && score.evidence.is_some());
+                @let is_open = is_unfolded(place, score, asked(score));
                 (item::failing(score, asked(score), exhibits, is_open))
             }
             @if let Some(printed) = &task.printed {
-                details .printed {
+                details #(format!("{}-printed", task.id)) .printed {
                     summary { "What your code printed meanwhile" }
                     pre { (said(printed)) }
                 }
             }
             @if !passed.is_empty() {
-                details .passed {
+                details #(format!("{}-passed", task.id)) .passed {
                     summary { "✓ " (passed.len()) " passed" }
                     ul {
                         @for score in &passed {
@@ -67,4 +68,9 @@ pub(super) fn section(task: &TaskScore, exam: &Exam, exhibits: &Exhibits) -> Mar
             }
         }
     }
+}
+
+fn is_unfolded(place: usize, score: &ItemScore, item: Option<&Item>) -> bool {
+    let has_picture = item.is_some_and(|item| item.questions.iter().any(picture::is_asked));
+    place == 0 || (score.evidence.is_some() && (place < UNFOLDED || has_picture))
 }

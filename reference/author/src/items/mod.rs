@@ -8,6 +8,7 @@ pub mod build;
 pub mod camera;
 pub mod meshes;
 pub mod picture;
+pub mod sections;
 pub mod sphere;
 pub mod traverse;
 pub mod triangle;
@@ -28,8 +29,10 @@ fn item(
     questions: impl IntoIterator<Item = Asked>,
 ) -> Item {
     let [title, look] = text.map(str::to_owned);
+    let id = format!("{task}.{name}");
     Item {
-        id: format!("{task}.{name}"),
+        section: sections::section(&id),
+        id,
         title,
         task,
         points,

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use grader::exam::Task;
+use grader::section::Section;
 use serde::Deserialize;
 
 use crate::proof::sources::{Sources, Unreadable, read};
@@ -23,6 +24,10 @@ pub struct Mistake {
     pub nudge: String,
     /// For students: what is wrong, in words.
     pub hint: String,
+    /// The section of the handout that teaches it, where that is not what teaches the items that
+    /// show it.
+    #[serde(default)]
+    pub section: Option<Section>,
     /// The items that it fails, whatever the seed.
     pub fails: Vec<String>,
     /// What makes the reference wrong; nearly always one change.

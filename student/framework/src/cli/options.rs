@@ -11,7 +11,12 @@ use crate::view::View;
 
 /// Draws a scene with the code of a submission.
 #[derive(Debug, Parser)]
-#[command(version, max_term_width = 100)]
+#[command(
+    name = "cargo render",
+    bin_name = "cargo render",
+    version,
+    max_term_width = 100
+)]
 pub(super) struct Options {
     /// A scene file, or the name of one in the folder `scenes`
     pub(super) scene: PathBuf,

@@ -69,6 +69,7 @@ mod tests {
             task: Task::BBox,
             points: 1,
             look: String::new(),
+            section: None,
             needs: Vec::new(),
             questions: vec![asked; questions],
             tells: Tells::default(),

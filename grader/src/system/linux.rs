@@ -1,0 +1,46 @@
+//! Limits of other processes, and what they have used: Linux alone tells and takes them.
+
+use std::fs;
+use std::io;
+use std::process::Child;
+use std::time::Duration;
+
+use rustix::process::{Resource, Rlimit, prlimit};
+
+use super::Limits;
+use super::unix::pid;
+
+/// Sets the limits of a process that has just been started.
+pub fn limit(child: &Child, limits: Limits) -> io::Result<()> {
+    // The child has run for a moment without limits. It is still starting: a probe does
+    // nothing before its first question, which is sent after this.
+    for (resource, most) in [
+        (Resource::As, limits.memory),
+        (Resource::Cpu, limits.cpu.as_secs().max(1)),
+        (Resource::Fsize, limits.file),
+        (Resource::Core, 0),
+    ] {
+        let limit = Rlimit {
+            current: Some(most),
+            maximum: Some(most),
+        };
+        match prlimit(pid(child), resource, limit) {
+            // It has ended already, which whoever waits for it will see.
+            Ok(_) | Err(rustix::io::Errno::SRCH) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    Ok(())
+}
+
+/// The CPU time that a process has used so far.
+pub fn cpu_time(child: &Child) -> Option<Duration> {
+    let stat = fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
+    // The second field, a name in parentheses, may hold spaces: count after its end. utime
+    // and stime are fields 14 and 15 (proc_pid_stat(5)).
+    let (_, fields) = stat.rsplit_once(')')?;
+    let mut fields = fields.split_whitespace().skip(11);
+    let ticks = fields.next()?.parse::<u64>().ok()? + fields.next()?.parse::<u64>().ok()?;
+    let hertz = rustix::param::clock_ticks_per_second();
+    Some(Duration::from_secs_f64(ticks as f64 / hertz as f64))
+}

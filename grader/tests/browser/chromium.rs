@@ -1,0 +1,109 @@
+//! Finding Chromium, and ending it.
+
+use std::env;
+use std::io::{BufRead, BufReader, Write};
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+
+use tempfile::TempDir;
+
+use crate::devtools::Tab;
+
+const NAMES: [&str; 5] = [
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+    "chrome",
+];
+
+const SKIPPED: &[u8] = b"SKIPPED, no Chromium: the page was not tested in a browser\n";
+
+/// A browser of one's own, with a profile that vanishes with it.
+pub struct Chromium {
+    process: Child,
+    address: String,
+    _profile: TempDir,
+}
+
+impl Chromium {
+    /// Starts it. None, and loudly, where there is none and none is required.
+    pub fn start() -> Option<Self> {
+        let Some(program) = find() else {
+            assert!(
+                env::var_os("CI").is_none(),
+                "CI is set, and there is no Chromium: apt-get install chromium"
+            );
+            // Not `eprintln!`, which a passing test swallows.
+            std::io::stderr().write_all(SKIPPED).unwrap();
+            return None;
+        };
+        let profile = TempDir::new().unwrap();
+        let mut process = Command::new(program)
+            .args(["--headless=new", "--remote-debugging-port=0"])
+            // Where tests run there is often no user namespace to make a sandbox of; the pages
+            // are our own.
+            .args([
+                "--no-sandbox",
+                "--disable-gpu",
+                "--no-first-run",
+                "--disable-dev-shm-usage",
+            ])
+            .args([
+                "--disable-background-networking",
+                "--disable-component-update",
+            ])
+            .arg(format!("--user-data-dir={}", profile.path().display()))
+            .arg("about:blank")
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut lines = BufReader::new(process.stderr.take().unwrap()).lines();
+        let address = lines
+            .by_ref()
+            .map_while(Result::ok)
+            .find_map(|line| Some(line.strip_prefix("DevTools listening on ")?.to_owned()))
+            .expect("Chromium says where it listens");
+        // Read on, or it would block when it has much to complain of.
+        std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
+        Some(Chromium {
+            process,
+            address,
+            _profile: profile,
+        })
+    }
+
+    /// A tab of its own.
+    pub fn tab(&self) -> Tab {
+        Tab::open(&self.address)
+    }
+}
+
+impl Drop for Chromium {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+fn find() -> Option<PathBuf> {
+    let named = env::var_os("CHROME").map(PathBuf::from);
+    let path = env::var_os("PATH").unwrap_or_default();
+    let folders: Vec<PathBuf> = env::split_paths(&path).collect();
+    let on_path = NAMES.iter().flat_map(|name| {
+        let file = format!("{name}{}", env::consts::EXE_SUFFIX);
+        folders.iter().map(move |folder| folder.join(&file))
+    });
+    let elsewhere = [
+        "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+        "/Applications/Chromium.app/Contents/MacOS/Chromium",
+    ];
+    let mut all = named
+        .into_iter()
+        .chain(on_path)
+        .chain(elsewhere.map(PathBuf::from));
+    all.find(|program| program.is_file())
+}

@@ -1,0 +1,182 @@
+//! As much of the DevTools protocol as these tests need: <https://chromedevtools.github.io>.
+//!
+//! By hand, on a WebSocket: the crates that speak all of it are a hundred others.
+
+use std::net::TcpStream;
+use std::path::Path;
+use std::time::Duration;
+
+use serde_json::{Value, json};
+use tungstenite::{Message, WebSocket};
+
+/// No answer takes longer.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// What a reader's machine is like.
+#[derive(Clone, Copy)]
+pub struct Reader {
+    pub width: u32,
+    pub dark: bool,
+    pub reduced_motion: bool,
+}
+
+/// At a desk, by day.
+pub const DESK: Reader = Reader {
+    width: 1200,
+    dark: false,
+    reduced_motion: false,
+};
+
+/// One tab, and all that it has reported.
+pub struct Tab {
+    socket: WebSocket<TcpStream>,
+    session: Option<String>,
+    sent: u64,
+    events: Vec<Value>,
+}
+
+impl Tab {
+    /// Opens a tab of the browser that listens at `address`.
+    pub fn open(address: &str) -> Self {
+        let host = address.strip_prefix("ws://").unwrap();
+        let host = host.split('/').next().unwrap();
+        let stream = TcpStream::connect(host).unwrap();
+        stream.set_read_timeout(Some(PATIENCE)).unwrap();
+        let (socket, _) = tungstenite::client(address, stream).unwrap();
+        let mut tab = Tab {
+            socket,
+            session: None,
+            sent: 0,
+            events: Vec::new(),
+        };
+        let target = tab.call("Target.createTarget", json!({ "url": "about:blank" }));
+        let attached = tab.call(
+            "Target.attachToTarget",
+            json!({ "targetId": target["targetId"], "flatten": true }),
+        );
+        tab.session = Some(attached["sessionId"].as_str().unwrap().to_owned());
+        for domain in ["Page", "Runtime", "Log", "Network"] {
+            tab.call(&format!("{domain}.enable"), json!({}));
+        }
+        tab
+    }
+
+    /// Loads a file, and waits until it is there.
+    pub fn load(&mut self, file: &Path, reader: Reader) {
+        let metrics = json!({
+            "width": reader.width, "height": 900, "deviceScaleFactor": 1, "mobile": reader.width < 600,
+        });
+        self.call("Emulation.setDeviceMetricsOverride", metrics);
+        let scheme = if reader.dark { "dark" } else { "light" };
+        let motion = if reader.reduced_motion {
+            "reduce"
+        } else {
+            "no-preference"
+        };
+        let features = json!({ "features": [
+            { "name": "prefers-color-scheme", "value": scheme },
+            { "name": "prefers-reduced-motion", "value": motion },
+        ]});
+        self.call("Emulation.setEmulatedMedia", features);
+        self.events.clear();
+        let url = format!("file://{}", file.display());
+        self.call("Page.navigate", json!({ "url": url }));
+        self.loaded();
+    }
+
+    /// Waits until a page is there, from now on.
+    pub fn loaded(&mut self) {
+        let is_load = |event: &Value| event["method"] == "Page.loadEventFired";
+        while !self.events.iter().any(is_load) {
+            self.listen();
+        }
+        self.events.retain(|event| !is_load(event));
+    }
+
+    /// The value of an expression, awaited if it is a promise.
+    pub fn eval(&mut self, expression: &str) -> Value {
+        let arguments = json!({
+            "expression": expression, "awaitPromise": true, "returnByValue": true, "userGesture": true,
+        });
+        let answer = self.call("Runtime.evaluate", arguments);
+        assert!(
+            answer.get("exceptionDetails").is_none(),
+            "{expression}: {:#}",
+            answer["exceptionDetails"]
+        );
+        answer["result"]["value"].clone()
+    }
+
+    /// From now on the page is one to be printed.
+    pub fn print(&mut self) {
+        self.call("Emulation.setEmulatedMedia", json!({ "media": "print" }));
+    }
+
+    /// Presses a key and lets it go; `code` is the number that Windows has for it.
+    pub fn press(&mut self, key: &str, code: u32) {
+        // Enter is a character as well, and only as such opens things.
+        let text = if key == "Enter" { "\r" } else { "" };
+        for kind in ["keyDown", "keyUp"] {
+            let arguments = json!({
+                "type": kind, "key": key, "code": key, "text": text, "windowsVirtualKeyCode": code,
+            });
+            self.call("Input.dispatchKeyEvent", arguments);
+        }
+    }
+
+    /// Errors on the console since the page was loaded: exceptions, what the policy has refused.
+    pub fn errors(&mut self) -> Vec<String> {
+        // What was reported before this answer has arrived.
+        self.eval("0");
+        let is_error = |event: &&Value| match event["method"].as_str() {
+            Some("Runtime.exceptionThrown") => true,
+            Some("Runtime.consoleAPICalled") => event["params"]["type"] == "error",
+            Some("Log.entryAdded") => event["params"]["entry"]["level"] == "error",
+            _ => false,
+        };
+        let errors = self.events.iter().filter(is_error);
+        errors.map(|event| event["params"].to_string()).collect()
+    }
+
+    /// All that was asked of any network or disk since the page was loaded, but for the page and
+    /// for what lies in it.
+    pub fn requests(&mut self) -> Vec<String> {
+        self.eval("0");
+        let events = self.events.iter();
+        let urls = events
+            .filter(|event| event["method"] == "Network.requestWillBeSent")
+            .filter(|event| event["params"]["type"] != "Document")
+            .filter_map(|event| event["params"]["request"]["url"].as_str());
+        urls.filter(|url| !url.starts_with("data:"))
+            .map(str::to_owned)
+            .collect()
+    }
+
+    fn call(&mut self, method: &str, params: Value) -> Value {
+        self.sent += 1;
+        let mut message = json!({ "id": self.sent, "method": method, "params": params });
+        if let Some(session) = &self.session {
+            message["sessionId"] = json!(session);
+        }
+        self.socket
+            .send(Message::text(message.to_string()))
+            .unwrap();
+        loop {
+            if let Some(answer) = self.listen() {
+                assert!(answer.get("error").is_none(), "{method}: {answer}");
+                return answer["result"].clone();
+            }
+        }
+    }
+
+    /// One message: the answer to what was sent last, or None for an event, which is kept.
+    fn listen(&mut self) -> Option<Value> {
+        let message = self.socket.read().unwrap();
+        let message: Value = serde_json::from_str(message.to_text().unwrap()).ok()?;
+        if message["id"] == json!(self.sent) {
+            return Some(message);
+        }
+        self.events.push(message);
+        None
+    }
+}

@@ -1,0 +1,111 @@
+//! The folders that are handed out as they stand.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::bundle::Bundle;
+
+/// Folders and single files at the workspace's root.
+const PARTS: [&str; 7] = [
+    "LICENSE-APACHE",
+    "LICENSE-MIT",
+    "grader",
+    "handout",
+    "scenes",
+    "student/framework",
+    "student/protocol",
+];
+/// What only the staff needs, wherever it lies in those folders.
+const LEFT_OUT: [&str; 3] = ["tests", "benches", "target"];
+/// Made from the reference, and never taken from disk.
+const PROJECTED: &str = "grader/starter";
+/// Where an exam may lie that is not to be seen yet.
+const EXAMS: &str = "grader/exams";
+/// The one that is handed out.
+const PRACTICE: &str = "grader/exams/practice.json";
+
+/// A file or folder of the repository can not be used.
+#[derive(Debug, thiserror::Error)]
+pub enum Unusable {
+    /// The system does not let us.
+    #[error("can not read {}: {source}", path.display())]
+    Io {
+        /// Which.
+        path: PathBuf,
+        /// The system's words.
+        source: io::Error,
+    },
+    /// It is a link or a device, or its name is no text.
+    #[error("{} is no plain file: students could not unpack it", .0.display())]
+    Odd(PathBuf),
+}
+
+/// Puts all of them into the bundle.
+pub(super) fn copy(root: &Path, bundle: &mut Bundle) -> Result<(), Unusable> {
+    PARTS
+        .iter()
+        .try_for_each(|part| take(&root.join(part), part, bundle))
+}
+
+/// Takes what is at `place`, and all below it, to the bundle's `path`.
+pub(super) fn take(place: &Path, path: &str, bundle: &mut Bundle) -> Result<(), Unusable> {
+    let at = |source| Unusable::Io {
+        path: place.to_owned(),
+        source,
+    };
+    let kind = fs::symlink_metadata(place).map_err(at)?.file_type();
+    if kind.is_file() {
+        bundle.put(path, fs::read(place).map_err(at)?);
+        return Ok(());
+    }
+    if !kind.is_dir() {
+        return Err(Unusable::Odd(place.to_owned()));
+    }
+    for entry in fs::read_dir(place).map_err(at)? {
+        let name = entry.map_err(at)?.file_name();
+        let below = place.join(&name);
+        let name = name.to_str().ok_or_else(|| Unusable::Odd(below.clone()))?;
+        let path = format!("{path}/{name}");
+        if is_handed_out(&path, name) {
+            take(&below, &path, bundle)?;
+        }
+    }
+    Ok(())
+}
+
+fn is_handed_out(path: &str, name: &str) -> bool {
+    let secret = path.starts_with(EXAMS) && path != EXAMS && path != PRACTICE;
+    let hidden = name.starts_with('.');
+    !(secret || hidden || path == PROJECTED || LEFT_OUT.contains(&name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn handed_out(path: &str) -> bool {
+        is_handed_out(path, path.rsplit('/').next().unwrap())
+    }
+
+    #[test]
+    fn no_exam_but_the_practice_exam_is_handed_out() {
+        assert!(handed_out("grader/exams") && handed_out("grader/exams/practice.json"));
+        assert!(!handed_out("grader/exams/final.json"));
+    }
+
+    #[test]
+    fn what_staff_and_editors_leave_behind_stays() {
+        for path in [
+            "grader/tests",
+            "student/protocol/tests",
+            "scenes/.flat.json.swp",
+        ] {
+            assert!(!handed_out(path), "{path}");
+        }
+        assert!(
+            handed_out("grader/src/judge/tree/tests.rs"),
+            "a module, not a folder of tests"
+        );
+    }
+}

@@ -1,0 +1,55 @@
+//! What mdBook made is looked at: that links which are right in Markdown are right in the book, and
+//! that no page asks for anything from elsewhere.
+
+use std::path::Path;
+
+use grader::section::CHAPTERS;
+
+use crate::handout::links::SUMMARY;
+use crate::handout::pages::{Page, pages};
+use crate::proof::sources::{Unreadable, read};
+
+/// What is wrong with the pages in the folder `book`, made from the workspace at `root`.
+pub fn problems(root: &Path, book: &Path) -> Result<Vec<String>, Unreadable> {
+    let mut problems = Vec::new();
+    let chapters = pages(&root.join(CHAPTERS))?;
+    for chapter in chapters.iter().filter(|chapter| chapter.name != SUMMARY) {
+        let html = read(&book.join(chapter.name.replace(".md", ".html")))?;
+        problems.extend(problems_of(chapter, &html));
+    }
+    Ok(problems)
+}
+
+fn problems_of(chapter: &Page, html: &str) -> Vec<String> {
+    let missing = chapter
+        .anchors()
+        .filter(|anchor| !html.contains(&format!("id=\"{anchor}\"")))
+        .map(|anchor| format!("{}: the page has no #{anchor}", chapter.name));
+    // A link may lead elsewhere; nothing may be fetched from there.
+    let fetched = ["src=\"http", "src=\"//", "url(http", "@import"]
+        .into_iter()
+        .chain(["rel=\"stylesheet\" href=\"http", "mathjax"])
+        .filter(|fetch| html.contains(fetch))
+        .map(|fetch| format!("{}: the page fetches something: {fetch}", chapter.name));
+    missing.chain(fetched).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_without_a_heading_or_with_a_foreign_script_is_told() {
+        let chapter = Page::new("a.md", "# One\n## Two\n");
+        let good = "<h1 id=\"one\">One</h1><h2 id=\"two\">Two</h2><a href=\"https://x.org\">x</a>";
+        assert_eq!(problems_of(&chapter, good), [""; 0]);
+        let bad = "<h1 id=\"one\">One</h1><script src=\"https://x.org/x.js\"></script>";
+        assert_eq!(
+            problems_of(&chapter, bad),
+            [
+                "a.md: the page has no #two",
+                "a.md: the page fetches something: src=\"http"
+            ]
+        );
+    }
+}

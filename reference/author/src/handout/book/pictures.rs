@@ -1,0 +1,42 @@
+//! Figures become part of the page, so that they are light or dark as the book's theme is.
+
+use std::collections::BTreeMap;
+
+use pulldown_cmark::{Event, Parser, Tag};
+
+use crate::handout::figures;
+use crate::handout::pages::options;
+
+/// The chapter, its figures drawn in place.
+pub fn with_pictures(markdown: &str) -> String {
+    let drawn: BTreeMap<String, String> = figures::all()
+        .map(|(name, svg)| (format!("figures/{name}"), svg))
+        .collect();
+    let mut pictures = Vec::new();
+    for (event, range) in Parser::new_ext(markdown, options()).into_offset_iter() {
+        if let Event::Start(Tag::Image { dest_url, .. }) = event {
+            pictures.push((range, dest_url.to_string()));
+        }
+    }
+    let mut text = markdown.to_owned();
+    for (range, file) in pictures.into_iter().rev() {
+        if let Some(svg) = drawn.get(&file) {
+            // A line of its own in the page: an empty one would end it.
+            let svg = svg.replace('\n', "");
+            text.replace_range(range, &format!("<figure>{svg}</figure>"));
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_pictures;
+
+    #[test]
+    fn a_figure_becomes_its_drawing_and_other_pictures_stay() {
+        let text = with_pictures("![a](figures/camera-side.svg)\n\n![b](b.png)\n");
+        assert!(text.starts_with("<figure><svg "), "{text}");
+        assert!(text.ends_with("</svg></figure>\n\n![b](b.png)\n"), "{text}");
+    }
+}

@@ -1,0 +1,151 @@
+//! Whether the handout's commands are commands: asked of the same definitions that read the
+//! command line.
+
+use std::collections::BTreeSet;
+
+use clap::{CommandFactory, Parser};
+use grader::cli::Arguments;
+
+use super::names::Source;
+use super::pages::{Page, Piece};
+use crate::cli::Cli;
+
+/// What `cargo render` takes; its crate is not linked here.
+const RENDER_OPTIONS: &str = "student/framework/src/cli/options.rs";
+/// What the handout uses of the test harness.
+const HARNESS: [&str; 1] = ["--nocapture"];
+/// Commands that are not this repository's.
+const FOREIGN: [&str; 5] = ["rustc", "rustup", "git", "cd", "unzip"];
+
+/// Commands, flags and arguments that nobody takes, each with its place. `aliases` are cargo's.
+pub fn unknown_commands(
+    page: &Page,
+    sources: &[Source],
+    aliases: &BTreeSet<String>,
+) -> Vec<String> {
+    let inline = page.codes.iter().filter(|code| {
+        let text = code.text.as_str();
+        text.starts_with("cargo ") || text.starts_with("rustup ") || text.starts_with("--")
+    });
+    let all = page.commands.iter().chain(inline);
+    let problem = |piece: &Piece| match piece.text.strip_prefix("--") {
+        Some(_) => unknown_flag(&piece.text, sources),
+        None => unknown_command(&piece.text, sources, aliases),
+    };
+    all.filter_map(|piece| Some(page.complaint(piece, &problem(piece)?)))
+        .collect()
+}
+
+fn unknown_command(text: &str, sources: &[Source], aliases: &BTreeSet<String>) -> Option<String> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let (cargo, rest) = words.split_first()?;
+    if *cargo != "cargo" {
+        let known = FOREIGN.contains(cargo);
+        return (!known).then(|| format!("what is the command {cargo}?"));
+    }
+    let (command, arguments) = rest.split_first()?;
+    let own = ["install", "test", "build"].contains(command) || aliases.contains(*command);
+    if !own {
+        return Some(format!("cargo has no command {command}"));
+    }
+    // Placeholders stand for what is allowed there.
+    let arguments = arguments.iter().map(|word| match *word {
+        "ITEM#N" | "ITEM#NUMBER" => "sphere.from_inside#7",
+        "N" => "60",
+        other => other,
+    });
+    let line: Vec<&str> = [*command].into_iter().chain(arguments).collect();
+    let error = match *command {
+        "grade" => Arguments::try_parse_from(&line).err(),
+        "author" => Cli::try_parse_from(&line).err(),
+        "render" | "render-reference" => return unknown_option(&line[1..], sources),
+        "examples" => return unknown_example(&line[1..], sources),
+        _ => None,
+    }?;
+    let told = error.to_string();
+    let first = told.lines().next().unwrap_or_default();
+    (error.use_stderr()).then(|| format!("`{text}`: {first}"))
+}
+
+/// A flag by itself, as prose names it: of any command.
+fn unknown_flag(text: &str, sources: &[Source]) -> Option<String> {
+    let flag = text.split([' ', '=']).next().unwrap_or(text);
+    let name = flag.trim_start_matches('-');
+    let takes = |command: clap::Command| {
+        command
+            .get_arguments()
+            .any(|argument| argument.get_long() == Some(name))
+    };
+    let authors = Cli::command().get_subcommands().cloned().any(takes);
+    let known = takes(Arguments::command()) || authors || HARNESS.contains(&flag);
+    if known {
+        return None;
+    }
+    unknown_option(&[flag], sources).map(|_| format!("no command takes {flag}"))
+}
+
+/// The first flag that `cargo render` does not take: each is a field of its options.
+fn unknown_option(words: &[&str], sources: &[Source]) -> Option<String> {
+    let options = sources.iter().find(|source| source.path == RENDER_OPTIONS);
+    let options = options.map_or("", |source| source.text.as_str());
+    let mut flags = words.iter().filter_map(|word| word.strip_prefix("--"));
+    let unknown = flags.find(|flag| {
+        let field = format!(" {}:", flag.replace('-', "_"));
+        !options.contains(&field)
+    })?;
+    Some(format!("cargo render takes no --{unknown}"))
+}
+
+/// A filter for the worked examples that is no file's name.
+fn unknown_example(words: &[&str], sources: &[Source]) -> Option<String> {
+    let unknown = words.iter().find(|word| {
+        let file = format!("student/src/{word}.rs");
+        !HARNESS.contains(word) && !sources.iter().any(|source| source.path == file)
+    })?;
+    Some(format!("no file has examples called {unknown}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn complaints(markdown: &str) -> Vec<String> {
+        let source = |path: &str, text: &str| Source {
+            path: path.to_owned(),
+            text: text.to_owned(),
+        };
+        let sources = [
+            source(RENDER_OPTIONS, "    pub(super) view: View,"),
+            source("student/src/bvh.rs", ""),
+        ];
+        let aliases = ["grade", "author", "render", "examples"].map(str::to_owned);
+        unknown_commands(&Page::new("a.md", markdown), &sources, &aliases.into())
+    }
+
+    #[test]
+    fn commands_and_flags_that_are_taken_pass() {
+        let text = "```sh\ncargo grade --task sphere  # one task\ncargo author exams --check\n\
+                    cargo examples bvh --nocapture\n```\n`--hints` `cargo render cornell-box --view depth` `--view`";
+        assert_eq!(complaints(text), [""; 0]);
+    }
+
+    #[test]
+    fn each_that_nobody_takes_is_told_with_its_place() {
+        let text = "```sh\ncargo grade --taks sphere\ncargo grade --task spheres\ncargo gradee\n\
+                    cargo render a --views\ncargo examples tree\nmake\n```\n`--hint`";
+        let told = complaints(text);
+        let starts = [
+            "a.md:2: `cargo grade --taks sphere`: error: unexpected argument '--taks' found",
+            "a.md:3: `cargo grade --task spheres`: error: invalid value 'spheres'",
+            "a.md:4: cargo has no command gradee",
+            "a.md:5: cargo render takes no --views",
+            "a.md:6: no file has examples called tree",
+            "a.md:7: what is the command make?",
+            "a.md:9: no command takes --hint",
+        ];
+        assert_eq!(told.len(), starts.len(), "{told:#?}");
+        for (told, start) in told.iter().zip(starts) {
+            assert!(told.starts_with(start), "{told}");
+        }
+    }
+}

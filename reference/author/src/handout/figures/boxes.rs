@@ -1,0 +1,193 @@
+//! Figures of "Boxes".
+
+use glam::{DVec2, dvec2};
+
+use super::drawing::{Drawing, Hue, Side};
+
+/// The ray of the first two figures: per axis, the times in the slab.
+const X: [f64; 2] = [2.0, 6.0];
+const Y: [f64; 2] = [3.0, 7.5];
+const Z: [f64; 2] = [0.8, 6.8];
+const TIMES: [f64; 2] = [2.4, 9.0];
+
+/// Two slabs, the box that they share, and a ray through it.
+pub fn slabs() -> String {
+    let mut drawing = Drawing::new(480.0, 330.0);
+    let (origin, step) = (dvec2(40.0, 300.0), dvec2(46.0, -32.0));
+    let at = |t: f64| origin + t * step;
+    let (low, high) = (dvec2(at(X[0]).x, at(Y[0]).y), dvec2(at(X[1]).x, at(Y[1]).y));
+    let across = [dvec2(low.x, 15.0), dvec2(high.x, 315.0)];
+    let along = [dvec2(15.0, high.y), dvec2(465.0, low.y)];
+    drawing
+        .area(Hue::Orange, &super::drawing::corners(across[0], across[1]))
+        .area(Hue::Green, &super::drawing::corners(along[0], along[1]));
+    for x in [low.x, high.x] {
+        drawing.line(Hue::Orange, dvec2(x, 15.0), dvec2(x, 315.0));
+    }
+    for y in [low.y, high.y] {
+        drawing.line(Hue::Green, dvec2(15.0, y), dvec2(465.0, y));
+    }
+    drawing
+        .open_box(Hue::Ink, low, high)
+        .arrow(Hue::Blue, origin, at(8.8))
+        .dot(Hue::Ink, origin);
+    for (t, hue) in [(X[0], Hue::Orange), (Y[0], Hue::Green)] {
+        drawing.dot(hue, at(t));
+    }
+    for (t, hue) in [(X[1], Hue::Orange), (Y[1], Hue::Green)] {
+        drawing.ring(hue, at(t));
+    }
+    drawing
+        .small(
+            Hue::Orange,
+            Side::Left,
+            at(X[0]) + dvec2(-8.0, -6.0),
+            "2: enters x",
+        )
+        .small(
+            Hue::Green,
+            Side::Right,
+            at(Y[0]) + dvec2(9.0, 16.0),
+            "3: enters y",
+        )
+        .small(
+            Hue::Orange,
+            Side::Right,
+            at(X[1]) + dvec2(9.0, 16.0),
+            "6: leaves x",
+        )
+        .small(
+            Hue::Green,
+            Side::Left,
+            at(Y[1]) + dvec2(-10.0, -8.0),
+            "7.5: leaves y",
+        )
+        .words(
+            Hue::Orange,
+            Side::Middle,
+            dvec2(low.x.midpoint(high.x), 306.0),
+            "x slab",
+        )
+        .words(
+            Hue::Green,
+            Side::Left,
+            dvec2(low.x - 12.0, low.y - 14.0),
+            "y slab",
+        )
+        .words(
+            Hue::Ink,
+            Side::Left,
+            dvec2(high.x - 8.0, high.y + 22.0),
+            "the box",
+        );
+    drawing.finish(
+        "Two slabs and a ray",
+        "The x slab is an upright band, the y slab a level one; the box is where they cross. The ray \
+         enters the x slab at time 2 and the y slab at time 3, leaves the x slab at 6 and the y slab \
+         at 7.5. It is in the box from 3, the last entry, to 6, the first exit.",
+    )
+}
+
+/// The same ray as intervals of time, with a third slab and the times that are asked for.
+pub fn times() -> String {
+    let mut drawing = Drawing::new(480.0, 290.0);
+    let place = |t: f64, row: f64| dvec2(110.0 + 38.0 * t, 40.0 + 40.0 * row);
+    let enter = X[0].max(Y[0]).max(Z[0]).max(TIMES[0]);
+    let leave = X[1].min(Y[1]).min(Z[1]).min(TIMES[1]);
+    drawing
+        .area(
+            Hue::Blue,
+            &super::drawing::corners(place(enter, -0.5), place(leave, 4.3)),
+        )
+        .dashed(Hue::Blue, place(enter, -0.5), place(enter, 4.3))
+        .dashed(Hue::Blue, place(leave, -0.5), place(leave, 4.3));
+    let rows = [
+        ("x slab", X, Hue::Orange),
+        ("y slab", Y, Hue::Green),
+        ("z slab", Z, Hue::Pink),
+        ("times", TIMES, Hue::Ink),
+        ("all of them", [enter, leave], Hue::Blue),
+    ];
+    for (row, (name, [from, to], hue)) in (0..).zip(rows) {
+        let row = f64::from(row);
+        let tick = dvec2(0.0, 7.0);
+        let (a, b) = (place(from, row), place(to, row));
+        drawing
+            .words(hue, Side::Left, dvec2(98.0, a.y + 6.0), name)
+            .line(hue, a, b)
+            .line(hue, a - tick, a + tick)
+            .line(hue, b - tick, b + tick);
+    }
+    drawing.arrow(Hue::Soft, place(0.0, 5.0), place(9.3, 5.0));
+    for t in 0..=9 {
+        let at = place(f64::from(t), 5.0);
+        drawing
+            .line(Hue::Soft, at - dvec2(0.0, 4.0), at + dvec2(0.0, 4.0))
+            .small(
+                Hue::Soft,
+                Side::Middle,
+                at + dvec2(0.0, 22.0),
+                &t.to_string(),
+            );
+    }
+    drawing.words(
+        Hue::Soft,
+        Side::Right,
+        place(9.3, 5.0) + dvec2(2.0, 5.0),
+        "t",
+    );
+    drawing.finish(
+        "Intervals of time and what they share",
+        "Five intervals above an axis of time: the x slab from 2 to 6, the y slab from 3 to 7.5, the z \
+         slab from 0.8 to 6.8, the times asked for from 2.4 to 9. All of them share 3 to 6: from the \
+         last entry to the first exit.",
+    )
+}
+
+/// What becomes of a direction without x, and of a box without thickness.
+pub fn special() -> String {
+    let mut drawing = Drawing::new(480.0, 300.0);
+    let (low, high) = (dvec2(90.0, 110.0), dvec2(190.0, 200.0));
+    drawing
+        .area(
+            Hue::Orange,
+            &super::drawing::corners(dvec2(low.x, 50.0), dvec2(high.x, 265.0)),
+        )
+        .dashed(Hue::Orange, dvec2(low.x, 50.0), dvec2(low.x, 265.0))
+        .dashed(Hue::Orange, dvec2(high.x, 50.0), dvec2(high.x, 265.0))
+        .open_box(Hue::Ink, low, high);
+    for (x, hue) in [(45.0, Hue::Soft), (140.0, Hue::Blue), (235.0, Hue::Soft)] {
+        drawing
+            .arrow(hue, dvec2(x, 250.0), dvec2(x, 62.0))
+            .dot(Hue::Ink, dvec2(x, 250.0));
+    }
+    drawing
+        .words(Hue::Ink, Side::Middle, dvec2(140.0, 28.0), "d_x = 0")
+        .small(Hue::Soft, Side::Middle, dvec2(45.0, 284.0), "+∞ +∞")
+        .small(Hue::Blue, Side::Middle, dvec2(140.0, 284.0), "−∞ +∞")
+        .small(Hue::Soft, Side::Middle, dvec2(235.0, 284.0), "−∞ −∞");
+    let flat = [dvec2(310.0, 150.0), dvec2(460.0, 150.0)];
+    drawing
+        .line(Hue::Ink, flat[0], flat[1])
+        .arrow(Hue::Blue, dvec2(325.0, 245.0), dvec2(445.0, 65.0))
+        .dot(Hue::Ink, dvec2(325.0, 245.0))
+        .dot(
+            Hue::Blue,
+            at_height(dvec2(325.0, 245.0), dvec2(445.0, 65.0), 150.0),
+        )
+        .words(Hue::Ink, Side::Middle, dvec2(385.0, 28.0), "min.y = max.y")
+        .small(Hue::Blue, Side::Left, dvec2(380.0, 138.0), "enter = leave")
+        .small(Hue::Blue, Side::Middle, dvec2(385.0, 284.0), "a hit");
+    drawing.finish(
+        "A direction without x, and a box without height",
+        "Left, three rays with direction x zero, beside, in and beyond the x slab: dividing by zero \
+         gives plus and plus infinity left of it, minus and plus infinity inside, minus and minus \
+         infinity right of it. Right, a flat box: the ray enters and leaves it at the same time, and \
+         that is a hit.",
+    )
+}
+
+/// Where the line from `a` to `b` has the height `y`.
+fn at_height(a: DVec2, b: DVec2, y: f64) -> DVec2 {
+    a.lerp(b, (y - a.y) / (b.y - a.y))
+}

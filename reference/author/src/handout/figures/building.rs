@@ -1,0 +1,246 @@
+//! Figures of "Building a BVH".
+
+use glam::{DVec2, dvec2};
+
+use super::drawing::{Drawing, Hue, Side};
+
+/// The balls of the chapter's example: radius 1/2, at 0, 2, 4, …
+const BALLS: u32 = 10;
+const BUCKETS: u32 = 8;
+
+fn center(ball: u32) -> f64 {
+    f64::from(2 * ball)
+}
+
+/// Which bucket a center is in; the last one falls off the end, and is put back.
+fn bucket(center_at: f64) -> u32 {
+    let extent = center(BALLS - 1);
+    let place = (center_at / extent * f64::from(BUCKETS)).floor() as u32;
+    place.min(BUCKETS - 1)
+}
+
+/// How many balls are left of the plane before each bucket but the first.
+fn left_of_planes() -> Vec<u32> {
+    let left_of = |plane: u32| {
+        (0..BALLS)
+            .filter(|ball| bucket(center(*ball)) < plane)
+            .count()
+    };
+    (1..BUCKETS).map(|plane| left_of(plane) as u32).collect()
+}
+
+/// The surface of the box around `n` neighbours: 2n − 1 long, 1 high, 1 deep.
+fn surface(n: u32) -> f64 {
+    8.0 * f64::from(n) - 2.0
+}
+
+/// C with C_trav = C_isect = 1.
+fn cost(left: u32) -> f64 {
+    let right = BALLS - left;
+    let side = |n: u32| surface(n) * f64::from(n);
+    1.0 + (side(left) + side(right)) / surface(BALLS)
+}
+
+/// Boxes in boxes, and the same as a tree.
+pub fn tree() -> String {
+    let mut drawing = Drawing::new(480.0, 350.0);
+    let triangle = |drawing: &mut Drawing, hue: Hue, at: DVec2| {
+        let corners = [
+            at + dvec2(0.0, -14.0),
+            at + dvec2(13.0, 10.0),
+            at + dvec2(-13.0, 10.0),
+        ];
+        drawing.area(hue, &corners).outline(hue, &corners);
+    };
+    drawing
+        .open_box(Hue::Ink, dvec2(20.0, 20.0), dvec2(460.0, 160.0))
+        .filled_box(Hue::Blue, dvec2(40.0, 46.0), dvec2(200.0, 146.0))
+        .filled_box(Hue::Orange, dvec2(280.0, 40.0), dvec2(440.0, 140.0));
+    for at in [dvec2(64.0, 70.0), dvec2(120.0, 112.0), dvec2(176.0, 96.0)] {
+        triangle(&mut drawing, Hue::Blue, at);
+    }
+    for at in [dvec2(304.0, 116.0), dvec2(416.0, 64.0)] {
+        triangle(&mut drawing, Hue::Orange, at);
+    }
+    drawing
+        .words(Hue::Ink, Side::Middle, dvec2(240.0, 98.0), "N")
+        .words(Hue::Blue, Side::Left, dvec2(194.0, 138.0), "A")
+        .words(Hue::Orange, Side::Left, dvec2(434.0, 132.0), "B");
+    let (root, a, b) = (
+        dvec2(240.0, 200.0),
+        dvec2(120.0, 262.0),
+        dvec2(360.0, 262.0),
+    );
+    drawing.line(Hue::Ink, root, a).line(Hue::Ink, root, b);
+    for (at, hue, name) in [
+        (root, Hue::Ink, "N"),
+        (a, Hue::Blue, "A"),
+        (b, Hue::Orange, "B"),
+    ] {
+        let half = dvec2(22.0, 15.0);
+        drawing
+            .card(at - half, at + half)
+            .filled_box(hue, at - half, at + half)
+            .words(hue, Side::Middle, at + dvec2(0.0, 6.0), name);
+    }
+    for cell in 0..5 {
+        let hue = if cell < 3 { Hue::Blue } else { Hue::Orange };
+        let corner = dvec2(130.0 + 44.0 * f64::from(cell), 296.0);
+        drawing.filled_box(hue, corner, corner + dvec2(44.0, 28.0));
+        drawing.small(
+            hue,
+            Side::Middle,
+            corner + dvec2(22.0, 20.0),
+            &cell.to_string(),
+        );
+    }
+    drawing
+        .small(Hue::Ink, Side::Left, dvec2(120.0, 316.0), "primitives")
+        .small(Hue::Blue, Side::Left, dvec2(92.0, 250.0), "start 0,")
+        .small(Hue::Blue, Side::Left, dvec2(92.0, 270.0), "size 3")
+        .small(Hue::Orange, Side::Right, dvec2(388.0, 250.0), "start 3,")
+        .small(Hue::Orange, Side::Right, dvec2(388.0, 270.0), "size 2");
+    drawing.finish(
+        "A bounding volume hierarchy",
+        "A box N around everything, and in it a box A around three triangles and a box B around two. \
+         As a tree, N has the children A and B, which are leaves. The list of primitives is cut into \
+         pieces: places 0 to 2 belong to A, with start 0 and size 3, places 3 and 4 to B, with start 3 \
+         and size 2.",
+    )
+}
+
+/// The example's ten balls in eight buckets, and the cheapest plane.
+pub fn buckets() -> String {
+    let mut drawing = Drawing::new(480.0, 240.0);
+    let place = |x: f64, y: f64| dvec2(33.0 + 23.0 * x, 96.0 + y);
+    let width = center(BALLS - 1) / f64::from(BUCKETS);
+    let edge = |bucket: u32| f64::from(bucket) * width;
+    drawing
+        .filled_box(Hue::Blue, place(-0.5, -11.5), place(8.5, 11.5))
+        .filled_box(Hue::Orange, place(9.5, -11.5), place(18.5, 11.5));
+    for plane in 0..=BUCKETS {
+        let at = edge(plane);
+        let ends = (place(at, -62.0), place(at, 58.0));
+        if plane == BUCKETS / 2 {
+            drawing.line(Hue::Green, ends.0, ends.1);
+        } else {
+            drawing.dashed(Hue::Soft, ends.0, ends.1);
+        }
+    }
+    for ball in 0..BALLS {
+        let at = center(ball);
+        drawing
+            .disc(Hue::Ink, place(at, 0.0), 11.5)
+            .dot(Hue::Ink, place(at, 0.0));
+    }
+    for number in 0..BUCKETS {
+        let count = (0..BALLS)
+            .filter(|ball| bucket(center(*ball)) == number)
+            .count();
+        let middle = edge(number) + width / 2.0;
+        drawing
+            .small(
+                Hue::Soft,
+                Side::Middle,
+                place(middle, -46.0),
+                &number.to_string(),
+            )
+            .words(
+                Hue::Ink,
+                Side::Middle,
+                place(middle, 48.0),
+                &count.to_string(),
+            );
+    }
+    drawing
+        .small(Hue::Soft, Side::Right, place(-0.9, -76.0), "bucket")
+        .small(Hue::Ink, Side::Right, place(-0.9, 78.0), "centers in it")
+        .words(
+            Hue::Blue,
+            Side::Middle,
+            place(4.0, 108.0),
+            "A: N_A = 5, S_A = 38",
+        )
+        .words(
+            Hue::Orange,
+            Side::Middle,
+            place(14.2, 108.0),
+            "B: N_B = 5, S_B = 38",
+        )
+        .small(Hue::Green, Side::Middle, place(9.0, -70.0), "this plane")
+        .small(Hue::Soft, Side::Middle, place(9.0, 132.0), "S_N = 78");
+    drawing.finish(
+        "Ten balls in eight buckets",
+        "Ten balls in a row. Their centers go from 0 to 18, in eight buckets of equal width, which hold \
+         2, 1, 1, 1, 1, 1, 1 and 2 of them. The plane in the middle has five balls on either side; the \
+         box around five has the surface 38, the box around all has 78.",
+    )
+}
+
+/// What each of the seven planes costs.
+pub fn costs() -> String {
+    let mut drawing = Drawing::new(480.0, 300.0);
+    let place = |plane: f64, cost: f64| dvec2(40.0 + 54.0 * plane, 250.0 - 82.0 * (cost - 5.4));
+    drawing.arrow(Hue::Soft, place(0.4, 5.4), place(7.9, 5.4));
+    drawing.arrow(Hue::Soft, place(0.4, 5.4), place(0.4, 8.35));
+    let planes: Vec<(f64, u32)> = (1..BUCKETS).map(f64::from).zip(left_of_planes()).collect();
+    let curve: Vec<DVec2> = planes
+        .iter()
+        .map(|(plane, left)| place(*plane, cost(*left)))
+        .collect();
+    drawing.curve(Hue::Soft, &curve);
+    for (plane, left) in planes {
+        let (cost, right) = (cost(left), BALLS - left);
+        let hue = if left == right { Hue::Green } else { Hue::Blue };
+        let at = place(plane, cost);
+        drawing
+            .dot(hue, at)
+            .small(
+                hue,
+                Side::Middle,
+                at + dvec2(0.0, -14.0),
+                &format!("{cost:.2}"),
+            )
+            .small(
+                Hue::Ink,
+                Side::Middle,
+                place(plane, 5.4) + dvec2(0.0, 22.0),
+                &format!("{left}|{right}"),
+            );
+    }
+    drawing
+        .words(Hue::Ink, Side::Right, dvec2(76.0, 26.0), "C")
+        .words(
+            Hue::Green,
+            Side::Middle,
+            place(4.0, 5.87) + dvec2(0.0, 26.0),
+            "the cheapest",
+        )
+        .small(
+            Hue::Ink,
+            Side::Middle,
+            dvec2(256.0, 294.0),
+            "balls to the left and right of the plane",
+        );
+    drawing.finish(
+        "What the planes cost",
+        "The cost of the seven partitions of ten balls. With 2 balls left of the plane and 8 right of \
+         it 7.72, with 3 and 7 it is 6.69, with 4 and 6 it is 6.08, with 5 and 5 it is 5.87, the \
+         cheapest; and the same again to the other side.",
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_costs_are_those_of_the_chapter() {
+        let costs = left_of_planes().into_iter().map(cost);
+        let costs: Vec<String> = costs.map(|cost| format!("{cost:.2}")).collect();
+        assert_eq!(
+            costs,
+            ["7.72", "6.69", "6.08", "5.87", "6.08", "6.69", "7.72"]
+        );
+    }
+}

@@ -1,0 +1,64 @@
+//! Figures of "How it is graded".
+
+use glam::{DVec2, dvec2};
+use protocol::OFFSETS;
+
+use super::drawing::{Drawing, Hue, Side};
+
+/// One pixel that an edge runs through: what counts at each of its five places.
+pub fn edge() -> String {
+    let mut drawing = Drawing::new(480.0, 300.0);
+    let (corner, side) = (dvec2(30.0, 24.0), 240.0);
+    let place = |at: DVec2| corner + side * dvec2(at.x, 1.0 - at.y);
+    let (low, high) = (dvec2(0.13, 0.0), dvec2(0.87, 1.0));
+    let left = [dvec2(0.0, 0.0), low, high, dvec2(0.0, 1.0)];
+    let right = [low, dvec2(1.0, 0.0), dvec2(1.0, 1.0), high];
+    drawing
+        .area(Hue::Blue, &left.map(place))
+        .area(Hue::Orange, &right.map(place))
+        .line(Hue::Ink, place(low), place(high))
+        .open_box(Hue::Ink, corner, corner + side);
+    for offset in OFFSETS {
+        let at = offset.as_dvec2();
+        let beside = (high - low).perp_dot(at - low);
+        let hue = match beside {
+            _ if beside.abs() < 1e-6 => Hue::Green,
+            _ if beside > 0.0 => Hue::Blue,
+            _ => Hue::Orange,
+        };
+        drawing.dot(hue, place(at));
+    }
+    drawing
+        .dashed(Hue::Green, place(dvec2(0.5, 0.5)), dvec2(300.0, 144.0))
+        .words(Hue::Green, Side::Right, dvec2(306.0, 140.0), "on the edge:")
+        .words(
+            Hue::Green,
+            Side::Right,
+            dvec2(306.0, 162.0),
+            "either is right",
+        )
+        .words(
+            Hue::Blue,
+            Side::Right,
+            dvec2(286.0, 236.0),
+            "left of it: a hit",
+        )
+        .words(
+            Hue::Orange,
+            Side::Right,
+            dvec2(286.0, 60.0),
+            "right of it: a miss",
+        )
+        .small(
+            Hue::Ink,
+            Side::Middle,
+            dvec2(150.0, 288.0),
+            "one pixel, five places",
+        );
+    drawing.finish(
+        "A pixel with an edge in it",
+        "One pixel, five places in it, and an edge that runs through the middle one. At the two places \
+         left of the edge only a hit is right, at the two right of it only a miss; in the middle, on \
+         the edge, either is.",
+    )
+}

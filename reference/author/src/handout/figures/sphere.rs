@@ -1,0 +1,138 @@
+//! Figures of "Where a ray meets a sphere".
+
+use glam::{DVec2, dvec2};
+
+use super::drawing::{Drawing, Hue, Side};
+
+/// Rays that start outside, beside and inside of a sphere, and which of the roots counts.
+pub fn roots() -> String {
+    let mut drawing = Drawing::new(480.0, 330.0);
+    let (center, radius) = (dvec2(270.0, 180.0), 110.0);
+    drawing
+        .disc(Hue::Ink, center, radius)
+        .dot(Hue::Soft, center);
+    let half = |height: f64| dvec2((radius * radius - height * height).sqrt(), 0.0);
+
+    // From outside: the near root is ahead, and counts.
+    let (up, start) = (dvec2(0.0, -55.0), dvec2(30.0, 125.0));
+    let (near, far) = (center + up - half(55.0), center + up + half(55.0));
+    drawing
+        .line(Hue::Blue, start, near)
+        .dashed(Hue::Blue, near, far)
+        .arrow(Hue::Blue, far, far + dvec2(75.0, 0.0))
+        .dot(Hue::Ink, start)
+        .dot(Hue::Blue, near)
+        .ring(Hue::Blue, far)
+        .words(
+            Hue::Blue,
+            Side::Left,
+            near + dvec2(-10.0, -10.0),
+            "near: counts",
+        )
+        .words(Hue::Blue, Side::Right, far + dvec2(12.0, -10.0), "far");
+
+    // From inside: the near root is behind the origin, the far one counts.
+    let (down, inside) = (dvec2(0.0, 45.0), dvec2(250.0, 225.0));
+    let (near, far) = (center + down - half(45.0), center + down + half(45.0));
+    drawing
+        .dashed(Hue::Orange, near, inside)
+        .arrow(Hue::Orange, inside, far)
+        .dot(Hue::Ink, inside)
+        .ring(Hue::Orange, near)
+        .dot(Hue::Orange, far)
+        .words(
+            Hue::Orange,
+            Side::Left,
+            near + dvec2(-12.0, 6.0),
+            "near: t < 0",
+        )
+        .words(
+            Hue::Orange,
+            Side::Right,
+            far + dvec2(12.0, 6.0),
+            "far: counts",
+        );
+
+    // Past it: no root at all.
+    let past = dvec2(30.0, 40.0);
+    drawing
+        .arrow(Hue::Green, past, dvec2(450.0, 40.0))
+        .dot(Hue::Ink, past)
+        .words(
+            Hue::Green,
+            Side::Left,
+            dvec2(450.0, 28.0),
+            "none: discriminant < 0",
+        );
+    drawing.finish(
+        "Two roots, one that counts, or none",
+        "Three rays and a sphere. One starts outside and meets it twice: the near meeting counts. One \
+         starts inside: its near root lies behind it, t is negative, so the far one counts. One \
+         passes by and has no root.",
+    )
+}
+
+/// The two roots by geometry: the closest approach, and half a chord to either side.
+pub fn chord() -> String {
+    let mut drawing = Drawing::new(480.0, 290.0);
+    let (center, radius) = (dvec2(300.0, 140.0), 105.0);
+    let (start, closest) = (dvec2(40.0, 210.0), dvec2(300.0, 210.0));
+    let half = dvec2((radius * radius - 70.0 * 70.0_f64).sqrt(), 0.0);
+    let (near, far) = (closest - half, closest + half);
+    drawing
+        .disc(Hue::Ink, center, radius)
+        .area(Hue::Blue, &[center, closest, near])
+        .line(Hue::Blue, center, closest)
+        .line(Hue::Blue, center, near)
+        .dashed(Hue::Soft, start, center)
+        .arrow(Hue::Ink, start, far + dvec2(70.0, 0.0))
+        .outline(Hue::Soft, &square(closest))
+        .dot(Hue::Ink, start)
+        .dot(Hue::Ink, center)
+        .dot(Hue::Blue, near)
+        .dot(Hue::Blue, far)
+        .measure(start + dvec2(0.0, 44.0), closest + dvec2(0.0, 44.0))
+        .measure(near + dvec2(0.0, 22.0), closest + dvec2(0.0, 22.0));
+    drawing
+        .words(Hue::Ink, Side::Left, start + dvec2(6.0, -14.0), "o")
+        .words(Hue::Ink, Side::Right, center + dvec2(8.0, -8.0), "centre")
+        .words(
+            Hue::Blue,
+            Side::Left,
+            center.midpoint(near) + dvec2(-8.0, -2.0),
+            "r",
+        )
+        .small(Hue::Ink, Side::Middle, dvec2(150.0, 276.0), "−(o · d)")
+        .small(
+            Hue::Ink,
+            Side::Right,
+            closest + dvec2(8.0, 28.0),
+            "√discriminant / 2",
+        )
+        .words(Hue::Ink, Side::Left, near + dvec2(-8.0, -8.0), "near")
+        .words(Hue::Ink, Side::Right, far + dvec2(8.0, -8.0), "far")
+        .small(
+            Hue::Blue,
+            Side::Right,
+            closest + dvec2(8.0, -30.0),
+            "closest approach",
+        );
+    drawing.finish(
+        "Half a chord to either side of the closest approach",
+        "A ray from o passes the sphere's centre at some distance. Its closest approach lies at minus \
+         the product of o and d along the ray; the near root half a chord before it, the far root half \
+         a chord behind it. Half of the chord, the distance of the approach and the radius form a right \
+         triangle.",
+    )
+}
+
+/// The sign of a right angle at `corner`, to its upper left.
+fn square(corner: DVec2) -> [DVec2; 4] {
+    let side = 12.0;
+    [
+        corner,
+        corner - dvec2(side, 0.0),
+        corner - dvec2(side, side),
+        corner - dvec2(0.0, side),
+    ]
+}

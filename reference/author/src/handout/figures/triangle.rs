@@ -1,0 +1,120 @@
+//! Figures of "Where a ray meets a triangle".
+
+use glam::{DVec2, dvec2};
+
+use super::drawing::{Drawing, Hue, Side};
+
+const P0: DVec2 = dvec2(70.0, 250.0);
+const P1: DVec2 = dvec2(420.0, 210.0);
+const P2: DVec2 = dvec2(190.0, 50.0);
+
+fn point(u: f64, v: f64) -> DVec2 {
+    P0 + u * (P1 - P0) + v * (P2 - P0)
+}
+
+/// A point of a triangle, and the three areas that are its weights.
+pub fn weights() -> String {
+    let mut drawing = Drawing::new(480.0, 300.0);
+    let p = point(0.35, 0.3);
+    drawing
+        .area(Hue::Blue, &[p, P1, P2])
+        .area(Hue::Orange, &[p, P2, P0])
+        .area(Hue::Green, &[p, P0, P1])
+        .line(Hue::Soft, p, P0)
+        .line(Hue::Soft, p, P1)
+        .line(Hue::Soft, p, P2)
+        .outline(Hue::Ink, &[P0, P1, P2])
+        .arrow(Hue::Ink, P0, P1)
+        .arrow(Hue::Ink, P0, P2)
+        .dot(Hue::Ink, p);
+    drawing
+        .words(Hue::Ink, Side::Left, P0 + dvec2(-6.0, 8.0), "p_0")
+        .words(Hue::Ink, Side::Right, P1 + dvec2(10.0, 6.0), "p_1")
+        .words(Hue::Ink, Side::Middle, P2 + dvec2(0.0, -14.0), "p_2")
+        .words(
+            Hue::Ink,
+            Side::Middle,
+            P0.midpoint(P1) + dvec2(6.0, 24.0),
+            "e_1 = p_1 − p_0",
+        )
+        .words(
+            Hue::Ink,
+            Side::Left,
+            P0.midpoint(P2) + dvec2(-12.0, 0.0),
+            "e_2",
+        )
+        .words(Hue::Ink, Side::Right, p + dvec2(8.0, -8.0), "P")
+        .words(
+            Hue::Blue,
+            Side::Middle,
+            (p + P1 + P2) / 3.0 + dvec2(8.0, 8.0),
+            "w = 0.35",
+        )
+        .words(
+            Hue::Orange,
+            Side::Middle,
+            (p + P2 + P0) / 3.0 + dvec2(6.0, 16.0),
+            "u = 0.35",
+        )
+        .words(
+            Hue::Green,
+            Side::Middle,
+            (p + P0 + P1) / 3.0 + dvec2(6.0, 8.0),
+            "v = 0.3",
+        );
+    drawing.finish(
+        "Barycentric coordinates",
+        "A triangle p0, p1, p2 with the edges e1 from p0 to p1 and e2 from p0 to p2. A point P inside \
+         divides it into three: the part opposite to p0 is w of the whole area, the part opposite to \
+         p1 is u, the part opposite to p2 is v. Here u is 0.35, v is 0.3 and w is 0.35.",
+    )
+}
+
+/// Where which of the weights is below zero.
+pub fn signs() -> String {
+    let mut drawing = Drawing::new(480.0, 340.0);
+    let (origin, unit) = (dvec2(130.0, 250.0), 130.0);
+    let place = |u: f64, v: f64| origin + unit * dvec2(u, -v);
+    let triangle = [place(0.0, 0.0), place(1.0, 0.0), place(0.0, 1.0)];
+    let other = [place(1.0, 0.0), place(1.0, 1.0), place(0.0, 1.0)];
+    drawing
+        .line(Hue::Soft, place(0.0, -0.6), place(0.0, 1.75))
+        .line(Hue::Soft, place(-0.9, 0.0), place(2.4, 0.0))
+        .line(Hue::Soft, place(1.6, -0.6), place(-0.75, 1.75))
+        .area(Hue::Orange, &other)
+        .dashed(Hue::Orange, place(1.0, 0.0), place(1.0, 1.0))
+        .dashed(Hue::Orange, place(0.0, 1.0), place(1.0, 1.0))
+        .area(Hue::Green, &triangle)
+        .outline(Hue::Ink, &triangle)
+        .dot(Hue::Green, place(0.2, 0.3))
+        .cross(Hue::Orange, place(0.8, 0.7));
+    drawing
+        .words(Hue::Green, Side::Right, place(0.13, 0.1), "a hit")
+        .small(
+            Hue::Orange,
+            Side::Right,
+            place(1.06, 0.86),
+            "(0.8, 0.7): u, v ≥ 0,",
+        )
+        .small(
+            Hue::Orange,
+            Side::Right,
+            place(1.06, 0.7),
+            "and w = −0.5: a miss",
+        )
+        .words(Hue::Ink, Side::Left, place(-0.07, -0.17), "p_0")
+        .words(Hue::Ink, Side::Middle, place(0.93, -0.19), "p_1")
+        .words(Hue::Ink, Side::Left, place(-0.1, 1.0), "p_2")
+        .words(Hue::Soft, Side::Left, place(-0.2, 0.4), "u < 0")
+        .words(Hue::Soft, Side::Middle, place(0.45, -0.4), "v < 0")
+        .words(Hue::Soft, Side::Right, place(0.5, 1.35), "w < 0")
+        .small(Hue::Soft, Side::Right, place(2.2, -0.15), "u")
+        .small(Hue::Soft, Side::Right, place(0.06, 1.65), "v");
+    drawing.finish(
+        "Where the weights are negative",
+        "The plane of the triangle with u to the right and v up. Beyond each edge one weight is below \
+         zero: left of the edge p0 p2 it is u, below the edge p0 p1 it is v, beyond the edge p1 p2 it \
+         is w. The point (0.2, 0.3) is inside. The point (0.8, 0.7) is in the other half of the \
+         parallelogram: u and v are at least zero there, and w is minus 0.5.",
+    )
+}

@@ -1,0 +1,161 @@
+//! Whether every link, anchor and figure of the handout is there, and every figure is shown.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use grader::exam::Exam;
+use grader::section::Section;
+
+use super::pages::{Page, anchor};
+
+/// What is wrong with the links among these chapters; `figures` are files beside them.
+pub fn broken_links(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
+    let anchors = anchors(pages);
+    let mut complaints = Vec::new();
+    for page in pages {
+        let links = page.links.iter();
+        for link in links.filter(|link| !link.text.contains("://")) {
+            let (file, anchor) = link.text.split_once('#').unwrap_or((&link.text, ""));
+            let file = if file.is_empty() { &page.name } else { file };
+            let problem = match anchors.get(file) {
+                None if figures.contains(file) => None,
+                None => Some(format!("there is no {file}")),
+                Some(anchors) if anchor.is_empty() || anchors.contains(anchor) => None,
+                Some(_) => Some(format!("{file} has no heading for #{anchor}")),
+            };
+            complaints.extend(problem.map(|problem| page.complaint(link, &problem)));
+        }
+    }
+    complaints.extend(unreachable(pages, figures));
+    complaints
+}
+
+/// Chapters and figures that nothing leads to.
+fn unreachable(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
+    let links = pages.iter().flat_map(|page| &page.links);
+    let reached: BTreeSet<&str> = links
+        .map(|link| link.text.split('#').next().unwrap_or_default())
+        .collect();
+    let chapters = pages.iter().map(|page| page.name.as_str());
+    let all = chapters
+        .filter(|name| *name != SUMMARY)
+        .chain(figures.iter().map(String::as_str));
+    all.filter(|file| !reached.contains(file))
+        .map(|file| format!("{file}: nothing leads there"))
+        .collect()
+}
+
+/// The table of contents.
+pub const SUMMARY: &str = "SUMMARY.md";
+
+/// Sections that an exam names and the chapters do not have, and items that name none.
+pub fn missing_sections(pages: &[Page], exam: &Exam) -> Vec<String> {
+    let headings: BTreeMap<&str, BTreeMap<String, &str>> = pages
+        .iter()
+        .map(|page| {
+            let headings = page.headings.iter();
+            let headings = headings.map(|heading| (anchor(&heading.text), heading.text.as_str()));
+            (page.name.as_str(), headings.collect())
+        })
+        .collect();
+    let problem = |section: &Section| {
+        let headings = headings.get(section.chapter());
+        match headings.and_then(|headings| headings.get(section.anchor())) {
+            None => Some(format!("the handout has no section {section}")),
+            Some(heading) if *heading != section.heading() => Some(format!(
+                "{section} would be told as \"{}\", and the heading is \"{heading}\"",
+                section.heading()
+            )),
+            Some(_) => None,
+        }
+    };
+    let items = exam.items.iter().map(|item| {
+        let none = "it has no section: see items/sections.rs".to_owned();
+        let problem = item.section.as_ref().map_or(Some(none), problem);
+        problem.map(|problem| format!("{}: {problem}", item.id))
+    });
+    let mistakes = exam.mistakes.iter().map(|mistake| {
+        let problem = mistake.section.as_ref().and_then(problem);
+        problem.map(|problem| format!("{}: {problem}", mistake.id))
+    });
+    items.chain(mistakes).flatten().collect()
+}
+
+fn anchors(pages: &[Page]) -> BTreeMap<&str, BTreeSet<String>> {
+    let of = |page: &Page| page.anchors().collect();
+    pages
+        .iter()
+        .map(|page| (page.name.as_str(), of(page)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::items::bbox;
+    use crate::seed::Seed;
+
+    #[test]
+    fn a_section_that_is_not_there_or_reads_otherwise_is_told_with_its_item() {
+        let mut items = bbox::items(Seed(1));
+        items.truncate(3);
+        items[1].section = Some(Section::new("boxes.md#flat-boxes"));
+        items[2].section = None;
+        let exam = Exam {
+            schema: 1,
+            id: String::new(),
+            mistakes: Vec::new(),
+            items,
+        };
+        let page = "# Boxes\n## From the last entry to the first exit\n## Flat, boxes\n";
+        assert_eq!(
+            missing_sections(&[Page::new("boxes.md", page)], &exam),
+            [
+                "bbox.slab_after_slab: boxes.md#flat-boxes would be told as \"Flat boxes\", and the \
+                 heading is \"Flat, boxes\"",
+                "bbox.octants: it has no section: see items/sections.rs",
+            ]
+        );
+        assert_eq!(
+            missing_sections(&[], &exam)[0],
+            "bbox.through: the handout has no section \
+             boxes.md#from-the-last-entry-to-the-first-exit"
+        );
+    }
+
+    fn figures(names: &[&str]) -> BTreeSet<String> {
+        names.iter().map(|name| (*name).to_owned()).collect()
+    }
+
+    #[test]
+    fn links_to_headings_files_and_figures_that_are_there_pass() {
+        let pages = [
+            Page::new(
+                "a.md",
+                "# A\n[b](b.md#the-end) [here](#a) [web](https://example.org)",
+            ),
+            Page::new(
+                "b.md",
+                "# B\n[a](a.md)\n## The end\n![a picture](figures/a.svg)",
+            ),
+        ];
+        assert_eq!(broken_links(&pages, &figures(&["figures/a.svg"])), [""; 0]);
+    }
+
+    #[test]
+    fn each_broken_link_is_told_with_its_place() {
+        let pages = [
+            Page::new("a.md", "# A\n\n[b](c.md)\n[here](#b) [a](a.md)"),
+            Page::new("b.md", "# B\n![a picture](figures/b.svg)"),
+        ];
+        assert_eq!(
+            broken_links(&pages, &figures(&["figures/a.svg"])),
+            [
+                "a.md:3: there is no c.md",
+                "a.md:4: a.md has no heading for #b",
+                "b.md:2: there is no figures/b.svg",
+                "b.md: nothing leads there",
+                "figures/a.svg: nothing leads there",
+            ]
+        );
+    }
+}

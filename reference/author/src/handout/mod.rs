@@ -1,0 +1,113 @@
+//! The handout: its figures are drawn here, its words are checked against the code, and it is made
+//! into a book.
+
+#[cfg(feature = "book")]
+pub mod book;
+pub mod commands;
+pub mod figures;
+pub mod links;
+pub mod names;
+pub mod pages;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use grader::exam::Exam;
+use grader::section::CHAPTERS;
+
+use crate::generated::Generated;
+use crate::handout::names::{Known, Source};
+use crate::handout::pages::{Page, pages};
+use crate::proof::sources::{Unreadable, read};
+
+/// What students see of the code, and what writes the files that they see.
+const SOURCES: [&str; 7] = [
+    "student/src",
+    "student/protocol/src",
+    "student/framework/src",
+    "reference/src",
+    "grader/src",
+    "reference/author/src/items",
+    "scenes",
+];
+
+/// Folders that hold nothing of ours.
+const NOT_OURS: [&str; 2] = [".git", "target"];
+
+/// The handout's generated files: its figures.
+pub fn generated() -> Vec<Generated> {
+    let figure = |(name, svg)| Generated::new(format!("{CHAPTERS}/figures/{name}"), svg);
+    figures::all().map(figure).collect()
+}
+
+/// All that is wrong with the handout of the workspace at `root`: links that lead nowhere, sections
+/// that an exam wants, names and commands that are not there.
+pub fn complaints(root: &Path, exam: &Exam) -> Result<Vec<String>, Unreadable> {
+    let pages = pages(&root.join(CHAPTERS))?;
+    let figures = figures::all().map(|(name, _)| format!("figures/{name}"));
+    let (files, sources) = (files(root)?, sources(root)?);
+    let aliases = aliases(&read(&root.join(".cargo/config.toml"))?);
+    let known = Known {
+        sources: &sources,
+        files: &files,
+        exam,
+    };
+
+    let mut all = links::broken_links(&pages, &figures.collect());
+    all.extend(links::missing_sections(&pages, exam));
+    all.extend(pages.iter().flat_map(|page: &Page| {
+        let mut complaints = names::unknown_names(page, &known);
+        complaints.extend(commands::unknown_commands(page, &sources, &aliases));
+        complaints
+    }));
+    Ok(all)
+}
+
+/// The names on the left of `[alias]`.
+fn aliases(config: &str) -> BTreeSet<String> {
+    let below = config.lines().skip_while(|line| *line != "[alias]");
+    let names = below.filter_map(|line| line.split_once(" = "));
+    names.map(|(name, _)| name.to_owned()).collect()
+}
+
+fn sources(root: &Path) -> Result<Vec<Source>, Unreadable> {
+    let mut sources = Vec::new();
+    for folder in SOURCES {
+        for path in below(root, &root.join(folder))? {
+            let code = [".rs", ".json"].iter().any(|ending| path.ends_with(ending));
+            if code {
+                let text = read(&root.join(&path))?;
+                sources.push(Source { path, text });
+            }
+        }
+    }
+    Ok(sources)
+}
+
+fn files(root: &Path) -> Result<BTreeSet<String>, Unreadable> {
+    Ok(below(root, root)?.into_iter().collect())
+}
+
+/// All files below a folder, from the root, with `/`.
+fn below(root: &Path, folder: &Path) -> Result<Vec<String>, Unreadable> {
+    let unreadable = |source: io::Error| Unreadable {
+        path: folder.to_owned(),
+        source,
+    };
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let path: PathBuf = entry.map_err(unreadable)?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if NOT_OURS.contains(&&*name) {
+            continue;
+        }
+        if path.is_dir() {
+            found.extend(below(root, &path)?);
+        } else if let Ok(path) = path.strip_prefix(root) {
+            found.push(path.to_string_lossy().replace('\\', "/"));
+        }
+    }
+    Ok(found)
+}

@@ -1,0 +1,192 @@
+//! Whether what the handout calls by name is there under that name.
+//!
+//! Every identifier of code within the prose must be a word of the sources that students see, and
+//! of `Type::part` the part must stand in a file that has the type. Items must be the exam's, and
+//! files must be there.
+
+use std::collections::BTreeSet;
+
+use grader::exam::{Exam, Task};
+
+use super::pages::{Page, Piece};
+
+/// Rust's own words, and the names of other crates', that the handout uses.
+const FOREIGN: [&str; 15] = [
+    "Option", "Some", "None", "Vec3", "std", "glam", "usize", "unsafe", "println", "todo", "main",
+    "cargo", "rustc", "rustup", "sh",
+];
+
+/// A source file: where it stands, and its text.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// From the workspace's root, with `/`.
+    pub path: String,
+    /// All of it.
+    pub text: String,
+}
+
+/// Everything that a name can be the name of.
+#[derive(Debug)]
+pub struct Known<'a> {
+    /// What students see of the code, and what writes the files that they see.
+    pub sources: &'a [Source],
+    /// All files of the repository, from its root.
+    pub files: &'a BTreeSet<String>,
+    /// For the items' names.
+    pub exam: &'a Exam,
+}
+
+/// Names that are nobody's, each with its place.
+pub fn unknown_names(page: &Page, known: &Known) -> Vec<String> {
+    let words: BTreeSet<&str> = known
+        .sources
+        .iter()
+        .flat_map(|source| identifiers(&source.text))
+        .collect();
+    // Pseudo-code has names of its own, which the prose around it may use.
+    let own: BTreeSet<&str> = page
+        .blocks
+        .iter()
+        .flat_map(|block| identifiers(&block.text))
+        .collect();
+    let problem = |code: &&Piece| {
+        let text = code.text.as_str();
+        if text.starts_with("cargo ") || text.starts_with("--") || text.starts_with("rustup ") {
+            // A command: see `commands`.
+            return None;
+        }
+        if let Some(item) = item_named(text) {
+            let there = known.exam.items.iter().any(|known| known.id == item);
+            return (!there).then(|| format!("the exam has no item {item}"));
+        }
+        if is_path(text) {
+            return (!is_there(text, known)).then(|| format!("there is no file {text}"));
+        }
+        let parts = text.split("::").collect::<Vec<_>>();
+        if let [owner, part] = parts[..]
+            && is_identifier(owner)
+            && is_identifier(part)
+            && !FOREIGN.contains(&owner)
+        {
+            return (!has_part(owner, part, known)).then(|| format!("{owner} has no {part}"));
+        }
+        let is_known = |word: &str| {
+            let named = words.contains(word) || own.contains(word) || FOREIGN.contains(&word);
+            // In files, variants of enums stand in small letters.
+            named || words.contains(capitals(word).as_str())
+        };
+        let mut unknown = identifiers(text).filter(|word| word.len() > 1 && !is_known(word));
+        unknown
+            .next()
+            .map(|word| format!("nothing is called {word}"))
+    };
+    let codes = page.codes.iter();
+    codes
+        .filter_map(|code| Some(page.complaint(code, &problem(&code)?)))
+        .collect()
+}
+
+/// The item that a text names, if it is of that form: `sphere.from_inside`, with or without `#7`.
+fn item_named(text: &str) -> Option<&str> {
+    let id = text.split('#').next()?;
+    let (task, name) = id.split_once('.')?;
+    let is_task = Task::ALL.into_iter().any(|known| known.id() == task);
+    (is_task && is_identifier(name) && name != "rs").then_some(id)
+}
+
+/// Whether a text is the name of a file or folder.
+fn is_path(text: &str) -> bool {
+    let endings = [".rs", ".md", ".json", ".toml", ".obj", ".html", "/"];
+    let plain = |letter: char| letter.is_alphanumeric() || "._-/".contains(letter);
+    text.chars().all(plain) && (endings.iter().any(|ending| text.ends_with(ending)))
+}
+
+/// A path from the root, the name of a file anywhere, or something that a program writes.
+fn is_there(path: &str, known: &Known) -> bool {
+    let folder = path.strip_suffix('/');
+    let named = |file: &String| match folder {
+        Some(folder) => file.starts_with(&format!("{folder}/")),
+        None => file == path || file.ends_with(&format!("/{path}")),
+    };
+    let written = |source: &Source| source.text.contains(path.trim_end_matches('/'));
+    known.files.iter().any(named) || known.sources.iter().any(written)
+}
+
+/// Whether some file has both a type and a part of it.
+fn has_part(owner: &str, part: &str, known: &Known) -> bool {
+    let declared = ["struct", "enum", "impl"].map(|kind| format!("{kind} {owner}"));
+    known.sources.iter().any(|source| {
+        let declares = declared.iter().any(|text| source.text.contains(text));
+        declares && identifiers(&source.text).any(|word| word == part)
+    })
+}
+
+fn is_identifier(text: &str) -> bool {
+    let mut all = identifiers(text);
+    all.next() == Some(text)
+}
+
+/// `timed_out` as the variant `TimedOut`.
+fn capitals(word: &str) -> String {
+    let parts = word.split('_').map(|part| {
+        let mut letters = part.chars();
+        let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+        first.into_iter().chain(letters).collect::<String>()
+    });
+    parts.collect()
+}
+
+/// The words of a text that could be names in Rust.
+fn identifiers(text: &str) -> impl Iterator<Item = &str> {
+    let apart = |letter: char| !letter.is_alphanumeric() && letter != '_';
+    let words = text.split(apart);
+    words.filter(|word| word.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn complaints(markdown: &str) -> Vec<String> {
+        let sources = [Source {
+            path: "student/src/bvh.rs".to_owned(),
+            text: "impl Bvh { pub fn build(max_leaf_size: usize) {} }".to_owned(),
+        }];
+        let files = BTreeSet::from(["student/src/bvh.rs".to_owned()]);
+        let exam = Exam {
+            schema: 1,
+            id: String::new(),
+            mistakes: Vec::new(),
+            items: crate::items::bbox::items(crate::seed::Seed(1)),
+        };
+        let known = Known {
+            sources: &sources,
+            files: &files,
+            exam: &exam,
+        };
+        unknown_names(&Page::new("a.md", markdown), &known)
+    }
+
+    #[test]
+    fn names_that_are_there_pass() {
+        let text = "`Bvh::build` `max_leaf_size` `bbox.flat#3` `bvh.rs` `student/src/` `Option`";
+        assert_eq!(complaints(text), [""; 0]);
+        let pseudo = "```text\nhit2.t\n```\n`hit2.t` is of the slides.";
+        assert_eq!(complaints(pseudo), [""; 0]);
+    }
+
+    #[test]
+    fn each_name_that_is_nobodys_is_told_with_its_place() {
+        let text = "`Bvh::grow`\n`max_leaf`\n`bbox.fat#3`\n`tree.rs`\n`starter/`";
+        assert_eq!(
+            complaints(text),
+            [
+                "a.md:1: Bvh has no grow",
+                "a.md:2: nothing is called max_leaf",
+                "a.md:3: the exam has no item bbox.fat",
+                "a.md:4: there is no file tree.rs",
+                "a.md:5: there is no file starter/",
+            ]
+        );
+    }
+}

@@ -1,0 +1,233 @@
+//! What the checks want to know of a chapter: its headings, links, formulas, code, commands.
+
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
+
+use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
+
+use crate::proof::sources::{Unreadable, read};
+
+/// A piece of a chapter, and where it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// What it says.
+    pub text: String,
+    /// Counted from 1.
+    pub line: usize,
+}
+
+/// One chapter.
+#[derive(Clone, Debug, Default)]
+pub struct Page {
+    /// The file's name: `boxes.md`.
+    pub name: String,
+    /// The headings, as they read.
+    pub headings: Vec<Piece>,
+    /// Where links and pictures lead.
+    pub links: Vec<Piece>,
+    /// Code within the prose.
+    pub codes: Vec<Piece>,
+    /// The commands in blocks of `sh`, without their comments.
+    pub commands: Vec<Piece>,
+    /// All other blocks of code: pseudo-code, and what programs print.
+    pub blocks: Vec<Piece>,
+}
+
+/// How chapters are read: as GitHub and mdBook do.
+pub fn options() -> Options {
+    Options::ENABLE_TABLES | Options::ENABLE_MATH
+}
+
+impl Page {
+    /// Reads a chapter's Markdown.
+    pub fn new(name: impl Into<String>, markdown: &str) -> Self {
+        let mut page = Page {
+            name: name.into(),
+            ..Page::default()
+        };
+        let mut reader = Reader::default();
+        for (event, range) in Parser::new_ext(markdown, options()).into_offset_iter() {
+            let line = 1 + markdown[..range.start].matches('\n').count();
+            reader.take(event, line, &mut page);
+        }
+        page
+    }
+
+    /// The anchors of the headings, as GitHub and mdBook make them.
+    pub fn anchors(&self) -> impl Iterator<Item = String> {
+        self.headings.iter().map(|heading| anchor(&heading.text))
+    }
+
+    /// A complaint about one of its pieces.
+    pub fn complaint(&self, piece: &Piece, words: &str) -> String {
+        format!("{}:{}: {words}", self.name, piece.line)
+    }
+}
+
+/// What is open while a chapter is read.
+#[derive(Default)]
+struct Reader {
+    heading: Option<Piece>,
+    block: Option<(String, Piece)>,
+}
+
+impl Reader {
+    #[expect(
+        clippy::wildcard_enum_match_arm,
+        reason = "the parser's own: what else is in a chapter is not looked at"
+    )]
+    fn take(&mut self, event: Event, line: usize, page: &mut Page) {
+        let piece = |text: &str| Piece {
+            text: text.to_owned(),
+            line,
+        };
+        match event {
+            Event::Start(Tag::Heading { .. }) => self.heading = Some(piece("")),
+            Event::End(TagEnd::Heading(_)) => page.headings.extend(self.heading.take()),
+            Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
+                page.links.push(piece(&dest_url));
+            }
+            Event::Start(Tag::CodeBlock(kind)) => {
+                let language = match kind {
+                    CodeBlockKind::Fenced(language) => language.to_string(),
+                    CodeBlockKind::Indented => String::new(),
+                };
+                // The text begins on the line behind the fence.
+                self.block = Some((language, piece("")));
+            }
+            Event::End(TagEnd::CodeBlock) => {
+                if let Some((language, block)) = self.block.take() {
+                    page.close(&language, block);
+                }
+            }
+            Event::Code(text) => {
+                page.codes.push(piece(&text));
+                if let Some(heading) = &mut self.heading {
+                    heading.text.push_str(&text);
+                }
+            }
+            Event::Text(text) => match (&mut self.heading, &mut self.block) {
+                (Some(heading), _) => heading.text.push_str(&text),
+                (None, Some((_, block))) => block.text.push_str(&text),
+                (None, None) => {}
+            },
+            _ => {}
+        }
+    }
+}
+
+impl Page {
+    fn close(&mut self, language: &str, block: Piece) {
+        match language {
+            "sh" => {
+                let lines = (block.line + 1..).zip(block.text.lines());
+                let commands = lines.map(|(line, text)| Piece {
+                    text: text
+                        .split(" #")
+                        .next()
+                        .unwrap_or_default()
+                        .trim()
+                        .to_owned(),
+                    line,
+                });
+                self.commands
+                    .extend(commands.filter(|command| !command.text.is_empty()));
+            }
+            // Formulas are the book's to check.
+            "math" => {}
+            _ => self.blocks.push(block),
+        }
+    }
+}
+
+/// A heading's anchor: small letters, spaces as dashes, no punctuation.
+pub fn anchor(heading: &str) -> String {
+    let letters = heading.trim().chars().filter_map(|letter| match letter {
+        ' ' => Some('-'),
+        '-' | '_' => Some(letter),
+        _ if letter.is_alphanumeric() => Some(letter),
+        _ => None,
+    });
+    letters.flat_map(char::to_lowercase).collect()
+}
+
+/// All chapters in a folder, by name.
+pub fn pages(folder: &Path) -> Result<Vec<Page>, Unreadable> {
+    let unreadable = |source| Unreadable {
+        path: folder.to_owned(),
+        source,
+    };
+    let mut pages = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if name.ends_with(".md") {
+            pages.push(Page::new(name.clone(), &read(&path)?));
+        }
+    }
+    pages.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(pages)
+}
+
+/// The formulas of a chapter, with their places: LaTeX, and whether it stands by itself.
+#[expect(
+    clippy::wildcard_enum_match_arm,
+    reason = "the parser's own: what else is in a chapter is not looked at"
+)]
+pub fn formulas(markdown: &str) -> Vec<(Range<usize>, String, bool)> {
+    let mut formulas = Vec::new();
+    let mut block: Option<String> = None;
+    for (event, range) in Parser::new_ext(markdown, options()).into_offset_iter() {
+        match event {
+            Event::InlineMath(text) => formulas.push((range, text.to_string(), false)),
+            Event::DisplayMath(text) => formulas.push((range, text.to_string(), true)),
+            Event::Start(Tag::CodeBlock(CodeBlockKind::Fenced(language)))
+                if &*language == "math" =>
+            {
+                block = Some(String::new());
+            }
+            Event::Text(text) => {
+                if let Some(block) = &mut block {
+                    block.push_str(&text);
+                }
+            }
+            Event::End(TagEnd::CodeBlock) => {
+                formulas.extend(block.take().map(|text| (range, text, true)));
+            }
+            _ => {}
+        }
+    }
+    formulas
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CHAPTER: &str = "# A chapter\n\nSee [there](b.md#zero), `Bvh::hit`.\n\n### Zero & minus zero\n\n```sh\ncargo grade   # all of it\n```\n\n$a_1$ and\n\n```math\nb \\\\ c\n```\n";
+
+    #[test]
+    fn a_chapter_is_read_with_the_line_of_each_piece() {
+        let page = Page::new("a.md", CHAPTER);
+        let piece = |text: &str, line| Piece {
+            text: text.to_owned(),
+            line,
+        };
+        assert_eq!(page.links, [piece("b.md#zero", 3)]);
+        assert_eq!(page.codes, [piece("Bvh::hit", 3)]);
+        assert_eq!(page.commands, [piece("cargo grade", 8)]);
+        let anchors: Vec<String> = page.anchors().collect();
+        assert_eq!(anchors, ["a-chapter", "zero--minus-zero"]);
+    }
+
+    #[test]
+    fn formulas_are_found_in_lines_and_by_themselves() {
+        let found = formulas(CHAPTER);
+        let found: Vec<(&str, bool)> = found
+            .iter()
+            .map(|(_, text, by_itself)| (text.as_str(), *by_itself))
+            .collect();
+        assert_eq!(found, [("a_1", false), ("b \\\\ c\n", true)]);
+    }
+}

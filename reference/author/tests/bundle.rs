@@ -1,0 +1,252 @@
+//! What students get: complete, the same each time, and without a secret. That it builds and grades
+//! on an empty home is for `cargo author bundle --check` to show, which takes minutes.
+
+mod workflow;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::LazyLock;
+
+use author::bundle::archive::{unzip, zip};
+use author::bundle::secrets::{Leak, Secrets};
+use author::bundle::{Bundle, archive};
+use author::exams;
+use tempfile::TempDir;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn text(path: &str) -> String {
+    fs::read_to_string(root().join(path)).unwrap()
+}
+
+/// Collected once: nothing here changes it.
+static BUNDLE: LazyLock<Bundle> = LazyLock::new(|| Bundle::collect(&root(), None).unwrap());
+
+fn secrets() -> Secrets {
+    Secrets::gather(&root(), &BUNDLE).unwrap()
+}
+
+/// Runs `cargo author bundle --out OUT`.
+fn write_to(out: &Path) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_author"))
+        .args(["bundle", "--out"])
+        .arg(out)
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn the_same_tree_gives_the_same_bytes_and_they_unpack_to_the_same_files() {
+    let folder = TempDir::new().unwrap();
+    let archive = folder.path().join("pathtracing.zip");
+    let output = write_to(&archive);
+    assert!(output.status.success(), "{output:?}");
+    let bytes = fs::read(archive).unwrap();
+    assert!(bytes == zip(&BUNDLE).unwrap());
+    assert!(unzip(&bytes).unwrap() == *BUNDLE);
+}
+
+#[test]
+fn nothing_in_it_is_secret() {
+    assert_eq!(secrets().search(&BUNDLE), []);
+}
+
+#[test]
+fn a_secret_of_each_kind_is_found_where_it_was_planted() {
+    let planted = [
+        (
+            "reference/src/camera.rs",
+            line_with("reference/src/camera.rs", "self.vertical_fov"),
+        ),
+        (
+            "reference/variants/",
+            line_with("reference/variants/bvh/median.rs", "total_cmp"),
+        ),
+        (
+            "reference/carried/bvh.rs",
+            line_with("reference/carried/bvh.rs", "split_at_mut"),
+        ),
+        (
+            "reference/author/src/oracle/",
+            line_with("reference/author/src/oracle/sphere.rs", "sqrt"),
+        ),
+        (
+            "reference/mutants/list.json",
+            line_with("reference/mutants/list.json", "replace * with +"),
+        ),
+        (
+            "the mistake camera.not_centred",
+            line_with("reference/src/camera.rs", "film.as_vec2() - 0.5").replace(" - 0.5", ""),
+        ),
+    ];
+    for (source, line) in planted {
+        let mut bundle = BUNDLE.clone();
+        bundle.put("scenes/notes.txt", format!("One\n\n\t{line}  \n"));
+        let leaks = secrets().search(&bundle);
+        let [
+            Leak::Line {
+                found,
+                source: told,
+            },
+        ] = &leaks[..]
+        else {
+            panic!("{line}: {leaks:?}");
+        };
+        assert_eq!(found, "scenes/notes.txt:3");
+        assert!(told.starts_with(source), "{told}");
+    }
+}
+
+/// The first line of a file that holds `part`.
+fn line_with(path: &str, part: &str) -> String {
+    let text = text(path);
+    let line = text.lines().find(|line| line.contains(part));
+    line.unwrap_or_else(|| panic!("{path} has no {part}"))
+        .to_owned()
+}
+
+#[test]
+fn a_final_exam_is_found_whatever_it_is_called() {
+    let mut exam = exams::practice(&root()).unwrap();
+    exam.id = "final".to_owned();
+    let mut bundle = BUNDLE.clone();
+    bundle.put(
+        "grader/exams/practice.json",
+        serde_json::to_vec(&exam).unwrap(),
+    );
+    let found = "grader/exams/practice.json".to_owned();
+    assert_eq!(secrets().search(&bundle), [Leak::Exam { found }]);
+}
+
+#[test]
+fn its_starter_is_the_projected_one_whatever_lies_in_the_students_folder() {
+    let files = BUNDLE
+        .files
+        .keys()
+        .filter(|path| path.starts_with("student/src/"));
+    assert_eq!(files.count(), 9);
+    for file in ["camera.rs", "bvh.rs"] {
+        let starter = text(&format!("grader/starter/{file}"));
+        assert_eq!(BUNDLE.text(&format!("student/src/{file}")), Some(&*starter));
+    }
+}
+
+#[test]
+fn a_built_book_goes_beside_its_sources() {
+    let book = TempDir::new().unwrap();
+    fs::write(
+        book.path().join("index.html"),
+        "<title>Path tracing</title>\n",
+    )
+    .unwrap();
+    let bundle = Bundle::collect(&root(), Some(book.path())).unwrap();
+    assert!(bundle.files.contains_key("handout/book/index.html"));
+    assert_eq!(bundle.files.len(), BUNDLE.files.len() + 1);
+}
+
+#[test]
+fn its_lock_file_is_a_part_of_ours() {
+    let ours = text("Cargo.lock");
+    let theirs = BUNDLE.text("Cargo.lock").unwrap();
+    // What a package is: name, version, source, checksum. What it depends on may be less.
+    let package = |block: &str| {
+        let lines: Vec<String> = block.lines().take(4).map(str::to_owned).collect();
+        lines
+    };
+    let blocks = |text: &str| -> Vec<Vec<String>> {
+        let blocks = text.split("[[package]]\n").skip(1);
+        let foreign = blocks.filter(|block| block.contains("checksum"));
+        foreign.map(package).collect()
+    };
+    let (ours, theirs) = (blocks(&ours), blocks(theirs));
+    assert!(theirs.len() > 50, "{}", theirs.len());
+    for package in theirs {
+        assert!(ours.contains(&package), "{package:?}");
+    }
+}
+
+#[test]
+fn a_folder_that_holds_something_is_left_alone() {
+    let folder = TempDir::new().unwrap();
+    fs::create_dir(folder.path().join(".git")).unwrap();
+    archive::write(&BUNDLE, folder.path()).expect("a fresh repository is empty enough");
+    assert!(folder.path().join(".github/workflows/grade.yml").is_file());
+
+    let output = write_to(folder.path());
+    assert!(!output.status.success());
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("is not empty: name a new folder"), "{said}");
+}
+
+#[test]
+fn every_link_in_its_texts_leads_to_something_in_it() {
+    let pages = BUNDLE.texts().filter(|(path, _)| path.ends_with(".md"));
+    let mut count = 0;
+    for (path, page) in pages {
+        let links = page
+            .split("](")
+            .skip(1)
+            .filter_map(|rest| rest.split(')').next());
+        for link in links.filter(|link| !link.starts_with("http") && !link.starts_with('#')) {
+            let target = link.split('#').next().unwrap_or(link);
+            let target = resolved(path, target);
+            let there =
+                |known: &String| *known == target || known.starts_with(&format!("{target}/"));
+            assert!(BUNDLE.files.keys().any(there), "{path} links to {link}");
+            count += 1;
+        }
+    }
+    assert!(count > 30, "{count}");
+}
+
+/// A link of a page, from the bundle's root.
+fn resolved(page: &str, link: &str) -> String {
+    let mut parts: Vec<&str> = page.split('/').collect();
+    parts.pop();
+    for part in link.split('/') {
+        match part {
+            ".." => drop(parts.pop()),
+            "." | "" => {}
+            part => parts.push(part),
+        }
+    }
+    parts.join("/")
+}
+
+#[test]
+fn its_texts_name_no_command_that_students_do_not_have() {
+    for (path, text) in BUNDLE.texts().filter(|(path, _)| path.ends_with(".md")) {
+        for command in [
+            "cargo author",
+            "cargo book",
+            "cargo class",
+            "cargo render-reference",
+        ] {
+            assert!(!text.contains(command), "{path}: {command}");
+        }
+    }
+}
+
+#[test]
+fn its_texts_name_the_version_of_rust_that_the_manifest_wants() {
+    let manifest = text("Cargo.toml");
+    let version = manifest.split("rust-version = \"").nth(1).unwrap();
+    let version = version.split('"').next().unwrap();
+    for path in ["README.md", "handout/src/start.md"] {
+        let text = BUNDLE.text(path).unwrap();
+        assert!(text.contains(version), "{path}: {version}");
+    }
+}
+
+#[test]
+fn the_first_stub_is_in_the_line_that_the_first_page_says() {
+    let page = BUNDLE.text("handout/src/start.md").unwrap();
+    let line = page.split("(student/src/camera.rs:").nth(1).unwrap();
+    let line: usize = line.split(')').next().unwrap().parse().unwrap();
+    let camera = BUNDLE.text("student/src/camera.rs").unwrap();
+    let stub = camera.lines().nth(line - 1).unwrap();
+    assert!(stub.contains("todo!(\"task 1, camera:"), "{stub}");
+}

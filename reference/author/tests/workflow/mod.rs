@@ -1,0 +1,128 @@
+//! The workflow that grades every push, against a strict model of what GitHub reads.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+use serde::Deserialize;
+
+use crate::BUNDLE;
+
+/// A workflow of one kind: no matrix, no services, no reuse.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Workflow {
+    #[serde(rename = "name")]
+    _name: String,
+    on: BTreeMap<Event, Option<()>>,
+    permissions: BTreeMap<String, String>,
+    jobs: BTreeMap<String, Job>,
+}
+
+#[derive(Debug, Deserialize, PartialEq, Eq, PartialOrd, Ord)]
+#[serde(rename_all = "snake_case")]
+enum Event {
+    Push,
+    WorkflowDispatch,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Job {
+    runs_on: String,
+    timeout_minutes: u32,
+    steps: Vec<Step>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Step {
+    #[serde(rename = "name")]
+    _name: Option<String>,
+    uses: Option<String>,
+    #[serde(rename = "with")]
+    _with: Option<BTreeMap<String, String>>,
+    run: Option<String>,
+}
+
+fn workflow() -> Workflow {
+    let text = BUNDLE.text(".github/workflows/grade.yml").unwrap();
+    serde_saphyr::from_str(text).unwrap()
+}
+
+#[test]
+fn it_is_one_short_job_on_every_push_that_may_read_only() {
+    let workflow = workflow();
+    assert!(workflow.on.contains_key(&Event::Push));
+    assert_eq!(
+        workflow.permissions,
+        [("contents".into(), "read".into())].into()
+    );
+    let [job] = workflow.jobs.values().collect::<Vec<_>>()[..] else {
+        panic!("{:?}", workflow.jobs.keys());
+    };
+    assert!(job.runs_on.starts_with("ubuntu-") && job.timeout_minutes <= 30);
+    for step in &job.steps {
+        assert!(step.uses.is_some() != step.run.is_some(), "{step:?}");
+    }
+}
+
+#[test]
+fn actions_are_pinned_to_commits() {
+    for step in workflow().jobs.values().flat_map(|job| &job.steps) {
+        if let Some(action) = &step.uses {
+            let (_, commit) = action.split_once('@').unwrap();
+            let digits = commit.chars().filter(char::is_ascii_hexdigit).count();
+            assert_eq!((digits, commit.len()), (40, 40), "{action}");
+        }
+    }
+}
+
+#[test]
+fn a_run_is_not_red_for_lack_of_points() {
+    for step in workflow().jobs.values().flat_map(|job| &job.steps) {
+        let run = step.run.as_deref().unwrap_or_default();
+        assert!(!run.contains("--require"), "{run}");
+    }
+}
+
+/// The last step, run as GitHub runs it, on a score as the grader writes it.
+#[test]
+fn the_points_are_shown_in_a_few_lines() {
+    let has = |program: &str| Command::new(program).arg("--version").output().is_ok();
+    if !has("jq") || !has("bash") {
+        assert!(std::env::var_os("CI").is_none(), "install jq and bash");
+        eprintln!("SKIPPED: there is no jq or no bash on this machine");
+        return;
+    }
+    let folder = tempfile::TempDir::new().unwrap();
+    let score = r#"{"points": 35, "max_points": 100, "tasks": [
+        {"title": "Camera rays", "points": 15, "max_points": 15, "items": []},
+        {"title": "Triangles", "points": 20, "max_points": 20, "items": []}]}"#;
+    std::fs::create_dir(folder.path().join("score")).unwrap();
+    std::fs::write(folder.path().join("score/score.json"), score).unwrap();
+
+    let workflow = workflow();
+    let steps = workflow.jobs.values().flat_map(|job| &job.steps);
+    let last = steps.last().and_then(|step| step.run.clone()).unwrap();
+    let mut bash = Command::new("bash")
+        .args(["--noprofile", "--norc", "-eo", "pipefail"])
+        .current_dir(folder.path())
+        .env("GITHUB_STEP_SUMMARY", folder.path().join("summary.md"))
+        .stdin(Stdio::piped())
+        .spawn()
+        .unwrap();
+    bash.stdin
+        .take()
+        .unwrap()
+        .write_all(last.as_bytes())
+        .unwrap();
+    assert!(bash.wait().unwrap().success());
+    let summary = std::fs::read_to_string(folder.path().join("summary.md")).unwrap();
+    assert!(summary.starts_with("## 35 of 100 points\n"), "{summary}");
+    assert!(
+        summary.contains("\n| Camera rays | 15 | 15 |\n"),
+        "{summary}"
+    );
+    assert!(summary.lines().count() < 12, "{summary}");
+}

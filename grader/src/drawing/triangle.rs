@@ -70,7 +70,7 @@ fn outline(canvas: &mut Canvas, window: &Window, corners: [DVec2; 3]) {
         let mut place = at + 11.0 * outward + dvec2(0.0, 4.0);
         let is_taken = |other: &DVec2| (*other - place).abs().cmplt(dvec2(15.0, 11.0)).all();
         if places.iter().any(is_taken) {
-            place.x += 17.0;
+            place.x -= 17.0 * outward.x.signum();
         }
         places.push(place);
         canvas.text(place, Anchor::Middle, Ink::Faint, name);

@@ -117,7 +117,7 @@ impl<'a> Flaw<'a> {
                 node.cell.place
             ),
             Flaw::Leaf(node) => format!(
-                "Leaf {} holds {}; {most} may be in one.",
+                "Leaf {} holds {}; a leaf may hold {most}.",
                 node.cell.place,
                 counted(node.cell.count, "primitive", "primitives")
             ),

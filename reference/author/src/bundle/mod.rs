@@ -10,6 +10,7 @@ mod lock;
 mod manifests;
 mod parts;
 pub mod secrets;
+mod untested;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -56,6 +57,7 @@ impl Bundle {
     pub fn collect(root: &Path, book: Option<&Path>) -> Result<Self, NoBundle> {
         let mut bundle = Bundle::default();
         parts::copy(root, &mut bundle)?;
+        untested::take_away(&mut bundle);
         if let Some(book) = book {
             parts::take(book, "handout/book", &mut bundle)?;
         }

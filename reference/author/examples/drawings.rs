@@ -5,6 +5,7 @@
 
 use std::fmt::Write;
 use std::path::Path;
+use std::process::ExitCode;
 use std::{env, error, fs};
 
 use author::exams;
@@ -29,7 +30,17 @@ figure { margin: 0; max-width: 420px; } h2 { font-size: 13px; margin: 0; }
 svg { width: 100%; height: auto; }
 ";
 
-fn main() -> Result<(), Box<dyn error::Error>> {
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), Box<dyn error::Error>> {
     let file = env::args()
         .nth(1)
         .ok_or("where shall the page be written?")?;

@@ -7,6 +7,9 @@ use protocol::{Shape, Tree, TreeNode};
 use super::bounds::Bounds;
 use crate::describe;
 
+/// A tree whose leaves name every primitive so often, on average, is looked at no further.
+const MOST_NAMED_AGAIN: usize = 64;
+
 /// What is wrong with a tree, in the words of a report.
 pub(crate) struct Mistake {
     pub(crate) what: &'static str,
@@ -46,6 +49,9 @@ pub(crate) fn cells<'a>(shapes: &[Shape], tree: &'a Tree) -> Result<Vec<Cell<'a>
         .map(|material| places.get(material).copied())
         .collect();
 
+    // Each of many leaves may name them all: that would be more than there is memory for.
+    let most = MOST_NAMED_AGAIN * shapes.len().max(64);
+    let mut named = 0;
     let mut reached = vec![false; tree.nodes.len()];
     let mut cells = Vec::new();
     let mut children = Vec::new();
@@ -67,6 +73,14 @@ pub(crate) fn cells<'a>(shapes: &[Shape], tree: &'a Tree) -> Result<Vec<Cell<'a>
             .is_leaf()
             .then(|| leaf(node, place, &order))
             .transpose()?;
+        named += leaf.as_ref().map_or(0, Vec::len);
+        if named > most {
+            return Err(Mistake {
+                what: "leaves",
+                got: format!("leaves that hold more than {most} primitives in all"),
+                wanted: format!("each of the {} primitives in one leaf", shapes.len()),
+            });
+        }
         if leaf.is_none() {
             children.push((cells.len(), [node.l, node.r]));
             open.extend([(node.l, "child l"), (node.r, "child r")]);

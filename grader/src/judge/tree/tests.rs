@@ -112,6 +112,31 @@ fn each_part_of_a_tree_is_judged() {
 }
 
 #[test]
+fn leaves_that_each_name_everything_are_not_counted_to_the_end() {
+    // A chain of nodes with a leaf at each, and all of a long order in every leaf.
+    let (links, listed) = (2_000, 200_000);
+    let link = |i: u32| {
+        [
+            node(0, 3, 0, 2 * i + 1, 2 * i + 2),
+            node(0, 3, listed, 0, 0),
+        ]
+    };
+    let mut nodes: Vec<TreeNode> = (0..links).flat_map(link).collect();
+    nodes.push(node(0, 3, listed, 0, 0));
+    let tree = Tree {
+        nodes,
+        root: 0,
+        order: vec![0; listed as usize],
+    };
+    let judged = judge(&ALL, None, &row(4), 2, &Outcome::Value(tree));
+    let failure = judged.failure.expect("it is wrong");
+    let How::Wrong { got, .. } = failure.how else {
+        panic!("it is a tree");
+    };
+    assert_eq!(got, "leaves that hold more than 4096 primitives in all");
+}
+
+#[test]
 fn hardly_split_is_not_split() {
     let share = |count: u32, nodes: Vec<TreeNode>| {
         let tree = Tree {

@@ -39,15 +39,17 @@ fn folder_of_modules(path: &str) -> String {
 /// The text without `#[cfg(test)] mod NAME;`, and those names.
 fn without_test_modules(text: &str) -> (String, Vec<String>) {
     let lines: Vec<&str> = text.lines().collect();
-    let named =
-        |line: &&str| (line.starts_with("mod ") && line.ends_with(';')).then_some(line.len() - 1);
+    let named = |line: &&str| {
+        let name = line.strip_prefix("mod ")?.strip_suffix(';')?;
+        Some(name.to_owned())
+    };
     let mut kept = String::with_capacity(text.len());
     let mut names = Vec::new();
     let mut rest = lines.as_slice();
     while let [line, after @ ..] = rest {
-        let end = after.first().and_then(named);
-        if let (MARK, Some(end)) = (*line, end) {
-            names.push(after[0]["mod ".len()..end].to_owned());
+        let name = after.first().and_then(named);
+        if let (MARK, Some(name)) = (*line, name) {
+            names.push(name);
             rest = &after[1..];
             continue;
         }

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use clap::{CommandFactory, Parser};
 use grader::cli::Arguments;
 
-use super::names::Source;
 use super::pages::{Page, Piece};
+use super::source::Source;
 use crate::cli::Cli;
 
 /// What `cargo render` takes; its crate is not linked here.

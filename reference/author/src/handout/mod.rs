@@ -8,6 +8,7 @@ pub mod figures;
 pub mod links;
 pub mod names;
 pub mod pages;
+pub mod source;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -18,8 +19,9 @@ use grader::exam::Exam;
 use grader::section::CHAPTERS;
 
 use crate::generated::Generated;
-use crate::handout::names::{Known, Source};
+use crate::handout::names::Known;
 use crate::handout::pages::{Page, pages};
+use crate::handout::source::Source;
 use crate::proof::sources::{Unreadable, read};
 
 /// What students see of the code, and what writes the files that they see.

@@ -10,21 +10,13 @@ use grader::exam::{Exam, Task};
 
 use super::commands;
 use super::pages::{Page, Piece};
+use super::source::Source;
 
 /// Rust's own words, and the names of other crates', that the handout uses.
 const FOREIGN: [&str; 12] = [
     "Option", "Some", "None", "Vec3", "std", "glam", "usize", "unsafe", "println", "todo", "main",
     "sh",
 ];
-
-/// A source file: where it stands, and its text.
-#[derive(Clone, Debug)]
-pub struct Source {
-    /// From the workspace's root, with `/`.
-    pub path: String,
-    /// All of it.
-    pub text: String,
-}
 
 /// Everything that a name can be the name of.
 #[derive(Debug)]

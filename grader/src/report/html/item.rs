@@ -3,6 +3,7 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::pictures;
+use super::prose::prose;
 use super::said::{command, rows, said};
 use crate::describe;
 use crate::drawing;
@@ -129,7 +130,7 @@ fn three_rows(score: &ItemScore, item: Option<&Item>) -> (String, String, String
 fn look(score: &ItemScore) -> Markup {
     html! {
         @if let Some(look) = &score.look {
-            p .look { strong { "Look: " } (said(look)) }
+            p .look { strong { "Look: " } (prose(look)) }
         }
         @if let Some(section) = &score.section {
             p .look { strong { "Read: " } (said(&section.words())) }
@@ -144,11 +145,11 @@ fn hints(score: &ItemScore) -> Markup {
             div .hint {
                 p {
                     strong { @if place == 0 { "Hint: " } @else { "Or: " } }
-                    (said(&hint.nudge))
+                    (prose(&hint.nudge))
                 }
                 details #(format!("{}-hint-{place}", score.id)) {
                     summary { "Say what is wrong" }
-                    p { (said(&hint.hint)) }
+                    p { (prose(&hint.hint)) }
                 }
             }
         }

@@ -9,6 +9,7 @@ mod item;
 mod mask;
 mod pictures;
 mod png;
+mod prose;
 mod said;
 mod summary;
 mod task;

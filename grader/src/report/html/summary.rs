@@ -2,6 +2,7 @@
 
 use maud::{Markup, PreEscaped, html};
 
+use super::prose::prose;
 use super::said::{command, said};
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
 
@@ -107,7 +108,7 @@ fn mend(item: &ItemScore) -> Markup {
             | Verdict::Blocked { .. } => p { (said(&item.message)) },
         }
         @if let Some(look) = &item.look {
-            p { (said(look)) }
+            p { (prose(look)) }
         }
         p .again { "Ask it again: " (command(&item.again())) }
     }

@@ -1,0 +1,48 @@
+//! What the exam's makers have written: with `code` and *emphasis*, marked as in Markdown.
+
+use maud::{Markup, html};
+
+use super::said::said;
+
+/// The text, with those two marks shown as what they mean. Odd ones stand for themselves.
+pub(super) fn prose(text: &str) -> Markup {
+    html! {
+        @for (place, part) in parts(text, '`').into_iter().enumerate() {
+            @if place % 2 == 1 {
+                code { (said(part)) }
+            } @else {
+                @for (place, part) in parts(part, '*').into_iter().enumerate() {
+                    @if place % 2 == 1 { em { (said(part)) } } @else { (said(part)) }
+                }
+            }
+        }
+    }
+}
+
+/// What stands between the marks: every second part is inside a pair of them.
+fn parts(text: &str, mark: char) -> Vec<&str> {
+    let parts: Vec<&str> = text.split(mark).collect();
+    let inside = parts.iter().skip(1).step_by(2);
+    let is_paired = parts.len() % 2 == 1
+        && inside
+            .clone()
+            .all(|part| !part.is_empty() && part.trim() == *part);
+    if is_paired { parts } else { vec![text] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::prose;
+
+    #[test]
+    fn pairs_of_marks_are_shown_and_others_stand_for_themselves() {
+        let shown = |text| prose(text).into_string();
+        assert_eq!(
+            shown("the *last* of `times`, <b>"),
+            "the <em>last</em> of <code>times</code>, &lt;b&gt;"
+        );
+        assert_eq!(shown("2 * tan and 3 * 4"), "2 * tan and 3 * 4");
+        assert_eq!(shown("an odd * or ` one"), "an odd * or ` one");
+        assert_eq!(shown("`a * b * c`"), "<code>a * b * c</code>");
+    }
+}

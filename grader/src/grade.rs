@@ -68,7 +68,7 @@ impl<'a> Grader<'a> {
             arguments,
             exam_name: file.name(),
             exam: match arguments.task {
-                Some(task) => file.exam.with_what_it_needs(task),
+                Some(task) => file.exam.with_what_it_needs(|item| item.task == task),
                 None => file.exam,
             },
             builder: builder(arguments, &workspace)?,

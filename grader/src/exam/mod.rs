@@ -115,11 +115,11 @@ pub struct Exam {
 }
 
 impl Exam {
-    /// The items of one task, and those that they rest on.
-    pub fn with_what_it_needs(&self, task: Task) -> Exam {
-        let of_task = self.items.iter().filter(|item| item.task == task);
-        let needed: Vec<&String> = of_task.flat_map(|item| &item.needs).collect();
-        self.only(|item| item.task == task || needed.contains(&&item.id))
+    /// Some of its items, and those that they rest on.
+    pub fn with_what_it_needs(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
+        let needing = self.items.iter().filter(|item| wanted(item));
+        let needed: Vec<&String> = needing.flat_map(|item| &item.needs).collect();
+        self.only(|item| wanted(item) || needed.contains(&&item.id))
     }
 
     /// Some of its items.

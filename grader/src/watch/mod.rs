@@ -9,7 +9,7 @@ use std::io;
 use crate::cli::Arguments;
 use crate::desktop;
 use crate::error::Error;
-use crate::exam::{Exam, Item};
+use crate::exam::Exam;
 use crate::grade::Grader;
 use crate::report::text::Hints;
 use crate::score::Score;
@@ -96,10 +96,7 @@ fn round(
 fn failed(exam: &Exam, last: &Score) -> Exam {
     let lost = last.items().filter(|item| item.points < item.max_points);
     let lost: Vec<&str> = lost.map(|item| item.id.as_str()).collect();
-    let is_lost = |item: &Item| lost.contains(&item.id.as_str());
-    let of_lost = exam.items.iter().filter(|item| is_lost(item));
-    let needed: Vec<&String> = of_lost.flat_map(|item| &item.needs).collect();
-    exam.only(|item| is_lost(item) || needed.contains(&&item.id))
+    exam.with_what_it_needs(|item| lost.contains(&item.id.as_str()))
 }
 
 /// Why a round came to no end.

@@ -3,6 +3,7 @@
 use std::io;
 use std::time::{Duration, Instant};
 
+use crate::again::Again;
 use crate::ask::Budget;
 use crate::build::{Build, BuildError, Builder};
 use crate::cli::Arguments;
@@ -99,6 +100,10 @@ impl<'a> Grader<'a> {
     /// The score before anything is asked.
     pub fn unasked(&self, submission: &Submission, built: &Built) -> Score {
         let mut score = unasked(&self.exam, self.exam_name.clone(), &submission.name);
+        score.again = Again {
+            submission: self.arguments.submission.clone(),
+            exam: self.arguments.exam.clone(),
+        };
         score.build = build_report(submission, &built.build);
         score.timings.build_ms = millis(built.took);
         score

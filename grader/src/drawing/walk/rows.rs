@@ -45,7 +45,8 @@ pub(super) fn draw(
     for (i, row) in plan.rows.iter().enumerate() {
         let y = y + ROW * i as f64;
         draw_name(canvas, y, row);
-        draw_span(canvas, axis, y, row);
+        let is_trap = plan.trap().is_some_and(|trap| trap.node == row.node);
+        draw_span(canvas, axis, y, row, is_trap && row.fate.is_passed_by());
         let marks = [
             (hits[0].0, plan.wanted, Mark::Right),
             (hits[1].0, plan.got_row().map(|row| row.node), Mark::Wrong),
@@ -86,16 +87,21 @@ fn draw_name(canvas: &mut Canvas, y: f64, row: &Row) {
     }
 }
 
-fn draw_span(canvas: &mut Canvas, axis: &Axis, y: f64, row: &Row) {
+fn draw_span(canvas: &mut Canvas, axis: &Axis, y: f64, row: &Row, is_trap: bool) {
     let foot = y + 13.0;
-    let words = match row.fate {
+    let why = match row.fate {
         Fate::Entered | Fate::Elided => "",
         Fate::Missed => "missed",
         Fate::OutOfRange => "out of range",
         Fate::Beyond => "beyond",
     };
+    let (ink, words) = match (is_trap, row.is_leaf) {
+        (true, true) => (Ink::Text, format!("{why}: a trap")),
+        (true, false) => (Ink::Text, format!("{why}: a trap below")),
+        (false, _) => (Ink::Faint, why.to_owned()),
+    };
     let Some(span) = row.span else {
-        canvas.text(dvec2(LEFT + 4.0, foot), Anchor::Start, Ink::Faint, words);
+        canvas.text(dvec2(LEFT + 4.0, foot), Anchor::Start, ink, &words);
         return;
     };
     let from = axis.page(span.min.into());
@@ -112,5 +118,5 @@ fn draw_span(canvas: &mut Canvas, axis: &Axis, y: f64, row: &Row) {
         true => (from - 4.0, Anchor::End),
         false => (to + 4.0, Anchor::Start),
     };
-    canvas.text(dvec2(x, foot), anchor, Ink::Faint, words);
+    canvas.text(dvec2(x, foot), anchor, ink, &words);
 }

@@ -11,7 +11,7 @@ use crate::drawing::ink::{Fill, Ink, Line};
 /// The height of a row.
 const ROW: f64 = 17.0;
 /// Where the axis begins.
-pub(super) const LEFT: f64 = 142.0;
+pub(super) const LEFT: f64 = 156.0;
 /// So far a child stands to the right of its parent.
 const INDENT: f64 = 5.0;
 /// Deeper nodes are not indented any more.
@@ -46,7 +46,10 @@ pub(super) fn draw(
         let y = y + ROW * i as f64;
         draw_name(canvas, y, row);
         let is_trap = plan.trap().is_some_and(|trap| trap.node == row.node);
-        draw_span(canvas, axis, y, row, is_trap && row.fate.is_passed_by());
+        if is_trap && row.fate.is_passed_by() {
+            canvas.text(dvec2(LEFT - 6.0, y + 13.0), Anchor::End, Ink::Text, "trap");
+        }
+        draw_span(canvas, axis, y, row);
         let marks = [
             (hits[0].0, plan.wanted, Mark::Right),
             (hits[1].0, plan.got_row().map(|row| row.node), Mark::Wrong),
@@ -87,21 +90,16 @@ fn draw_name(canvas: &mut Canvas, y: f64, row: &Row) {
     }
 }
 
-fn draw_span(canvas: &mut Canvas, axis: &Axis, y: f64, row: &Row, is_trap: bool) {
+fn draw_span(canvas: &mut Canvas, axis: &Axis, y: f64, row: &Row) {
     let foot = y + 13.0;
-    let why = match row.fate {
+    let words = match row.fate {
         Fate::Entered | Fate::Elided => "",
         Fate::Missed => "missed",
         Fate::OutOfRange => "out of range",
         Fate::Beyond => "beyond",
     };
-    let (ink, words) = match (is_trap, row.is_leaf) {
-        (true, true) => (Ink::Text, format!("{why}: a trap")),
-        (true, false) => (Ink::Text, format!("{why}: a trap below")),
-        (false, _) => (Ink::Faint, why.to_owned()),
-    };
     let Some(span) = row.span else {
-        canvas.text(dvec2(LEFT + 4.0, foot), Anchor::Start, ink, &words);
+        canvas.text(dvec2(LEFT + 4.0, foot), Anchor::Start, Ink::Faint, words);
         return;
     };
     let from = axis.page(span.min.into());
@@ -118,5 +116,5 @@ fn draw_span(canvas: &mut Canvas, axis: &Axis, y: f64, row: &Row, is_trap: bool)
         true => (from - 4.0, Anchor::End),
         false => (to + 4.0, Anchor::Start),
     };
-    canvas.text(dvec2(x, foot), anchor, ink, &words);
+    canvas.text(dvec2(x, foot), anchor, Ink::Faint, words);
 }

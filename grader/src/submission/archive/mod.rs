@@ -115,6 +115,14 @@ impl Archive {
             Kind::Tar(tar) => tar.read(members, longest),
         }
     }
+
+    /// How many members are read together at no higher cost: a tar is gone through each time.
+    pub fn cheap_at_once(&self) -> usize {
+        match &self.0 {
+            Kind::Zip(_) => 1,
+            Kind::Tar(_) => MOST_MEMBERS,
+        }
+    }
 }
 
 /// What lies where this archive holds the five files.

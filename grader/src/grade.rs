@@ -9,7 +9,7 @@ use crate::build::{Build, BuildError, Builder};
 use crate::cli::Arguments;
 use crate::error::Error;
 use crate::exam::Exam;
-use crate::exam_file;
+use crate::exam_file::{self, ExamFile};
 use crate::examine::examine;
 use crate::exhibit::Exhibits;
 use crate::files::Files;
@@ -65,6 +65,16 @@ impl<'a> Grader<'a> {
         let file = exam_file::load(arguments.exam.as_deref())?;
         // A submission that is nowhere is told of before anything is compiled.
         collect(arguments, &workspace)?;
+        Grader::of(arguments, workspace, file)
+    }
+
+    /// The same for whoever brings submissions of their own.
+    pub fn for_many(arguments: &'a Arguments) -> Result<Self, Error> {
+        let file = exam_file::load(arguments.exam.as_deref())?;
+        Grader::of(arguments, Workspace::find()?, file)
+    }
+
+    fn of(arguments: &'a Arguments, workspace: Workspace, file: ExamFile) -> Result<Self, Error> {
         Ok(Grader {
             arguments,
             exam_name: file.name(),
@@ -75,6 +85,16 @@ impl<'a> Grader<'a> {
             builder: builder(arguments, &workspace)?,
             workspace,
         })
+    }
+
+    /// What the exam is called.
+    pub fn exam_name(&self) -> &ExamName {
+        &self.exam_name
+    }
+
+    /// What scores follow from, beside submission and exam: compiler, dependencies, reference.
+    pub fn built_with(&self) -> String {
+        self.builder.identity()
     }
 
     /// What is asked: all of the exam, or one task of it and what that needs.

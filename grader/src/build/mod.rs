@@ -4,7 +4,7 @@
 mod carried;
 mod compile;
 mod dependencies;
-mod diagnostics;
+pub mod diagnostics;
 mod kept;
 mod rustc;
 mod toolchain;
@@ -126,6 +126,12 @@ impl Builder {
             parts: Some(parts),
             ..self
         })
+    }
+
+    /// The name of all that programs follow from, beside the submission.
+    pub fn identity(&self) -> String {
+        let parts = self.parts.as_ref().map(Parts::content).unwrap_or_default();
+        parts.with(self.rustc.identity()).name()
     }
 
     /// Keeps all programs in this folder, and takes them from there when the same is built again.

@@ -57,6 +57,9 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         }
     }
     anstream::println!();
+    if arguments.timings {
+        anstream::println!("{}", graded.score.timings.stages.table());
+    }
     let required = arguments.require.unwrap_or(0);
     Ok(if graded.score.points < required {
         ExitCode::from(1)

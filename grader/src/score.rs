@@ -9,6 +9,7 @@ use serde::Serialize;
 use crate::again::Again;
 use crate::exam::Task;
 use crate::section::Section;
+use crate::stages::Stages;
 
 /// The version of this format.
 pub const SCHEMA: u32 = 1;
@@ -215,6 +216,9 @@ pub struct Timings {
     pub build_ms: u64,
     /// Asking and judging.
     pub exam_ms: u64,
+    /// In detail, for `--timings`: not in the file.
+    #[serde(skip)]
+    pub stages: Stages,
 }
 
 impl ItemScore {

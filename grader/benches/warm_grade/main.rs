@@ -25,19 +25,47 @@ const ROUNDS: usize = 15;
 const FIVE: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 const GIVEN: [&str; 2] = ["lib.rs", "primitive.rs"];
 
-/// What is measured, in the order of one round; the first two are what the others are compared with.
-const NAMES: [&str; 6] = [
-    "bare rustc of the five files (F)",
-    "the same as far as types (T)",
-    "changed submission to probe",
-    "changed submission to score.json",
-    "does not compile: until it is said",
-    "--watch: save to report",
+/// What is measured, in the order of one round, and what it is compared with.
+const ROWS: [Row; 6] = [
+    Row::new("bare rustc of the five files (F)", "F", By::Cpu),
+    Row::new("the same as far as types (T)", "F", By::Cpu),
+    Row::new("changed submission to probe", "F", By::Cpu),
+    Row::new("changed submission to score.json", "F", By::Cpu),
+    // What a program has used so far that goes on is not known.
+    Row::new("does not compile: until it is said", "T", By::Wall),
+    Row::new("--watch: save to report", "F", By::Wall),
 ];
-const F: usize = 0;
-const T: usize = 1;
-const NOT_COMPILING: usize = 4;
-const WATCH: usize = 5;
+
+/// One line of the table.
+struct Row {
+    name: &'static str,
+    unit: &'static str,
+    by: By,
+}
+
+/// Which time is compared.
+#[derive(Clone, Copy)]
+enum By {
+    Cpu,
+    Wall,
+}
+
+impl Row {
+    const fn new(name: &'static str, unit: &'static str, by: By) -> Self {
+        Row { name, unit, by }
+    }
+
+    fn ratio(&self, cost: Cost, [f, t]: [Cost; 2]) -> f64 {
+        let against = match self.unit {
+            "T" => t,
+            _ => f,
+        };
+        match self.by {
+            By::Cpu => cost.cpu.as_secs_f64() / against.cpu.as_secs_f64(),
+            By::Wall => cost.wall.as_secs_f64() / against.wall.as_secs_f64(),
+        }
+    }
+}
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -75,27 +103,23 @@ fn main() {
     print(&rounds);
 }
 
-fn print(rounds: &[[Cost; NAMES.len()]]) {
+fn print(rounds: &[[Cost; ROWS.len()]]) {
     println!("median of {} rounds; ratios within one round", rounds.len());
-    println!("{:36}{:>9}{:>9}{:>12}", "", "wall ms", "CPU ms", "ratio");
-    for (which, name) in NAMES.into_iter().enumerate() {
-        let wall = median(rounds.iter().map(|round| round[which].wall.as_secs_f64()));
-        let cpu = median(rounds.iter().map(|round| round[which].cpu.as_secs_f64()));
-        let (unit, against) = match which {
-            NOT_COMPILING => ("T", T),
-            _ => ("F", F),
+    println!("{:36}{:>9}{:>9}{:>8}", "", "wall ms", "CPU ms", "ratio");
+    for (which, row) in ROWS.iter().enumerate() {
+        let costs = || rounds.iter().map(|round| round[which]);
+        let wall = 1e3 * median(costs().map(|cost| cost.wall.as_secs_f64()));
+        let cpu = match row.by {
+            By::Cpu => 1e3 * median(costs().map(|cost| cost.cpu.as_secs_f64())),
+            By::Wall => f64::NAN,
         };
-        let ratio = |round: &[Cost; NAMES.len()]| match which {
-            // What a program uses that goes on is not known: wall time it is.
-            WATCH => round[which].wall.as_secs_f64() / round[against].wall.as_secs_f64(),
-            _ => round[which].cpu.as_secs_f64() / round[against].cpu.as_secs_f64(),
-        };
-        let ratio = median(rounds.iter().map(ratio));
-        let cpu = match which {
-            WATCH => String::new(),
-            _ => format!("{:.0}", cpu * 1e3),
-        };
-        println!("{name:36}{:>9.0}{cpu:>9}{ratio:>10.2} {unit}", wall * 1e3);
+        let ratio = median(
+            rounds
+                .iter()
+                .map(|round| row.ratio(round[which], [round[0], round[1]])),
+        );
+        let (name, unit) = (row.name, row.unit);
+        println!("{name:36}{wall:>9.0}{cpu:>9.0}{ratio:>8.2} {unit}");
     }
 }
 
@@ -128,22 +152,24 @@ fn change(root: &Path, folder: &Path, round: usize) {
     }
 }
 
-/// Until the first word on a file that does not compile. The rest is graded after that, and not
-/// waited for.
+/// Until the first word on a file that does not compile. The rest is graded after that.
 fn until_told(folder: &Path) -> Cost {
     let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
     command.arg(folder).arg("--out").arg(folder.join("out"));
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
     let mut said = String::new();
+    let mut child = None;
     let cost = Cost::of(|| {
-        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
-        let mut child = child.expect("it can be started");
+        let child = child.insert(command.spawn().expect("it can be started"));
         let words = child.stderr.take().expect("it is a pipe");
         let read = BufReader::new(words).read_line(&mut said);
         read.expect("it writes text");
-        child.kill().expect("it is ours");
-        child.wait().expect("it is ours");
     });
     assert!(said.starts_with("sphere.rs: error"), "{said}");
+    child
+        .expect("it was started")
+        .wait()
+        .expect("it comes to an end");
     cost
 }
 

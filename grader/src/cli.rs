@@ -55,6 +55,14 @@ pub struct Arguments {
     #[arg(long, conflicts_with_all = ["task", "replay"])]
     pub open: bool,
 
+    /// What points count for and what students see of them; --policy-default shows what holds else
+    #[arg(long, value_name = "FILE")]
+    pub policy: Option<PathBuf>,
+
+    /// Print the default policy, which explains itself, and do nothing else
+    #[arg(long)]
+    pub policy_default: bool,
+
     /// CPU time that an item may use, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=600))]
     pub cpu_limit: u64,

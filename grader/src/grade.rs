@@ -12,6 +12,7 @@ use crate::exam_file::{self, ExamFile};
 use crate::examine::examine;
 use crate::exhibit::Exhibits;
 use crate::files::Files;
+use crate::policy::{Counted, Lateness, Policy, PolicyError};
 use crate::report::html::Reload;
 use crate::score::{BuildReport, ExamName, FileReport, Score};
 use crate::submission::Submission;
@@ -25,6 +26,8 @@ pub struct Graded {
     pub score: Score,
     /// The files that tell it.
     pub files: Option<Files>,
+    /// What it counts for, where there is a policy that says so.
+    pub counted: Option<Counted>,
 }
 
 /// Loads the exam, collects the submission, builds it, asks, judges, scores.
@@ -39,7 +42,12 @@ pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
         let files = files.as_mut();
         files.map_or(Ok(()), |files| files.write(score, exam, exhibits))
     })?;
-    Ok(Graded { score, files })
+    let counted = grader.counted(&score);
+    Ok(Graded {
+        score,
+        files,
+        counted,
+    })
 }
 
 /// All that stays as it is from one version of a submission to the next.
@@ -48,6 +56,7 @@ pub struct Grader<'a> {
     workspace: Workspace,
     exam: Exam,
     exam_name: ExamName,
+    policy: Policy,
     builder: Builder,
 }
 
@@ -62,18 +71,25 @@ impl<'a> Grader<'a> {
     pub fn prepare(arguments: &'a Arguments) -> Result<Self, Error> {
         let workspace = Workspace::find()?;
         let file = exam_file::load(arguments.exam.as_deref())?;
+        let policy = policy(arguments, &file.exam)?;
         // A submission that is nowhere is told of before anything is compiled.
         collect(arguments, &workspace)?;
-        Grader::of(arguments, workspace, file)
+        Grader::of(arguments, workspace, file, policy)
     }
 
     /// The same for whoever brings submissions of their own.
     pub fn for_many(arguments: &'a Arguments) -> Result<Self, Error> {
         let file = exam_file::load(arguments.exam.as_deref())?;
-        Grader::of(arguments, Workspace::find()?, file)
+        let policy = policy(arguments, &file.exam)?;
+        Grader::of(arguments, Workspace::find()?, file, policy)
     }
 
-    fn of(arguments: &'a Arguments, workspace: Workspace, file: ExamFile) -> Result<Self, Error> {
+    fn of(
+        arguments: &'a Arguments,
+        workspace: Workspace,
+        file: ExamFile,
+        policy: Policy,
+    ) -> Result<Self, Error> {
         Ok(Grader {
             arguments,
             exam_name: file.name(),
@@ -81,6 +97,7 @@ impl<'a> Grader<'a> {
                 Some(task) => file.exam.with_what_it_needs(|item| item.task == task),
                 None => file.exam,
             },
+            policy,
             builder: builder(arguments, &workspace)?,
             workspace,
         })
@@ -94,6 +111,21 @@ impl<'a> Grader<'a> {
     /// What scores follow from, beside submission and exam: compiler, dependencies, reference.
     pub fn built_with(&self) -> String {
         self.builder.identity()
+    }
+
+    /// The course's rules.
+    pub fn policy(&self) -> &Policy {
+        &self.policy
+    }
+
+    /// What a score counts for, where a policy says so. One task's points count for nothing.
+    pub fn counted(&self, score: &Score) -> Option<Counted> {
+        let says_so = self.arguments.policy.is_some() && self.arguments.task.is_none();
+        let counted = || {
+            self.policy
+                .counted(score.points, score.max_points, Lateness::NONE)
+        };
+        says_so.then(counted)
     }
 
     /// What is asked: all of the exam, or one task of it and what that needs.
@@ -156,6 +188,16 @@ impl<'a> Grader<'a> {
             None => Some(Files::of(&folder, reload)),
         }
     }
+}
+
+/// The policy that the command line names, or the default.
+fn policy(arguments: &Arguments, exam: &Exam) -> Result<Policy, PolicyError> {
+    let Some(path) = &arguments.policy else {
+        return Ok(Policy::default());
+    };
+    let policy = Policy::read(path)?;
+    policy.check(path, exam)?;
+    Ok(policy)
 }
 
 /// What submissions are built with: with the reference, where it is at hand and not declined.

@@ -10,7 +10,7 @@
 //! | the job | [`grade`], [`replay`], [`watch`]; [`files`] |
 //! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`] |
 //! | its steps | [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
-//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`submission`], [`given`], [`score`] |
+//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`policy`], [`submission`], [`given`], [`score`] |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`] |
 
 pub mod ask;
@@ -31,6 +31,7 @@ pub mod grade;
 pub mod judge;
 pub mod picture;
 pub mod place;
+pub mod policy;
 pub mod recognise;
 pub mod replay;
 pub mod report;

@@ -7,6 +7,7 @@ mod carried_forward;
 mod command_line;
 mod harness;
 mod hints;
+mod policies;
 mod scores;
 mod walls;
 mod watch;

@@ -3,6 +3,7 @@
 use std::io;
 use std::time::{Duration, Instant};
 
+use crate::again::Again;
 use crate::ask::Budget;
 use crate::build::{Build, BuildError, Builder};
 use crate::cli::Arguments;
@@ -71,7 +72,6 @@ impl<'a> Grader<'a> {
     pub fn prepare(arguments: &'a Arguments) -> Result<Self, Error> {
         let workspace = Workspace::find()?;
         let file = exam_file::load(arguments.exam.as_deref())?;
-        let policy = policy(arguments, &file.exam)?;
         // A submission that is nowhere is told of before anything is compiled.
         collect(arguments, &workspace)?;
         Grader::of(arguments, workspace, file, policy)
@@ -84,12 +84,17 @@ impl<'a> Grader<'a> {
         Grader::of(arguments, Workspace::find()?, file, policy)
     }
 
+<<<<<<< HEAD
     fn of(
         arguments: &'a Arguments,
         workspace: Workspace,
         file: ExamFile,
         policy: Policy,
     ) -> Result<Self, Error> {
+=======
+    fn of(arguments: &'a Arguments, workspace: Workspace, file: ExamFile) -> Result<Self, Error> {
+        let policy = policy(arguments, &file.exam)?;
+>>>>>>> main
         Ok(Grader {
             arguments,
             exam_name: file.name(),
@@ -113,11 +118,14 @@ impl<'a> Grader<'a> {
         self.builder.identity()
     }
 
+<<<<<<< HEAD
     /// The course's rules.
     pub fn policy(&self) -> &Policy {
         &self.policy
     }
 
+=======
+>>>>>>> main
     /// What a score counts for, where a policy says so. One task's points count for nothing.
     pub fn counted(&self, score: &Score) -> Option<Counted> {
         let says_so = self.arguments.policy.is_some() && self.arguments.task.is_none();
@@ -151,6 +159,10 @@ impl<'a> Grader<'a> {
     /// The score before anything is asked.
     pub fn unasked(&self, submission: &Submission, built: &Built) -> Score {
         let mut score = unasked(&self.exam, self.exam_name.clone(), &submission.name);
+        score.again = Again {
+            submission: self.arguments.submission.clone(),
+            exam: self.arguments.exam.clone(),
+        };
         score.build = build_report(submission, &built.build);
         score.timings.build_ms = millis(built.took);
         score

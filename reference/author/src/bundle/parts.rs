@@ -17,7 +17,7 @@ const PARTS: [&str; 7] = [
     "student/protocol",
 ];
 /// What only the staff needs, wherever it lies in those folders.
-const LEFT_OUT: [&str; 3] = ["tests", "benches", "target"];
+const LEFT_OUT: [&str; 4] = ["tests", "benches", "fuzz", "target"];
 /// What grades a class, which no student has.
 const CLASS: &str = "grader/class";
 /// Made from the reference, and never taken from disk.

@@ -13,8 +13,10 @@ use crate::exam_file::{self, ExamFile};
 use crate::examine::examine;
 use crate::exhibit::Exhibits;
 use crate::files::Files;
+use crate::isolate::isolated;
 use crate::policy::{Counted, Lateness, Policy, PolicyError};
 use crate::report::html::Reload;
+use crate::sandbox::Isolation;
 use crate::score::{BuildReport, ExamName, FileReport, Score};
 use crate::submission::Submission;
 use crate::verdict::{file_message, unasked};
@@ -74,27 +76,17 @@ impl<'a> Grader<'a> {
         let file = exam_file::load(arguments.exam.as_deref())?;
         // A submission that is nowhere is told of before anything is compiled.
         collect(arguments, &workspace)?;
-        Grader::of(arguments, workspace, file, policy)
+        Grader::of(arguments, workspace, file)
     }
 
     /// The same for whoever brings submissions of their own.
     pub fn for_many(arguments: &'a Arguments) -> Result<Self, Error> {
         let file = exam_file::load(arguments.exam.as_deref())?;
-        let policy = policy(arguments, &file.exam)?;
-        Grader::of(arguments, Workspace::find()?, file, policy)
+        Grader::of(arguments, Workspace::find()?, file)
     }
 
-<<<<<<< HEAD
-    fn of(
-        arguments: &'a Arguments,
-        workspace: Workspace,
-        file: ExamFile,
-        policy: Policy,
-    ) -> Result<Self, Error> {
-=======
     fn of(arguments: &'a Arguments, workspace: Workspace, file: ExamFile) -> Result<Self, Error> {
         let policy = policy(arguments, &file.exam)?;
->>>>>>> main
         Ok(Grader {
             arguments,
             exam_name: file.name(),
@@ -103,7 +95,7 @@ impl<'a> Grader<'a> {
                 None => file.exam,
             },
             policy,
-            builder: builder(arguments, &workspace)?,
+            builder: isolated(builder(arguments, &workspace)?, arguments)?,
             workspace,
         })
     }
@@ -118,14 +110,16 @@ impl<'a> Grader<'a> {
         self.builder.identity()
     }
 
-<<<<<<< HEAD
+    /// How submissions will be kept apart from the machine.
+    pub fn isolation(&self) -> Isolation {
+        self.builder.isolation()
+    }
+
     /// The course's rules.
     pub fn policy(&self) -> &Policy {
         &self.policy
     }
 
-=======
->>>>>>> main
     /// What a score counts for, where a policy says so. One task's points count for nothing.
     pub fn counted(&self, score: &Score) -> Option<Counted> {
         let says_so = self.arguments.policy.is_some() && self.arguments.task.is_none();
@@ -163,6 +157,7 @@ impl<'a> Grader<'a> {
             submission: self.arguments.submission.clone(),
             exam: self.arguments.exam.clone(),
         };
+        score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
         score.timings.build_ms = millis(built.took);
         score

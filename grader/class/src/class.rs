@@ -93,7 +93,7 @@ fn settings(grader: &Grader, grading: &Grading) -> Result<Settings, Error> {
         exam_hash: exam.hash.clone(),
         grader: blake3::hash(&program).to_hex()[..32].to_owned(),
         built_with: grader.built_with(),
-        isolation: "none".to_owned(),
+        isolation: grader.isolation().to_string(),
         options: format!(
             "cpu_limit={:?} no_reference={}",
             grading.cpu_limit, grading.no_reference

@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use grader::sandbox::Isolation;
 
 use crate::shard::Shard;
 
@@ -87,6 +88,11 @@ pub struct Grading {
     #[arg(long, value_name = "SECONDS")]
     pub cpu_limit: Option<u64>,
 
+    /// Keep submissions apart from this machine at this level; default: the best of full and
+    /// no-namespaces that it has, and nothing is graded if it has neither
+    #[arg(long, value_name = "LEVEL")]
+    pub isolation: Option<Isolation>,
+
     /// Block what rests on a failed task, and do not ask it again with the reference's part
     #[arg(long)]
     pub no_reference: bool,
@@ -148,6 +154,10 @@ impl Grading {
         }
         if let Some(limit) = self.cpu_limit {
             words.extend(["--cpu-limit".into(), limit.to_string().into()]);
+        }
+        match self.isolation {
+            Some(level) => words.extend(["--isolation".into(), level.name().into()]),
+            None => words.push("--untrusted".into()),
         }
         if self.no_reference {
             words.push("--no-reference".into());

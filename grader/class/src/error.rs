@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use grader::error::Error as GraderError;
+use grader::isolate::NotIsolated;
 use grader::policy::PolicyError;
 
 use crate::input::NoClass;
@@ -21,9 +22,12 @@ pub enum Error {
     /// The output folder.
     #[error(transparent)]
     Store(#[from] StoreError),
+    /// Submissions can not be kept apart from the machine.
+    #[error("{0}; for code that you would run anyway, say --isolation none")]
+    Isolation(NotIsolated),
     /// The exam, the compiler, or what it needs.
     #[error(transparent)]
-    Grader(#[from] GraderError),
+    Grader(GraderError),
     /// The policy.
     #[error(transparent)]
     Policy(#[from] PolicyError),
@@ -89,8 +93,24 @@ impl Error {
             | Error::Unfinished(_)
             | Error::Strangers { .. }
             | Error::Twice { .. } => 2,
-            Error::Store(_) => 3,
+            Error::Store(_) | Error::Isolation(_) => 3,
             Error::Grader(error) => error.exit_code(),
+        }
+    }
+}
+
+impl From<GraderError> for Error {
+    fn from(error: GraderError) -> Self {
+        match error {
+            GraderError::Isolation(error) => Error::Isolation(error),
+            GraderError::Submission(_)
+            | GraderError::Exam(_)
+            | GraderError::Policy(_)
+            | GraderError::Replay(_)
+            | GraderError::Workspace(_)
+            | GraderError::Build(_)
+            | GraderError::Report { .. }
+            | GraderError::Probe(_) => Error::Grader(error),
         }
     }
 }

@@ -7,6 +7,8 @@ mod carried_forward;
 mod command_line;
 mod harness;
 mod hints;
+#[cfg(target_os = "linux")]
+mod isolation;
 mod policies;
 mod scores;
 mod walls;

@@ -99,6 +99,12 @@ impl Store {
         })
     }
 
+    /// Whether the same became of the entry before.
+    pub fn is_known(&self, id: &str, state: &State) -> bool {
+        let stamp = self.stamp(id).ok().flatten();
+        stamp.is_some_and(|stamp| stamp.state == *state)
+    }
+
     /// Keeps what became of an entry whose score, if it has one, is written already.
     pub fn keep(&self, row: &Row, key: &str) -> Result<(), StoreError> {
         let folder = self.entry(&row.id);

@@ -12,7 +12,7 @@ use grader::tame::tame;
 
 use crate::entry::Entry;
 use crate::input::collect;
-use crate::outcome::{Outcome, Row, Told};
+use crate::outcome::{Outcome, Row, State, Told};
 use crate::progress::Progress;
 use crate::run::Run;
 use crate::store::{Store, StoreError};
@@ -38,7 +38,13 @@ impl Work<'_> {
     /// What becomes of the entry: as it is kept from an earlier time, or graded now.
     pub fn row(&self, slot: usize, entry: &Entry) -> Result<Row, StoreError> {
         let (row, is_new) = match collect(entry) {
-            Err(why) => (self.done(entry, Outcome::NoSubmission(why), "")?, true),
+            Err(why) => {
+                let is_new = !self
+                    .store
+                    .is_known(&entry.id, &State::NoSubmission(why.clone()));
+                let row = self.done(entry, Outcome::NoSubmission(why), "")?;
+                (row, is_new)
+            }
             Ok(submission) => {
                 let key = key(self.run, &submission);
                 match self.store.graded(entry, &key) {

@@ -20,7 +20,7 @@ use std::io::{self, Write};
 use std::process::{Command, ExitCode};
 
 use rustix::fs::Mode;
-use rustix::process::{getppid, setsid, umask};
+use rustix::process::{setsid, umask};
 
 use super::isolation::Isolation;
 use super::order::{Order, Profile, READY};
@@ -39,7 +39,6 @@ pub(super) fn launch(mut arguments: impl Iterator<Item = OsString>) -> io::Resul
 fn confine(order: &Order, command: Command) -> io::Result<ExitCode> {
     // No terminal, and a group that can be ended as one.
     setsid().map_err(while_doing("leave the session"))?;
-    umask(Mode::RWXG | Mode::RWXO);
     descriptors::close_inherited()?;
 
     let own_user = identity::own_user(order);
@@ -48,10 +47,12 @@ fn confine(order: &Order, command: Command) -> io::Result<ExitCode> {
         Isolation::Full => namespaces::enter(&order.profile, program)?,
         Isolation::NoNamespaces | Isolation::SeccompOnly | Isolation::None => program,
     };
+    // Not earlier: the folders of the new root are for everyone.
+    umask(Mode::RWXG | Mode::RWXO);
     identity::give_up(order, own_user)?;
     limits::set(order, own_user)?;
     match order.profile {
-        Profile::Probe => start::end_with_the_grader()?,
+        Profile::Probe => start::end_with_the_grader(order.grader)?,
         Profile::Compiler { .. } => {}
     }
     if order.level >= Isolation::NoNamespaces {
@@ -59,7 +60,7 @@ fn confine(order: &Order, command: Command) -> io::Result<ExitCode> {
     }
     calls::close(&order.profile)?;
     match order.profile {
-        Profile::Probe => program.become_it(order),
+        Profile::Probe => program.become_it(),
         Profile::Compiler { .. } => program.stay_beside_it(),
     }
 }
@@ -69,12 +70,6 @@ fn ready() -> io::Result<()> {
     let mut stdout = io::stdout();
     stdout.write_all(&[READY])?;
     stdout.flush()
-}
-
-/// Whether the grader has ended before it could be noticed.
-fn is_orphan(order: &Order) -> bool {
-    let parent = getppid().map_or(0, |pid| pid.as_raw_nonzero().get());
-    u32::try_from(parent) != Ok(order.grader)
 }
 
 /// An error that says what was being done.

@@ -11,12 +11,12 @@ use std::time::Duration;
 
 use rustix::event::{PollFd, PollFlags, poll};
 use rustix::process::{
-    Pid, PidfdFlags, Signal, kill_current_process_group, pidfd_open,
+    Pid, PidfdFlags, Signal, getppid, kill_current_process_group, pidfd_open,
     set_parent_process_death_signal,
 };
 
 use super::super::order::{Order, Profile};
-use super::{is_orphan, ready, while_doing};
+use super::{ready, while_doing};
 
 /// How often a program is tried that somebody still holds open for writing, a millisecond apart.
 const PATIENCE: u32 = 1_000;
@@ -74,11 +74,8 @@ impl Program {
 
     /// Turns into it, and so keeps the process number: what the grader measures and ends is the
     /// program itself. When the grader ends, however it ends, the system ends the program.
-    pub(super) fn become_it(mut self, order: &Order) -> io::Result<ExitCode> {
+    pub(super) fn become_it(mut self) -> io::Result<ExitCode> {
         ready()?;
-        if is_orphan(order) {
-            return Ok(ExitCode::FAILURE);
-        }
         let mut error = self.command.exec();
         for _ in 0..PATIENCE {
             // Another thread of the grader has just forked while the program was being written.
@@ -119,8 +116,13 @@ impl Program {
     }
 }
 
-/// Asks the system to end this process when the grader ends.
-pub(super) fn end_with_the_grader() -> io::Result<()> {
+/// Asks the system to end this process when the grader ends, and makes sure that it has not yet.
+pub(super) fn end_with_the_grader(grader: u32) -> io::Result<()> {
     set_parent_process_death_signal(Some(Signal::KILL))
-        .map_err(while_doing("be ended with the grader"))
+        .map_err(while_doing("be ended with the grader"))?;
+    let parent = getppid().map_or(0, |pid| pid.as_raw_nonzero().get());
+    match u32::try_from(parent) {
+        Ok(parent) if parent == grader => Ok(()),
+        Ok(_) | Err(_) => Err(io::Error::other("the grader has ended")),
+    }
 }

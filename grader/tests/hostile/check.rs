@@ -15,6 +15,9 @@ const MEMORY: u64 = 256 << 20;
 /// Stands in what entries print and must never reach a page as it is.
 const MARKUP: &str = "<b id=forged>";
 
+/// What entries print where they reach what they should not.
+const REACHED: &str = "reached: ";
+
 /// Something that did not hold.
 #[derive(Debug)]
 pub struct Broken {
@@ -52,6 +55,9 @@ pub fn broken(
         for secret in text.map_or(Vec::new(), |text| canaries.found_in(text)) {
             found(Finding::Leaked, format!("a secret of {secret} came out"));
         }
+    }
+    if let Some(line) = run.printed.lines().find(|line| line.contains(REACHED)) {
+        found(Finding::Leaked, line.trim().to_owned());
     }
     if run.took > entry.wall() {
         found(Finding::Harmed, format!("it took {:?}", run.took));

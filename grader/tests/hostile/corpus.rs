@@ -3,15 +3,21 @@
 use std::path::Path;
 use std::process::ExitCode;
 
+use grader::sandbox::Isolation;
+
 use crate::canary::Canaries;
 use crate::check::{Broken, Finding, broken};
+use crate::container;
 use crate::entry::Entry;
 use crate::leftovers::Leftovers;
+use crate::levels;
 use crate::run::{self, Run};
 
 /// What the command line asks for.
 struct Selection {
     all: bool,
+    contained: bool,
+    levels: Vec<Isolation>,
     names: Vec<String>,
 }
 
@@ -19,10 +25,15 @@ impl Selection {
     /// Flags of the usual test harness are none of ours, and pass.
     fn from_arguments() -> Self {
         let arguments: Vec<String> = std::env::args().skip(1).collect();
-        let names = arguments.iter().filter(|word| !word.starts_with('-'));
+        let (flags, names): (Vec<String>, _) =
+            arguments.into_iter().partition(|word| word.starts_with("--"));
+        let has = |flag: &str| flags.iter().any(|word| word == flag);
+        let levels = Isolation::ALL.into_iter();
         Selection {
-            all: arguments.iter().any(|word| word == "--all"),
-            names: names.cloned().collect(),
+            all: has("--all"),
+            contained: has("--contained"),
+            levels: levels.filter(|level| has(&format!("--{level}"))).collect(),
+            names,
         }
     }
 
@@ -43,29 +54,46 @@ struct Tally {
 }
 
 pub fn main() -> ExitCode {
-    let selection = Selection::from_arguments();
+    let mut selection = Selection::from_arguments();
+    run::adopt_orphans();
+    if selection.contained {
+        container::enter();
+    }
+    if selection.levels.is_empty() {
+        selection.levels.push(levels::best());
+    }
     let entries = Entry::all(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hostile/entries"));
     let entries: Vec<Entry> = entries
         .into_iter()
         .filter(|entry| selection.takes(entry))
         .collect();
+    let held = selection.levels.iter().map(|level| all(&entries, *level));
+    // Every level is tried, also after one that does not hold.
+    match held.collect::<Vec<bool>>().contains(&false) {
+        false => ExitCode::SUCCESS,
+        true => ExitCode::FAILURE,
+    }
+}
 
-    run::adopt_orphans();
+/// Whether all entries hold at one level.
+fn all(entries: &[Entry], level: Isolation) -> bool {
     let honest = Entry::honest();
     // Whatever is compiled once is compiled here.
-    run::grade(&honest, &Canaries::plant());
-    let first = match graded(&honest, None) {
+    run::grade(&honest, &Canaries::plant(), level);
+    let first = match graded(&honest, None, level) {
         Ok(run) => run,
         Err(broken) => {
             tell("BROKEN", &honest, &broken);
-            return ExitCode::FAILURE;
+            return false;
         }
     };
+    let (here, below): (Vec<&Entry>, Vec<&Entry>) =
+        entries.iter().partition(|entry| entry.expect.least <= level);
     let mut tally = Tally::default();
-    for entry in &entries {
-        let own = graded(entry, None);
+    for entry in &here {
+        let own = graded(entry, None, level);
         // Also after one that went wrong: whether it harms the next is what this is about.
-        let next = graded(&honest, Some(&first));
+        let next = graded(&honest, Some(&first), level);
         let broken: Vec<Broken> = [own, next]
             .into_iter()
             .filter_map(Result::err)
@@ -76,17 +104,15 @@ pub fn main() -> ExitCode {
         tell(verdict, entry, &broken);
     }
     println!(
-        "hostile {} of {} held, forged {}, leaked {}, left {} (isolation: none)",
+        "{level}: hostile {} of {} held, forged {}, leaked {}, left {}; {} are for better levels",
         tally.held,
-        entries.len(),
+        here.len(),
         tally.forged,
         tally.leaked,
-        tally.left
+        tally.left,
+        below.len(),
     );
-    match tally.held == entries.len() {
-        true => ExitCode::SUCCESS,
-        false => ExitCode::FAILURE,
-    }
+    tally.held == here.len()
 }
 
 fn tell(verdict: &str, entry: &Entry, broken: &[Broken]) {
@@ -109,10 +135,14 @@ impl Tally {
 }
 
 /// Grades one entry and looks at all that it may have done. `as_before`: what an honest one got.
-fn graded(entry: &Entry, as_before: Option<&Run>) -> Result<Run, Vec<Broken>> {
+fn graded(
+    entry: &Entry,
+    as_before: Option<&Run>,
+    level: Isolation,
+) -> Result<Run, Vec<Broken>> {
     let canaries = Canaries::plant();
     let before = Leftovers::look(&canaries);
-    let run = run::grade(entry, &canaries);
+    let run = run::grade(entry, &canaries, level);
     let after = Leftovers::look(&canaries);
     let broken = broken(entry, &run, as_before, &canaries, before.what_came(&after));
     match broken.is_empty() {

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use grader::sandbox::Isolation;
 use serde::Deserialize;
 
 const FIVE: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
@@ -25,6 +26,9 @@ pub struct Entry {
 pub struct Expect {
     /// In words: "It ...".
     pub does: String,
+    /// Below this level it is known to do harm, and is passed over.
+    #[serde(default = "Expect::any_level")]
+    pub least: Isolation,
     /// The honest files that it changes.
     #[serde(default)]
     base: Base,
@@ -57,6 +61,12 @@ enum Base {
     #[default]
     Reference,
     Starter,
+}
+
+impl Expect {
+    fn any_level() -> Isolation {
+        Isolation::None
+    }
 }
 
 /// Nobody else's load shall break an entry.

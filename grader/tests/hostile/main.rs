@@ -5,6 +5,8 @@
 //! cargo test -p grader --test hostile                  the quick ones
 //! cargo test -p grader --test hostile -- --all         all of them: bombs take minutes
 //! cargo test -p grader --test hostile -- C02 flood     those with such names
+//! ... -- --full --seccomp-only                         at these levels, not at the best one here
+//! ... -- --contained                                   as in a container: no namespaces, no mounts
 //! ```
 //!
 //! What each does, and what may come of it, stands in its folder: `entries/ID-NAME/expect.toml`.
@@ -14,11 +16,15 @@ mod canary;
 #[cfg(target_os = "linux")]
 mod check;
 #[cfg(target_os = "linux")]
+mod container;
+#[cfg(target_os = "linux")]
 mod corpus;
 #[cfg(target_os = "linux")]
 mod entry;
 #[cfg(target_os = "linux")]
 mod leftovers;
+#[cfg(target_os = "linux")]
+mod levels;
 #[cfg(target_os = "linux")]
 mod run;
 

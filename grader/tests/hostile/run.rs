@@ -7,6 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
+use grader::sandbox::Isolation;
 use serde_json::Value;
 
 use crate::canary::Canaries;
@@ -42,7 +43,7 @@ pub fn adopt_orphans() {
 }
 
 /// Grades one submission. Never waits for longer than it may take.
-pub fn grade(entry: &Entry, canaries: &Canaries) -> Run {
+pub fn grade(entry: &Entry, canaries: &Canaries, level: Isolation) -> Run {
     let folder = tempfile::TempDir::new().expect("a folder");
     let submission = folder.path().join("submission");
     entry.write(&submission, &canaries.places());
@@ -54,6 +55,7 @@ pub fn grade(entry: &Entry, canaries: &Canaries) -> Run {
         .arg(&submission)
         .arg("--out")
         .arg(&out)
+        .args(["--isolation", level.name()])
         .args(&entry.expect.arguments)
         .env(Canaries::VARIABLE, canaries.secret())
         .stdin(Stdio::null())

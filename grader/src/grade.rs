@@ -12,6 +12,7 @@ use crate::exam_file;
 use crate::examine::examine;
 use crate::exhibit::Exhibits;
 use crate::files::Files;
+use crate::isolate::isolated;
 use crate::report::html::Reload;
 use crate::score::{BuildReport, ExamName, FileReport, Score};
 use crate::submission::Submission;
@@ -71,7 +72,7 @@ impl<'a> Grader<'a> {
                 Some(task) => file.exam.with_what_it_needs(|item| item.task == task),
                 None => file.exam,
             },
-            builder: builder(arguments, &workspace)?,
+            builder: isolated(builder(arguments, &workspace)?, arguments)?,
             workspace,
         })
     }
@@ -99,6 +100,7 @@ impl<'a> Grader<'a> {
     /// The score before anything is asked.
     pub fn unasked(&self, submission: &Submission, built: &Built) -> Score {
         let mut score = unasked(&self.exam, self.exam_name.clone(), &submission.name);
+        score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
         score.timings.build_ms = millis(built.took);
         score

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::exam::Task;
+use crate::sandbox::Isolation;
 use crate::section::Section;
 
 /// The version of this format.
@@ -45,14 +46,6 @@ pub struct ExamName {
     pub id: String,
     /// Of the exam file's bytes.
     pub hash: String,
-}
-
-/// How submissions were kept apart from the machine, from best to none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Isolation {
-    /// Limits on time and memory only: for one's own work.
-    None,
 }
 
 /// One task's items.

@@ -8,6 +8,8 @@ mod command_line;
 mod faults;
 mod harness;
 mod hints;
+#[cfg(target_os = "linux")]
+mod isolation;
 mod scores;
 mod walls;
 mod watch;

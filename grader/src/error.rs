@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::build::BuildError;
 use crate::exam_file::BadExam;
+use crate::isolate::NotIsolated;
 use crate::policy::PolicyError;
 use crate::submission::NoSubmission;
 use crate::workspace::NoWorkspace;
@@ -30,6 +31,9 @@ pub enum Error {
     /// The compiler or what it needs.
     #[error(transparent)]
     Build(#[from] BuildError),
+    /// The submission can not be kept apart as it should.
+    #[error(transparent)]
+    Isolation(#[from] NotIsolated),
     /// A report can not be written.
     #[error("can not write {path}: {source}")]
     Report {
@@ -48,7 +52,11 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Submission(_) | Error::Exam(_) | Error::Policy(_) | Error::Replay(_) => 2,
-            Error::Workspace(_) | Error::Build(_) | Error::Report { .. } | Error::Probe(_) => 3,
+            Error::Workspace(_)
+            | Error::Build(_)
+            | Error::Isolation(_)
+            | Error::Report { .. }
+            | Error::Probe(_) => 3,
         }
     }
 }

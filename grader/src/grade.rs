@@ -13,8 +13,10 @@ use crate::exam_file::{self, ExamFile};
 use crate::examine::examine;
 use crate::exhibit::Exhibits;
 use crate::files::Files;
+use crate::isolate::isolated;
 use crate::policy::{Counted, Lateness, Policy, PolicyError};
 use crate::report::html::Reload;
+use crate::sandbox::Isolation;
 use crate::score::{BuildReport, ExamName, FileReport, Score};
 use crate::submission::Submission;
 use crate::verdict::{file_message, unasked};
@@ -93,7 +95,7 @@ impl<'a> Grader<'a> {
                 None => file.exam,
             },
             policy,
-            builder: builder(arguments, &workspace)?,
+            builder: isolated(builder(arguments, &workspace)?, arguments)?,
             workspace,
         })
     }
@@ -106,6 +108,16 @@ impl<'a> Grader<'a> {
     /// What scores follow from, beside submission and exam: compiler, dependencies, reference.
     pub fn built_with(&self) -> String {
         self.builder.identity()
+    }
+
+    /// How submissions will be kept apart from the machine.
+    pub fn isolation(&self) -> Isolation {
+        self.builder.isolation()
+    }
+
+    /// The course's rules.
+    pub fn policy(&self) -> &Policy {
+        &self.policy
     }
 
     /// What a score counts for, where a policy says so. One task's points count for nothing.
@@ -145,6 +157,7 @@ impl<'a> Grader<'a> {
             submission: self.arguments.submission.clone(),
             exam: self.arguments.exam.clone(),
         };
+        score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
         score.timings.build_ms = millis(built.took);
         score

@@ -5,8 +5,11 @@ mod bad_exams;
 mod bad_submissions;
 mod carried_forward;
 mod command_line;
+mod faults;
 mod harness;
 mod hints;
+#[cfg(target_os = "linux")]
+mod isolation;
 mod policies;
 mod scores;
 mod walls;

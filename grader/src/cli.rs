@@ -14,7 +14,8 @@ use crate::place::Place;
 #[derive(Clone, Debug, Parser)]
 #[command(name = "cargo grade", bin_name = "cargo grade", version)]
 pub struct Arguments {
-    /// The folder with the five files (at its top, in src/, or in student/src/); default: student
+    /// The folder, .zip, .tar or .tar.gz with the five files (at its top, in src/, or in
+    /// student/src/); default: student
     pub submission: Option<PathBuf>,
 
     /// The exam to ask, - for standard input; default: the practice exam

@@ -3,12 +3,13 @@
 use std::io;
 use std::time::{Duration, Instant};
 
+use crate::again::Again;
 use crate::ask::Budget;
 use crate::build::{Build, BuildError, Builder};
 use crate::cli::Arguments;
 use crate::error::Error;
 use crate::exam::Exam;
-use crate::exam_file;
+use crate::exam_file::{self, ExamFile};
 use crate::examine::examine;
 use crate::exhibit::Exhibits;
 use crate::files::Files;
@@ -74,6 +75,16 @@ impl<'a> Grader<'a> {
         let policy = policy(arguments, &file.exam)?;
         // A submission that is nowhere is told of before anything is compiled.
         collect(arguments, &workspace)?;
+        Grader::of(arguments, workspace, file)
+    }
+
+    /// The same for whoever brings submissions of their own.
+    pub fn for_many(arguments: &'a Arguments) -> Result<Self, Error> {
+        let file = exam_file::load(arguments.exam.as_deref())?;
+        Grader::of(arguments, Workspace::find()?, file)
+    }
+
+    fn of(arguments: &'a Arguments, workspace: Workspace, file: ExamFile) -> Result<Self, Error> {
         Ok(Grader {
             arguments,
             exam_name: file.name(),
@@ -87,6 +98,7 @@ impl<'a> Grader<'a> {
         })
     }
 
+<<<<<<< HEAD
     /// What a score counts for, where a policy says so. One task's points count for nothing.
     pub fn counted(&self, score: &Score) -> Option<Counted> {
         let says_so = self.arguments.policy.is_some() && self.arguments.task.is_none();
@@ -95,6 +107,16 @@ impl<'a> Grader<'a> {
                 .counted(score.points, score.max_points, Lateness::NONE)
         };
         says_so.then(counted)
+=======
+    /// What the exam is called.
+    pub fn exam_name(&self) -> &ExamName {
+        &self.exam_name
+    }
+
+    /// What scores follow from, beside submission and exam: compiler, dependencies, reference.
+    pub fn built_with(&self) -> String {
+        self.builder.identity()
+>>>>>>> main
     }
 
     /// What is asked: all of the exam, or one task of it and what that needs.
@@ -120,6 +142,10 @@ impl<'a> Grader<'a> {
     /// The score before anything is asked.
     pub fn unasked(&self, submission: &Submission, built: &Built) -> Score {
         let mut score = unasked(&self.exam, self.exam_name.clone(), &submission.name);
+        score.again = Again {
+            submission: self.arguments.submission.clone(),
+            exam: self.arguments.exam.clone(),
+        };
         score.build = build_report(submission, &built.build);
         score.timings.build_ms = millis(built.took);
         score

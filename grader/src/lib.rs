@@ -10,9 +10,10 @@
 //! | the job | [`grade`], [`replay`], [`watch`]; [`files`] |
 //! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`] |
 //! | its steps | [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
-//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`policy`], [`submission`], [`given`], [`score`] |
+//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`again`], [`submission`], [`given`], [`score`] |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`] |
 
+pub mod again;
 pub mod ask;
 pub mod build;
 pub mod capture;

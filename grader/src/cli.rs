@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Parser;
 
 use crate::exam::Task;
+use crate::format::Wanted;
 use crate::place::Place;
 
 /// Grades a path-tracing submission: builds it, asks it, judges its answers, writes a score.
@@ -54,6 +55,13 @@ pub struct Arguments {
     /// Open the report, a page, when it is written
     #[arg(long, conflicts_with_all = ["task", "replay"])]
     pub open: bool,
+
+    /// Also write what platforms read: json, text, gradescope, classroom50, junit, github,
+    /// github-classroom, check50, prairielearn, of what the policy lets students see; with =PATH
+    /// there, else where the platform says, else to --out
+    #[arg(long, value_name = "FORMAT", num_args = 1.., value_delimiter = ',')]
+    #[arg(conflicts_with_all = ["task", "replay", "watch"])]
+    pub format: Vec<Wanted>,
 
     /// What points count for and what students see of them; --policy-default shows what holds else
     #[arg(long, value_name = "FILE")]

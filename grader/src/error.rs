@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::build::BuildError;
 use crate::exam_file::BadExam;
+use crate::format::outputs::NoOutput;
 use crate::policy::PolicyError;
 use crate::submission::NoSubmission;
 use crate::workspace::NoWorkspace;
@@ -21,6 +22,9 @@ pub enum Error {
     /// The policy.
     #[error(transparent)]
     Policy(#[from] PolicyError),
+    /// What platforms read.
+    #[error(transparent)]
+    Output(#[from] NoOutput),
     /// What to replay.
     #[error("{0}")]
     Replay(String),
@@ -47,8 +51,16 @@ impl Error {
     /// 2 where whoever typed the command can mend it, 3 where it is our fault or the machine's.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::Submission(_) | Error::Exam(_) | Error::Policy(_) | Error::Replay(_) => 2,
-            Error::Workspace(_) | Error::Build(_) | Error::Report { .. } | Error::Probe(_) => 3,
+            Error::Submission(_)
+            | Error::Exam(_)
+            | Error::Policy(_)
+            | Error::Output(NoOutput::Variable { .. })
+            | Error::Replay(_) => 2,
+            Error::Workspace(_)
+            | Error::Build(_)
+            | Error::Output(NoOutput::Io { .. })
+            | Error::Report { .. }
+            | Error::Probe(_) => 3,
         }
     }
 }

@@ -91,7 +91,8 @@ pub fn load(path: Option<&Path>) -> Result<ExamFile, BadExam> {
     parse(path, &bytes)
 }
 
-fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, BadExam> {
+/// The exam in a file's bytes; `path` is for the error.
+pub fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, BadExam> {
     let exam: Exam = serde_json::from_slice(bytes).map_err(|source| BadExam::Json {
         path: path.to_owned(),
         source,

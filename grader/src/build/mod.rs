@@ -4,7 +4,7 @@
 mod carried;
 mod compile;
 mod dependencies;
-mod diagnostics;
+pub mod diagnostics;
 mod kept;
 mod rustc;
 mod toolchain;

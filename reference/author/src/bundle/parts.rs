@@ -17,7 +17,7 @@ const PARTS: [&str; 7] = [
     "student/protocol",
 ];
 /// What only the staff needs, wherever it lies in those folders.
-const LEFT_OUT: [&str; 3] = ["tests", "benches", "target"];
+const LEFT_OUT: [&str; 4] = ["tests", "benches", "fuzz", "target"];
 /// Made from the reference, and never taken from disk.
 const PROJECTED: &str = "grader/starter";
 /// Where an exam may lie that is not to be seen yet.

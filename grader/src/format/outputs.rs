@@ -172,10 +172,12 @@ fn variables(format: Format, known: &mut BTreeMap<&'static str, String>) -> Resu
     Ok(())
 }
 
-/// The folder of the five files, from the current one. Empty if they are not below it.
+/// The folder of the five files, from the checkout's, which is the current one unless the runner
+/// says otherwise. Empty if they are not below it.
 fn in_checkout(submitted: &Path) -> String {
     let here = env::current_dir().unwrap_or_default();
     let submitted = here.join(submitted);
+    let here = env::var_os("GITHUB_WORKSPACE").map_or(here, PathBuf::from);
     let places = PLACES.map(|place| submitted.join(place));
     let holds_some = |place: &PathBuf| {
         let mut files = TASK_FILES.iter();

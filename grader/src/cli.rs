@@ -7,6 +7,7 @@ use clap::Parser;
 use crate::exam::Task;
 use crate::format::Wanted;
 use crate::place::Place;
+use crate::sandbox::Isolation;
 
 /// Grades a path-tracing submission: builds it, asks it, judges its answers, writes a score.
 ///
@@ -47,6 +48,19 @@ pub struct Arguments {
     /// with the reference's part in its place
     #[arg(long)]
     pub no_reference: bool,
+
+    /// The code is somebody else's: keep it apart from this machine, or do not grade it
+    #[arg(long)]
+    pub untrusted: bool,
+
+    /// Keep it apart at this level, and no less; --untrusted takes the best of full and
+    /// no-namespaces
+    #[arg(long, value_name = "LEVEL")]
+    pub isolation: Option<Isolation>,
+
+    /// Say what submissions are built with here, how far they can be kept apart, and what is missing
+    #[arg(long)]
+    pub doctor: bool,
 
     /// Say what is wrong, not only a nudge, where a known mistake is recognised
     #[arg(long)]

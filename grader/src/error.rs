@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use crate::build::BuildError;
 use crate::exam_file::BadExam;
 use crate::format::outputs::NoOutput;
+use crate::isolate::NotIsolated;
 use crate::policy::PolicyError;
 use crate::submission::NoSubmission;
 use crate::workspace::NoWorkspace;
@@ -34,6 +35,9 @@ pub enum Error {
     /// The compiler or what it needs.
     #[error(transparent)]
     Build(#[from] BuildError),
+    /// The submission can not be kept apart as it should.
+    #[error(transparent)]
+    Isolation(#[from] NotIsolated),
     /// A report can not be written.
     #[error("can not write {path}: {source}")]
     Report {
@@ -59,6 +63,7 @@ impl Error {
             Error::Workspace(_)
             | Error::Build(_)
             | Error::Output(NoOutput::Io { .. })
+            | Error::Isolation(_)
             | Error::Report { .. }
             | Error::Probe(_) => 3,
         }

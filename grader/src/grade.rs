@@ -16,6 +16,7 @@ use crate::exhibit::Exhibits;
 use crate::files::Files;
 use crate::format::Seen;
 use crate::format::outputs::{NoOutput, Outputs};
+use crate::isolate::isolated;
 use crate::policy::{Policy, PolicyError};
 use crate::report::html::Reload;
 use crate::score::{BuildReport, ExamName, FileReport, Score};
@@ -106,7 +107,7 @@ impl<'a> Grader<'a> {
                 None => file.exam,
             },
             policy,
-            builder: builder(arguments, &workspace)?,
+            builder: isolated(builder(arguments, &workspace)?, arguments)?,
             workspace,
         })
     }
@@ -160,6 +161,7 @@ impl<'a> Grader<'a> {
             submission: self.arguments.submission.clone(),
             exam: self.arguments.exam.clone(),
         };
+        score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
         score.timings.build_ms = millis(built.took);
         score

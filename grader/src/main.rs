@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use grader::cli::Arguments;
 use grader::desktop;
+use grader::doctor::examine_machine;
 use grader::error::Error;
 use grader::files::Files;
 use grader::format::github;
@@ -14,10 +15,14 @@ use grader::grade::{Graded, grade};
 use grader::policy;
 use grader::replay::replay;
 use grader::report::text::{Hints, report};
+use grader::sandbox;
 use grader::score::Score;
 use grader::watch::watch;
 
 fn main() -> ExitCode {
+    if let Some(ended) = sandbox::launched() {
+        return ended;
+    }
     let arguments = Arguments::parse();
     run(&arguments).unwrap_or_else(|error| {
         anstream::eprintln!("error: {error}");
@@ -37,6 +42,11 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     if let Some(place) = &arguments.replay {
         anstream::print!("{}", replay(arguments, place)?);
         return Ok(ExitCode::SUCCESS);
+    }
+    if arguments.doctor {
+        let diagnosis = examine_machine()?;
+        anstream::print!("{diagnosis}");
+        return Ok(ExitCode::from(diagnosis.exit_code()));
     }
     let hints = match arguments.hints {
         true => Hints::Full,

@@ -9,6 +9,7 @@ use serde::Serialize;
 use crate::again::Again;
 use crate::exam::Task;
 use crate::given::TASK_FILES;
+use crate::sandbox::Isolation;
 use crate::section::Section;
 
 /// The version of this format.
@@ -50,14 +51,6 @@ pub struct ExamName {
     pub id: String,
     /// Of the exam file's bytes.
     pub hash: String,
-}
-
-/// How submissions were kept apart from the machine, from best to none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Isolation {
-    /// Limits on time and memory only: for one's own work.
-    None,
 }
 
 /// One task's items.

@@ -6,9 +6,10 @@ use crate::build::NotCompiled;
 use crate::describe;
 use crate::exam::{Exam, Item, Task};
 use crate::judge::{Failure, How, Judgement, Share};
+use crate::sandbox::Isolation;
 use crate::score::{
-    BuildReport, CodePlace, Evidence, ExamName, Hint, Isolation, ItemScore, SCHEMA, Score,
-    TaskScore, Timings, Verdict,
+    BuildReport, CodePlace, Evidence, ExamName, Hint, ItemScore, SCHEMA, Score, TaskScore, Timings,
+    Verdict,
 };
 use crate::section::Section;
 use crate::tame::tame;

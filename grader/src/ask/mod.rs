@@ -17,8 +17,8 @@ use protocol::wire::{self, Frame, WireError};
 use protocol::{Answer, Question};
 
 use crate::capture::Capture;
-use crate::sandbox::{Ending, Limits, Process};
-use crate::system;
+use crate::sandbox::{Ending, Process, Profile, Sandbox};
+use crate::system::{self, Limits};
 
 use budget::Watch;
 
@@ -60,6 +60,8 @@ pub struct Probe {
 pub struct Launcher {
     /// The program.
     pub program: PathBuf,
+    /// How it is kept apart.
+    pub sandbox: Sandbox,
 }
 
 impl Launcher {
@@ -79,7 +81,9 @@ impl Launcher {
             cpu: Self::ITEMS * budget.cpu,
             file: 0,
         };
-        let mut process = Process::start(&mut command, folder, limits)?;
+        let mut process = self
+            .sandbox
+            .start(command, folder, Profile::Probe, limits)?;
         let mut stdin = process.child.stdin.take().expect("it is piped");
         let stdout = process.child.stdout.take().expect("it is piped");
         let stderr = process.child.stderr.take().expect("it is piped");

@@ -3,11 +3,14 @@
 
 mod carried;
 mod compile;
+mod confined;
 mod dependencies;
 pub mod diagnostics;
 mod kept;
 mod rustc;
+mod taken;
 mod toolchain;
+mod trial;
 
 use std::collections::BTreeMap;
 use std::io;
@@ -16,6 +19,7 @@ use std::sync::OnceLock;
 
 use tempfile::TempDir;
 
+use crate::ask::Launcher;
 use crate::build::carried::{CarryForward, NoParts, Parts};
 use crate::build::compile::compile;
 use crate::build::dependencies::{Dependencies, NoDependencies};
@@ -25,8 +29,11 @@ use crate::build::rustc::{Compiled, Rustc};
 use crate::build::toolchain::{NoToolchain, Toolchain};
 use crate::exam::Task;
 use crate::given::TaskFile;
+use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, Unreadable};
 use crate::workspace::Workspace;
+
+pub use crate::build::trial::Shortfall;
 
 /// How often a submission is compiled at most.
 const ATTEMPTS: usize = 3;
@@ -48,6 +55,7 @@ pub struct Build {
     /// The files whose tasks can not be graded, and why.
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
     carry: Option<CarryForward>,
+    sandbox: Sandbox,
     /// Holds the programs; vanishes with them.
     _folder: TempDir,
 }
@@ -113,6 +121,7 @@ impl Builder {
                 toolchain,
                 dependencies,
                 kept: None,
+                sandbox: Sandbox::none(),
             },
             parts: None,
             folder: workspace.grade().join("work"),
@@ -137,6 +146,22 @@ impl Builder {
     pub fn identity(&self) -> String {
         let parts = self.parts.as_ref().map(Parts::content).unwrap_or_default();
         parts.with(self.rustc.identity()).name()
+    }
+
+    /// What compiles.
+    pub fn compiler(&self) -> &Path {
+        &self.rustc.toolchain.rustc
+    }
+
+    /// The folder with what every submission is linked with.
+    pub fn dependencies(&self) -> &Path {
+        &self.rustc.dependencies.folder
+    }
+
+    /// Builds in this sandbox, and programs that are to be asked in it.
+    pub fn within(mut self, sandbox: Sandbox) -> Self {
+        self.rustc.sandbox = sandbox;
+        self
     }
 
     /// Keeps all programs in this folder, and takes them from there when the same is built again.
@@ -188,6 +213,7 @@ impl Builder {
             carry: self.carry(submission, &not_compiled, &folder),
             probe,
             not_compiled,
+            sandbox: self.rustc.sandbox.clone(),
             _folder: folder,
         })
     }
@@ -213,6 +239,19 @@ impl Builder {
 }
 
 impl Build {
+    /// How submissions are kept apart from the machine.
+    pub fn isolation(&self) -> Isolation {
+        self.sandbox.level()
+    }
+
+    /// What starts one of its programs.
+    pub fn launcher(&self, program: &Path) -> Launcher {
+        Launcher {
+            program: program.to_owned(),
+            sandbox: self.sandbox.clone(),
+        }
+    }
+
     /// The program with the reference's parts, compiled when it is first asked for.
     pub fn carried(&self) -> io::Result<Carried<'_>> {
         let Some(carry) = &self.carry else {

@@ -8,6 +8,8 @@ mod command_line;
 mod formats;
 mod harness;
 mod hints;
+#[cfg(target_os = "linux")]
+mod isolation;
 mod policies;
 mod scores;
 mod walls;

@@ -1,8 +1,6 @@
 //! The workflow that grades every push, against a strict model of what GitHub reads.
 
 use std::collections::BTreeMap;
-use std::io::Write;
-use std::process::{Command, Stdio};
 
 use serde::Deserialize;
 

@@ -62,6 +62,10 @@ pub struct Arguments {
     #[arg(long)]
     pub doctor: bool,
 
+    /// With --doctor: look at a package for Gradescope or classroom50 instead, as they will see it
+    #[arg(long, value_name = "FILE", requires = "doctor")]
+    pub package: Option<PathBuf>,
+
     /// Say what is wrong, not only a nudge, where a known mistake is recognised
     #[arg(long)]
     pub hints: bool,

@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::build::BuildError;
+use crate::doctor::package::NoPackage;
 use crate::exam_file::BadExam;
 use crate::format::outputs::NoOutput;
 use crate::isolate::NotIsolated;
@@ -23,6 +24,9 @@ pub enum Error {
     /// The policy.
     #[error(transparent)]
     Policy(#[from] PolicyError),
+    /// A platform's package.
+    #[error(transparent)]
+    Package(#[from] NoPackage),
     /// What platforms read.
     #[error(transparent)]
     Output(#[from] NoOutput),
@@ -58,6 +62,7 @@ impl Error {
             Error::Submission(_)
             | Error::Exam(_)
             | Error::Policy(_)
+            | Error::Package(_)
             | Error::Output(NoOutput::Variable { .. })
             | Error::Replay(_) => 2,
             Error::Workspace(_)

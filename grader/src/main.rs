@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use grader::cli::Arguments;
 use grader::desktop;
-use grader::doctor::examine_machine;
+use grader::doctor::{examine_machine, package};
 use grader::error::Error;
 use grader::files::Files;
 use grader::format::github;
@@ -42,6 +42,19 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     if let Some(place) = &arguments.replay {
         anstream::print!("{}", replay(arguments, place)?);
         return Ok(ExitCode::SUCCESS);
+    }
+    if let Some(package) = &arguments.package {
+        let complaints = package::complaints(package)?;
+        for complaint in &complaints {
+            anstream::println!("{}: {complaint}", package.display());
+        }
+        return Ok(match complaints.len() {
+            0 => {
+                anstream::println!("{}: nothing is wrong with it", package.display());
+                ExitCode::SUCCESS
+            }
+            _ => ExitCode::from(2),
+        });
     }
     if arguments.doctor {
         let diagnosis = examine_machine()?;

@@ -17,6 +17,8 @@ use zip::result::ZipError;
 const PLACE: &str = "target/package/gradescope";
 /// How a machine like the platform's is entered.
 const ENTER: &str = include_str!("own/gradescope/trial.sh");
+/// What it has for itself.
+const NAMESPACES: [&str; 4] = ["--mount", "--net", "--pid", "--fork"];
 /// Half of the platform's ten minutes, at half of a core.
 const LONGEST: Duration = Duration::from_secs(150);
 /// What Gradescope lays beside a submission; none of it changes a score.
@@ -65,6 +67,10 @@ struct Machine {
 
 /// Tries the zip, and tells what is not as it should be.
 pub fn gradescope(workspace: &Path, zip: &Path) -> Result<Vec<String>, NotTried> {
+    if !can_enter() {
+        eprintln!("SKIPPED: the zip is tried as root only, on Linux with namespaces");
+        return Ok(Vec::new());
+    }
     let workspace = &workspace.canonicalize().map_err(at(workspace))?;
     let machine = Machine::lay_out(&workspace.join(PLACE), zip)?;
     let mut complaints = Vec::new();
@@ -108,6 +114,13 @@ impl Results {
 fn at(path: &Path) -> impl FnOnce(io::Error) -> NotTried {
     let path = path.to_owned();
     move |source| NotTried::Io { path, source }
+}
+
+/// Whether this system gives us a machine of our own.
+fn can_enter() -> bool {
+    let mut unshare = Command::new("unshare");
+    let tried = unshare.args(NAMESPACES).arg("true").output();
+    tried.is_ok_and(|output| output.status.success())
 }
 
 impl Machine {

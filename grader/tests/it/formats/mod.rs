@@ -62,7 +62,7 @@ pub fn exam(id: &str) -> String {
     let items = exam["items"].as_array_mut().unwrap();
     items.retain(|item| is_kept(item["id"].as_str().unwrap()));
     for item in items {
-        if let Some(needs) = item["needs"].as_array_mut() {
+        if let Some(needs) = item.get_mut("needs").and_then(Value::as_array_mut) {
             needs.retain(|id| is_kept(id.as_str().unwrap()));
         }
     }

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use clap::Parser;
 
 use crate::exam::Task;
+use crate::format::Wanted;
 use crate::place::Place;
+use crate::sandbox::Isolation;
 
 /// Grades a path-tracing submission: builds it, asks it, judges its answers, writes a score.
 ///
@@ -47,6 +49,23 @@ pub struct Arguments {
     #[arg(long)]
     pub no_reference: bool,
 
+    /// The code is somebody else's: keep it apart from this machine, or do not grade it
+    #[arg(long)]
+    pub untrusted: bool,
+
+    /// Keep it apart at this level, and no less; --untrusted takes the best of full and
+    /// no-namespaces
+    #[arg(long, value_name = "LEVEL")]
+    pub isolation: Option<Isolation>,
+
+    /// Say what submissions are built with here, how far they can be kept apart, and what is missing
+    #[arg(long)]
+    pub doctor: bool,
+
+    /// With --doctor: look at a package for Gradescope or classroom50 instead, as they will see it
+    #[arg(long, value_name = "FILE", requires = "doctor")]
+    pub package: Option<PathBuf>,
+
     /// Say what is wrong, not only a nudge, where a known mistake is recognised
     #[arg(long)]
     pub hints: bool,
@@ -54,6 +73,13 @@ pub struct Arguments {
     /// Open the report, a page, when it is written
     #[arg(long, conflicts_with_all = ["task", "replay"])]
     pub open: bool,
+
+    /// Also write what platforms read: json, text, gradescope, classroom50, junit, github,
+    /// github-classroom, check50, prairielearn, of what the policy lets students see; with =PATH
+    /// there, else where the platform says, else to --out
+    #[arg(long, value_name = "FORMAT", num_args = 1.., value_delimiter = ',')]
+    #[arg(conflicts_with_all = ["task", "replay", "watch"])]
+    pub format: Vec<Wanted>,
 
     /// What points count for and what students see of them; --policy-default shows what holds else
     #[arg(long, value_name = "FILE")]

@@ -67,7 +67,7 @@ impl<'a> Sessions<'a> {
     fn new(build: &'a Build, budget: Budget) -> Self {
         Sessions {
             build,
-            own: Session::new(build.probe.as_deref(), budget),
+            own: Session::new(build, build.probe.as_deref(), budget),
             carried: None,
         }
     }
@@ -89,7 +89,7 @@ impl<'a> Sessions<'a> {
                 let budget = self.own.budget;
                 let carried = self
                     .carried
-                    .get_or_insert_with(|| Session::new(Some(program), budget));
+                    .get_or_insert_with(|| Session::new(self.build, Some(program), budget));
                 let (outcome, answers) = carried.ask(item)?;
                 let again = item_score(item, &outcome);
                 Ok((carried_forward(by, &line, again), answers))
@@ -165,10 +165,9 @@ struct Spent {
 }
 
 impl Session {
-    fn new(program: Option<&Path>, budget: Budget) -> Self {
-        let program = program.map(Path::to_owned);
+    fn new(build: &Build, program: Option<&Path>, budget: Budget) -> Self {
         Session {
-            launcher: program.map(|program| Launcher { program }),
+            launcher: program.map(|program| build.launcher(program)),
             budget,
             probe: None,
             printed: String::new(),

@@ -7,9 +7,9 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | the job | [`grade`], [`replay`], [`watch`]; [`files`] |
-//! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`] |
-//! | its steps | [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
+//! | the job | [`grade`], [`replay`], [`watch`], [`doctor`]; [`files`] |
+//! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`], [`format`] |
+//! | its steps | [`isolate`], [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
 //! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`again`], [`policy`], [`submission`], [`given`], [`stages`], [`score`] |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`] |
 
@@ -20,6 +20,7 @@ pub mod capture;
 pub mod cli;
 pub mod describe;
 pub mod desktop;
+pub mod doctor;
 pub mod drawing;
 pub mod error;
 pub mod exam;
@@ -27,8 +28,10 @@ pub mod exam_file;
 pub mod examine;
 pub mod exhibit;
 pub mod files;
+pub mod format;
 pub mod given;
 pub mod grade;
+pub mod isolate;
 pub mod judge;
 pub mod picture;
 pub mod place;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use protocol::{Answer, Outcome, Question};
 
-use crate::ask::{Fault, Launcher, part};
+use crate::ask::{Fault, part};
 use crate::build::Builder;
 use crate::cli::Arguments;
 use crate::describe;
@@ -12,6 +12,7 @@ use crate::error::Error;
 use crate::exam::{Asked, Exam};
 use crate::exam_file;
 use crate::grade::{budget, collect};
+use crate::isolate::isolated;
 use crate::place::Place;
 use crate::tame::tame;
 use crate::verdict::file_message;
@@ -26,17 +27,17 @@ pub fn replay(arguments: &Arguments, place: &Place) -> Result<String, Error> {
     let exam = exam_file::load(arguments.exam.as_deref())?.exam;
     let (question, wanted) = find(&exam, place)?;
     let submission = collect(arguments, &workspace)?;
-    let build = Builder::prepare(&workspace)?.build(&submission)?;
+    let build = isolated(Builder::prepare(&workspace)?, arguments)?.build(&submission)?;
 
     let mut shown = String::new();
     for (file, why) in &build.not_compiled {
         writeln!(shown, "{}\n", file_message(file, why)).expect("text takes text");
     }
-    let Some(program) = build.probe.clone() else {
+    let Some(program) = &build.probe else {
         return Ok(shown);
     };
     let budget = budget(arguments);
-    let mut probe = Launcher { program }.start(budget)?;
+    let mut probe = build.launcher(program).start(budget)?;
     let answered = probe.ask([&question], budget);
     let got = got(answered);
     let printed = tame(probe.finish().trim_end(), LONGEST_PRINT);

@@ -6,6 +6,8 @@
 use std::process::Command;
 use std::time::Duration;
 
+use serde::{Deserialize, Serialize};
+
 #[cfg(target_os = "linux")]
 mod linux;
 #[cfg(unix)]
@@ -16,12 +18,16 @@ mod windows;
 #[cfg(target_os = "linux")]
 pub use linux::{cpu_time, limit};
 #[cfg(unix)]
-pub use unix::{ending, kill_group, own_group, readable_by_all};
+pub use unix::{
+    ending, kill_group, open_regular, open_to_all, own_group, readable_by_all, runnable_by_all,
+};
 #[cfg(windows)]
-pub use windows::{ending, kill_group, own_group, readable_by_all};
+pub use windows::{
+    ending, kill_group, open_regular, open_to_all, own_group, readable_by_all, runnable_by_all,
+};
 
 /// What a process may use. Where the system knows no such limit, wall time is the only one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Limits {
     /// Address space, in bytes.
     pub memory: u64,

@@ -183,5 +183,5 @@ fn grade(folder: &Path, required: u32) -> Cost {
     let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
     command.arg(folder).arg("--out").arg(folder.join("out"));
     command.args(["--require", &required.to_string()]);
-    Cost::of_program(&mut command, true)
+    Cost::of_program(&mut command)
 }

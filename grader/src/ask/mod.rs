@@ -17,8 +17,8 @@ use protocol::wire::{self, Frame, WireError};
 use protocol::{Answer, Question};
 
 use crate::capture::Capture;
-use crate::sandbox::{Ending, Limits, Process};
-use crate::system;
+use crate::sandbox::{Ending, Process, Profile, Sandbox};
+use crate::system::{self, Limits};
 
 use budget::Watch;
 
@@ -60,6 +60,8 @@ pub struct Probe {
 pub struct Launcher {
     /// The program.
     pub program: PathBuf,
+    /// How it is kept apart.
+    pub sandbox: Sandbox,
 }
 
 impl Launcher {
@@ -69,7 +71,8 @@ impl Launcher {
     /// ends it even if the grader itself is killed.
     const ITEMS: u32 = 30;
 
-    /// Starts a process that waits for its first question.
+    /// Starts a process that waits for its first question. On Linux it ends with the thread that
+    /// starts it, so that it does not outlive a grader that is killed.
     pub fn start(&self, budget: Budget) -> std::io::Result<Probe> {
         let folder = self.program.parent().unwrap_or(Path::new("."));
         let mut command = Command::new(&self.program);
@@ -79,7 +82,9 @@ impl Launcher {
             cpu: Self::ITEMS * budget.cpu,
             file: 0,
         };
-        let mut process = Process::start(&mut command, folder, limits)?;
+        let mut process = self
+            .sandbox
+            .start(command, folder, Profile::Probe, limits)?;
         let mut stdin = process.child.stdin.take().expect("it is piped");
         let stdout = process.child.stdout.take().expect("it is piped");
         let stderr = process.child.stderr.take().expect("it is piped");

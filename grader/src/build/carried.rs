@@ -16,6 +16,7 @@ use tempfile::TempDir;
 use crate::build::kept::Content;
 use crate::build::rustc::{Compiled, Crate, Kind, Rustc};
 use crate::given::GIVEN_FILES;
+use crate::sandbox::Sandbox;
 
 /// The reference's files that make up the parts, in the order of their dependence.
 const FILES: [&str; 5] = [
@@ -73,6 +74,11 @@ pub enum NoParts {
 impl Parts {
     /// Those made earlier from the same files, or newly made ones, kept below `cache`.
     pub fn prepare(reference: &Path, cache: &Path, rustc: &Rustc) -> Result<Self, NoParts> {
+        // Our own text, compiled once for all levels.
+        let rustc = &Rustc {
+            sandbox: Sandbox::none(),
+            ..rustc.clone()
+        };
         let texts = read(reference, FILES)?;
         let [(_, root), probe, bvh] = read(&reference.join("../carried"), AROUND)?;
         let parts = Parts {

@@ -3,11 +3,14 @@
 
 mod carried;
 mod compile;
+mod confined;
 mod dependencies;
 pub mod diagnostics;
 mod kept;
 mod rustc;
+mod taken;
 mod toolchain;
+mod trial;
 
 use std::collections::BTreeMap;
 use std::io;
@@ -16,6 +19,7 @@ use std::sync::OnceLock;
 
 use tempfile::TempDir;
 
+use crate::ask::Launcher;
 use crate::build::carried::{CarryForward, NoParts, Parts};
 use crate::build::compile::compile;
 use crate::build::dependencies::{Dependencies, NoDependencies};
@@ -24,9 +28,12 @@ use crate::build::kept::Kept;
 use crate::build::rustc::{Compiled, Rustc};
 use crate::build::toolchain::{NoToolchain, Toolchain};
 use crate::exam::Task;
-use crate::given::TaskFile;
+use crate::given::{TASK_FILES, TaskFile};
+use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, Unreadable};
 use crate::workspace::Workspace;
+
+pub use crate::build::trial::Shortfall;
 
 /// How often a submission is compiled at most.
 const ATTEMPTS: usize = 3;
@@ -48,6 +55,7 @@ pub struct Build {
     /// The files whose tasks can not be graded, and why.
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
     carry: Option<CarryForward>,
+    sandbox: Sandbox,
     /// Holds the programs; vanishes with them.
     _folder: TempDir,
 }
@@ -71,7 +79,12 @@ pub enum NotCompiled {
     /// It lacks something that other files call.
     Lacks(&'static str),
     /// The compiler's first error in it.
-    Error(String),
+    Error {
+        /// What it says.
+        text: String,
+        /// Where, counted from 1.
+        line: Option<u32>,
+    },
     /// The compiler did not finish, and did not say because of which file.
     Compiler(String),
 }
@@ -88,6 +101,11 @@ pub enum BuildError {
     /// There is nothing to carry forward on.
     #[error(transparent)]
     Parts(#[from] NoParts),
+    /// Nothing compiles at all.
+    #[error(
+        "not even the files that were handed out compile on this machine; is the disk full, is there a linker?\n{0}"
+    )]
+    Machine(String),
     /// The work folder can not be used.
     #[error("can not build in {path}: {source}")]
     Io {
@@ -108,6 +126,7 @@ impl Builder {
                 toolchain,
                 dependencies,
                 kept: None,
+                sandbox: Sandbox::none(),
             },
             parts: None,
             folder: workspace.grade().join("work"),
@@ -132,6 +151,27 @@ impl Builder {
     pub fn identity(&self) -> String {
         let parts = self.parts.as_ref().map(Parts::content).unwrap_or_default();
         parts.with(self.rustc.identity()).name()
+    }
+
+    /// What compiles.
+    pub fn compiler(&self) -> &Path {
+        &self.rustc.toolchain.rustc
+    }
+
+    /// The folder with what every submission is linked with.
+    pub fn dependencies(&self) -> &Path {
+        &self.rustc.dependencies.folder
+    }
+
+    /// How submissions will be kept apart from the machine.
+    pub fn isolation(&self) -> Isolation {
+        self.rustc.sandbox.level()
+    }
+
+    /// Builds in this sandbox, and programs that are to be asked in it.
+    pub fn within(mut self, sandbox: Sandbox) -> Self {
+        self.rustc.sandbox = sandbox;
+        self
     }
 
     /// Keeps all programs in this folder, and takes them from there when the same is built again.
@@ -187,6 +227,7 @@ impl Builder {
             }
         }
         if probe.is_none() {
+            self.prove(folder.path())?;
             let why = "the files that were left did not compile together";
             blame_all(submission, why, &mut not_compiled);
         }
@@ -194,8 +235,22 @@ impl Builder {
             carry: self.carry(submission, &not_compiled, &folder),
             probe,
             not_compiled,
+            sandbox: self.rustc.sandbox.clone(),
             _folder: folder,
         })
+    }
+
+    /// Compiles the starter, where nothing of a submission did: if even that fails, then a full
+    /// disk, a broken linker or too little memory is to blame, and no student.
+    fn prove(&self, folder: &Path) -> Result<(), BuildError> {
+        let starter = TASK_FILES.map(|file| (file.name, file.starter));
+        let why = match compile(&starter, &folder.join("starter"), &self.rustc) {
+            Ok(Compiled::Done(_)) => return Ok(()),
+            Ok(Compiled::Errors(errors)) => errors[0].text().to_owned(),
+            Ok(Compiled::Failed(why)) => why,
+            Err(error) => error.to_string(),
+        };
+        Err(BuildError::Machine(why))
     }
 
     fn carry(
@@ -219,6 +274,19 @@ impl Builder {
 }
 
 impl Build {
+    /// How submissions are kept apart from the machine.
+    pub fn isolation(&self) -> Isolation {
+        self.sandbox.level()
+    }
+
+    /// What starts one of its programs.
+    pub fn launcher(&self, program: &Path) -> Launcher {
+        Launcher {
+            program: program.to_owned(),
+            sandbox: self.sandbox.clone(),
+        }
+    }
+
     /// The program with the reference's parts, compiled when it is first asked for.
     pub fn carried(&self) -> io::Result<Carried<'_>> {
         let Some(carry) = &self.carry else {
@@ -263,7 +331,10 @@ fn blame(errors: &[Diagnostic], not_compiled: &mut BTreeMap<&'static str, NotCom
     let before = not_compiled.len();
     for error in errors {
         if let Some(name) = error.blamed() {
-            let why = || NotCompiled::Error(error.text().to_owned());
+            let why = || NotCompiled::Error {
+                text: error.text().to_owned(),
+                line: error.line_in(name),
+            };
             not_compiled.entry(name).or_insert_with(why);
         }
     }

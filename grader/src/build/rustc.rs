@@ -8,13 +8,15 @@ use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use crate::build::confined;
 use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::{self, Diagnostic};
 use crate::build::kept::{Content, Kept};
+use crate::build::taken;
 use crate::build::toolchain::Toolchain;
 use crate::capture::Capture;
-use crate::sandbox::{Ending, Limits, Process};
-use crate::system;
+use crate::sandbox::{Ending, Sandbox};
+use crate::system::{self, Limits};
 
 const LIMITS: Limits = Limits {
     memory: 4 << 30,
@@ -82,6 +84,8 @@ pub struct Rustc {
     pub dependencies: Dependencies,
     /// What was compiled before, for whoever wants it again.
     pub kept: Option<Kept>,
+    /// How the compiler is kept apart, and programs are linked for.
+    pub sandbox: Sandbox,
 }
 
 impl Rustc {
@@ -124,7 +128,13 @@ impl Rustc {
                 Kind::Library => ["--crate-type=rlib", "--emit=metadata,link"],
             })
             .arg(source.root);
-        let mut process = Process::start(&mut command, source.folder, LIMITS)?;
+        if self.sandbox.confines() {
+            confined::arguments(self, source, &mut command);
+        }
+        let profile = confined::profile(self, source);
+        let mut process = self
+            .sandbox
+            .start(command, source.folder, profile, LIMITS)?;
         let messages = Capture::start(process.child.stderr.take().expect("it is piped"), KEPT);
 
         let deadline = Instant::now() + WALL;
@@ -145,8 +155,9 @@ impl Rustc {
         };
         messages.settle(Duration::from_secs(1));
 
-        let made = source.folder.join(source.kind.file(source.name));
-        if ending.is_success() && made.is_file() {
+        if ending.is_success()
+            && let Some(made) = self.made(source)?
+        {
             return Ok(Compiled::Done(made));
         }
         let errors = diagnostics::errors(&messages.head());
@@ -155,6 +166,16 @@ impl Rustc {
         } else {
             Compiled::Errors(errors)
         })
+    }
+
+    /// What was made, if it was.
+    fn made(&self, source: &Crate) -> io::Result<Option<PathBuf>> {
+        let name = source.kind.file(source.name);
+        if self.sandbox.confines() {
+            return taken::take(source.folder, &name);
+        }
+        let path = source.folder.join(name);
+        Ok(path.is_file().then_some(path))
     }
 
     fn links(&self, source: &Crate) -> Vec<OsString> {

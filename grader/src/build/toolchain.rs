@@ -37,6 +37,12 @@ impl Toolchain {
             .ok_or_else(|| NoToolchain(format!("nothing in {}", sysroot.trim())))
     }
 
+    /// The folder with all of it.
+    pub fn sysroot(&self) -> &Path {
+        let bin = self.rustc.parent();
+        bin.and_then(Path::parent).unwrap_or(Path::new("/"))
+    }
+
     /// What changes when the compiler does. Asking it for its version would take 10 ms.
     pub fn fingerprint(&self) -> String {
         let metadata = fs::metadata(&self.rustc);

@@ -5,6 +5,7 @@ use std::fmt::{self, Write};
 use anstyle::{AnsiColor, Style};
 
 use crate::exam::Task;
+use crate::sandbox::Isolation;
 use crate::score::{Hint, ItemScore, Score, TaskScore, Verdict};
 use crate::section::Section;
 use crate::tame::tame;
@@ -93,7 +94,12 @@ fn headline(out: &mut String, score: &Score) -> fmt::Result {
     let title = format!("  {}, {} exam", score.submission, score.exam.id);
     let points = format!("{} / {}", score.points, score.max_points);
     let gap = WIDTH.saturating_sub(2 + title.chars().count() + points.len());
-    writeln!(out, "{STRONG}{title}{:gap$}{points}{STRONG:#}\n", "")
+    writeln!(out, "{STRONG}{title}{:gap$}{points}{STRONG:#}\n", "")?;
+    // Of one's own work there is nothing to say.
+    if score.isolation > Isolation::None {
+        writeln!(out, "{FAINT}  kept apart: {}{FAINT:#}\n", score.isolation)?;
+    }
+    Ok(())
 }
 
 fn task_line(out: &mut String, task: &TaskScore) -> fmt::Result {

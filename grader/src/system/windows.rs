@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io;
+use std::path::Path;
 use std::process::{Child, Command, ExitStatus};
 
 use super::Ending;
@@ -19,5 +20,21 @@ pub fn ending(status: ExitStatus) -> Ending {
 
 /// Nothing: a file inherits its folder's readers.
 pub fn readable_by_all(_: &File) -> io::Result<()> {
+    Ok(())
+}
+
+/// Nothing: what may be run is said by a file's name.
+pub fn runnable_by_all(_: &File) -> io::Result<()> {
+    Ok(())
+}
+
+/// Opens a regular file. Nobody is kept apart here who could put something else in its place.
+pub fn open_regular(path: &Path) -> io::Result<Option<File>> {
+    let file = File::open(path)?;
+    Ok(file.metadata()?.is_file().then_some(file))
+}
+
+/// Nothing: a folder inherits its readers.
+pub fn open_to_all(_: &Path) -> io::Result<()> {
     Ok(())
 }

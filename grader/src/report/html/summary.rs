@@ -5,6 +5,7 @@ use maud::{Markup, PreEscaped, html};
 use super::prose::prose;
 use super::said::{command, said};
 use crate::again::Again;
+use crate::sandbox::Isolation;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
 
 /// Name, exam, and points per task.
@@ -15,6 +16,9 @@ pub(super) fn header(score: &Score) -> Markup {
             p .total {
                 strong { (score.points) " of " (score.max_points) }
                 " points, " (said(&score.exam.id)) " exam"
+                @if score.isolation > Isolation::None {
+                    ", kept apart: " (score.isolation.name())
+                }
             }
             @if !score.complete {
                 p .unfinished {

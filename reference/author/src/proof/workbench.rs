@@ -83,8 +83,8 @@ impl Workbench {
         match build.probe.clone() {
             Some(program) => Ok(Solution {
                 id,
+                launcher: build.launcher(&program),
                 build,
-                launcher: Launcher { program },
             }),
             None => Err(NotTried::NotCompiled {
                 id,

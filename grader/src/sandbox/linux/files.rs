@@ -1,0 +1,72 @@
+//! Landlock: which files can be opened. Whoever is confined can not lift it, whatever user it is.
+
+use std::io;
+use std::path::Path;
+
+use landlock::{
+    ABI, Access, AccessFs, AccessNet, BitFlags, PathBeneath, PathFd, Ruleset, RulesetAttr,
+    RulesetCreated, RulesetCreatedAttr, RulesetStatus, Scope, make_bitflags,
+};
+
+use super::super::isolation::Isolation;
+use super::super::order::{Order, Profile};
+use super::start::Program;
+use super::while_doing;
+
+/// The newest that this code was tried with; of an older kernel's, all that it has is used.
+const TRIED: ABI = ABI::V6;
+
+/// What makes a folder writable. No links, devices, sockets or pipes.
+const WRITE: BitFlags<AccessFs> = make_bitflags!(AccessFs::{
+    WriteFile | RemoveFile | RemoveDir | MakeReg | MakeDir | Refer | Truncate
+});
+
+/// Closes all files but those of the profile, all TCP ports, and signals to other processes.
+pub(super) fn close(order: &Order, program: &Program) -> io::Result<()> {
+    let rules = allow(order, program).map_err(while_doing("set up Landlock"))?;
+    let status = rules.restrict_self().map_err(while_doing("use Landlock"))?;
+    // Behind namespaces there are no other files: there it is a second lock.
+    if status.ruleset == RulesetStatus::NotEnforced && order.level < Isolation::Full {
+        return Err(io::Error::other(
+            "can not use Landlock: the kernel lacks it (it needs Linux 5.13, and `landlock` in \
+             /sys/kernel/security/lsm), or a container's rules forbid it",
+        ));
+    }
+    Ok(())
+}
+
+fn allow(order: &Order, program: &Program) -> Result<RulesetCreated, Box<dyn std::error::Error>> {
+    let mut rules = Ruleset::default()
+        .handle_access(AccessFs::from_all(TRIED))?
+        .handle_access(AccessNet::from_all(TRIED))?
+        .scope(Scope::from_all(TRIED))?
+        .create()?;
+    match &order.profile {
+        Profile::Probe => {
+            let run = AccessFs::Execute | AccessFs::ReadFile;
+            rules = rules.add_rule(PathBeneath::new(PathFd::new(program.path())?, run))?;
+        }
+        Profile::Compiler { readable, writable } => {
+            for path in readable {
+                rules = add(rules, path, AccessFs::from_read(TRIED))?;
+            }
+            let null = AccessFs::ReadFile | AccessFs::WriteFile;
+            rules = add(rules, Path::new("/dev/null"), null)?;
+            rules = add(rules, writable, AccessFs::from_read(TRIED) | WRITE)?;
+        }
+    }
+    Ok(rules)
+}
+
+fn add(
+    rules: RulesetCreated,
+    path: &Path,
+    access: BitFlags<AccessFs>,
+) -> Result<RulesetCreated, Box<dyn std::error::Error>> {
+    // Rights to folders mean nothing for a file, and Landlock says so.
+    let access = match path.is_dir() {
+        true => access,
+        false => access & AccessFs::from_file(TRIED),
+    };
+    Ok(rules.add_rule(PathBeneath::new(PathFd::new(path)?, access))?)
+}

@@ -1,0 +1,220 @@
+//! Others' code, through the real binary: what it tries goes well where nothing keeps it apart,
+//! and is refused at every level that does.
+
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::sync::LazyLock;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+use crate::harness::{FULL, Graded, Submission, grader};
+
+/// Every level that keeps submissions apart. Where a machine lacks one, its tests are skipped, and
+/// said to be; where `CI` is set, that is a failure.
+const LEVELS: [&str; 3] = ["full", "no-namespaces", "seccomp-only"];
+const KEY: &str = "the final exam";
+
+/// A file that every user of this machine may read.
+struct Key {
+    folder: TempDir,
+}
+
+impl Key {
+    fn planted() -> Self {
+        let folder = TempDir::new().unwrap();
+        open_to_all(folder.path());
+        fs::write(folder.path().join("key"), KEY).unwrap();
+        Key { folder }
+    }
+
+    fn path(&self) -> String {
+        format!("{:?}", self.folder.path().join("key"))
+    }
+}
+
+fn open_to_all(folder: &Path) {
+    use std::os::unix::fs::PermissionsExt;
+    fs::set_permissions(folder, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+/// The reference, with something that is done before the camera's rays are made.
+fn doing(what: &str) -> Submission {
+    let method = "let height = 2.0 * framework";
+    Submission::reference("mallory").changed("camera.rs", method, &format!("{what}\n{method}"))
+}
+
+/// What the submission printed while it was asked for the camera's rays.
+fn printed(graded: &Graded) -> String {
+    let printed = &graded.score()["tasks"][0]["printed"];
+    printed.as_str().unwrap_or_default().to_owned()
+}
+
+fn at(submission: &Submission, level: &str) -> Graded {
+    submission.grade_with(&["--isolation", level])
+}
+
+/// Whether the machine has this level, from what the doctor says of it.
+fn holds(level: &str) -> bool {
+    static TOLD: LazyLock<String> = LazyLock::new(|| {
+        let output = grader().arg("--doctor").output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    });
+    let told = &*TOLD;
+    let mut lines = told.lines().map(str::split_whitespace);
+    let holds = lines.any(|mut words| words.next() == Some(level) && words.next() == Some("holds"));
+    assert!(
+        holds || std::env::var_os("CI").is_none(),
+        "no {level} here:\n{told}"
+    );
+    if !holds {
+        eprintln!("SKIPPED: isolation {level} does not hold here:\n{told}");
+    }
+    holds
+}
+
+/// It prints `done` where nothing keeps it apart, and at no level that does; and earns its points.
+#[track_caller]
+fn is_refused(attempt: &str) {
+    let submission = doing(&format!("if {attempt} {{ println!(\"done\"); }}"));
+    assert!(printed(&at(&submission, "none")).starts_with("done"));
+    for level in LEVELS.into_iter().filter(|level| holds(level)) {
+        let graded = at(&submission, level);
+        assert_eq!(printed(&graded), "", "{level}");
+        assert_eq!(graded.points(), FULL, "{level}");
+        assert_eq!(graded.score()["isolation"], level);
+    }
+}
+
+#[test]
+fn files_are_not_read() {
+    let key = Key::planted();
+    is_refused(&format!("std::fs::read({}).is_ok()", key.path()));
+}
+
+#[test]
+fn sockets_are_not_opened() {
+    is_refused("std::net::UdpSocket::bind(\"127.0.0.1:0\").is_ok()");
+}
+
+#[test]
+fn programs_are_not_started() {
+    is_refused("std::process::Command::new(\"true\").status().is_ok()");
+}
+
+#[test]
+fn the_compiler_reads_no_file_for_a_submission() {
+    let key = Key::planted();
+    let line = format!("println!(\"{{}}\", include_str!({}));", key.path());
+    let submission = doing(&line);
+    assert!(printed(&at(&submission, "none")).starts_with(KEY));
+    for level in ["full", "no-namespaces"]
+        .into_iter()
+        .filter(|level| holds(level))
+    {
+        let graded = at(&submission, level);
+        assert_eq!(graded.verdicts("camera"), ["not_compiled"], "{level}");
+        assert!(!graded.score().to_string().contains(KEY), "{level}");
+    }
+}
+
+#[test]
+fn a_confined_score_is_the_same_but_for_what_it_says_of_itself() {
+    let submission = Submission::case("panicking");
+    let score = |level| {
+        let mut score = at(&submission, level).score();
+        for field in ["isolation", "timings"] {
+            score.as_object_mut().unwrap().remove(field);
+        }
+        score
+    };
+    let own = score("none");
+    for level in LEVELS.into_iter().filter(|level| holds(level)) {
+        assert_eq!(score(level), own, "{level}");
+    }
+}
+
+#[test]
+fn endless_loops_recursion_and_hoarding_end_as_they_do_elsewhere() {
+    for (case, verdict) in [
+        ("looping", "timed_out"),
+        ("recursing", "crashed"),
+        ("hoarding", "out_of_memory"),
+    ] {
+        let submission = Submission::case(case);
+        let verdicts = |level: &str| {
+            let graded = submission.grade_with(&["--isolation", level, "--cpu-limit", "1"]);
+            let score = graded.score();
+            let items = score["tasks"].as_array().unwrap().iter();
+            let items = items.flat_map(|task| task["items"].as_array().unwrap().clone());
+            let verdicts = items.map(|item| item["verdict"].as_str().unwrap().to_owned());
+            verdicts.collect::<Vec<_>>()
+        };
+        let own = verdicts("none");
+        assert!(own.iter().any(|found| found == verdict), "{case}: {own:?}");
+        for level in LEVELS.into_iter().filter(|level| holds(level)) {
+            assert_eq!(verdicts(level), own, "{case}, {level}");
+        }
+    }
+}
+
+#[test]
+fn others_code_is_graded_at_the_best_level_and_the_report_says_so() {
+    if !holds("full") {
+        return;
+    }
+    let graded = Submission::reference("alice").grade_with(&["--untrusted"]);
+    assert_eq!(graded.points(), FULL);
+    assert_eq!(graded.score()["isolation"], "full");
+    assert!(
+        graded.report().contains("kept apart: full"),
+        "{}",
+        graded.report()
+    );
+}
+
+#[test]
+fn nothing_survives_a_grader_that_is_killed() {
+    let submission = doing("loop { std::hint::black_box(0); }");
+    for level in LEVELS.into_iter().filter(|level| holds(level)) {
+        let out = TempDir::new().unwrap();
+        let mut grader = grader()
+            .arg(submission.path())
+            .args(["--no-reference", "--isolation", level, "--out"])
+            .arg(out.path())
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap();
+        let probe = wait_for(|| child(grader.id()).filter(|pid| is_probe(*pid)));
+        grader.kill().unwrap();
+        grader.wait().unwrap();
+        wait_for(|| (!Path::new(&format!("/proc/{probe}")).exists()).then_some(()));
+    }
+}
+
+/// The only child of a process.
+fn child(pid: u32) -> Option<u32> {
+    let children = fs::read_to_string(format!("/proc/{pid}/task/{pid}/children")).ok()?;
+    children.split_whitespace().next()?.parse().ok()
+}
+
+/// Whether it is no longer the launcher, and not the compiler's.
+fn is_probe(pid: u32) -> bool {
+    let words = fs::read(format!("/proc/{pid}/cmdline")).unwrap_or_default();
+    let first = words.split(|byte| *byte == 0).next().unwrap_or_default();
+    first == b"/probe" || first.starts_with(b"/proc/self/fd/")
+}
+
+/// What there is sooner or later.
+fn wait_for<T>(mut found: impl FnMut() -> Option<T>) -> T {
+    let deadline = Instant::now() + Duration::from_secs(60);
+    loop {
+        if let Some(found) = found() {
+            return found;
+        }
+        assert!(Instant::now() < deadline, "it does not come");
+        thread::sleep(Duration::from_millis(5));
+    }
+}

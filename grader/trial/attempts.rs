@@ -1,0 +1,37 @@
+//! Tries what no submission may do, in the very place of one, and says what of it went well.
+//! On standard input comes the path of a file that everybody may read.
+
+use std::collections::HashMap;
+use std::fs;
+use std::net::{TcpListener, UdpSocket};
+use std::os::unix::net::UnixDatagram;
+use std::process::Command;
+use std::thread;
+
+fn main() {
+    let mut path = String::new();
+    std::io::stdin().read_line(&mut path).expect("questions can be read");
+    let path = path.trim_end();
+    let beside = format!("{path}.written");
+
+    // What honest submissions do must go well, or nothing below means anything.
+    let counted = thread::spawn(|| HashMap::from([("threads", 1)])).join();
+    assert_eq!(counted.expect("threads run")["threads"], 1);
+
+    let attempts = [
+        ("read a file", fs::read(path).is_ok()),
+        ("write a file", fs::write(beside, "x").is_ok()),
+        ("list a folder", fs::read_dir("/").is_ok()),
+        ("look at other processes", fs::read("/proc/1/cmdline").is_ok()),
+        ("open a TCP socket", TcpListener::bind("127.0.0.1:0").is_ok()),
+        ("open a UDP socket", UdpSocket::bind("127.0.0.1:0").is_ok()),
+        ("open a Unix socket", UnixDatagram::unbound().is_ok()),
+        ("start a program", Command::new("/proc/self/exe").spawn().is_ok()),
+    ];
+    for (what, succeeded) in attempts {
+        if succeeded {
+            println!("{what}");
+        }
+    }
+    println!("end");
+}

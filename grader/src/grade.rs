@@ -19,6 +19,7 @@ use crate::format::outputs::{NoOutput, Outputs};
 use crate::isolate::isolated;
 use crate::policy::{Policy, PolicyError};
 use crate::report::html::Reload;
+use crate::sandbox::Isolation;
 use crate::score::{BuildReport, ExamName, FileReport, Score};
 use crate::submission::Submission;
 use crate::verdict::{file_line, file_message, unasked};
@@ -132,6 +133,16 @@ impl<'a> Grader<'a> {
     /// What scores follow from, beside submission and exam: compiler, dependencies, reference.
     pub fn built_with(&self) -> String {
         self.builder.identity()
+    }
+
+    /// How submissions will be kept apart from the machine.
+    pub fn isolation(&self) -> Isolation {
+        self.builder.isolation()
+    }
+
+    /// The course's rules.
+    pub fn policy(&self) -> &Policy {
+        &self.policy
     }
 
     /// What is asked: all of the exam, or one task of it and what that needs.

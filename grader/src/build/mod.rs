@@ -28,7 +28,7 @@ use crate::build::kept::Kept;
 use crate::build::rustc::{Compiled, Rustc};
 use crate::build::toolchain::{NoToolchain, Toolchain};
 use crate::exam::Task;
-use crate::given::TaskFile;
+use crate::given::{TASK_FILES, TaskFile};
 use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, Unreadable};
 use crate::workspace::Workspace;
@@ -101,6 +101,11 @@ pub enum BuildError {
     /// There is nothing to carry forward on.
     #[error(transparent)]
     Parts(#[from] NoParts),
+    /// Nothing compiles at all.
+    #[error(
+        "not even the files that were handed out compile on this machine; is the disk full, is there a linker?\n{0}"
+    )]
+    Machine(String),
     /// The work folder can not be used.
     #[error("can not build in {path}: {source}")]
     Io {
@@ -158,6 +163,11 @@ impl Builder {
         &self.rustc.dependencies.folder
     }
 
+    /// How submissions will be kept apart from the machine.
+    pub fn isolation(&self) -> Isolation {
+        self.rustc.sandbox.level()
+    }
+
     /// Builds in this sandbox, and programs that are to be asked in it.
     pub fn within(mut self, sandbox: Sandbox) -> Self {
         self.rustc.sandbox = sandbox;
@@ -206,6 +216,7 @@ impl Builder {
             }
         }
         if probe.is_none() {
+            self.prove(folder.path())?;
             let why = "the files that were left did not compile together";
             blame_all(submission, why, &mut not_compiled);
         }
@@ -216,6 +227,19 @@ impl Builder {
             sandbox: self.rustc.sandbox.clone(),
             _folder: folder,
         })
+    }
+
+    /// Compiles the starter, where nothing of a submission did: if even that fails, then a full
+    /// disk, a broken linker or too little memory is to blame, and no student.
+    fn prove(&self, folder: &Path) -> Result<(), BuildError> {
+        let starter = TASK_FILES.map(|file| (file.name, file.starter));
+        let why = match compile(&starter, &folder.join("starter"), &self.rustc) {
+            Ok(Compiled::Done(_)) => return Ok(()),
+            Ok(Compiled::Errors(errors)) => errors[0].text().to_owned(),
+            Ok(Compiled::Failed(why)) => why,
+            Err(error) => error.to_string(),
+        };
+        Err(BuildError::Machine(why))
     }
 
     fn carry(

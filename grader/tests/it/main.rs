@@ -5,6 +5,7 @@ mod bad_exams;
 mod bad_submissions;
 mod carried_forward;
 mod command_line;
+mod faults;
 mod formats;
 mod harness;
 mod hints;

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use crate::error::Error;
 use crate::exam::Exam;
 use crate::exhibit::Exhibits;
+use crate::format::outputs::Outputs;
 use crate::report::html::{self, Reload};
 use crate::report::{json, whole};
 use crate::score::Score;
@@ -24,6 +25,10 @@ pub struct Files {
     /// For people.
     pub page: PathBuf,
     score_written: Option<Instant>,
+    /// For platforms.
+    pub outputs: Outputs,
+    /// Where they are, unless a platform says otherwise.
+    pub folder: PathBuf,
     page_written: Option<Instant>,
     reload: Reload,
 }
@@ -35,9 +40,17 @@ impl Files {
             score: folder.join("score.json"),
             page: folder.join("report.html"),
             score_written: None,
+            outputs: Outputs::default(),
+            folder: folder.to_owned(),
             page_written: None,
             reload,
         }
+    }
+
+    /// All of them.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        let own = [self.score.as_path(), self.page.as_path()];
+        own.into_iter().chain(self.outputs.paths())
     }
 
     /// Writes both: at the first item and at the end, and between them after each item that took its

@@ -106,6 +106,8 @@ impl From<GraderError> for Error {
             GraderError::Submission(_)
             | GraderError::Exam(_)
             | GraderError::Policy(_)
+            | GraderError::Package(_)
+            | GraderError::Output(_)
             | GraderError::Replay(_)
             | GraderError::Workspace(_)
             | GraderError::Build(_)

@@ -79,7 +79,12 @@ pub enum NotCompiled {
     /// It lacks something that other files call.
     Lacks(&'static str),
     /// The compiler's first error in it.
-    Error(String),
+    Error {
+        /// What it says.
+        text: String,
+        /// Where, counted from 1.
+        line: Option<u32>,
+    },
     /// The compiler did not finish, and did not say because of which file.
     Compiler(String),
 }
@@ -315,7 +320,10 @@ fn blame(errors: &[Diagnostic], not_compiled: &mut BTreeMap<&'static str, NotCom
     let before = not_compiled.len();
     for error in errors {
         if let Some(name) = error.blamed() {
-            let why = || NotCompiled::Error(error.text().to_owned());
+            let why = || NotCompiled::Error {
+                text: error.text().to_owned(),
+                line: error.line_in(name),
+            };
             not_compiled.entry(name).or_insert_with(why);
         }
     }

@@ -51,7 +51,7 @@ pub(super) fn copy(root: &Path, bundle: &mut Bundle) -> Result<(), Unusable> {
 }
 
 /// Takes what is at `place`, and all below it, to the bundle's `path`.
-pub(super) fn take(place: &Path, path: &str, bundle: &mut Bundle) -> Result<(), Unusable> {
+pub(crate) fn take(place: &Path, path: &str, bundle: &mut Bundle) -> Result<(), Unusable> {
     let at = |source| Unusable::Io {
         path: place.to_owned(),
         source,

@@ -15,7 +15,8 @@ use crate::sandbox::Isolation;
 #[derive(Clone, Debug, Parser)]
 #[command(name = "cargo grade", bin_name = "cargo grade", version)]
 pub struct Arguments {
-    /// The folder with the five files (at its top, in src/, or in student/src/); default: student
+    /// The folder, .zip, .tar or .tar.gz with the five files (at its top, in src/, or in
+    /// student/src/); default: student
     pub submission: Option<PathBuf>,
 
     /// The exam to ask, - for standard input; default: the practice exam
@@ -67,6 +68,14 @@ pub struct Arguments {
     /// Open the report, a page, when it is written
     #[arg(long, conflicts_with_all = ["task", "replay"])]
     pub open: bool,
+
+    /// What points count for and what students see of them; --policy-default shows what holds else
+    #[arg(long, value_name = "FILE")]
+    pub policy: Option<PathBuf>,
+
+    /// Print the default policy, which explains itself, and do nothing else
+    #[arg(long)]
+    pub policy_default: bool,
 
     /// CPU time that an item may use, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=600))]

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use crate::build::BuildError;
 use crate::exam_file::BadExam;
 use crate::isolate::NotIsolated;
+use crate::policy::PolicyError;
 use crate::submission::NoSubmission;
 use crate::workspace::NoWorkspace;
 
@@ -18,6 +19,9 @@ pub enum Error {
     /// The exam.
     #[error(transparent)]
     Exam(#[from] BadExam),
+    /// The policy.
+    #[error(transparent)]
+    Policy(#[from] PolicyError),
     /// What to replay.
     #[error("{0}")]
     Replay(String),
@@ -47,7 +51,7 @@ impl Error {
     /// 2 where whoever typed the command can mend it, 3 where it is our fault or the machine's.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::Submission(_) | Error::Exam(_) | Error::Replay(_) => 2,
+            Error::Submission(_) | Error::Exam(_) | Error::Policy(_) | Error::Replay(_) => 2,
             Error::Workspace(_)
             | Error::Build(_)
             | Error::Isolation(_)

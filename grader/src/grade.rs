@@ -3,16 +3,18 @@
 use std::io;
 use std::time::{Duration, Instant};
 
+use crate::again::Again;
 use crate::ask::Budget;
 use crate::build::{Build, BuildError, Builder};
 use crate::cli::Arguments;
 use crate::error::Error;
 use crate::exam::Exam;
-use crate::exam_file;
+use crate::exam_file::{self, ExamFile};
 use crate::examine::examine;
 use crate::exhibit::Exhibits;
 use crate::files::Files;
 use crate::isolate::isolated;
+use crate::policy::{Counted, Lateness, Policy, PolicyError};
 use crate::report::html::Reload;
 use crate::score::{BuildReport, ExamName, FileReport, Score};
 use crate::submission::Submission;
@@ -26,6 +28,8 @@ pub struct Graded {
     pub score: Score,
     /// The files that tell it.
     pub files: Option<Files>,
+    /// What it counts for, where there is a policy that says so.
+    pub counted: Option<Counted>,
 }
 
 /// Loads the exam, collects the submission, builds it, asks, judges, scores.
@@ -40,7 +44,12 @@ pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
         let files = files.as_mut();
         files.map_or(Ok(()), |files| files.write(score, exam, exhibits))
     })?;
-    Ok(Graded { score, files })
+    let counted = grader.counted(&score);
+    Ok(Graded {
+        score,
+        files,
+        counted,
+    })
 }
 
 /// All that stays as it is from one version of a submission to the next.
@@ -49,6 +58,7 @@ pub struct Grader<'a> {
     workspace: Workspace,
     exam: Exam,
     exam_name: ExamName,
+    policy: Policy,
     builder: Builder,
 }
 
@@ -65,6 +75,17 @@ impl<'a> Grader<'a> {
         let file = exam_file::load(arguments.exam.as_deref())?;
         // A submission that is nowhere is told of before anything is compiled.
         collect(arguments, &workspace)?;
+        Grader::of(arguments, workspace, file)
+    }
+
+    /// The same for whoever brings submissions of their own.
+    pub fn for_many(arguments: &'a Arguments) -> Result<Self, Error> {
+        let file = exam_file::load(arguments.exam.as_deref())?;
+        Grader::of(arguments, Workspace::find()?, file)
+    }
+
+    fn of(arguments: &'a Arguments, workspace: Workspace, file: ExamFile) -> Result<Self, Error> {
+        let policy = policy(arguments, &file.exam)?;
         Ok(Grader {
             arguments,
             exam_name: file.name(),
@@ -72,9 +93,30 @@ impl<'a> Grader<'a> {
                 Some(task) => file.exam.with_what_it_needs(|item| item.task == task),
                 None => file.exam,
             },
+            policy,
             builder: isolated(builder(arguments, &workspace)?, arguments)?,
             workspace,
         })
+    }
+
+    /// What the exam is called.
+    pub fn exam_name(&self) -> &ExamName {
+        &self.exam_name
+    }
+
+    /// What scores follow from, beside submission and exam: compiler, dependencies, reference.
+    pub fn built_with(&self) -> String {
+        self.builder.identity()
+    }
+
+    /// What a score counts for, where a policy says so. One task's points count for nothing.
+    pub fn counted(&self, score: &Score) -> Option<Counted> {
+        let says_so = self.arguments.policy.is_some() && self.arguments.task.is_none();
+        let counted = || {
+            self.policy
+                .counted(score.points, score.max_points, Lateness::NONE)
+        };
+        says_so.then(counted)
     }
 
     /// What is asked: all of the exam, or one task of it and what that needs.
@@ -101,6 +143,10 @@ impl<'a> Grader<'a> {
     pub fn unasked(&self, submission: &Submission, built: &Built) -> Score {
         let mut score = unasked(&self.exam, self.exam_name.clone(), &submission.name);
         score.isolation = built.build.isolation();
+        score.again = Again {
+            submission: self.arguments.submission.clone(),
+            exam: self.arguments.exam.clone(),
+        };
         score.build = build_report(submission, &built.build);
         score.timings.build_ms = millis(built.took);
         score
@@ -138,6 +184,16 @@ impl<'a> Grader<'a> {
             None => Some(Files::of(&folder, reload)),
         }
     }
+}
+
+/// The policy that the command line names, or the default.
+fn policy(arguments: &Arguments, exam: &Exam) -> Result<Policy, PolicyError> {
+    let Some(path) = &arguments.policy else {
+        return Ok(Policy::default());
+    };
+    let policy = Policy::read(path)?;
+    policy.check(path, exam)?;
+    Ok(policy)
 }
 
 /// What submissions are built with: with the reference, where it is at hand and not declined.

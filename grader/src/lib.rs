@@ -10,9 +10,10 @@
 //! | the job | [`grade`], [`replay`], [`watch`], [`doctor`]; [`files`] |
 //! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`] |
 //! | its steps | [`isolate`], [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
-//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`submission`], [`given`], [`score`] |
+//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`again`], [`policy`], [`submission`], [`given`], [`score`] |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`] |
 
+pub mod again;
 pub mod ask;
 pub mod build;
 pub mod capture;
@@ -33,6 +34,7 @@ pub mod isolate;
 pub mod judge;
 pub mod picture;
 pub mod place;
+pub mod policy;
 pub mod recognise;
 pub mod replay;
 pub mod report;

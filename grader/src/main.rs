@@ -9,6 +9,7 @@ use grader::desktop;
 use grader::doctor::examine_machine;
 use grader::error::Error;
 use grader::grade::grade;
+use grader::policy;
 use grader::replay::replay;
 use grader::report::text::{Hints, report};
 use grader::sandbox;
@@ -31,6 +32,10 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         anstream::println!("{:#}", Score::schema().as_value());
         return Ok(ExitCode::SUCCESS);
     }
+    if arguments.policy_default {
+        anstream::print!("{}", policy::DEFAULT);
+        return Ok(ExitCode::SUCCESS);
+    }
     if let Some(place) = &arguments.replay {
         anstream::print!("{}", replay(arguments, place)?);
         return Ok(ExitCode::SUCCESS);
@@ -50,6 +55,9 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     }
     let graded = grade(arguments)?;
     anstream::print!("{}", report(&graded.score, arguments.task, hints));
+    if let Some(counted) = graded.counted {
+        anstream::println!("  counts for {counted}\n");
+    }
     if let Some(files) = &graded.files {
         for file in [&files.score, &files.page] {
             anstream::println!("  {}", from_here(file).display());

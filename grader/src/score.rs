@@ -6,6 +6,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::again::Again;
 use crate::exam::Task;
 use crate::sandbox::Isolation;
 use crate::section::Section;
@@ -27,6 +28,9 @@ pub struct Score {
     /// Whether everything has been asked. False in a file that is still being written, or whose
     /// grader was stopped.
     pub complete: bool,
+    /// How to ask the same once more. Not in the file, which is the same wherever it is made.
+    #[serde(skip)]
+    pub again: Again,
     /// The sum over all tasks.
     pub points: u32,
     /// The most points that could be had.
@@ -209,13 +213,10 @@ pub struct Timings {
 impl ItemScore {
     /// The command that asks the same again: one question where there is one to speak of, else
     /// the task.
-    pub fn again(&self) -> String {
+    pub fn again(&self, again: &Again) -> String {
         match &self.evidence {
-            Some(evidence) => format!("cargo grade --replay {}#{}", self.id, evidence.number),
-            None => {
-                let task = self.id.split('.').next().unwrap_or_default();
-                format!("cargo grade --task {task}")
-            }
+            Some(evidence) => again.replay(&self.id, evidence.number),
+            None => again.task(self.id.split('.').next().unwrap_or_default()),
         }
     }
 }

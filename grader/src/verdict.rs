@@ -1,5 +1,6 @@
 //! From what became of an item to its line in the score: pure.
 
+use crate::again::Again;
 use crate::ask::Fault;
 use crate::build::NotCompiled;
 use crate::describe;
@@ -63,6 +64,7 @@ pub fn unasked(exam: &Exam, name: ExamName, submission: &str) -> Score {
         exam: name,
         isolation: Isolation::None,
         complete: false,
+        again: Again::default(),
         points: 0,
         max_points: tasks.iter().map(|task| task.max_points).sum(),
         tasks,

@@ -158,6 +158,12 @@ impl Builder {
         self
     }
 
+    /// The name of all that programs follow from, beside the submission.
+    pub fn identity(&self) -> String {
+        let parts = self.parts.as_ref().map(Parts::content).unwrap_or_default();
+        parts.with(self.rustc.identity()).name()
+    }
+
     /// Keeps all programs in this folder, and takes them from there when the same is built again.
     pub fn keeping(mut self, folder: &Path) -> Result<Self, BuildError> {
         let kept = Kept::in_folder(folder).map_err(|source| BuildError::Io {

@@ -10,6 +10,7 @@ mod harness;
 mod hints;
 #[cfg(target_os = "linux")]
 mod isolation;
+mod policies;
 mod scores;
 mod walls;
 mod watch;

@@ -162,7 +162,7 @@ pub(super) const COMPILER: &[c_long] = &[
 
 /// The same for what every program calls, by the names that only x86 has.
 #[cfg(target_arch = "x86_64")]
-pub(super) const COMMON_OF_X86: &[c_long] = &[SYS_arch_prctl, SYS_poll, SYS_dup2];
+pub(super) const COMMON_OF_X86: &[c_long] = &[SYS_arch_prctl, SYS_dup2, SYS_pipe, SYS_poll];
 
 /// The same for what a compiler calls.
 #[cfg(target_arch = "x86_64")]
@@ -181,7 +181,6 @@ pub(super) const COMPILER_OF_X86: &[c_long] = &[
     SYS_link,
     SYS_symlink,
     SYS_chmod,
-    SYS_pipe,
     SYS_select,
     SYS_vfork,
     SYS_fork,

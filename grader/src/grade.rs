@@ -1,6 +1,7 @@
 //! The main job, from a command line to a score.
 
 use std::io;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::again::Again;
@@ -13,12 +14,15 @@ use crate::exam_file::{self, ExamFile};
 use crate::examine::examine;
 use crate::exhibit::Exhibits;
 use crate::files::Files;
+use crate::format::Seen;
+use crate::format::outputs::{NoOutput, Outputs};
 use crate::isolate::isolated;
-use crate::policy::{Counted, Lateness, Policy, PolicyError};
+use crate::policy::{Policy, PolicyError};
 use crate::report::html::Reload;
+use crate::sandbox::Isolation;
 use crate::score::{BuildReport, ExamName, FileReport, Score};
 use crate::submission::Submission;
-use crate::verdict::{file_message, unasked};
+use crate::verdict::{file_line, file_message, unasked};
 use crate::workspace::Workspace;
 
 /// A submission's score, and where it was written, if it was.
@@ -28,8 +32,15 @@ pub struct Graded {
     pub score: Score,
     /// The files that tell it.
     pub files: Option<Files>,
-    /// What it counts for, where there is a policy that says so.
-    pub counted: Option<Counted>,
+    /// As much of it as students may see.
+    pub seen: Seen,
+}
+
+impl Graded {
+    /// What a runner is to be told on standard output, if one was asked for.
+    pub fn commands(&self) -> Option<String> {
+        self.files.as_ref()?.outputs.commands(&self.seen)
+    }
 }
 
 /// Loads the exam, collects the submission, builds it, asks, judges, scores.
@@ -39,17 +50,20 @@ pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
     let built = grader.build(&submission)?;
     let exam = grader.exam();
     let mut files = grader.files(&submission);
+    if let Some(files) = &mut files {
+        files.outputs = grader.outputs(&submission, &files.folder)?;
+    }
     let mut score = grader.unasked(&submission, &built);
     grader.examine(exam, &built, &mut score, |score, exhibits| {
         let files = files.as_mut();
-        files.map_or(Ok(()), |files| files.write(score, exam, exhibits))
+        files.map_or(Ok(()), |files| {
+            files.write(score, exam, exhibits)?;
+            files.outputs.write(&|| grader.seen(score))?;
+            Ok::<(), Error>(())
+        })
     })?;
-    let counted = grader.counted(&score);
-    Ok(Graded {
-        score,
-        files,
-        counted,
-    })
+    let seen = grader.seen(&score);
+    Ok(Graded { score, files, seen })
 }
 
 /// All that stays as it is from one version of a submission to the next.
@@ -99,6 +113,18 @@ impl<'a> Grader<'a> {
         })
     }
 
+    /// As much of a score as the policy lets students see.
+    pub fn seen(&self, score: &Score) -> Seen {
+        Seen::of(score, &self.policy)
+    }
+
+    /// The formats that were asked for, in `folder` unless they belong elsewhere.
+    fn outputs(&self, submission: &Submission, folder: &Path) -> Result<Outputs, NoOutput> {
+        let submitted = submitted(self.arguments, &self.workspace);
+        let (formats, hints) = (&self.arguments.format, self.arguments.hints);
+        Outputs::of(formats, folder, &submitted, submission, hints)
+    }
+
     /// What the exam is called.
     pub fn exam_name(&self) -> &ExamName {
         &self.exam_name
@@ -109,14 +135,14 @@ impl<'a> Grader<'a> {
         self.builder.identity()
     }
 
-    /// What a score counts for, where a policy says so. One task's points count for nothing.
-    pub fn counted(&self, score: &Score) -> Option<Counted> {
-        let says_so = self.arguments.policy.is_some() && self.arguments.task.is_none();
-        let counted = || {
-            self.policy
-                .counted(score.points, score.max_points, Lateness::NONE)
-        };
-        says_so.then(counted)
+    /// How submissions will be kept apart from the machine.
+    pub fn isolation(&self) -> Isolation {
+        self.builder.isolation()
+    }
+
+    /// The course's rules.
+    pub fn policy(&self) -> &Policy {
+        &self.policy
     }
 
     /// What is asked: all of the exam, or one task of it and what that needs.
@@ -142,11 +168,11 @@ impl<'a> Grader<'a> {
     /// The score before anything is asked.
     pub fn unasked(&self, submission: &Submission, built: &Built) -> Score {
         let mut score = unasked(&self.exam, self.exam_name.clone(), &submission.name);
-        score.isolation = built.build.isolation();
         score.again = Again {
             submission: self.arguments.submission.clone(),
             exam: self.arguments.exam.clone(),
         };
+        score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
         score.timings.build_ms = millis(built.took);
         score
@@ -207,11 +233,15 @@ fn builder(arguments: &Arguments, workspace: &Workspace) -> Result<Builder, Buil
 
 /// The submission that the command line names.
 pub fn collect(arguments: &Arguments, workspace: &Workspace) -> Result<Submission, Error> {
-    let folder = match &arguments.submission {
+    Ok(Submission::collect(&submitted(arguments, workspace))?)
+}
+
+/// Where it lies.
+fn submitted(arguments: &Arguments, workspace: &Workspace) -> PathBuf {
+    match &arguments.submission {
         Some(path) => workspace.resolve(path),
         None => workspace.student(),
-    };
-    Ok(Submission::collect(&folder)?)
+    }
 }
 
 /// What an item may use.
@@ -224,6 +254,7 @@ pub fn budget(arguments: &Arguments) -> Budget {
 fn build_report(submission: &Submission, build: &Build) -> BuildReport {
     let not_compiled = build.not_compiled.iter().map(|(file, why)| FileReport {
         file: (*file).to_owned(),
+        line: file_line(why),
         message: file_message(file, why),
     });
     BuildReport {

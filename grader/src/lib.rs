@@ -8,7 +8,7 @@
 //! | floor | modules |
 //! |---|---|
 //! | the job | [`grade`], [`replay`], [`watch`], [`doctor`]; [`files`] |
-//! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`] |
+//! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`], [`format`] |
 //! | its steps | [`isolate`], [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
 //! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`again`], [`policy`], [`submission`], [`given`], [`score`] |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`] |
@@ -28,6 +28,7 @@ pub mod exam_file;
 pub mod examine;
 pub mod exhibit;
 pub mod files;
+pub mod format;
 pub mod given;
 pub mod grade;
 pub mod isolate;

@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::again::Again;
 use crate::exam::Task;
+use crate::given::TASK_FILES;
 use crate::sandbox::Isolation;
 use crate::section::Section;
 
@@ -86,6 +87,9 @@ pub struct ItemScore {
     pub verdict: Verdict,
     /// For students: what happened, in a sentence. Empty if all is well.
     pub message: String,
+    /// Where in the submission's files it went wrong, if the code itself says so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<CodePlace>,
     /// For students: where to look. Only where something is wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub look: Option<String>,
@@ -106,6 +110,28 @@ pub struct ItemScore {
     /// For staff only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub staff: Option<String>,
+}
+
+/// A line of one of the five files.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct CodePlace {
+    /// Such as `sphere.rs`.
+    pub file: String,
+    /// Counted from 1.
+    pub line: u32,
+}
+
+impl CodePlace {
+    /// The place that a panic names, such as `sphere.rs:34`. None if it is in no submission's file.
+    pub fn of_panic(place: &str) -> Option<Self> {
+        let mut parts = place.split(':');
+        let file = parts.next()?;
+        let file = TASK_FILES.iter().find(|known| known.name == file)?;
+        Some(CodePlace {
+            file: file.name.to_owned(),
+            line: parts.next()?.parse().ok()?,
+        })
+    }
 }
 
 /// What a known mistake would do well to hear.
@@ -197,6 +223,9 @@ pub struct BuildReport {
 pub struct FileReport {
     /// Such as `sphere.rs`.
     pub file: String,
+    /// The line of that error, counted from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<u32>,
     /// The compiler's first error in it, or why there is no text.
     pub message: String,
 }

@@ -98,6 +98,7 @@ impl Person {
             (&self.email, &other.email),
             (&self.sid, &other.sid),
             (&self.login, &other.login),
+            (&self.number, &other.number),
         ];
         let same = |(mine, theirs): &(&String, &String)| {
             !mine.is_empty() && mine.to_lowercase() == theirs.to_lowercase()

@@ -107,7 +107,7 @@ fn unpack(path: &Path) -> Result<TempDir, NoClass> {
     let is_wanted = |member: &&Member| !member.path.split('/').any(|part| SKIPPED.contains(&part));
     let wanted: Vec<&Member> = members.iter().filter(is_wanted).collect();
     let folder = TempDir::new().map_err(at)?;
-    let mut put = |member: &Member, bytes: Vec<u8>| {
+    let put = |member: &Member, bytes: Vec<u8>| {
         let place = Path::new(&member.path);
         let is_inside = place
             .components()
@@ -170,9 +170,16 @@ fn in_archive(folder: &Path) -> Result<Submission, String> {
 
 /// Without the place, which is another one tomorrow.
 fn said(error: &NoSubmission, place: &Path) -> String {
-    let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let name = |path: &Path| {
+        path.file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned()
+    };
     match error {
-        NoSubmission::Nowhere(_) | NoSubmission::Neither(_) => "it is not there any more".to_owned(),
+        NoSubmission::Nowhere(_) | NoSubmission::Neither(_) => {
+            "it is not there any more".to_owned()
+        }
         NoSubmission::NoneOfFive(_) => "none of the five files was handed in".to_owned(),
         NoSubmission::Several { folders, .. } => {
             let folders = tame(&folders.join(", "), 200);

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::entry::{Entry, Person};
+use crate::cli::Lists;
+use crate::entry::Person;
 use crate::table::{BadTable, Table};
 
 /// What platforms and people call a column, for each thing that we know of a person.
@@ -27,8 +28,11 @@ const LOGIN: [&str; 6] = [
     "sis login id",
 ];
 
-/// The people in a list.
-pub fn read(path: &Path) -> Result<Vec<Person>, BadTable> {
+/// What Canvas writes into its gradebook that is nobody.
+const NOBODY: [&str; 2] = ["Points Possible", "Student, Test"];
+
+/// The people in a list: a roster, or what a platform gives out to keep grades in.
+fn read(path: &Path) -> Result<Vec<Person>, BadTable> {
     people(&Table::read(path)?).ok_or_else(|| BadTable::Lacks {
         path: path.to_owned(),
         lacks: "that tells who is who".to_owned(),
@@ -42,6 +46,11 @@ fn people(table: &Table) -> Option<Vec<Person>> {
     let [email, sid, login] = [column(&EMAIL), column(&SID), column(&LOGIN)];
     // Nothing else joins it with submissions.
     email.or(sid).or(login).or(name)?;
+    // The platforms' own numbers, in the lists that can be told to be theirs.
+    let number = match table.column("Student") {
+        Some(_) => table.column("ID"),
+        None => table.column("Identifier"),
+    };
     let person = |row: &Vec<String>| {
         let cell = |column: Option<usize>| {
             let cell = column.and_then(|column| row.get(column));
@@ -56,28 +65,44 @@ fn people(table: &Table) -> Option<Vec<Person>> {
             email: cell(email),
             sid: cell(sid),
             login: cell(login),
-            number: String::new(),
+            // Moodle's stands behind a word of the site's language.
+            number: cell(number)
+                .rsplit(' ')
+                .next()
+                .unwrap_or_default()
+                .to_owned(),
         }
     };
     let people = table.rows.iter().map(person);
-    Some(people.filter(|person| !person.words().is_empty()).collect())
+    let is_somebody =
+        |person: &Person| !person.words().is_empty() && !NOBODY.contains(&person.name.as_str());
+    Some(people.filter(is_somebody).collect())
 }
 
-/// Tells the entries' people what the list knows of them; returns those of the list who have none.
-pub fn join(list: Vec<Person>, entries: &mut [Entry]) -> Vec<Person> {
-    let mut missing = Vec::new();
-    for known in list {
-        let people = entries.iter_mut().flat_map(|entry| &mut entry.about.people);
-        let mut count = 0;
-        for person in people.filter(|person| person.is(&known) || is_named(person, &known)) {
-            person.learn(&known);
-            count += 1;
-        }
-        if count == 0 {
-            missing.push(known);
+/// Tells people what the lists know of them; returns those of the lists who are not among them.
+pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, BadTable> {
+    let files = [
+        &lists.roster,
+        &lists.canvas,
+        &lists.moodle,
+        &lists.gradescope,
+    ];
+    let mut missing: Vec<Person> = Vec::new();
+    for path in files.into_iter().flatten() {
+        for known in read(path)? {
+            let mut count = 0;
+            for person in people.iter_mut() {
+                if person.is(&known) || is_named(person, &known) {
+                    person.learn(&known);
+                    count += 1;
+                }
+            }
+            if count == 0 && !missing.iter().any(|other| other.is(&known)) {
+                missing.push(known);
+            }
         }
     }
-    missing
+    Ok(missing)
 }
 
 /// A person who has nothing but a name, which is all that a folder tells, is known by that.
@@ -85,5 +110,7 @@ fn is_named(person: &Person, known: &Person) -> bool {
     let bare = person.email.is_empty() && person.sid.is_empty() && person.login.is_empty();
     let names = [&known.name, &known.login, &known.sid, &known.email];
     let name = person.name.to_lowercase();
-    bare && names.iter().any(|known| !known.is_empty() && known.to_lowercase() == name)
+    bare && names
+        .iter()
+        .any(|known| !known.is_empty() && known.to_lowercase() == name)
 }

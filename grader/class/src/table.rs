@@ -65,7 +65,10 @@ impl Table {
     pub fn parse(bytes: &[u8]) -> Result<Self, String> {
         let has_mark = bytes.starts_with(MARK);
         let bytes = bytes.strip_prefix(MARK).unwrap_or(bytes);
-        let first = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
+        let first = bytes
+            .split(|byte| *byte == b'\n')
+            .next()
+            .unwrap_or_default();
         let count = |sign: u8| first.iter().filter(|byte| **byte == sign).count();
         let delimiter = match count(b';') > count(b',') {
             true => b';',

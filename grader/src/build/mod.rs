@@ -79,7 +79,12 @@ pub enum NotCompiled {
     /// It lacks something that other files call.
     Lacks(&'static str),
     /// The compiler's first error in it.
-    Error(String),
+    Error {
+        /// What it says.
+        text: String,
+        /// Where, counted from 1.
+        line: Option<u32>,
+    },
     /// The compiler did not finish, and did not say because of which file.
     Compiler(String),
 }
@@ -142,6 +147,12 @@ impl Builder {
         })
     }
 
+    /// The name of all that programs follow from, beside the submission.
+    pub fn identity(&self) -> String {
+        let parts = self.parts.as_ref().map(Parts::content).unwrap_or_default();
+        parts.with(self.rustc.identity()).name()
+    }
+
     /// What compiles.
     pub fn compiler(&self) -> &Path {
         &self.rustc.toolchain.rustc
@@ -152,16 +163,15 @@ impl Builder {
         &self.rustc.dependencies.folder
     }
 
+    /// How submissions will be kept apart from the machine.
+    pub fn isolation(&self) -> Isolation {
+        self.rustc.sandbox.level()
+    }
+
     /// Builds in this sandbox, and programs that are to be asked in it.
     pub fn within(mut self, sandbox: Sandbox) -> Self {
         self.rustc.sandbox = sandbox;
         self
-    }
-
-    /// The name of all that programs follow from, beside the submission.
-    pub fn identity(&self) -> String {
-        let parts = self.parts.as_ref().map(Parts::content).unwrap_or_default();
-        parts.with(self.rustc.identity()).name()
     }
 
     /// Keeps all programs in this folder, and takes them from there when the same is built again.
@@ -310,7 +320,10 @@ fn blame(errors: &[Diagnostic], not_compiled: &mut BTreeMap<&'static str, NotCom
     let before = not_compiled.len();
     for error in errors {
         if let Some(name) = error.blamed() {
-            let why = || NotCompiled::Error(error.text().to_owned());
+            let why = || NotCompiled::Error {
+                text: error.text().to_owned(),
+                line: error.line_in(name),
+            };
             not_compiled.entry(name).or_insert_with(why);
         }
     }

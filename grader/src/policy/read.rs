@@ -59,7 +59,12 @@ impl Policy {
             path: path.to_owned(),
             source,
         })?;
-        Policy::parse(&text).map_err(|complaint| complaint.of(path, &text))
+        Policy::of_text(path, &text)
+    }
+
+    /// Reads a policy that `path` is the name of.
+    pub fn of_text(path: &Path, text: &str) -> Result<Policy, PolicyError> {
+        Policy::parse(text).map_err(|complaint| complaint.of(path, text))
     }
 
     /// Refuses exceptions for what this exam does not hold: nobody would miss them.

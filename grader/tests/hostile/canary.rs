@@ -73,7 +73,10 @@ impl Canaries {
             ("OUT", self.out().display().to_string()),
             ("TCP", port(self.tcp.local_addr())),
             ("UDP", port(self.udp.local_addr())),
-            ("UNIX", self.folder.path().join("socket").display().to_string()),
+            (
+                "UNIX",
+                self.folder.path().join("socket").display().to_string(),
+            ),
         ]
     }
 
@@ -86,7 +89,10 @@ impl Canaries {
                 .into_iter()
                 .any(|form| text.contains(form))
         };
-        let all = [("the key's file", &self.key), ("the environment", &self.secret)];
+        let all = [
+            ("the key's file", &self.key),
+            ("the environment", &self.secret),
+        ];
         let found = all.into_iter().filter(|(_, secret)| stands(secret));
         found.map(|(what, _)| what).collect()
     }

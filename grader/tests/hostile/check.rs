@@ -77,16 +77,25 @@ pub fn broken(
     if let Some(says) = &entry.expect.says
         && !run.printed.contains(says)
     {
-        found(Finding::Harmed, format!("it does not say {says:?}:\n{}", run.printed));
+        found(
+            Finding::Harmed,
+            format!("it does not say {says:?}:\n{}", run.printed),
+        );
     }
     match run.lasting() {
         Some(score) => points(entry, &score, &mut found),
-        None => found(Finding::Harmed, "there is no score that can be read".to_owned()),
+        None => found(
+            Finding::Harmed,
+            "there is no score that can be read".to_owned(),
+        ),
     }
     if let Some(before) = as_before
         && before.lasting() != run.lasting()
     {
-        found(Finding::Harmed, "honest work is graded otherwise than before".to_owned());
+        found(
+            Finding::Harmed,
+            "honest work is graded otherwise than before".to_owned(),
+        );
     }
     all
 }
@@ -120,8 +129,12 @@ static SCHEMA: LazyLock<(Schemas, SchemaIndex)> = LazyLock::new(|| {
     let mut schemas = Schemas::new();
     let mut compiler = Compiler::new();
     let schema = Score::schema().to_value();
-    compiler.add_resource("score.json", schema).expect("a schema");
-    let index = compiler.compile("score.json", &mut schemas).expect("a schema");
+    compiler
+        .add_resource("score.json", schema)
+        .expect("a schema");
+    let index = compiler
+        .compile("score.json", &mut schemas)
+        .expect("a schema");
     (schemas, index)
 });
 
@@ -131,19 +144,31 @@ fn points(entry: &Entry, score: &Value, found: &mut impl FnMut(Finding, String))
     for task in tasks.into_iter().flatten() {
         let id = task["id"].as_str().unwrap_or_default();
         let points = task["points"].as_u64().unwrap_or_default();
-        let honest = entry.honest_points().into_iter().find(|(task, _)| *task == id);
+        let honest = entry
+            .honest_points()
+            .into_iter()
+            .find(|(task, _)| *task == id);
         let honest = honest.map_or(0, |(_, points)| points);
         match entry.expect.points.get(id) {
             None if points > honest => {
-                found(Finding::Forged, format!("{id}: {points} points instead of {honest}"));
+                found(
+                    Finding::Forged,
+                    format!("{id}: {points} points instead of {honest}"),
+                );
             }
             None if points < honest => {
-                found(Finding::Harmed, format!("{id}: {points} points instead of {honest}"));
+                found(
+                    Finding::Harmed,
+                    format!("{id}: {points} points instead of {honest}"),
+                );
             }
             None => {}
             Some(most) => {
                 if points > *most {
-                    found(Finding::Forged, format!("{id}: {points} points, at most {most}"));
+                    found(
+                        Finding::Forged,
+                        format!("{id}: {points} points, at most {most}"),
+                    );
                 }
                 verdicts(entry, task, found);
             }

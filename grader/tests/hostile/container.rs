@@ -28,7 +28,9 @@ pub fn enter() {
     ];
     let mut calls: BTreeMap<i64, Vec<SeccompRule>> =
         refused.into_iter().map(|call| (call, Vec::new())).collect();
-    let each = (0..32).map(|bit| NAMESPACES & (1 << bit)).filter(|flag| *flag != 0);
+    let each = (0..32)
+        .map(|bit| NAMESPACES & (1 << bit))
+        .filter(|flag| *flag != 0);
     let asks_for = |flag: i32| {
         let flag = flag as u64;
         let flagged = SeccompCmpOp::MaskedEq(flag);
@@ -41,7 +43,9 @@ pub fn enter() {
 }
 
 fn apply(calls: BTreeMap<i64, Vec<SeccompRule>>, answer: i32) {
-    let architecture = std::env::consts::ARCH.try_into().expect("one that is known");
+    let architecture = std::env::consts::ARCH
+        .try_into()
+        .expect("one that is known");
     let answer = SeccompAction::Errno(answer as u32);
     let filter = SeccompFilter::new(calls, SeccompAction::Allow, answer, architecture);
     let program: BpfProgram = filter.expect("a filter").try_into().expect("a program");

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use grader::sandbox::Isolation;
 
+use crate::calls;
 use crate::canary::Canaries;
 use crate::check::{Broken, Finding, broken};
 use crate::container;
@@ -25,8 +26,9 @@ impl Selection {
     /// Flags of the usual test harness are none of ours, and pass.
     fn from_arguments() -> Self {
         let arguments: Vec<String> = std::env::args().skip(1).collect();
-        let (flags, names): (Vec<String>, _) =
-            arguments.into_iter().partition(|word| word.starts_with("--"));
+        let (flags, names): (Vec<String>, _) = arguments
+            .into_iter()
+            .partition(|word| word.starts_with("--"));
         let has = |flag: &str| flags.iter().any(|word| word == flag);
         let levels = Isolation::ALL.into_iter();
         Selection {
@@ -87,8 +89,9 @@ fn all(entries: &[Entry], level: Isolation) -> bool {
             return false;
         }
     };
-    let (here, below): (Vec<&Entry>, Vec<&Entry>) =
-        entries.iter().partition(|entry| entry.expect.least <= level);
+    let (here, below): (Vec<&Entry>, Vec<&Entry>) = entries
+        .iter()
+        .partition(|entry| entry.expect.least <= level);
     let mut tally = Tally::default();
     for entry in &here {
         let own = graded(entry, None, level);
@@ -112,7 +115,17 @@ fn all(entries: &[Entry], level: Isolation) -> bool {
         tally.left,
         below.len(),
     );
-    tally.held == here.len()
+    tally.held == here.len() && calls_are_closed(level)
+}
+
+/// Whether none of the calls that no submission may make is let through.
+fn calls_are_closed(level: Isolation) -> bool {
+    if level == Isolation::None {
+        return true;
+    }
+    let open = calls::open(level);
+    println!("{level}: system calls let through: {open:?}");
+    open.is_empty()
 }
 
 fn tell(verdict: &str, entry: &Entry, broken: &[Broken]) {
@@ -135,11 +148,7 @@ impl Tally {
 }
 
 /// Grades one entry and looks at all that it may have done. `as_before`: what an honest one got.
-fn graded(
-    entry: &Entry,
-    as_before: Option<&Run>,
-    level: Isolation,
-) -> Result<Run, Vec<Broken>> {
+fn graded(entry: &Entry, as_before: Option<&Run>, level: Isolation) -> Result<Run, Vec<Broken>> {
     let canaries = Canaries::plant();
     let before = Leftovers::look(&canaries);
     let run = run::grade(entry, &canaries, level);

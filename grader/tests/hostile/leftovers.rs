@@ -20,7 +20,13 @@ impl Leftovers {
         all.extend(orphans());
         all.extend(marked(&canaries.mark));
         all.extend(caches());
-        for list in ["sysvipc/shm", "sysvipc/sem", "sysvipc/msg", "keys", "self/mounts"] {
+        for list in [
+            "sysvipc/shm",
+            "sysvipc/sem",
+            "sysvipc/msg",
+            "keys",
+            "self/mounts",
+        ] {
             all.extend(lines(list));
         }
         Leftovers(all)
@@ -40,12 +46,16 @@ fn lines(list: &str) -> Vec<String> {
         "keys" => {
             let mut words = line.split_whitespace();
             let name = words.next().unwrap_or_default().to_owned();
-            words.skip(3).fold(name, |all, word| format!("{all} {word}"))
+            words
+                .skip(3)
+                .fold(name, |all, word| format!("{all} {word}"))
         }
         _ => line.to_owned(),
     };
     let lines = text.lines().filter(|line| !line.trim().is_empty());
-    lines.map(|line| format!("{list}: {}", lasting(line))).collect()
+    lines
+        .map(|line| format!("{list}: {}", lasting(line)))
+        .collect()
 }
 
 /// Processes that were left to us. Gives those that were just killed the time to be gone.
@@ -87,10 +97,17 @@ fn marked(mark: &str) -> Vec<String> {
         Some(project),
         home,
     ];
-    let entries = places.iter().flatten().filter_map(|place| fs::read_dir(place).ok());
-    let paths = entries.flat_map(Iterator::flatten).map(|entry| entry.path());
+    let entries = places
+        .iter()
+        .flatten()
+        .filter_map(|place| fs::read_dir(place).ok());
+    let paths = entries
+        .flat_map(Iterator::flatten)
+        .map(|entry| entry.path());
     let marked = paths.filter(|path| path.to_string_lossy().contains(mark));
-    marked.map(|path| format!("file {}", path.display())).collect()
+    marked
+        .map(|path| format!("file {}", path.display()))
+        .collect()
 }
 
 /// What the grader keeps from one submission to the next: nothing of it may change.

@@ -17,9 +17,15 @@ pub fn best() -> Isolation {
         let mut lines = told.lines().map(str::split_whitespace);
         lines.any(|mut words| words.next() == Some(level.name()) && words.next() == Some("holds"))
     };
-    let best = Isolation::ALL.into_iter().find(holds).unwrap_or(Isolation::None);
+    let best = Isolation::ALL
+        .into_iter()
+        .find(holds)
+        .unwrap_or(Isolation::None);
     if best == Isolation::None {
-        assert!(std::env::var_os("CI").is_none(), "no isolation here:\n{told}");
+        assert!(
+            std::env::var_os("CI").is_none(),
+            "no isolation here:\n{told}"
+        );
         eprintln!("SKIPPED: what only a sandbox keeps, since there is none here:\n{told}");
     }
     best

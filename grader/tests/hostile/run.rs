@@ -75,7 +75,9 @@ pub fn grade(entry: &Entry, canaries: &Canaries, level: Isolation) -> Run {
         exit_code,
         took,
         memory,
-        printed: printed.map(|thread| thread.join().expect("it reads")).concat(),
+        printed: printed
+            .map(|thread| thread.join().expect("it reads"))
+            .concat(),
         score: text("score.json"),
         page: text("report.html"),
     }

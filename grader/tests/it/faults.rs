@@ -38,7 +38,11 @@ fn without_a_linker_there_is_no_score() {
     let tools = submission.path().join("tools");
     fs::create_dir(&tools).unwrap();
     let linker = tools.join("cc");
-    fs::write(&linker, "#!/bin/sh\necho No space left on device >&2\nexit 1\n").unwrap();
+    fs::write(
+        &linker,
+        "#!/bin/sh\necho No space left on device >&2\nexit 1\n",
+    )
+    .unwrap();
     fs::set_permissions(&linker, fs::Permissions::from_mode(0o755)).unwrap();
 
     let out = submission.path().join("out");
@@ -46,7 +50,11 @@ fn without_a_linker_there_is_no_score() {
     let mut command = grader();
     command.arg(submission.path()).arg("--out").arg(&out);
     command.arg("--no-reference").env("PATH", path);
-    is_our_fault(&command.output().unwrap(), &out, "not even the files that were handed out");
+    is_our_fault(
+        &command.output().unwrap(),
+        &out,
+        "not even the files that were handed out",
+    );
 }
 
 /// The device that is always full.
@@ -96,7 +104,10 @@ fn killed_at_any_moment(times: u32) {
         grader.kill().unwrap();
         grader.wait().unwrap();
         if let Some(score) = lasting(&out) {
-            assert!(score["complete"] == false || score == undisturbed, "at {moment:?}");
+            assert!(
+                score["complete"] == false || score == undisturbed,
+                "at {moment:?}"
+            );
             partial += u32::from(score["complete"] == false);
         }
         if time % 10 == 0 {
@@ -191,12 +202,18 @@ impl Drop for Load {
 fn graded_under_load(times: usize) {
     let _load = Load::start();
     let points = || {
-        let work = [Submission::reference("right"), Submission::case("panicking")];
+        let work = [
+            Submission::reference("right"),
+            Submission::case("panicking"),
+        ];
         work.map(|submission| submission.grade().points())
     };
     let results: Vec<_> = (0..times).map(|_| points()).collect();
     assert_eq!(results[0][0].iter().sum::<u64>(), 100);
-    assert!(results.iter().all(|points| *points == results[0]), "{results:?}");
+    assert!(
+        results.iter().all(|points| *points == results[0]),
+        "{results:?}"
+    );
 }
 
 #[cfg(unix)]

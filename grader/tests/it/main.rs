@@ -6,10 +6,12 @@ mod bad_submissions;
 mod carried_forward;
 mod command_line;
 mod faults;
+mod formats;
 mod harness;
 mod hints;
 #[cfg(target_os = "linux")]
 mod isolation;
+mod packages;
 mod policies;
 mod scores;
 mod walls;

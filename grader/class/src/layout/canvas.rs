@@ -51,7 +51,10 @@ pub(super) fn read(root: &Node) -> Entries {
                 users.entry(name.user).or_default().push((name, node));
             }
             Some(_) | None if node.name.ends_with(".html") => {
-                others.push(unmatched(node, "a text or a link was handed in, and no file"));
+                others.push(unmatched(
+                    node,
+                    "a text or a link was handed in, and no file",
+                ));
             }
             Some(_) | None => others.push(unmatched(node, "its name is not one of Canvas's")),
         }
@@ -116,7 +119,10 @@ mod tests {
         let name = parse("doejane_LATE_7001_9001_my_work-1.zip").unwrap();
         assert_eq!((name.who.as_str(), name.user), ("doejane", "7001"));
         assert!(name.late);
-        assert_eq!((name.attachment, name.file.as_str()), (9001, "my_work-1.zip"));
+        assert_eq!(
+            (name.attachment, name.file.as_str()),
+            (9001, "my_work-1.zip")
+        );
         assert_eq!(parse("anon_xK3f9_9001_hw.zip").unwrap().user, "xK3f9");
         assert_eq!(parse("doejane_7001_text.html"), None);
         assert_eq!(parse("7001_9001_hw.zip"), None);

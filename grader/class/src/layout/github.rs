@@ -76,7 +76,11 @@ mod tests {
 
     #[test]
     fn accounts_are_what_repositories_do_not_share() {
-        let names = ["cg-pathtracing-ann", "cg-pathtracing-ann-lee", "cg-pathtracing-bob"];
+        let names = [
+            "cg-pathtracing-ann",
+            "cg-pathtracing-ann-lee",
+            "cg-pathtracing-bob",
+        ];
         assert_eq!(common(names.into_iter()), "cg-pathtracing-");
         assert_eq!(common(names[..1].iter().copied()), "");
     }

@@ -15,7 +15,9 @@ pub const METADATA: &str = "submission_metadata.yml";
 
 /// The metadata can not be read.
 #[derive(Debug, thiserror::Error)]
-#[error("{METADATA}: {0}; export the submissions again, or take the file away to go by folder names")]
+#[error(
+    "{METADATA}: {0}; export the submissions again, or take the file away to go by folder names"
+)]
 pub struct BadMetadata(String);
 
 /// Of one submission. Whatever else stands there, such as earlier results, is passed over.
@@ -76,7 +78,7 @@ fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, BadMetadata> {
         max_nodes: 50_000_000,
         max_total_scalar_bytes: 256 << 20,
     };
-    let options = serde_saphyr::options! { budget: Some(budget) };
+    let options = serde_saphyr::options! { budget: budget };
     serde_saphyr::from_str_with_options(metadata, options)
         .map_err(|error| BadMetadata(error.to_string()))
 }

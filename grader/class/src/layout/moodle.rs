@@ -41,7 +41,10 @@ pub(super) fn read(root: &Node) -> Entries {
     for node in root.nodes() {
         match parse(&node.name) {
             Some(name) if name.way == "file" => {
-                people.entry(name.participant).or_default().push((name, node));
+                people
+                    .entry(name.participant)
+                    .or_default()
+                    .push((name, node));
             }
             Some(_) => others.push(unmatched(node, "a text was handed in, and no file")),
             None => others.push(unmatched(node, "its name is not one of Moodle's")),
@@ -89,7 +92,10 @@ mod tests {
         assert_eq!((name.who, name.participant), ("José Núñez, Jr.", "123"));
         assert_eq!((name.way, name.file), ("file", "my_camera.rs"));
         let folder = parse("Participant_7_assignsubmission_file").unwrap();
-        assert_eq!((folder.who, folder.participant, folder.file), ("Participant", "7", ""));
+        assert_eq!(
+            (folder.who, folder.participant, folder.file),
+            ("Participant", "7", "")
+        );
         assert_eq!(parse("Jane Doe_assignsubmission_file_"), None);
     }
 }

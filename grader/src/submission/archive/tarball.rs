@@ -59,20 +59,13 @@ impl Tarball {
             if count > MOST_MEMBERS {
                 return Err(Refused::TooMany);
             }
-            match kind {
-                EntryType::Regular | EntryType::Continuous | EntryType::GNUSparse => {
-                    let path = tidy(path)?;
-                    members.push(Member { path, place });
-                }
-                EntryType::Link
-                | EntryType::Symlink
-                | EntryType::Char
-                | EntryType::Block
-                | EntryType::Fifo => special(&tidy(path)?)?,
-                // Folders, and what headers say of all files, such as Git's commit.
-                _ => {
-                    tidy(path)?;
-                }
+            // Whatever else there is: folders, and what headers say of all files, such as Git's
+            // commit.
+            let path = tidy(path)?;
+            if is_link_or_device(kind) {
+                special(&path)?;
+            } else if kind.is_file() || kind.is_contiguous() || kind.is_gnu_sparse() {
+                members.push(Member { path, place });
             }
             Ok(())
         })?;
@@ -118,4 +111,9 @@ impl Tarball {
         }
         Ok(())
     }
+}
+
+fn is_link_or_device(kind: EntryType) -> bool {
+    let is_link = kind.is_symlink() || kind.is_hard_link();
+    is_link || kind.is_character_special() || kind.is_block_special() || kind.is_fifo()
 }

@@ -89,7 +89,14 @@ fn refused(error: &ZipError, path: &str) -> Refused {
         ZipError::CompressionMethodNotSupported(_) | ZipError::UnsupportedArchive(_) => {
             Refused::Method(shown(path))
         }
-        other => damaged(other),
+        ZipError::Io(_)
+        | ZipError::InvalidArchive(_)
+        | ZipError::FileNotFound
+        | ZipError::InvalidPassword
+        | ZipError::DecompressedSizeLimitExceeded { .. }
+        | ZipError::DecompressedSizeUnknown
+        // The crate may tell more one day.
+        | _ => damaged(error),
     }
 }
 

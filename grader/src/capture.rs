@@ -2,14 +2,21 @@
 //! pipe open for ever.
 
 use std::io::Read;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What came through a pipe so far: its beginning, and how much there was.
 #[derive(Clone, Debug)]
 pub struct Capture {
-    state: Arc<Mutex<State>>,
+    shared: Arc<Shared>,
+}
+
+#[derive(Debug, Default)]
+struct Shared {
+    state: Mutex<State>,
+    /// Told when the pipe ends: whoever waits for a compiler uses no time meanwhile.
+    end: Condvar,
 }
 
 #[derive(Debug, Default)]
@@ -24,17 +31,18 @@ impl Capture {
     /// whoever prints much is not stopped by a full pipe.
     pub fn start(mut pipe: impl Read + Send + 'static, keep: usize) -> Self {
         let capture = Capture {
-            state: Arc::default(),
+            shared: Arc::default(),
         };
-        let state = Arc::clone(&capture.state);
+        let shared = Arc::clone(&capture.shared);
         thread::spawn(move || {
             let mut buffer = vec![0; 1 << 16];
             loop {
                 let read = pipe.read(&mut buffer);
-                let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
+                let mut state = shared.lock();
                 match read {
                     Ok(0) | Err(_) => {
                         state.ended = true;
+                        shared.end.notify_all();
                         return;
                     }
                     Ok(length) => {
@@ -60,13 +68,21 @@ impl Capture {
 
     /// Waits until the pipe ends or the time is over, whichever comes first.
     pub fn settle(&self, patience: Duration) {
-        let deadline = Instant::now() + patience;
-        while !self.lock().ended && Instant::now() < deadline {
-            thread::sleep(Duration::from_millis(1));
-        }
+        let state = self.lock();
+        let waited = self
+            .shared
+            .end
+            .wait_timeout_while(state, patience, |state| !state.ended);
+        drop(waited);
     }
 
-    fn lock(&self) -> std::sync::MutexGuard<'_, State> {
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.shared.lock()
+    }
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

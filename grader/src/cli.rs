@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Parser;
 
 use crate::exam::Task;
+use crate::format::Wanted;
 use crate::place::Place;
 use crate::sandbox::Isolation;
 
@@ -15,7 +16,8 @@ use crate::sandbox::Isolation;
 #[derive(Clone, Debug, Parser)]
 #[command(name = "cargo grade", bin_name = "cargo grade", version)]
 pub struct Arguments {
-    /// The folder with the five files (at its top, in src/, or in student/src/); default: student
+    /// The folder, .zip, .tar or .tar.gz with the five files (at its top, in src/, or in
+    /// student/src/); default: student
     pub submission: Option<PathBuf>,
 
     /// The exam to ask, - for standard input; default: the practice exam
@@ -60,6 +62,10 @@ pub struct Arguments {
     #[arg(long)]
     pub doctor: bool,
 
+    /// With --doctor: look at a package for Gradescope or classroom50 instead, as they will see it
+    #[arg(long, value_name = "FILE", requires = "doctor")]
+    pub package: Option<PathBuf>,
+
     /// Say what is wrong, not only a nudge, where a known mistake is recognised
     #[arg(long)]
     pub hints: bool,
@@ -67,6 +73,21 @@ pub struct Arguments {
     /// Open the report, a page, when it is written
     #[arg(long, conflicts_with_all = ["task", "replay"])]
     pub open: bool,
+
+    /// Also write what platforms read: json, text, gradescope, classroom50, junit, github,
+    /// github-classroom, check50, prairielearn, of what the policy lets students see; with =PATH
+    /// there, else where the platform says, else to --out
+    #[arg(long, value_name = "FORMAT", num_args = 1.., value_delimiter = ',')]
+    #[arg(conflicts_with_all = ["task", "replay", "watch"])]
+    pub format: Vec<Wanted>,
+
+    /// What points count for and what students see of them; --policy-default shows what holds else
+    #[arg(long, value_name = "FILE")]
+    pub policy: Option<PathBuf>,
+
+    /// Print the default policy, which explains itself, and do nothing else
+    #[arg(long)]
+    pub policy_default: bool,
 
     /// CPU time that an item may use, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=600))]

@@ -1,6 +1,8 @@
 //! `cargo grade --doctor`: what submissions are built with on this machine, and how far they can be
 //! kept apart from it.
 
+pub mod package;
+
 use std::fmt;
 
 use crate::build::{Builder, Shortfall};

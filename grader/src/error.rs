@@ -4,8 +4,11 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::build::BuildError;
+use crate::doctor::package::NoPackage;
 use crate::exam_file::BadExam;
+use crate::format::outputs::NoOutput;
 use crate::isolate::NotIsolated;
+use crate::policy::PolicyError;
 use crate::submission::NoSubmission;
 use crate::workspace::NoWorkspace;
 
@@ -18,6 +21,15 @@ pub enum Error {
     /// The exam.
     #[error(transparent)]
     Exam(#[from] BadExam),
+    /// The policy.
+    #[error(transparent)]
+    Policy(#[from] PolicyError),
+    /// A platform's package.
+    #[error(transparent)]
+    Package(#[from] NoPackage),
+    /// What platforms read.
+    #[error(transparent)]
+    Output(#[from] NoOutput),
     /// What to replay.
     #[error("{0}")]
     Replay(String),
@@ -47,9 +59,15 @@ impl Error {
     /// 2 where whoever typed the command can mend it, 3 where it is our fault or the machine's.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::Submission(_) | Error::Exam(_) | Error::Replay(_) => 2,
+            Error::Submission(_)
+            | Error::Exam(_)
+            | Error::Policy(_)
+            | Error::Package(_)
+            | Error::Output(NoOutput::Variable { .. })
+            | Error::Replay(_) => 2,
             Error::Workspace(_)
             | Error::Build(_)
+            | Error::Output(NoOutput::Io { .. })
             | Error::Isolation(_)
             | Error::Report { .. }
             | Error::Probe(_) => 3,

@@ -6,6 +6,7 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use glam::UVec2;
 use protocol::Question;
 
 use crate::exam::{Exam, Item, Key};
@@ -13,6 +14,8 @@ use crate::score::ExamName;
 
 /// The version of the format that is read.
 const SCHEMA: u32 = 1;
+/// The most pixels along one side of a picture; ours have 64.
+const LONGEST_SIDE: u32 = 4096;
 /// The longest exam file, in bytes; ours have about 3,000,000.
 const LONGEST_FILE: u64 = 64 << 20;
 
@@ -91,7 +94,8 @@ pub fn load(path: Option<&Path>) -> Result<ExamFile, BadExam> {
     parse(path, &bytes)
 }
 
-fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, BadExam> {
+/// The exam in a file's bytes; `path` is for the error.
+pub fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, BadExam> {
     let exam: Exam = serde_json::from_slice(bytes).map_err(|source| BadExam::Json {
         path: path.to_owned(),
         source,
@@ -147,6 +151,12 @@ fn item_problem(item: &Item, earlier: &BTreeSet<&str>) -> Option<String> {
         return Some("it has no points, or no questions".to_owned());
     }
     let misfit = |(number, asked): (usize, &crate::exam::Asked)| {
+        if let Some(film) = film(&asked.question).filter(|film| film.max_element() > LONGEST_SIDE) {
+            let UVec2 { x, y } = film;
+            return Some(format!(
+                "question {number} asks for {x} x {y} pixels, and {LONGEST_SIDE} is the most"
+            ));
+        }
         let (fits, keys) = fit(&asked.question, &asked.key);
         let count = asked.question.count();
         match (fits, keys == count) {
@@ -161,6 +171,26 @@ fn item_problem(item: &Item, earlier: &BTreeSet<&str>) -> Option<String> {
         }
     };
     (1..).zip(&item.questions).find_map(misfit)
+}
+
+/// The pixels that are asked for, where all of a picture is.
+fn film(question: &Question) -> Option<UVec2> {
+    use protocol::{Rays, Samples};
+
+    match question {
+        Question::Camera { camera, samples } => match samples {
+            Samples::EveryPixel => Some(camera.film),
+            Samples::List(_) => None,
+        },
+        Question::Shapes { rays, .. }
+        | Question::Traverse { rays, .. }
+        | Question::BuildAndTraverse { rays, .. } => match rays {
+            Rays::View(view) => Some(view.film),
+            Rays::List(_) => None,
+        },
+        Question::Radiance { film, .. } => Some(*film),
+        Question::BBox { .. } | Question::Build { .. } | Question::Done => None,
+    }
 }
 
 /// What is wrong with what an item tells of mistakes, if anything is.

@@ -6,11 +6,15 @@ use std::time::{Duration, Instant};
 use crate::error::Error;
 use crate::exam::Exam;
 use crate::exhibit::Exhibits;
+use crate::format::outputs::Outputs;
 use crate::report::html::{self, Reload};
 use crate::report::{json, whole};
 use crate::score::Score;
 
-/// While the exam is asked, the page is written no more often than this.
+/// While the exam is asked, the files are written no more often than this. Most items take a
+/// millisecond, and so does writing a score: whoever is stopped loses no more than so much.
+const SCORE_PACE: Duration = Duration::from_millis(100);
+/// The same for the page, which takes longer than most items.
 const PAGE_PACE: Duration = Duration::from_secs(1);
 
 /// The files of one submission's score.
@@ -20,6 +24,11 @@ pub struct Files {
     pub score: PathBuf,
     /// For people.
     pub page: PathBuf,
+    score_written: Option<Instant>,
+    /// For platforms.
+    pub outputs: Outputs,
+    /// Where they are, unless a platform says otherwise.
+    pub folder: PathBuf,
     page_written: Option<Instant>,
     reload: Reload,
 }
@@ -30,22 +39,37 @@ impl Files {
         Files {
             score: folder.join("score.json"),
             page: folder.join("report.html"),
+            score_written: None,
+            outputs: Outputs::default(),
+            folder: folder.to_owned(),
             page_written: None,
             reload,
         }
     }
 
-    /// Writes both. The page, which takes longer than most items, at the first item and at the
-    /// end, and between them after each item that took its time.
+    /// All of them.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        let own = [self.score.as_path(), self.page.as_path()];
+        own.into_iter().chain(self.outputs.paths())
+    }
+
+    /// Writes both: at the first item and at the end, and between them after each item that took its
+    /// time.
     pub fn write(&mut self, score: &Score, exam: &Exam, exhibits: &Exhibits) -> Result<(), Error> {
-        write(&self.score, &json::text(score))?;
-        let is_fresh = self.page_written.is_some_and(|at| at.elapsed() < PAGE_PACE);
-        if score.complete || !is_fresh {
+        if score.complete || is_due(self.score_written, SCORE_PACE) {
+            write(&self.score, &json::text(score))?;
+            self.score_written = Some(Instant::now());
+        }
+        if score.complete || is_due(self.page_written, PAGE_PACE) {
             write(&self.page, &html::page(score, exam, exhibits, self.reload))?;
             self.page_written = Some(Instant::now());
         }
         Ok(())
     }
+}
+
+fn is_due(written: Option<Instant>, pace: Duration) -> bool {
+    written.is_none_or(|at| at.elapsed() >= pace)
 }
 
 fn write(path: &Path, text: &str) -> Result<(), Error> {

@@ -1,22 +1,28 @@
 //! The main job, from a command line to a score.
 
 use std::io;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use crate::again::Again;
 use crate::ask::Budget;
 use crate::build::{Build, BuildError, Builder};
 use crate::cli::Arguments;
 use crate::error::Error;
 use crate::exam::Exam;
-use crate::exam_file;
+use crate::exam_file::{self, ExamFile};
 use crate::examine::examine;
 use crate::exhibit::Exhibits;
 use crate::files::Files;
+use crate::format::Seen;
+use crate::format::outputs::{NoOutput, Outputs};
 use crate::isolate::isolated;
+use crate::policy::{Policy, PolicyError};
 use crate::report::html::Reload;
+use crate::sandbox::Isolation;
 use crate::score::{BuildReport, ExamName, FileReport, Score};
 use crate::submission::Submission;
-use crate::verdict::{file_message, unasked};
+use crate::verdict::{file_line, file_message, unasked};
 use crate::workspace::Workspace;
 
 /// A submission's score, and where it was written, if it was.
@@ -26,6 +32,15 @@ pub struct Graded {
     pub score: Score,
     /// The files that tell it.
     pub files: Option<Files>,
+    /// As much of it as students may see.
+    pub seen: Seen,
+}
+
+impl Graded {
+    /// What a runner is to be told on standard output, if one was asked for.
+    pub fn commands(&self) -> Option<String> {
+        self.files.as_ref()?.outputs.commands(&self.seen)
+    }
 }
 
 /// Loads the exam, collects the submission, builds it, asks, judges, scores.
@@ -35,12 +50,20 @@ pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
     let built = grader.build(&submission)?;
     let exam = grader.exam();
     let mut files = grader.files(&submission);
+    if let Some(files) = &mut files {
+        files.outputs = grader.outputs(&submission, &files.folder)?;
+    }
     let mut score = grader.unasked(&submission, &built);
     grader.examine(exam, &built, &mut score, |score, exhibits| {
         let files = files.as_mut();
-        files.map_or(Ok(()), |files| files.write(score, exam, exhibits))
+        files.map_or(Ok(()), |files| {
+            files.write(score, exam, exhibits)?;
+            files.outputs.write(&|| grader.seen(score))?;
+            Ok::<(), Error>(())
+        })
     })?;
-    Ok(Graded { score, files })
+    let seen = grader.seen(&score);
+    Ok(Graded { score, files, seen })
 }
 
 /// All that stays as it is from one version of a submission to the next.
@@ -49,6 +72,7 @@ pub struct Grader<'a> {
     workspace: Workspace,
     exam: Exam,
     exam_name: ExamName,
+    policy: Policy,
     builder: Builder,
 }
 
@@ -65,6 +89,17 @@ impl<'a> Grader<'a> {
         let file = exam_file::load(arguments.exam.as_deref())?;
         // A submission that is nowhere is told of before anything is compiled.
         collect(arguments, &workspace)?;
+        Grader::of(arguments, workspace, file)
+    }
+
+    /// The same for whoever brings submissions of their own.
+    pub fn for_many(arguments: &'a Arguments) -> Result<Self, Error> {
+        let file = exam_file::load(arguments.exam.as_deref())?;
+        Grader::of(arguments, Workspace::find()?, file)
+    }
+
+    fn of(arguments: &'a Arguments, workspace: Workspace, file: ExamFile) -> Result<Self, Error> {
+        let policy = policy(arguments, &file.exam)?;
         Ok(Grader {
             arguments,
             exam_name: file.name(),
@@ -72,9 +107,42 @@ impl<'a> Grader<'a> {
                 Some(task) => file.exam.with_what_it_needs(|item| item.task == task),
                 None => file.exam,
             },
+            policy,
             builder: isolated(builder(arguments, &workspace)?, arguments)?,
             workspace,
         })
+    }
+
+    /// As much of a score as the policy lets students see.
+    pub fn seen(&self, score: &Score) -> Seen {
+        Seen::of(score, &self.policy)
+    }
+
+    /// The formats that were asked for, in `folder` unless they belong elsewhere.
+    fn outputs(&self, submission: &Submission, folder: &Path) -> Result<Outputs, NoOutput> {
+        let submitted = submitted(self.arguments, &self.workspace);
+        let (formats, hints) = (&self.arguments.format, self.arguments.hints);
+        Outputs::of(formats, folder, &submitted, submission, hints)
+    }
+
+    /// What the exam is called.
+    pub fn exam_name(&self) -> &ExamName {
+        &self.exam_name
+    }
+
+    /// What scores follow from, beside submission and exam: compiler, dependencies, reference.
+    pub fn built_with(&self) -> String {
+        self.builder.identity()
+    }
+
+    /// How submissions will be kept apart from the machine.
+    pub fn isolation(&self) -> Isolation {
+        self.builder.isolation()
+    }
+
+    /// The course's rules.
+    pub fn policy(&self) -> &Policy {
+        &self.policy
     }
 
     /// What is asked: all of the exam, or one task of it and what that needs.
@@ -100,6 +168,10 @@ impl<'a> Grader<'a> {
     /// The score before anything is asked.
     pub fn unasked(&self, submission: &Submission, built: &Built) -> Score {
         let mut score = unasked(&self.exam, self.exam_name.clone(), &submission.name);
+        score.again = Again {
+            submission: self.arguments.submission.clone(),
+            exam: self.arguments.exam.clone(),
+        };
         score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
         score.timings.build_ms = millis(built.took);
@@ -140,6 +212,16 @@ impl<'a> Grader<'a> {
     }
 }
 
+/// The policy that the command line names, or the default.
+fn policy(arguments: &Arguments, exam: &Exam) -> Result<Policy, PolicyError> {
+    let Some(path) = &arguments.policy else {
+        return Ok(Policy::default());
+    };
+    let policy = Policy::read(path)?;
+    policy.check(path, exam)?;
+    Ok(policy)
+}
+
 /// What submissions are built with: with the reference, where it is at hand and not declined.
 fn builder(arguments: &Arguments, workspace: &Workspace) -> Result<Builder, BuildError> {
     let builder = Builder::prepare(workspace)?;
@@ -151,11 +233,15 @@ fn builder(arguments: &Arguments, workspace: &Workspace) -> Result<Builder, Buil
 
 /// The submission that the command line names.
 pub fn collect(arguments: &Arguments, workspace: &Workspace) -> Result<Submission, Error> {
-    let folder = match &arguments.submission {
+    Ok(Submission::collect(&submitted(arguments, workspace))?)
+}
+
+/// Where it lies.
+fn submitted(arguments: &Arguments, workspace: &Workspace) -> PathBuf {
+    match &arguments.submission {
         Some(path) => workspace.resolve(path),
         None => workspace.student(),
-    };
-    Ok(Submission::collect(&folder)?)
+    }
 }
 
 /// What an item may use.
@@ -168,6 +254,7 @@ pub fn budget(arguments: &Arguments) -> Budget {
 fn build_report(submission: &Submission, build: &Build) -> BuildReport {
     let not_compiled = build.not_compiled.iter().map(|(file, why)| FileReport {
         file: (*file).to_owned(),
+        line: file_line(why),
         message: file_message(file, why),
     });
     BuildReport {

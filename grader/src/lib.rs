@@ -8,11 +8,12 @@
 //! | floor | modules |
 //! |---|---|
 //! | the job | [`grade`], [`replay`], [`watch`], [`doctor`]; [`files`] |
-//! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`] |
+//! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`], [`format`] |
 //! | its steps | [`isolate`], [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
-//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`submission`], [`given`], [`score`] |
+//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`again`], [`policy`], [`submission`], [`given`], [`score`] |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`] |
 
+pub mod again;
 pub mod ask;
 pub mod build;
 pub mod capture;
@@ -27,12 +28,14 @@ pub mod exam_file;
 pub mod examine;
 pub mod exhibit;
 pub mod files;
+pub mod format;
 pub mod given;
 pub mod grade;
 pub mod isolate;
 pub mod judge;
 pub mod picture;
 pub mod place;
+pub mod policy;
 pub mod recognise;
 pub mod replay;
 pub mod report;

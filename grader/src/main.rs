@@ -1,14 +1,18 @@
 //! `cargo grade`: one submission, one score.
 
+use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
 use grader::cli::Arguments;
 use grader::desktop;
-use grader::doctor::examine_machine;
+use grader::doctor::{examine_machine, package};
 use grader::error::Error;
-use grader::grade::grade;
+use grader::files::Files;
+use grader::format::github;
+use grader::grade::{Graded, grade};
+use grader::policy;
 use grader::replay::replay;
 use grader::report::text::{Hints, report};
 use grader::sandbox;
@@ -31,9 +35,26 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         anstream::println!("{:#}", Score::schema().as_value());
         return Ok(ExitCode::SUCCESS);
     }
+    if arguments.policy_default {
+        anstream::print!("{}", policy::DEFAULT);
+        return Ok(ExitCode::SUCCESS);
+    }
     if let Some(place) = &arguments.replay {
         anstream::print!("{}", replay(arguments, place)?);
         return Ok(ExitCode::SUCCESS);
+    }
+    if let Some(package) = &arguments.package {
+        let complaints = package::complaints(package)?;
+        for complaint in &complaints {
+            anstream::println!("{}: {complaint}", package.display());
+        }
+        return Ok(match complaints.len() {
+            0 => {
+                anstream::println!("{}: nothing is wrong with it", package.display());
+                ExitCode::SUCCESS
+            }
+            _ => ExitCode::from(2),
+        });
     }
     if arguments.doctor {
         let diagnosis = examine_machine()?;
@@ -49,22 +70,47 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         match never {}
     }
     let graded = grade(arguments)?;
-    anstream::print!("{}", report(&graded.score, arguments.task, hints));
-    if let Some(files) = &graded.files {
-        for file in [&files.score, &files.page] {
-            anstream::println!("  {}", from_here(file).display());
-        }
-        if arguments.open {
-            desktop::show(&files.page);
-        }
+    tell(&told(&graded, arguments, hints))?;
+    if let Some(commands) = graded.commands() {
+        anstream::print!("{commands}");
     }
-    anstream::println!();
+    if let Some(files) = graded.files.as_ref().filter(|_| arguments.open) {
+        desktop::show(&files.page);
+    }
     let required = arguments.require.unwrap_or(0);
     Ok(if graded.score.points < required {
         ExitCode::from(1)
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// What is read on a terminal. With a platform's format, students read it in a log.
+fn told(graded: &Graded, arguments: &Arguments, hints: Hints) -> String {
+    let score = match arguments.format.is_empty() {
+        true => &graded.score,
+        false => &graded.seen.now,
+    };
+    let mut told = report(score, arguments.task, hints);
+    if arguments.policy.is_some() && arguments.task.is_none() {
+        told.push_str(&format!("  counts for {}\n\n", graded.seen.counted));
+    }
+    for file in graded.files.iter().flat_map(Files::paths) {
+        told.push_str(&format!("  {}\n", from_here(file).display()));
+    }
+    told
+}
+
+/// Prints it. Where a runner looks for commands in all that is printed, it is told not to.
+fn tell(text: &str) -> Result<(), Error> {
+    match std::env::var_os("GITHUB_ACTIONS") {
+        Some(_) => {
+            let token = github::token().map_err(io::Error::other)?;
+            anstream::println!("{}", github::silenced(text, &token));
+        }
+        None => anstream::println!("{text}"),
+    }
+    Ok(())
 }
 
 /// The path as it would be typed from the current folder.

@@ -6,7 +6,9 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::again::Again;
 use crate::exam::Task;
+use crate::given::TASK_FILES;
 use crate::sandbox::Isolation;
 use crate::section::Section;
 
@@ -27,6 +29,9 @@ pub struct Score {
     /// Whether everything has been asked. False in a file that is still being written, or whose
     /// grader was stopped.
     pub complete: bool,
+    /// How to ask the same once more. Not in the file, which is the same wherever it is made.
+    #[serde(skip)]
+    pub again: Again,
     /// The sum over all tasks.
     pub points: u32,
     /// The most points that could be had.
@@ -82,6 +87,9 @@ pub struct ItemScore {
     pub verdict: Verdict,
     /// For students: what happened, in a sentence. Empty if all is well.
     pub message: String,
+    /// Where in the submission's files it went wrong, if the code itself says so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<CodePlace>,
     /// For students: where to look. Only where something is wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub look: Option<String>,
@@ -102,6 +110,28 @@ pub struct ItemScore {
     /// For staff only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub staff: Option<String>,
+}
+
+/// A line of one of the five files.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct CodePlace {
+    /// Such as `sphere.rs`.
+    pub file: String,
+    /// Counted from 1.
+    pub line: u32,
+}
+
+impl CodePlace {
+    /// The place that a panic names, such as `sphere.rs:34`. None if it is in no submission's file.
+    pub fn of_panic(place: &str) -> Option<Self> {
+        let mut parts = place.split(':');
+        let file = parts.next()?;
+        let file = TASK_FILES.iter().find(|known| known.name == file)?;
+        Some(CodePlace {
+            file: file.name.to_owned(),
+            line: parts.next()?.parse().ok()?,
+        })
+    }
 }
 
 /// What a known mistake would do well to hear.
@@ -193,6 +223,9 @@ pub struct BuildReport {
 pub struct FileReport {
     /// Such as `sphere.rs`.
     pub file: String,
+    /// The line of that error, counted from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<u32>,
     /// The compiler's first error in it, or why there is no text.
     pub message: String,
 }
@@ -209,13 +242,10 @@ pub struct Timings {
 impl ItemScore {
     /// The command that asks the same again: one question where there is one to speak of, else
     /// the task.
-    pub fn again(&self) -> String {
+    pub fn again(&self, again: &Again) -> String {
         match &self.evidence {
-            Some(evidence) => format!("cargo grade --replay {}#{}", self.id, evidence.number),
-            None => {
-                let task = self.id.split('.').next().unwrap_or_default();
-                format!("cargo grade --task {task}")
-            }
+            Some(evidence) => again.replay(&self.id, evidence.number),
+            None => again.task(self.id.split('.').next().unwrap_or_default()),
         }
     }
 }

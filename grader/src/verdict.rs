@@ -1,5 +1,6 @@
 //! From what became of an item to its line in the score: pure.
 
+use crate::again::Again;
 use crate::ask::Fault;
 use crate::build::NotCompiled;
 use crate::describe;
@@ -7,7 +8,8 @@ use crate::exam::{Exam, Item, Task};
 use crate::judge::{Failure, How, Judgement, Share};
 use crate::sandbox::Isolation;
 use crate::score::{
-    BuildReport, Evidence, ExamName, Hint, ItemScore, SCHEMA, Score, TaskScore, Timings, Verdict,
+    BuildReport, CodePlace, Evidence, ExamName, Hint, ItemScore, SCHEMA, Score, TaskScore, Timings,
+    Verdict,
 };
 use crate::section::Section;
 use crate::tame::tame;
@@ -63,6 +65,7 @@ pub fn unasked(exam: &Exam, name: ExamName, submission: &str) -> Score {
         exam: name,
         isolation: Isolation::None,
         complete: false,
+        again: Again::default(),
         points: 0,
         max_points: tasks.iter().map(|task| task.max_points).sum(),
         tasks,
@@ -80,6 +83,7 @@ pub fn item_score(item: &Item, outcome: &Outcome) -> ItemScore {
         max_points: item.points,
         verdict: Verdict::Pending,
         message: String::new(),
+        at: None,
         look: None,
         section: None,
         hints: Vec::new(),
@@ -123,8 +127,16 @@ fn not_compiled(item: &Item, why: &NotCompiled) -> String {
                 item.task.file()
             )
         }
-        NotCompiled::Error(_) => format!("{} does not compile", item.task.file()),
+        NotCompiled::Error { .. } => format!("{} does not compile", item.task.file()),
         NotCompiled::Compiler(_) => "the submission does not compile".to_owned(),
+    }
+}
+
+/// The line of what the compiler said of a file.
+pub fn file_line(why: &NotCompiled) -> Option<u32> {
+    match why {
+        NotCompiled::Error { line, .. } => *line,
+        NotCompiled::Unreadable(_) | NotCompiled::Lacks(_) | NotCompiled::Compiler(_) => None,
     }
 }
 
@@ -133,7 +145,7 @@ pub fn file_message(file: &str, why: &NotCompiled) -> String {
     match why {
         NotCompiled::Unreadable(unreadable) => unreadable.to_string(),
         NotCompiled::Lacks(part) => format!("{file} has no `{part}`, which other files call"),
-        NotCompiled::Error(text) | NotCompiled::Compiler(text) => tame(text, LONGEST),
+        NotCompiled::Error { text, .. } | NotCompiled::Compiler(text) => tame(text, LONGEST),
     }
 }
 
@@ -178,6 +190,7 @@ fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
         How::Panicked(panic) if panic.is_unimplemented() => {
             score.verdict = Verdict::Unimplemented;
             score.message = format!("{} still says `todo!`", tame(&panic.place, LONGEST));
+            score.at = CodePlace::of_panic(&panic.place);
             score.look = None;
             score.section = item.section.as_ref().map(Section::whole_chapter);
             return;
@@ -185,6 +198,7 @@ fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
         How::Panicked(panic) => {
             let (place, words) = (&panic.place, &panic.message);
             score.message = tame(&format!("panicked at {place}: {words}"), LONGEST);
+            score.at = CodePlace::of_panic(&panic.place);
             let panicked = partial(Verdict::Panicked);
             (panicked, "a panic".to_owned(), "an answer".to_owned())
         }
@@ -227,6 +241,7 @@ pub fn blocked(by: &str, line: ItemScore) -> ItemScore {
     ItemScore {
         verdict: Verdict::Blocked { by: by.to_owned() },
         message: format!("rests on {by}: mend that first"),
+        at: None,
         look: None,
         section: None,
         evidence: None,

@@ -1,11 +1,14 @@
 //! Given: the way from scenes and questions to your five files, and back.
+//!
+//! Compiled with your files each time that they are graded, so it is written for the compiler to be
+//! quick: loops that `push`, where `map` and `collect` would take it twice as long.
 
 use framework::answer;
 use framework::integrator::Sampling;
 use framework::scene::Scene;
 use framework::submission::{Submission, World};
 use glam::{UVec2, Vec2};
-use protocol::{Answer, PinholeCamera, Question, Ray, Shape, Trace, Tree, TreeNode};
+use protocol::{Answer, Interval, PinholeCamera, Question, Ray, Shape, Trace, Tree, TreeNode};
 
 use crate::bbox::BBox;
 use crate::bvh::{Bvh, Node};
@@ -30,31 +33,32 @@ impl Submission for Student {
                 samples,
             } => {
                 let camera = camera(lens);
-                answer::rays(lens, samples, &mut |pixel, offset| {
+                answer::rays(lens, samples, &mut |(pixel, offset): (UVec2, Vec2)| {
                     camera.sample_ray(pixel, offset)
                 })
             }
             Question::Shapes { shapes, rays } => {
                 let primitives = primitives(shapes);
-                answer::hits(rays, &mut |ray| nearest(&primitives, ray))
+                answer::hits(rays, &mut |ray: &Ray| nearest(&primitives, ray))
             }
             Question::BBox { min, max, shots } => {
                 let bbox = BBox::new(*min, *max);
-                answer::spans(shots, &mut |ray, times| bbox.hit(ray, times))
+                answer::spans(shots, &mut |(ray, times): (&Ray, Interval)| {
+                    bbox.hit(ray, times)
+                })
             }
             Question::Build {
                 shapes,
                 max_leaf_size,
-            } => answer::tree(shapes.len(), &mut || tree(&build(shapes, *max_leaf_size))),
+            } => answer::tree(shapes.len(), &mut |()| tree(&build(shapes, *max_leaf_size))),
             Question::Traverse {
                 shapes,
                 nodes,
                 root,
                 rays,
             } => {
-                let nodes = nodes.iter().map(node).collect();
-                let bvh = Bvh::from_nodes(primitives(shapes), nodes, *root as usize);
-                answer::hits(rays, &mut |ray| bvh.hit(ray))
+                let bvh = planted(shapes, nodes, *root);
+                answer::hits(rays, &mut |ray: &Ray| bvh.hit(ray))
             }
             Question::BuildAndTraverse {
                 shapes,
@@ -63,7 +67,7 @@ impl Submission for Student {
             } => {
                 // Built at the first ray, so that a panic in `build` is told like any other.
                 let mut bvh = None;
-                answer::hits(rays, &mut |ray| {
+                answer::hits(rays, &mut |ray: &Ray| {
                     bvh.get_or_insert_with(|| build(shapes, *max_leaf_size))
                         .hit(ray)
                 })
@@ -113,7 +117,11 @@ fn camera(lens: &PinholeCamera) -> Camera {
 }
 
 fn primitives(shapes: &[Shape]) -> Vec<Primitive> {
-    shapes.iter().map(Primitive::new).collect()
+    let mut primitives = Vec::new();
+    for shape in shapes {
+        primitives.push(Primitive::new(shape));
+    }
+    primitives
 }
 
 fn build(shapes: &[Shape], max_leaf_size: u32) -> Bvh {
@@ -122,8 +130,20 @@ fn build(shapes: &[Shape], max_leaf_size: u32) -> Bvh {
 
 /// The closest of the hits of each primitive by itself.
 fn nearest(primitives: &[Primitive], ray: &Ray) -> Option<Trace> {
-    let traces = primitives.iter().map(|primitive| primitive.hit(ray));
-    traces.fold(None, Trace::nearer)
+    let mut nearest = None;
+    for primitive in primitives {
+        nearest = Trace::nearer(nearest, primitive.hit(ray));
+    }
+    nearest
+}
+
+/// The exam's own tree.
+fn planted(shapes: &[Shape], tree_nodes: &[TreeNode], root: u32) -> Bvh {
+    let mut nodes = Vec::new();
+    for tree_node in tree_nodes {
+        nodes.push(node(tree_node));
+    }
+    Bvh::from_nodes(primitives(shapes), nodes, root as usize)
 }
 
 fn node(node: &TreeNode) -> Node {
@@ -138,17 +158,23 @@ fn node(node: &TreeNode) -> Node {
 fn tree(bvh: &Bvh) -> Tree {
     // What does not fit is out of range anyway, and must not wrap into range.
     let place = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    let nodes = bvh.nodes.iter().map(|node| TreeNode {
-        min: node.bbox.min,
-        max: node.bbox.max,
-        start: place(node.start),
-        size: place(node.size),
-        l: place(node.l),
-        r: place(node.r),
-    });
-    Tree {
-        nodes: nodes.collect(),
+    let mut tree = Tree {
+        nodes: Vec::new(),
         root: place(bvh.root),
-        order: bvh.primitives.iter().map(Primitive::material).collect(),
+        order: Vec::new(),
+    };
+    for node in &bvh.nodes {
+        tree.nodes.push(TreeNode {
+            min: node.bbox.min,
+            max: node.bbox.max,
+            start: place(node.start),
+            size: place(node.size),
+            l: place(node.l),
+            r: place(node.r),
+        });
     }
+    for primitive in &bvh.primitives {
+        tree.order.push(primitive.material());
+    }
+    tree
 }

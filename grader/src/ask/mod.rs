@@ -71,7 +71,8 @@ impl Launcher {
     /// ends it even if the grader itself is killed.
     const ITEMS: u32 = 30;
 
-    /// Starts a process that waits for its first question.
+    /// Starts a process that waits for its first question. On Linux it ends with the thread that
+    /// starts it, so that it does not outlive a grader that is killed.
     pub fn start(&self, budget: Budget) -> std::io::Result<Probe> {
         let folder = self.program.parent().unwrap_or(Path::new("."));
         let mut command = Command::new(&self.program);

@@ -103,6 +103,14 @@ impl Parts {
         Ok(parts)
     }
 
+    /// All that they follow from, and what stands around a submission on them.
+    pub fn content(&self) -> Content {
+        let folder = Content::default().with(self.folder.as_os_str().as_encoded_bytes());
+        let Around { root, asking } = &self.around;
+        let texts = asking.iter().map(|(_, text)| text).chain([root]);
+        texts.fold(folder, |content, text| content.with(text.as_bytes()))
+    }
+
     fn metadata(&self) -> PathBuf {
         self.folder.join("libparts.rmeta")
     }
@@ -192,14 +200,7 @@ impl CarryForward {
     }
 
     fn compile(&self) -> io::Result<Option<PathBuf>> {
-        let Around { root, asking } = &self.parts.around;
-        let ours = asking.iter().map(|(_, text)| text).chain([root]);
-        let content = ours.fold(
-            Content::default()
-                .with(self.parts.folder.as_os_str().as_encoded_bytes())
-                .with(self.bvh.as_bytes()),
-            |content, text| content.with(text.as_bytes()),
-        );
+        let content = self.parts.content().with(self.bvh.as_bytes());
         Ok(match self.rustc.once(&content, || self.compile_afresh())? {
             Compiled::Done(program) => Some(program),
             Compiled::Errors(_) | Compiled::Failed(_) => None,

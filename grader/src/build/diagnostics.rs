@@ -22,6 +22,8 @@ struct Span {
     file_name: String,
     is_primary: bool,
     #[serde(default)]
+    line_start: Option<u32>,
+    #[serde(default)]
     text: Vec<Line>,
 }
 
@@ -60,6 +62,12 @@ impl Diagnostic {
             })
     }
 
+    /// The first line of the error in this file, counted from 1. None if it is in another.
+    pub fn line_in(&self, file: &str) -> Option<u32> {
+        let mut spans = self.spans.iter().filter(|span| span.is_primary);
+        spans.find(|span| span.file_name == file)?.line_start
+    }
+
     /// The whole message, as the compiler prints it.
     pub fn text(&self) -> &str {
         self.rendered.as_deref().unwrap_or(&self.message).trim_end()
@@ -85,6 +93,16 @@ mod tests {
             r#"{{"message":"m","level":"error","spans":[{spans}],"children":[{children}],"rendered":"r"}}"#
         );
         errors(&line)[0].blamed()
+    }
+
+    #[test]
+    fn the_line_is_that_of_the_error_itself() {
+        let spans = r#"{"file_name":"sphere.rs","is_primary":false,"line_start":1},
+            {"file_name":"sphere.rs","is_primary":true,"line_start":7}"#;
+        let line = format!(r#"{{"message":"m","level":"error","spans":[{spans}]}}"#);
+        let error = &errors(&line.replace('\n', ""))[0];
+        assert_eq!(error.line_in("sphere.rs"), Some(7));
+        assert_eq!(error.line_in("bvh.rs"), None);
     }
 
     const IN_SPHERE: &str = r#"{"file_name":"sphere.rs","is_primary":true}"#;

@@ -5,7 +5,7 @@ mod carried;
 mod compile;
 mod confined;
 mod dependencies;
-mod diagnostics;
+pub mod diagnostics;
 mod kept;
 mod rustc;
 mod taken;
@@ -28,7 +28,7 @@ use crate::build::kept::Kept;
 use crate::build::rustc::{Compiled, Rustc};
 use crate::build::toolchain::{NoToolchain, Toolchain};
 use crate::exam::Task;
-use crate::given::TaskFile;
+use crate::given::{TASK_FILES, TaskFile};
 use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, Unreadable};
 use crate::workspace::Workspace;
@@ -79,7 +79,12 @@ pub enum NotCompiled {
     /// It lacks something that other files call.
     Lacks(&'static str),
     /// The compiler's first error in it.
-    Error(String),
+    Error {
+        /// What it says.
+        text: String,
+        /// Where, counted from 1.
+        line: Option<u32>,
+    },
     /// The compiler did not finish, and did not say because of which file.
     Compiler(String),
 }
@@ -96,6 +101,11 @@ pub enum BuildError {
     /// There is nothing to carry forward on.
     #[error(transparent)]
     Parts(#[from] NoParts),
+    /// Nothing compiles at all.
+    #[error(
+        "not even the files that were handed out compile on this machine; is the disk full, is there a linker?\n{0}"
+    )]
+    Machine(String),
     /// The work folder can not be used.
     #[error("can not build in {path}: {source}")]
     Io {
@@ -137,6 +147,12 @@ impl Builder {
         })
     }
 
+    /// The name of all that programs follow from, beside the submission.
+    pub fn identity(&self) -> String {
+        let parts = self.parts.as_ref().map(Parts::content).unwrap_or_default();
+        parts.with(self.rustc.identity()).name()
+    }
+
     /// What compiles.
     pub fn compiler(&self) -> &Path {
         &self.rustc.toolchain.rustc
@@ -145,6 +161,11 @@ impl Builder {
     /// The folder with what every submission is linked with.
     pub fn dependencies(&self) -> &Path {
         &self.rustc.dependencies.folder
+    }
+
+    /// How submissions will be kept apart from the machine.
+    pub fn isolation(&self) -> Isolation {
+        self.rustc.sandbox.level()
     }
 
     /// Builds in this sandbox, and programs that are to be asked in it.
@@ -195,6 +216,7 @@ impl Builder {
             }
         }
         if probe.is_none() {
+            self.prove(folder.path())?;
             let why = "the files that were left did not compile together";
             blame_all(submission, why, &mut not_compiled);
         }
@@ -205,6 +227,19 @@ impl Builder {
             sandbox: self.rustc.sandbox.clone(),
             _folder: folder,
         })
+    }
+
+    /// Compiles the starter, where nothing of a submission did: if even that fails, then a full
+    /// disk, a broken linker or too little memory is to blame, and no student.
+    fn prove(&self, folder: &Path) -> Result<(), BuildError> {
+        let starter = TASK_FILES.map(|file| (file.name, file.starter));
+        let why = match compile(&starter, &folder.join("starter"), &self.rustc) {
+            Ok(Compiled::Done(_)) => return Ok(()),
+            Ok(Compiled::Errors(errors)) => errors[0].text().to_owned(),
+            Ok(Compiled::Failed(why)) => why,
+            Err(error) => error.to_string(),
+        };
+        Err(BuildError::Machine(why))
     }
 
     fn carry(
@@ -285,7 +320,10 @@ fn blame(errors: &[Diagnostic], not_compiled: &mut BTreeMap<&'static str, NotCom
     let before = not_compiled.len();
     for error in errors {
         if let Some(name) = error.blamed() {
-            let why = || NotCompiled::Error(error.text().to_owned());
+            let why = || NotCompiled::Error {
+                text: error.text().to_owned(),
+                line: error.line_in(name),
+            };
             not_compiled.entry(name).or_insert_with(why);
         }
     }

@@ -83,6 +83,15 @@ impl Task {
         }
     }
 
+    /// The method to write.
+    pub fn method(self) -> &'static str {
+        match self {
+            Task::Camera => "sample_ray",
+            Task::Triangle | Task::Sphere | Task::BBox | Task::Traverse => "hit",
+            Task::Build => "build",
+        }
+    }
+
     /// The points that all its items add up to.
     pub fn points(self) -> u32 {
         match self {

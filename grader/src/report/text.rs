@@ -69,9 +69,17 @@ fn write_report(out: &mut String, score: &Score, only: Option<Task>, hints: Hint
         let shown: Vec<&&ItemScore> = failing.first().into_iter().chain(others).collect();
         for line in &shown {
             item(out, line, hints)?;
-            again(out, line)?;
+            ask_again(out, &line.again(&score.again))?;
         }
-        more(out, task, failing.len() - shown.len(), only)?;
+        let others = failing.len() - shown.len();
+        match only {
+            Some(_) => more(out, others, "")?,
+            None => more(
+                out,
+                others,
+                &format!(": {}", score.again.task(task.id.id())),
+            )?,
+        }
         if let Some(printed) = &task.printed {
             printed_lines(out, task, printed)?;
         }
@@ -212,21 +220,16 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
 }
 
 /// How to ask the same again.
-fn again(out: &mut String, item: &ItemScore) -> fmt::Result {
-    let (label, command) = ("again", item.again());
-    writeln!(out, "    {FAINT}{label:<7} {command}{FAINT:#}")
+fn ask_again(out: &mut String, command: &str) -> fmt::Result {
+    writeln!(out, "    {FAINT}{:<7} {command}{FAINT:#}", "again")
 }
 
 /// How many items are not shown, and how to see them.
-fn more(out: &mut String, task: &TaskScore, count: usize, only: Option<Task>) -> fmt::Result {
+fn more(out: &mut String, count: usize, how: &str) -> fmt::Result {
     let items = match count {
         0 => return Ok(()),
         1 => "item",
         _ => "items",
-    };
-    let how = match only {
-        Some(_) => String::new(),
-        None => format!(": cargo grade --task {}", task.id),
     };
     writeln!(
         out,

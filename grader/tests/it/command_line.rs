@@ -38,7 +38,38 @@ fn a_place_without_a_submission_is_the_callers_fault() {
 
     let (code, error) = told(&["Cargo.toml"]);
     assert_eq!(code, 2);
-    assert!(error.contains("is not a folder: unpack it"), "{error}");
+    assert!(error.contains("is neither a folder nor a .zip"), "{error}");
+}
+
+#[test]
+fn an_archive_is_graded_like_the_folder_in_it() {
+    let submission = Submission::case("panicking");
+    let folder = submission.grade().score();
+    let file = submission.path().with_extension("tar.gz");
+    let packed = flate2::write::GzEncoder::new(
+        fs::File::create(&file).unwrap(),
+        flate2::Compression::fast(),
+    );
+    let mut packed = tar::Builder::new(packed);
+    packed
+        .append_dir_all("handed-in", submission.path())
+        .unwrap();
+    packed.into_inner().unwrap().finish().unwrap();
+
+    let out = submission.path().join("out");
+    let output = grader()
+        .arg("--no-reference")
+        .arg(&file)
+        .arg("--out")
+        .arg(&out)
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    let score: serde_json::Value =
+        serde_json::from_slice(&fs::read(out.join("score.json")).unwrap()).unwrap();
+    for part in ["submission", "tasks", "build", "points"] {
+        assert_eq!(score[part], folder[part], "{part}");
+    }
 }
 
 #[test]

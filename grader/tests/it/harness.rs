@@ -105,6 +105,7 @@ impl Submission {
             .unwrap();
         Graded {
             output,
+            submission: self.path(),
             score: fs::read(out.join("score.json")).ok(),
         }
     }
@@ -120,6 +121,8 @@ pub fn grader() -> Command {
 /// What came of one run.
 pub struct Graded {
     pub output: Output,
+    /// Where the submission lies.
+    submission: PathBuf,
     /// The score file's bytes, if there is one.
     pub score: Option<Vec<u8>>,
 }
@@ -132,6 +135,8 @@ impl Graded {
     /// What is read on a terminal, but for the last lines: where the files are.
     pub fn report(&self) -> String {
         let text = String::from_utf8(self.output.stdout.clone()).unwrap();
+        // In the commands that it gives: another folder in each run.
+        let text = text.replace(&*self.submission.to_string_lossy(), "SUBMISSION");
         let is_place = |line: &&str| line.ends_with("score.json") || line.ends_with("report.html");
         let lines = text.lines().filter(|line| !is_place(line));
         lines

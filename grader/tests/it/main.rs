@@ -5,10 +5,14 @@ mod bad_exams;
 mod bad_submissions;
 mod carried_forward;
 mod command_line;
+mod faults;
+mod formats;
 mod harness;
 mod hints;
 #[cfg(target_os = "linux")]
 mod isolation;
+mod packages;
+mod policies;
 mod scores;
 mod walls;
 mod watch;

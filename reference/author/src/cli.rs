@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::generated::Mode;
+use crate::package::Platform;
 
 /// Where the book goes unless told otherwise: beside everything else that is built.
 const BOOK: &str = "target/handout";
@@ -52,6 +53,27 @@ pub enum Command {
         #[arg(long, value_name = "FOLDER")]
         book: Option<PathBuf>,
         /// Unpack it on an empty home, do what its texts say, grade the starter and the reference
+        #[arg(long)]
+        check: bool,
+    },
+    /// What staff uploads to a platform that grades
+    Package {
+        /// Where it is graded
+        platform: Platform,
+        /// A name that ends with .zip, or a new folder
+        #[arg(long, value_name = "PLACE")]
+        out: PathBuf,
+        /// The final exam's seed: a long number that nobody guesses; for gradescope only
+        #[arg(long, value_name = "S", conflicts_with = "exam")]
+        exam_seed: Option<u64>,
+        /// The final exam, as `cargo author exam` has written it; for gradescope only
+        #[arg(long, value_name = "FILE")]
+        exam: Option<PathBuf>,
+        /// What counts, and who sees what; default: `cargo grade --policy-default`
+        #[arg(long, value_name = "FILE")]
+        policy: Option<PathBuf>,
+        /// Set it up as the platform does, without a network, and grade the starter and the
+        /// reference there; for gradescope on Linux, as root
         #[arg(long)]
         check: bool,
     },

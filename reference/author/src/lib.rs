@@ -11,6 +11,7 @@ pub mod handout;
 pub mod hints;
 pub mod items;
 pub mod oracle;
+pub mod package;
 pub mod proof;
 pub mod recorded;
 pub mod scenes;

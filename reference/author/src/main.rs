@@ -8,6 +8,7 @@ use author::bundle::secrets::Secrets;
 use author::bundle::{self, Bundle, archive};
 use author::cli::{Cli, Command};
 use author::generated::{Generated, Mode, deliver};
+use author::package::{self, Course, Platform, trial};
 use author::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, calibrate, table};
 use author::proof::exhibits::{Exhibits, NotProven};
 use author::proof::matrix;
@@ -47,6 +48,18 @@ fn run(command: Command) -> Done {
         Command::Bundle { out, book, check } => {
             let bundle = Bundle::collect(root, book.as_deref())?;
             hand_out(root, &bundle, out.as_deref(), check)
+        }
+        Command::Package {
+            platform,
+            out,
+            exam_seed,
+            exam,
+            policy,
+            check,
+        } => {
+            let course = Course::new(exam_seed, exam.as_deref(), policy.as_deref())?;
+            let package = package::collect(root, platform, course)?;
+            pack(root, platform, &package, &out, check)
         }
         Command::Mistakes(check) => put(&[matrix::generated()?], check.mode(), "mistakes"),
         Command::Mutants { fast, check } => ask_mutants(root, Extent::new(fast), check.mode()),
@@ -132,6 +145,30 @@ fn hand_out(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -> Do
         archive::write(bundle, out)?;
     }
     Ok(())
+}
+
+/// Writes a platform's package. What students can read is searched for secrets before.
+fn pack(root: &Path, platform: Platform, package: &Bundle, out: &Path, check: bool) -> Done {
+    match platform {
+        Platform::Gradescope => {
+            let is_zip = out.extension().is_some_and(|extension| extension == "zip");
+            if !is_zip {
+                return Err("Gradescope takes a zip: let --out end with .zip".into());
+            }
+            std::fs::write(out, archive::zip_below(package, "")?)?;
+            let (count, size) = (package.files.len(), package.size() / 1_000_000);
+            println!("{count} files, {size} MB unpacked: {}", out.display());
+            match check {
+                true => conclude(
+                    &trial::gradescope(root, out)?,
+                    "it grades as Gradescope runs it",
+                ),
+                false => Ok(()),
+            }
+        }
+        Platform::Classroom50 => Ok(archive::write_folder(package, out)?),
+        Platform::Github => hand_out(root, package, Some(out), check),
+    }
 }
 
 fn ask_mutants(root: &Path, extent: Extent, mode: Mode) -> Done {

@@ -3,15 +3,14 @@
 
 mod builders;
 
-use author::items::build;
+use author::items::build::{self, HONEST, by_the_sweep};
+use author::oracle::buckets::Extent;
 use author::seed::Seed;
 use grader::exam::{Asked, Item, Key};
 use protocol::Question;
 
-use crate::builders::{Extent, Splitter};
+use crate::builders::Splitter;
 
-/// What every honest builder must stay below: the judge gives full marks up to 1.12.
-const HONEST: f64 = 1.06;
 /// What bad ones must be above: the judge gives half marks up to 1.25.
 const BAD: f64 = 1.3;
 
@@ -25,10 +24,7 @@ fn cost_items(seed: u64) -> Vec<Item> {
 
 /// The cost of the tree that this splitter makes, by the cost of the exact sweep.
 fn ratio(item: &Item, splitter: Splitter) -> f64 {
-    ratio_of(&item.questions[0], splitter)
-}
-
-fn ratio_of(asked: &Asked, splitter: Splitter) -> f64 {
+    let asked = &item.questions[0];
     let Question::Build {
         shapes,
         max_leaf_size,
@@ -52,7 +48,7 @@ fn bucketed_builders_come_close_to_the_sweep() {
         for item in cost_items(seed) {
             for count in [8, 12, 16, 32] {
                 for extent in [Extent::Centers, Extent::Bounds] {
-                    let ratio = ratio(&item, Splitter::Buckets { count, extent });
+                    let ratio = by_the_sweep(&item.questions[0], count, extent);
                     println!("{seed} {} {count} {extent:?}: {ratio:.3}", item.id);
                     assert!(
                         ratio <= HONEST,
@@ -124,11 +120,8 @@ fn eight_buckets_or_more_find_the_one_best_split_and_four_do_not() {
         let questions = one_split(seed);
         for extent in [Extent::Centers, Extent::Bounds] {
             let ratios = |count: usize| -> Vec<f64> {
-                let splitter = Splitter::Buckets { count, extent };
-                questions
-                    .iter()
-                    .map(|asked| ratio_of(asked, splitter))
-                    .collect()
+                let ratio = |asked| by_the_sweep(asked, count, extent);
+                questions.iter().map(ratio).collect()
             };
             for count in [8, 9, 10, 11, 12, 13, 16, 20, 25, 32, 40, 64] {
                 let ratios = ratios(count);

@@ -8,6 +8,7 @@ use protocol::{
     Tree,
 };
 
+use crate::ask::Ask;
 use crate::attempt::{attempt, each};
 use crate::integrator::{Sampling, radiance};
 use crate::scene::Scene;
@@ -46,32 +47,32 @@ fn first<T>(panic: Panic, count: usize) -> Vec<Outcome<T>> {
 pub fn rays(
     camera: &PinholeCamera,
     samples: &Samples,
-    ask: &mut dyn FnMut(UVec2, Vec2) -> Ray,
+    submission: &mut dyn Ask<(UVec2, Vec2), Ray>,
 ) -> Answer {
     let samples = samples.on(camera.film);
     Answer::Rays(each(&samples, |sample: &Sample| {
-        ask(sample.pixel, sample.offset)
+        submission.ask((sample.pixel, sample.offset))
     }))
 }
 
 /// A hit, or none, for each ray.
-pub fn hits(rays: &Rays, ask: &mut dyn FnMut(&Ray) -> Option<Trace>) -> Answer {
-    Answer::Hits(each(&rays.to_vec(), ask))
+pub fn hits(rays: &Rays, submission: &mut dyn for<'a> Ask<&'a Ray, Option<Trace>>) -> Answer {
+    Answer::Hits(each(&rays.to_vec(), |ray| submission.ask(ray)))
 }
 
 /// The times inside a box, or none, for each shot.
 pub fn spans(
     shots: &[(Ray, Interval)],
-    ask: &mut dyn FnMut(&Ray, Interval) -> Option<Interval>,
+    submission: &mut dyn for<'a> Ask<(&'a Ray, Interval), Option<Interval>>,
 ) -> Answer {
-    Answer::Spans(each(shots, |(ray, times)| ask(ray, *times)))
+    Answer::Spans(each(shots, |(ray, times)| submission.ask((ray, *times))))
 }
 
 /// The tree that is built over so many primitives.
-pub fn tree(primitives: usize, build: &mut dyn FnMut() -> Tree) -> Answer {
+pub fn tree(primitives: usize, submission: &mut dyn Ask<(), Tree>) -> Answer {
     let most = Question::most_nodes(primitives);
     Answer::Tree(attempt(|| {
-        let tree = build();
+        let tree = submission.ask(());
         assert!(
             tree.nodes.len() <= most && tree.order.len() <= most,
             "{primitives} primitives became {} nodes over {} primitives",

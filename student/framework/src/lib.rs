@@ -5,6 +5,7 @@
 //! [`submission`].
 
 pub mod answer;
+pub mod ask;
 pub mod attempt;
 #[cfg(test)]
 mod balls;

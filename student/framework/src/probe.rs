@@ -12,7 +12,7 @@ use protocol::wire::{self, WireError};
 use crate::answer;
 use crate::attempt::keep_panics_quiet;
 use crate::submission::Submission;
-use crate::system::claim_standard_streams;
+use crate::system::{claim_standard_streams, end_with_the_grader};
 
 /// The stack that a submission's recursion may use.
 pub const STACK_BYTES: usize = 64 << 20;
@@ -22,6 +22,7 @@ const LONGEST_QUESTION: usize = 256 << 20;
 
 /// Answers questions until there are no more.
 pub fn main(submission: &dyn Submission) -> ExitCode {
+    end_with_the_grader();
     let (questions, answers) = match claim_standard_streams() {
         Ok(streams) => streams,
         Err(error) => {

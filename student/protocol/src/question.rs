@@ -106,7 +106,7 @@ impl Question {
     /// The most nodes that are read of a tree over this many primitives: a binary tree with a
     /// primitive in each leaf needs `2n - 1`; the rest is room for nodes left unused.
     pub fn most_nodes(primitives: usize) -> usize {
-        4 * primitives + 64
+        primitives.saturating_mul(4).saturating_add(64)
     }
 
     /// The most bytes that an honest answer takes on the wire.
@@ -121,9 +121,11 @@ impl Question {
             | Question::BuildAndTraverse { .. }
             | Question::BBox { .. }
             | Question::Done => self.count(),
-            Question::Build { shapes, .. } => shapes.len() + Self::most_nodes(shapes.len()),
-            Question::Radiance { film, .. } => film.x as usize * film.y as usize,
+            Question::Build { shapes, .. } => {
+                Self::most_nodes(shapes.len()).saturating_add(shapes.len())
+            }
+            Question::Radiance { film, .. } => (film.x as usize).saturating_mul(film.y as usize),
         };
-        PANICS + elements * ELEMENT
+        elements.saturating_mul(ELEMENT).saturating_add(PANICS)
     }
 }

@@ -57,7 +57,10 @@ impl Samples {
     pub fn count(&self, film: UVec2) -> usize {
         match self {
             Samples::List(list) => list.len(),
-            Samples::EveryPixel => film.x as usize * film.y as usize * OFFSETS.len(),
+            // As many as there can be, where there are too many to be counted.
+            Samples::EveryPixel => (film.x as usize)
+                .saturating_mul(film.y as usize)
+                .saturating_mul(OFFSETS.len()),
         }
     }
 }

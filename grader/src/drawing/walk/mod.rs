@@ -87,7 +87,8 @@ fn explain(sheet: &mut Sheet, encounter: &Encounter, plan: &Plan) {
     match encounter.got {
         Got::Hit(met) => {
             let distance = describe::number(met.distance as f32);
-            let words = format!("got: a hit at {distance}{}", leaf(plan.got));
+            let trap = plan.trap().map_or("", |_| ", a trap");
+            let words = format!("got: a hit at {distance}{}{trap}", leaf(plan.got));
             sheet.explain(Sign::Mark(Mark::Wrong), &words);
         }
         Got::Miss => sheet.explain(Sign::None, "got: no hit"),

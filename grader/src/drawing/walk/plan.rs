@@ -25,6 +25,16 @@ pub(super) enum Fate {
     Elided,
 }
 
+impl Fate {
+    /// Whether a right walk came to the node, and did not enter it.
+    pub(super) fn is_passed_by(self) -> bool {
+        match self {
+            Fate::Missed | Fate::OutOfRange | Fate::Beyond => true,
+            Fate::Entered | Fate::Elided => false,
+        }
+    }
+}
+
 /// A node, or nodes that are left out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
@@ -98,6 +108,11 @@ impl Plan {
             is_node && self.way_to_got.contains(&row.node)
         });
         on_way.max_by_key(|row| row.depth)
+    }
+
+    /// Where the answer comes from a leaf that no right walk enters: the row that leads there.
+    pub(super) fn trap(&self) -> Option<&Row> {
+        self.got_row().filter(|row| row.fate.is_passed_by())
     }
 
     /// Which of the entered nodes is the leaf with what is hit.

@@ -11,7 +11,7 @@ use crate::drawing::ink::{Fill, Ink, Line};
 /// The height of a row.
 const ROW: f64 = 17.0;
 /// Where the axis begins.
-pub(super) const LEFT: f64 = 142.0;
+pub(super) const LEFT: f64 = 156.0;
 /// So far a child stands to the right of its parent.
 const INDENT: f64 = 5.0;
 /// Deeper nodes are not indented any more.
@@ -45,6 +45,10 @@ pub(super) fn draw(
     for (i, row) in plan.rows.iter().enumerate() {
         let y = y + ROW * i as f64;
         draw_name(canvas, y, row);
+        let is_trap = plan.trap().is_some_and(|trap| trap.node == row.node);
+        if is_trap && row.fate.is_passed_by() {
+            canvas.text(dvec2(LEFT - 6.0, y + 13.0), Anchor::End, Ink::Text, "trap");
+        }
         draw_span(canvas, axis, y, row);
         let marks = [
             (hits[0].0, plan.wanted, Mark::Right),

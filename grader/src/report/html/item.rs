@@ -5,6 +5,7 @@ use maud::{Markup, PreEscaped, html};
 use super::pictures;
 use super::prose::prose;
 use super::said::{command, rows, said};
+use crate::again::Again;
 use crate::describe;
 use crate::drawing;
 use crate::exam::Item;
@@ -16,6 +17,7 @@ pub(super) fn failing(
     score: &ItemScore,
     item: Option<&Item>,
     exhibits: &Exhibits,
+    again: &Again,
     is_open: bool,
 ) -> Markup {
     let (asked, got, wanted) = three_rows(score, item);
@@ -35,8 +37,8 @@ pub(super) fn failing(
                 (drawn(score, item, exhibits))
                 (look(score))
                 (hints(score))
-                p .again { "Ask it again: " (command(&score.again())) }
-                @if let Some(item) = item { (pictures::failing(item, exhibits)) }
+                p .again { "Ask it again: " (command(&score.again(again))) }
+                @if let Some(item) = item { (pictures::failing(item, exhibits, again)) }
             }
         }
     }

@@ -61,7 +61,7 @@ pub fn page(score: &Score, exam: &Exam, exhibits: &Exhibits, reload: Reload) -> 
                     (summary::next(score))
                     (task::files(score))
                     @for task in &score.tasks {
-                        (task::section(task, exam, exhibits))
+                        (task::section(task, exam, exhibits, &score.again))
                     }
                 }
                 (footer(score))

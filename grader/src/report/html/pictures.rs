@@ -7,6 +7,7 @@ use maud::{Markup, html};
 use super::mask;
 use super::png::data_uri;
 use super::said::{command, rows, said};
+use crate::again::Again;
 use crate::describe;
 use crate::exam::Item;
 use crate::exhibit::Exhibits;
@@ -18,7 +19,7 @@ const PLANE: f32 = 64.0;
 const RING: f32 = 3.2;
 
 /// The pictures of an item that failed, question by question.
-pub(super) fn failing(item: &Item, exhibits: &Exhibits) -> Markup {
+pub(super) fn failing(item: &Item, exhibits: &Exhibits, again: &Again) -> Markup {
     let answers =
         (0..item.questions.len()).filter_map(|i| Some((i, exhibits.answer(&item.id, i)?)));
     let pictures = answers.filter_map(|(question, answer)| {
@@ -26,6 +27,7 @@ pub(super) fn failing(item: &Item, exhibits: &Exhibits) -> Markup {
             item,
             question,
             picture: picture::of(&item.questions[question], answer)?,
+            again,
             told: |element| describe::answer::got(answer, element),
         })
     });
@@ -57,6 +59,7 @@ struct Shown<'a, F: Fn(usize) -> String> {
     item: &'a Item,
     question: usize,
     picture: Picture,
+    again: &'a Again,
     told: F,
 }
 
@@ -158,7 +161,7 @@ impl<F: Fn(usize) -> String> Shown<'_, F> {
                                 ))
                                 p .again {
                                     "Ask it again: "
-                                    (command(&format!("cargo grade --replay {}#{number}", self.item.id)))
+                                    (command(&self.again.replay(&self.item.id, number)))
                                 }
                             }
                         }

@@ -4,6 +4,7 @@ use maud::{Markup, PreEscaped, html};
 
 use super::prose::prose;
 use super::said::{command, said};
+use crate::again::Again;
 use crate::sandbox::Isolation;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
 
@@ -77,7 +78,7 @@ pub(super) fn next(score: &Score) -> Markup {
             h2 #next { "What to do next" }
             @match score.items().find(fails) {
                 None => (nothing(score)),
-                Some(item) => (mend(item)),
+                Some(item) => (mend(item, &score.again)),
             }
         }
     }
@@ -94,7 +95,7 @@ fn nothing(score: &Score) -> Markup {
     }
 }
 
-fn mend(item: &ItemScore) -> Markup {
+fn mend(item: &ItemScore, again: &Again) -> Markup {
     let place = format!("#{}", item.id);
     html! {
         p {
@@ -114,6 +115,6 @@ fn mend(item: &ItemScore) -> Markup {
         @if let Some(look) = &item.look {
             p { (prose(look)) }
         }
-        p .again { "Ask it again: " (command(&item.again())) }
+        p .again { "Ask it again: " (command(&item.again(again))) }
     }
 }

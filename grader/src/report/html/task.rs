@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::item;
 use super::said::said;
+use crate::again::Again;
 use crate::exam::{Exam, Item};
 use crate::exhibit::Exhibits;
 use crate::picture;
@@ -35,7 +36,7 @@ pub(super) fn files(score: &Score) -> Markup {
 }
 
 /// One task: failing items first, then what was printed, then what passed.
-pub(super) fn section(task: &TaskScore, exam: &Exam, exhibits: &Exhibits) -> Markup {
+pub(super) fn section(task: &TaskScore, exam: &Exam, exhibits: &Exhibits, again: &Again) -> Markup {
     let is_failing = |item: &&ItemScore| item.points < item.max_points;
     let (failing, passed): (Vec<&ItemScore>, Vec<&ItemScore>) =
         task.items.iter().partition(is_failing);
@@ -48,7 +49,7 @@ pub(super) fn section(task: &TaskScore, exam: &Exam, exhibits: &Exhibits) -> Mar
             }
             @for (place, score) in failing.iter().enumerate() {
                 @let is_open = is_unfolded(place, score, asked(score));
-                (item::failing(score, asked(score), exhibits, is_open))
+                (item::failing(score, asked(score), exhibits, again, is_open))
             }
             @if let Some(printed) = &task.printed {
                 details #(format!("{}-printed", task.id)) .printed {

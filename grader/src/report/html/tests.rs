@@ -53,6 +53,7 @@ fn nothing_that_a_submission_says_is_more_than_text() {
     score.build.notes.push(HOSTILE.to_owned());
     score.build.not_compiled.push(FileReport {
         file: HOSTILE.to_owned(),
+        line: None,
         message: HOSTILE.to_owned(),
     });
     let panic = Outcome::Panicked(Panic {

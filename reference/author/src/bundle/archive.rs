@@ -45,6 +45,15 @@ pub fn write(bundle: &Bundle, out: &Path) -> Result<(), NotWritten> {
     if out.extension().is_some_and(|extension| extension == "zip") {
         return fs::write(out, zip(bundle)?).map_err(at);
     }
+    write_folder(bundle, out)
+}
+
+/// Writes a folder, which can be a Git repository, or the root of something else.
+pub fn write_folder(bundle: &Bundle, out: &Path) -> Result<(), NotWritten> {
+    let at = |source| NotWritten::Io {
+        path: out.to_owned(),
+        source,
+    };
     fs::create_dir_all(out).map_err(at)?;
     for entry in fs::read_dir(out).map_err(at)? {
         if entry.map_err(at)?.file_name() != ".git" {
@@ -64,21 +73,34 @@ pub(super) fn lay_out(bundle: &Bundle, folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// The archive's bytes.
+/// The archive's bytes: one folder, as students unpack it.
 pub fn zip(bundle: &Bundle) -> Result<Vec<u8>, ZipError> {
+    zip_below(bundle, &format!("{FOLDER}/"))
+}
+
+/// The archive's bytes, with all files below `top`, which is empty or ends with `/`.
+pub fn zip_below(bundle: &Bundle, top: &str) -> Result<Vec<u8>, ZipError> {
     // Whatever would differ from one machine or day to another is fixed here.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .compression_level(Some(9))
         .last_modified_time(DateTime::from_date_and_time(2000, 1, 1, 12, 0, 0)?)
-        .unix_permissions(0o644)
         .system(System::Unix);
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for (path, contents) in &bundle.files {
-        archive.start_file(format!("{FOLDER}/{path}"), options)?;
+        let options = options.unix_permissions(mode(contents));
+        archive.start_file(format!("{top}{path}"), options)?;
         archive.write_all(contents)?;
     }
     Ok(archive.finish()?.into_inner())
+}
+
+/// Scripts can be run.
+fn mode(contents: &[u8]) -> u32 {
+    match contents.starts_with(b"#!") {
+        true => 0o755,
+        false => 0o644,
+    }
 }
 
 /// What an archive holds, with the folder at its top taken off.

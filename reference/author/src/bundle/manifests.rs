@@ -53,6 +53,10 @@ pub(super) fn cut(root: &Path, bundle: &mut Bundle) -> Result<(), BadManifest> {
         for key in OF_TESTS {
             manifest.remove(key);
         }
+        // What is on unless told otherwise is on for the staff's sake.
+        if let Some(features) = manifest.get_mut("features").and_then(Item::as_table_mut) {
+            features.remove("default");
+        }
         bundle.put(path, manifest.to_string());
     }
 

@@ -6,9 +6,10 @@
 
 pub mod archive;
 pub mod check;
+pub mod crates;
 mod lock;
 mod manifests;
-mod parts;
+pub mod parts;
 pub mod secrets;
 mod untested;
 

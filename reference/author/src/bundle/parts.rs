@@ -17,7 +17,9 @@ const PARTS: [&str; 7] = [
     "student/protocol",
 ];
 /// What only the staff needs, wherever it lies in those folders.
-const LEFT_OUT: [&str; 3] = ["tests", "benches", "target"];
+const LEFT_OUT: [&str; 4] = ["tests", "benches", "fuzz", "target"];
+/// What grades a class, which no student has.
+const CLASS: &str = "grader/class";
 /// Made from the reference, and never taken from disk.
 const PROJECTED: &str = "grader/starter";
 /// Where an exam may lie that is not to be seen yet.
@@ -49,7 +51,7 @@ pub(super) fn copy(root: &Path, bundle: &mut Bundle) -> Result<(), Unusable> {
 }
 
 /// Takes what is at `place`, and all below it, to the bundle's `path`.
-pub(super) fn take(place: &Path, path: &str, bundle: &mut Bundle) -> Result<(), Unusable> {
+pub(crate) fn take(place: &Path, path: &str, bundle: &mut Bundle) -> Result<(), Unusable> {
     let at = |source| Unusable::Io {
         path: place.to_owned(),
         source,
@@ -77,7 +79,8 @@ pub(super) fn take(place: &Path, path: &str, bundle: &mut Bundle) -> Result<(), 
 fn is_handed_out(path: &str, name: &str) -> bool {
     let secret = path.starts_with(EXAMS) && path != EXAMS && path != PRACTICE;
     let hidden = name.starts_with('.');
-    !(secret || hidden || path == PROJECTED || LEFT_OUT.contains(&name))
+    let whole = [PROJECTED, CLASS].contains(&path);
+    !(secret || hidden || whole || LEFT_OUT.contains(&name))
 }
 
 #[cfg(test)]
@@ -98,6 +101,7 @@ mod tests {
     fn what_staff_and_editors_leave_behind_stays() {
         for path in [
             "grader/tests",
+            "grader/class",
             "student/protocol/tests",
             "scenes/.flat.json.swp",
         ] {

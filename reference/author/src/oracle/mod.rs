@@ -2,6 +2,7 @@
 //! students are taught, so that one slip can not hide in both.
 
 pub mod bbox;
+pub mod buckets;
 pub mod camera;
 pub mod scan;
 pub mod sphere;

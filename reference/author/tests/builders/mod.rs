@@ -1,4 +1,4 @@
-//! Builders that people write, good and bad.
+//! Bad builders that people write.
 
 use author::oracle::bbox::Bounds;
 use author::oracle::scan;
@@ -7,9 +7,7 @@ use protocol::Shape;
 /// How a node is split.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Splitter {
-    /// Binned SAH over all three axes.
-    Buckets { count: usize, extent: Extent },
-    /// The same over one axis.
+    /// Binned SAH over one axis.
     OneAxis(usize),
     /// At the middle of the longest axis of the centers.
     Middle,
@@ -19,15 +17,6 @@ pub enum Splitter {
     AreaPerBucket,
     /// The most expensive partition.
     Worst,
-}
-
-/// What the buckets divide evenly.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Extent {
-    /// The box around the primitives' centers.
-    Centers,
-    /// The node's own box.
-    Bounds,
 }
 
 /// The cost of the tree over these shapes: C_trav = C_isect = 1, areas by the root's.
@@ -56,11 +45,8 @@ fn split(boxes: &mut Vec<Bounds>, splitter: Splitter) -> Vec<Bounds> {
     let size = centers.max - centers.min;
     let longest = (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap();
     let is_left: Box<dyn Fn(&Bounds) -> bool> = match splitter {
-        Splitter::Buckets { count, extent } => by_buckets(boxes, 0..3, count, extent, splitter),
-        Splitter::OneAxis(axis) => by_buckets(boxes, axis..axis + 1, 16, Extent::Centers, splitter),
-        Splitter::AreaPerBucket | Splitter::Worst => {
-            by_buckets(boxes, 0..3, 16, Extent::Centers, splitter)
-        }
+        Splitter::OneAxis(axis) => by_buckets(boxes, axis..axis + 1, splitter),
+        Splitter::AreaPerBucket | Splitter::Worst => by_buckets(boxes, 0..3, splitter),
         Splitter::Middle => {
             let middle = centers.center()[longest];
             Box::new(move |bounds| bounds.center()[longest] < middle)
@@ -79,14 +65,10 @@ fn split(boxes: &mut Vec<Bounds>, splitter: Splitter) -> Vec<Bounds> {
 fn by_buckets(
     boxes: &[Bounds],
     axes: std::ops::Range<usize>,
-    count: usize,
-    extent: Extent,
     splitter: Splitter,
 ) -> Box<dyn Fn(&Bounds) -> bool> {
-    let over = match extent {
-        Extent::Centers => Bounds::around(boxes.iter().map(Bounds::center)),
-        Extent::Bounds => around(boxes),
-    };
+    let count = 16;
+    let over = Bounds::around(boxes.iter().map(Bounds::center));
     let bucket = move |bounds: &Bounds, axis: usize| {
         let size = over.max[axis] - over.min[axis];
         let part = (bounds.center()[axis] - over.min[axis]) / size;
@@ -106,8 +88,7 @@ fn by_buckets(
             let side = |side: &[Bounds], own: &[Bounds]| {
                 let measured = match splitter {
                     Splitter::AreaPerBucket => own,
-                    Splitter::Buckets { .. }
-                    | Splitter::OneAxis(_)
+                    Splitter::OneAxis(_)
                     | Splitter::Middle
                     | Splitter::Median
                     | Splitter::Worst => side,

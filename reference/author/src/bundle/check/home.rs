@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use serde::Deserialize;
+use crate::bundle::crates::{self, NoCrates};
 
 /// A home, and the programs of a freshly installed Rust.
 #[derive(Debug)]
@@ -23,12 +23,9 @@ pub enum NoHome {
     /// Cargo did not start us.
     #[error("cargo has to say where it is: run `cargo author bundle --check`")]
     NoCargo,
-    /// There is no folder of fetched crates.
-    #[error("can not find cargo's own folder: set CARGO_HOME")]
-    NoCargoHome,
-    /// The lock file makes no sense.
-    #[error("the bundle's lock file: {0}")]
-    Lock(#[from] toml::de::Error),
+    /// The crates are not at hand.
+    #[error(transparent)]
+    Crates(#[from] NoCrates),
     /// The system does not let us.
     #[error("can not furnish {}: {source}", path.display())]
     Io {
@@ -37,17 +34,6 @@ pub enum NoHome {
         /// The system's words.
         source: io::Error,
     },
-}
-
-#[derive(Deserialize)]
-struct Lock {
-    package: Vec<Package>,
-}
-
-#[derive(Deserialize)]
-struct Package {
-    name: String,
-    version: String,
 }
 
 impl Home {
@@ -66,9 +52,10 @@ impl Home {
         if home.folder.exists() {
             fs::remove_dir_all(&home.folder).map_err(at)?;
         }
-        let lock: Lock = toml::from_str(lock)?;
-        let fetched = cargo_home()?.join("registry");
-        fetch(&lock, &fetched, &home.cargo_home().join("registry")).map_err(at)?;
+        let registry = home.cargo_home().join("registry");
+        for (path, contents) in crates::fetched(lock)? {
+            write(&registry.join(path), &contents).map_err(at)?;
+        }
         Ok(home)
     }
 
@@ -114,47 +101,7 @@ impl Home {
     }
 }
 
-fn cargo_home() -> Result<PathBuf, NoHome> {
-    env::var_os("CARGO_HOME")
-        .map(PathBuf::from)
-        .or_else(|| Some(env::home_dir()?.join(".cargo")))
-        .ok_or(NoHome::NoCargoHome)
-}
-
-/// Copies of a registry's folder what the lock file names: what is told of each crate, and its
-/// archive. Crates for other systems are not there, and not needed.
-fn fetch(lock: &Lock, from: &Path, to: &Path) -> io::Result<()> {
-    for registry in fs::read_dir(from.join("index"))? {
-        let registry = registry?.file_name();
-        let place = Path::new("index").join(&registry);
-        for entry in fs::read_dir(from.join(&place))? {
-            copy_if_there(from, to, &place.join(entry?.file_name()))?;
-        }
-        for Package { name, version } in &lock.package {
-            let told = place.join(".cache").join(in_index(name));
-            copy_if_there(from, to, &told)?;
-            let archive = Path::new("cache").join(&registry);
-            copy_if_there(from, to, &archive.join(format!("{name}-{version}.crate")))?;
-        }
-    }
-    Ok(())
-}
-
-/// Where a registry's index tells of a crate (The Cargo Book, "Registry Index").
-fn in_index(name: &str) -> PathBuf {
-    let name = name.to_lowercase();
-    match name.len() {
-        length @ 1..=2 => Path::new(&length.to_string()).join(name),
-        3 => Path::new("3").join(&name[..1]).join(name),
-        _ => Path::new(&name[..2]).join(&name[2..4]).join(name),
-    }
-}
-
-fn copy_if_there(from: &Path, to: &Path, path: &Path) -> io::Result<()> {
-    let (from, to) = (from.join(path), to.join(path));
-    if from.is_file() {
-        to.parent().map_or(Ok(()), fs::create_dir_all)?;
-        fs::copy(from, to)?;
-    }
-    Ok(())
+fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
+    path.parent().map_or(Ok(()), fs::create_dir_all)?;
+    fs::write(path, contents)
 }

@@ -6,6 +6,7 @@ use protocol::{Question, Shape};
 use super::item;
 use crate::items::meshes;
 use crate::oracle::bbox::Bounds;
+use crate::oracle::buckets::{self, Extent};
 use crate::oracle::{scan, sweep};
 use crate::seed::{Draw, Seed};
 
@@ -24,11 +25,48 @@ pub(super) fn cost(shapes: Vec<Shape>, max_leaf_size: u32) -> Asked {
     Asked::new(question, key)
 }
 
+/// Every honest builder's tree costs at most this, by the cost of the exact sweep's: the judge gives
+/// full marks up to 1.12.
+pub const HONEST: f64 = 1.06;
+
+/// One question, about a mesh that is fair: drawn again until it is.
 fn cost_item(name: &str, points: u32, text: [&str; 2], draw_of: Draw, mesh: Mesh) -> Item {
     let mut draw = draw_of;
-    let shapes = mesh(&mut draw);
-    let shapes = meshes::numbered(draw.shuffled(shapes));
-    item(name, points, text, vec![cost(shapes, 4)])
+    let asked = draw.until(|draw| {
+        let shapes = mesh(draw);
+        let asked = cost(meshes::numbered(draw.shuffled(shapes)), 4);
+        (dearest_honest(&asked) <= HONEST).then_some(asked)
+    });
+    item(name, points, text, vec![asked])
+}
+
+/// The cost of the dearest tree that buckets lead to, by the cost of the exact sweep's. Now and then
+/// all planes of some builder just miss what divides a mesh best.
+pub fn dearest_honest(asked: &Asked) -> f64 {
+    let costs = [8, 12, 16, 17, 24, 32].into_iter().flat_map(|count| {
+        [Extent::Centers, Extent::Bounds].map(|extent| by_the_sweep(asked, count, extent))
+    });
+    costs.fold(0.0, f64::max)
+}
+
+/// What a bucketed builder's tree costs, by the cost of the exact sweep's.
+pub fn by_the_sweep(asked: &Asked, count: usize, extent: Extent) -> f64 {
+    match (&asked.question, &asked.key) {
+        (
+            Question::Build {
+                shapes,
+                max_leaf_size,
+            },
+            Key::Tree {
+                sweep_cost: Some(sweep),
+                ..
+            },
+        ) => {
+            let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
+            buckets::cost(&boxes, *max_leaf_size as usize, count, extent) / sweep
+        }
+        (question, _) => unreachable!("{question:?} is not about a tree's cost"),
+    }
 }
 
 type Mesh = fn(&mut Draw) -> Vec<Shape>;

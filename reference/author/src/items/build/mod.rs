@@ -12,6 +12,8 @@ use protocol::{Question, Shape};
 use super::meshes;
 use crate::seed::Seed;
 
+pub use cost::{HONEST, by_the_sweep};
+
 /// The items of the task `build`.
 pub fn items(seed: Seed) -> Vec<Item> {
     let all: [fn(Seed) -> Item; 16] = [
@@ -36,7 +38,8 @@ pub fn items(seed: Seed) -> Vec<Item> {
 }
 
 /// An item with one question more than its idea: without a tree, or with half of all in one leaf,
-/// it is wrong. How large leaves may be is the idea of one item. Its primitives lie far apart, so that no heuristic would rather keep them together.
+/// it is wrong. How large leaves may be is the idea of one item. Its primitives lie far apart, so that
+/// no heuristic would rather keep them together.
 fn item(name: &str, points: u32, text: [&str; 2], mut questions: Vec<Asked>) -> Item {
     let mut draw = Seed(0).draw("build.control");
     let soup = meshes::soup(&mut draw, 24, 2.0, 0.1);

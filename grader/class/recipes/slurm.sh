@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# A class on a Slurm cluster: an array with a part of it in each task, then all parts merged.
+#
+#   INPUT=export.zip OUT=/shared/graded SHARDS=16 bash slurm.sh
+#
+# INPUT and OUT must be on a disk that all nodes see. Whatever fails: the same command again grades
+# only what is missing. OPTIONS go to every `cargo class`, such as "--exam final.json".
+set -euo pipefail
+
+: "${INPUT:?the export or folder}" "${OUT:?the folder for the results}"
+: "${SHARDS:=8}" "${CLASS:=cargo class}" "${OPTIONS:=}"
+export INPUT OUT SHARDS CLASS OPTIONS
+
+# shellcheck disable=SC2086 # CLASS and OPTIONS are several words
+case "${STEP:-submit}" in
+submit)
+    export STEP=shard
+    array=$(sbatch --parsable --array="1-$SHARDS" "$0")
+    export STEP=merge
+    sbatch --parsable --dependency="afterok:$array" "$0"
+    ;;
+shard)
+    $CLASS "$INPUT" $OPTIONS --shard "$SLURM_ARRAY_TASK_ID/$SHARDS" --out "$OUT/shards/$SLURM_ARRAY_TASK_ID"
+    ;;
+merge)
+    $CLASS merge "$OUT"/shards/* --out "$OUT"
+    ;;
+esac

@@ -1,0 +1,54 @@
+//! Moodle's grading worksheet. Only `Grade` and the feedback are read back, by the participant's
+//! number; whoever can not be graded any more is left alone.
+
+use std::path::Path;
+
+use super::{Filled, Key, Shape, column, fill, key, known, maximum_warning};
+use crate::model::Class;
+use crate::table::{BadTable, Table};
+
+const REMEDY: &str =
+    "download the grading worksheet from the assignment's page (it must allow offline grading)";
+
+/// The worksheet at `path`, with the class's points.
+pub fn moodle(path: &Path, class: &Class) -> Result<Filled, BadTable> {
+    let table = Table::read(path)?;
+    let identifier = column(&table, path, "Identifier", REMEDY)?;
+    let target = column(&table, path, "Grade", REMEDY)?;
+    let name = table.column("Full name");
+    let locked = table.column("Grade can be changed");
+    let maximum = table.column("Maximum Grade");
+    let maximum = maximum.and_then(|column| table.rows.first()?.get(column).cloned());
+    let warning = maximum.and_then(|maximum| maximum_warning(class, &maximum));
+
+    let mut keys = vec![Key {
+        of_row: Box::new(move |row| participant(&row[identifier])),
+        of_person: |person| known(&person.number),
+    }];
+    let id_number = table.column("ID number");
+    keys.extend(id_number.map(|column| key(column, |person| known(&person.sid))));
+    let email = table.column("Email address");
+    keys.extend(email.map(|column| key(column, |person| known(&person.email))));
+    keys.extend(name.map(|column| key(column, |person| known(&person.name))));
+    let is_locked =
+        |row: &[String]| locked.is_some_and(|column| row[column].trim().eq_ignore_ascii_case("no"));
+    let mut filled = fill(
+        Shape {
+            title: "Moodle".to_owned(),
+            table,
+            target,
+            keys,
+            is_person: &|row| !row[identifier].trim().is_empty() && !is_locked(row),
+            name: &|row| row[name.unwrap_or(identifier)].clone(),
+        },
+        class,
+    );
+    filled.warnings.extend(warning);
+    Ok(filled)
+}
+
+/// `123` of `Participant 123`, whatever the language of the site.
+fn participant(identifier: &str) -> String {
+    let number = identifier.rsplit(' ').next();
+    number.unwrap_or(identifier).to_owned()
+}

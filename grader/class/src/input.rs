@@ -1,0 +1,197 @@
+//! The input, wherever it lies: a folder as it stands, an archive unpacked where it vanishes.
+
+use std::fs;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use grader::submission::{Archive, Member, NoSubmission, Refused, Submission};
+use grader::tame::tame;
+use tempfile::TempDir;
+
+use crate::entry::{Entry, Source};
+use crate::layout::{self, BadMetadata, Found, METADATA};
+use crate::listing::{Node, list};
+
+/// The longest file that is taken out of an export, in bytes: somebody's whole archive.
+const LONGEST: u64 = 64 << 20;
+/// Folders in an export that nobody is graded by.
+const SKIPPED: [&str; 3] = [".git", "target", "__MACOSX"];
+
+/// The class as it was found, and where its files are for as long as this lives.
+#[derive(Debug)]
+pub struct Input {
+    /// Who handed in what.
+    pub found: Found,
+    /// The folder of the class: where lists lie beside the submissions.
+    pub root: Node,
+    _unpacked: Option<TempDir>,
+}
+
+/// There is no class to be found.
+#[derive(Debug, thiserror::Error)]
+pub enum NoClass {
+    /// There is nothing at this place.
+    #[error("there is no {0}: name the folder or archive that the platform gave you")]
+    Nowhere(PathBuf),
+    /// The system does not let us.
+    #[error("can not read {path}: {source}")]
+    Io {
+        /// What.
+        path: PathBuf,
+        /// The system's words.
+        source: io::Error,
+    },
+    /// The archive is not one that is read.
+    #[error("{path}: {why}")]
+    Refused {
+        /// Which.
+        path: PathBuf,
+        /// What is wrong with it.
+        why: Refused,
+    },
+    /// Gradescope's list is not as it should be.
+    #[error(transparent)]
+    Metadata(#[from] BadMetadata),
+    /// Nobody is in it.
+    #[error(
+        "{0} holds no submissions: name the folder of a class; one alone is graded by `cargo grade`"
+    )]
+    Nobody(PathBuf),
+}
+
+impl Input {
+    /// Looks at the folder or archive at `path`.
+    pub fn open(path: &Path) -> Result<Self, NoClass> {
+        let at = |source| NoClass::Io {
+            path: path.to_owned(),
+            source,
+        };
+        let unpacked = match fs::metadata(path) {
+            Err(_) => return Err(NoClass::Nowhere(path.to_owned())),
+            Ok(kind) if kind.is_dir() => None,
+            Ok(_) => Some(unpack(path)?),
+        };
+        let folder = match &unpacked {
+            Some(folder) => folder.path().to_owned(),
+            None => path.canonicalize().map_err(at)?,
+        };
+        let listed = list(&folder).map_err(at)?;
+        let root = layout::unwrapped(&listed).clone();
+        let metadata = root.find(METADATA).map(|node| fs::read(&node.path));
+        let metadata = metadata.transpose().map_err(at)?;
+        let metadata = metadata.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+        let found = layout::recognise(&root, metadata.as_deref())?;
+        match found.entries.is_empty() {
+            true => Err(NoClass::Nobody(path.to_owned())),
+            false => Ok(Input {
+                found,
+                root,
+                _unpacked: unpacked,
+            }),
+        }
+    }
+}
+
+/// An export's files, in a folder that vanishes. What is in them is looked at later, one by one.
+fn unpack(path: &Path) -> Result<TempDir, NoClass> {
+    let refused = |why| NoClass::Refused {
+        path: path.to_owned(),
+        why,
+    };
+    let at = |source| NoClass::Io {
+        path: path.to_owned(),
+        source,
+    };
+    let mut archive = Archive::open(path).map_err(refused)?;
+    let members = archive.members().map_err(refused)?;
+    let is_wanted = |member: &&Member| !member.path.split('/').any(|part| SKIPPED.contains(&part));
+    let wanted: Vec<&Member> = members.iter().filter(is_wanted).collect();
+    let folder = TempDir::new().map_err(at)?;
+    let put = |member: &Member, bytes: Vec<u8>| {
+        let place = Path::new(&member.path);
+        let is_inside = place
+            .components()
+            .all(|part| matches!(part, Component::Normal(_)));
+        if is_inside && bytes.len() as u64 <= LONGEST {
+            let place = folder.path().join(place);
+            fs::create_dir_all(place.parent().unwrap_or(folder.path()))?;
+            fs::write(place, bytes)?;
+        }
+        Ok(())
+    };
+    // A few at a time, so that a big export needs little memory.
+    for some in wanted.chunks(archive.cheap_at_once()) {
+        let contents = archive.read(some, LONGEST).map_err(refused)?;
+        for (member, bytes) in some.iter().zip(contents) {
+            put(member, bytes).map_err(at)?;
+        }
+    }
+    Ok(folder)
+}
+
+/// The five files of an entry, or why there are none: which is its own matter.
+pub fn collect(entry: &Entry) -> Result<Submission, String> {
+    let mut submission = match &entry.source {
+        Source::Path(path) => of_path(path)?,
+        Source::Files(files) => {
+            let submission = Submission::of_files(&entry.id, files);
+            match submission.files.iter().any(|(_, text)| text.is_ok()) {
+                true => submission,
+                false => return Err(none_of_five(files)),
+            }
+        }
+        Source::Nothing(why) => return Err(why.clone()),
+    };
+    submission.name.clone_from(&entry.id);
+    Ok(submission)
+}
+
+fn of_path(path: &Path) -> Result<Submission, String> {
+    match Submission::collect(path) {
+        Err(NoSubmission::NoneOfFive(folder)) if folder.is_dir() => in_archive(&folder),
+        other => other.map_err(|error| said(&error, path)),
+    }
+}
+
+/// What platforms put into a folder of its own is often one archive.
+fn in_archive(folder: &Path) -> Result<Submission, String> {
+    let listed = list(folder).map_err(|error| error.to_string())?;
+    let archives: Vec<&Node> = listed.nodes().iter().filter(|n| n.is_archive()).collect();
+    match archives.as_slice() {
+        [only] => Submission::collect(&only.path).map_err(|error| said(&error, folder)),
+        [] if listed.nodes().is_empty() => Err("nothing was handed in: the folder is empty".into()),
+        [] => Err("none of the five files was handed in".to_owned()),
+        several => Err(format!(
+            "{} archives were handed in: keep the one that counts",
+            several.len()
+        )),
+    }
+}
+
+/// Without the place, which is another one tomorrow.
+fn said(error: &NoSubmission, place: &Path) -> String {
+    let name = |path: &Path| {
+        path.file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned()
+    };
+    match error {
+        NoSubmission::Nowhere(_) | NoSubmission::Neither(_) => {
+            "it is not there any more".to_owned()
+        }
+        NoSubmission::NoneOfFive(_) => "none of the five files was handed in".to_owned(),
+        NoSubmission::Several { folders, .. } => {
+            let folders = tame(&folders.join(", "), 200);
+            format!("several submissions in one, in {folders}: keep the one that counts")
+        }
+        NoSubmission::Refused { path, why } if path == place => why.to_string(),
+        NoSubmission::Refused { path, why } => format!("{}: {why}", tame(&name(path), 200)),
+    }
+}
+
+fn none_of_five(files: &[(String, PathBuf)]) -> String {
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    let names = tame(&names.join(", "), 200);
+    format!("none of the five files was handed in, but {names}")
+}

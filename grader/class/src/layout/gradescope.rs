@@ -1,0 +1,122 @@
+//! Gradescope's "Export submissions": a folder for each, and `submission_metadata.yml`, whose keys
+//! are Ruby's symbols, with a colon in front.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+
+use super::{Entries, unmatched};
+use crate::entry::{About, Entry, Person, Source};
+use crate::listing::Node;
+
+/// The file that says whose each folder is.
+pub const METADATA: &str = "submission_metadata.yml";
+
+/// The metadata can not be read.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "{METADATA}: {0}; export the submissions again, or take the file away to go by folder names"
+)]
+pub struct BadMetadata(String);
+
+/// Of one submission. Whatever else stands there, such as earlier results, is passed over.
+#[derive(Debug, Deserialize)]
+struct Metadata {
+    #[serde(alias = ":submitters", default)]
+    submitters: Vec<Submitter>,
+    #[serde(alias = ":created_at", default)]
+    created_at: Option<Scalar>,
+}
+
+#[derive(Debug, Deserialize)]
+struct Submitter {
+    #[serde(alias = ":name", default)]
+    name: Option<Scalar>,
+    #[serde(alias = ":sid", default)]
+    sid: Option<Scalar>,
+    #[serde(alias = ":email", default)]
+    email: Option<Scalar>,
+}
+
+/// A number that nobody has quoted is text all the same.
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+enum Scalar {
+    Text(String),
+    Number(u64),
+    Other(IgnoredAny),
+}
+
+pub(super) fn read(root: &Node, metadata: &str) -> Result<Entries, BadMetadata> {
+    let mut known = parse(metadata)?;
+    let (mut entries, mut others) = (Vec::new(), Vec::new());
+    for node in root.nodes() {
+        match known.remove(&node.name) {
+            Some(metadata) => entries.push(entry(node, metadata)),
+            None if node.name == METADATA => {}
+            None => others.push(unmatched(node, "submission_metadata.yml does not know it")),
+        }
+    }
+    for (name, metadata) in known {
+        let about = about(&name, metadata);
+        let source = Source::Nothing("its folder is not in the export".to_owned());
+        entries.push(Entry {
+            id: name,
+            about,
+            source,
+        });
+    }
+    Ok((entries, others))
+}
+
+fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, BadMetadata> {
+    // The exports of big classes hold all that earlier graders said: more than strangers may send.
+    let budget = serde_saphyr::budget! {
+        max_reader_input_bytes: Some(256 << 20),
+        max_events: 50_000_000,
+        max_nodes: 50_000_000,
+        max_total_scalar_bytes: 256 << 20,
+    };
+    let options = serde_saphyr::options! { budget: budget };
+    serde_saphyr::from_str_with_options(metadata, options)
+        .map_err(|error| BadMetadata(error.to_string()))
+}
+
+fn entry(node: &Node, metadata: Metadata) -> Entry {
+    Entry {
+        id: node.name.clone(),
+        about: about(&node.name, metadata),
+        source: Source::Path(node.path.clone()),
+    }
+}
+
+fn about(name: &str, metadata: Metadata) -> About {
+    let text = |scalar: Option<Scalar>| scalar.and_then(Scalar::text).unwrap_or_default();
+    let person = |submitter: Submitter| Person {
+        name: text(submitter.name),
+        email: text(submitter.email),
+        sid: text(submitter.sid),
+        ..Person::default()
+    };
+    let mut people: Vec<Person> = metadata.submitters.into_iter().map(person).collect();
+    if people.is_empty() {
+        people.push(Person::named(name));
+    }
+    About {
+        people,
+        late: false,
+        submitted: metadata.created_at.and_then(Scalar::text),
+        from: name.to_owned(),
+    }
+}
+
+impl Scalar {
+    fn text(self) -> Option<String> {
+        match self {
+            Scalar::Text(text) => Some(text),
+            Scalar::Number(number) => Some(number.to_string()),
+            Scalar::Other(_) => None,
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! What people have, read into entries: each layout is recognised by looking, and pure.
+//!
+//! Their shapes are those of the platforms' own exports; what does not fit one is said, never
+//! dropped in silence.
+
+mod canvas;
+mod github;
+mod gradescope;
+mod moodle;
+mod plain;
+
+use std::collections::BTreeSet;
+
+use grader::given::TASK_FILES;
+
+use crate::entry::{Entry, folder_name};
+use crate::listing::Node;
+
+pub use gradescope::{BadMetadata, METADATA};
+
+/// A class, as it was found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Found {
+    /// What it looks like.
+    pub layout: Layout,
+    /// In the order of their ids.
+    pub entries: Vec<Entry>,
+    /// What belongs to nobody, and why.
+    pub unmatched: Vec<Unmatched>,
+}
+
+/// Something in the input that is no submission.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unmatched {
+    /// Its name.
+    pub name: String,
+    /// Why.
+    pub why: &'static str,
+}
+
+/// Where an input is from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// Gradescope's "Export submissions".
+    Gradescope,
+    /// Canvas's "Download submissions".
+    Canvas,
+    /// Moodle's "Download all submissions".
+    Moodle,
+    /// Clones of GitHub Classroom or classroom50.
+    GitHub,
+    /// A folder of folders or archives.
+    Plain,
+}
+
+impl Layout {
+    /// What people call it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Layout::Gradescope => "a Gradescope export",
+            Layout::Canvas => "a Canvas download",
+            Layout::Moodle => "a Moodle download",
+            Layout::GitHub => "clones from a GitHub classroom",
+            Layout::Plain => "folders and archives, one a student",
+        }
+    }
+}
+
+/// The class in this folder. `metadata` is the text of Gradescope's, where there is one.
+pub fn recognise(root: &Node, metadata: Option<&str>) -> Result<Found, BadMetadata> {
+    let root = unwrapped(root);
+    let (layout, (mut entries, unmatched)) = if let Some(metadata) = metadata {
+        (Layout::Gradescope, gradescope::read(root, metadata)?)
+    } else if most(root, |node| canvas::parse(&node.name).is_some()) {
+        (Layout::Canvas, canvas::read(root))
+    } else if most(root, |node| moodle::parse(&node.name).is_some()) {
+        (Layout::Moodle, moodle::read(root))
+    } else if github::prefix(root).is_some() {
+        (Layout::GitHub, github::read(root))
+    } else {
+        (Layout::Plain, plain::read(root))
+    };
+    entries.sort_by(|one, other| one.id.cmp(&other.id));
+    told_apart(&mut entries);
+    Ok(Found {
+        layout,
+        entries,
+        unmatched,
+    })
+}
+
+/// The folder itself, or the only one in it where that is but a wrapper around the class.
+pub fn unwrapped(root: &Node) -> &Node {
+    match root.nodes() {
+        [only] if only.is_folder() && !is_a_submission(only) => unwrapped(only),
+        _ => root,
+    }
+}
+
+/// Whether this one folder is somebody's work, and not a class.
+fn is_a_submission(node: &Node) -> bool {
+    let is_moodles = moodle::parse(&node.name).is_some();
+    let holds = |node: &Node| TASK_FILES.iter().any(|file| node.find(file.name).is_some());
+    let below = node.find("src").is_some_and(holds);
+    let student = node.find("student").and_then(|student| student.find("src"));
+    is_moodles || holds(node) || below || student.is_some_and(holds)
+}
+
+/// Whether more than half of what lies here is of a kind.
+fn most(root: &Node, is_one: impl Fn(&Node) -> bool) -> bool {
+    let count = root.nodes().iter().filter(|node| is_one(node)).count();
+    2 * count > root.nodes().len()
+}
+
+/// Two ids that a file system may take for one get numbers.
+fn told_apart(entries: &mut [Entry]) {
+    let mut taken = BTreeSet::new();
+    for entry in entries {
+        let wished = folder_name(&entry.id);
+        let mut id = wished.clone();
+        let mut number = 2;
+        while !taken.insert(id.to_lowercase()) {
+            id = format!("{wished}-{number}");
+            number += 1;
+        }
+        entry.id = id;
+    }
+}
+
+/// What a layout finds.
+type Entries = (Vec<Entry>, Vec<Unmatched>);
+
+/// Something that belongs to nobody.
+fn unmatched(node: &Node, why: &'static str) -> Unmatched {
+    Unmatched {
+        name: node.name.clone(),
+        why,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,80 @@
+//! What lies in a folder, as far down as layouts look.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// How far down.
+const DEPTH: usize = 3;
+/// Where nothing was handed in, however much lies there.
+const SKIPPED: [&str; 3] = ["__MACOSX", "target", "node_modules"];
+
+/// A file or a folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Node {
+    /// Its own name.
+    pub name: String,
+    /// Where it is.
+    pub path: PathBuf,
+    /// What is in it, in the order of names, if it is a folder.
+    pub inside: Option<Vec<Node>>,
+}
+
+impl Node {
+    /// Whether it is a folder.
+    pub fn is_folder(&self) -> bool {
+        self.inside.is_some()
+    }
+
+    /// What is in it; nothing in a file.
+    pub fn nodes(&self) -> &[Node] {
+        self.inside.as_deref().unwrap_or_default()
+    }
+
+    /// The one in it of this name.
+    pub fn find(&self, name: &str) -> Option<&Node> {
+        self.nodes().iter().find(|node| node.name == name)
+    }
+
+    /// Whether its name is that of an archive, readable or not.
+    pub fn is_archive(&self) -> bool {
+        let lower = self.name.to_lowercase();
+        let ends = [".zip", ".tar", ".tar.gz", ".tgz", ".rar", ".7z"];
+        !self.is_folder() && ends.iter().any(|end| lower.ends_with(end))
+    }
+}
+
+/// The listing of a folder. Hidden files and links are left out; names are text.
+pub fn list(folder: &Path) -> io::Result<Node> {
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    Ok(Node {
+        name: name.into_owned(),
+        path: folder.to_owned(),
+        inside: Some(inside(folder, DEPTH)?),
+    })
+}
+
+fn inside(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
+    let mut nodes = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if name.starts_with('.') || SKIPPED.contains(&name.as_str()) {
+            continue;
+        }
+        let kind = entry.file_type()?;
+        let inside = match (kind.is_dir(), depth) {
+            (true, 0) => Some(Vec::new()),
+            (true, _) => Some(inside(&entry.path(), depth - 1)?),
+            (false, _) if kind.is_file() => None,
+            (false, _) => continue,
+        };
+        nodes.push(Node {
+            name,
+            path: entry.path(),
+            inside,
+        });
+    }
+    nodes.sort_by(|one, other| one.name.cmp(&other.name));
+    Ok(nodes)
+}

@@ -1,0 +1,108 @@
+//! How far along: on a terminal a bar and a line for each submission at work, else a plain line
+//! for each that is done. All of it goes to the standard error.
+
+use std::io::{self, IsTerminal};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+
+use crate::outcome::{Outcome, Row};
+
+/// Who is told.
+#[derive(Debug)]
+pub struct Progress {
+    count: usize,
+    done: AtomicUsize,
+    failed: AtomicUsize,
+    bars: Option<Bars>,
+}
+
+#[derive(Debug)]
+struct Bars {
+    all: ProgressBar,
+    slots: Vec<ProgressBar>,
+    // Draws as long as it lives.
+    _drawing: MultiProgress,
+}
+
+impl Progress {
+    /// Of `count` entries in so many slots.
+    pub fn of(count: usize, slots: usize) -> Self {
+        Progress {
+            count,
+            done: AtomicUsize::new(0),
+            failed: AtomicUsize::new(0),
+            bars: io::stderr().is_terminal().then(|| bars(count, slots)),
+        }
+    }
+
+    /// What a slot is at.
+    pub fn at(&self, slot: usize, id: &str, words: &str) {
+        if let Some(bar) = self.bars.as_ref().and_then(|bars| bars.slots.get(slot)) {
+            bar.set_message(format!("{id}: {words}"));
+        }
+    }
+
+    /// An entry is done, now or kept from an earlier time.
+    pub fn end(&self, slot: usize, row: &Row, is_new: bool) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        let is_failed = row.score().is_none();
+        let failed = self
+            .failed
+            .fetch_add(usize::from(is_failed), Ordering::Relaxed);
+        let words = words(row);
+        match &self.bars {
+            Some(bars) => {
+                bars.slots
+                    .iter()
+                    .skip(slot)
+                    .take(1)
+                    .for_each(|bar| bar.set_message(""));
+                let failed = failed + usize::from(is_failed);
+                bars.all.set_message(format!("{failed} without a score"));
+                bars.all.inc(1);
+                if is_failed {
+                    bars.all.println(words);
+                }
+            }
+            None if is_new => eprintln!("[{done}/{}] {words}", self.count),
+            None => {}
+        }
+    }
+
+    /// Nothing more will come.
+    pub fn close(self) {
+        if let Some(bars) = self.bars {
+            bars.slots.iter().for_each(ProgressBar::finish_and_clear);
+            bars.all.finish_and_clear();
+        }
+    }
+}
+
+fn words(row: &Row) -> String {
+    let id = &row.id;
+    match &row.outcome {
+        Outcome::Graded(score) => format!("{id}: {} of {}", score.points, score.max_points),
+        Outcome::NoSubmission(why) => format!("{id}: nothing to grade: {why}"),
+        Outcome::Fault(why) => format!("{id}: not graded, and not the student's fault: {why}"),
+    }
+}
+
+fn bars(count: usize, slots: usize) -> Bars {
+    let style = |template: &str| ProgressStyle::with_template(template).expect("it is constant");
+    let drawing = MultiProgress::new();
+    let line = || {
+        let bar = drawing.add(ProgressBar::new_spinner());
+        bar.set_style(style("  {msg}"));
+        bar
+    };
+    let slots = (0..slots).map(|_| line()).collect();
+    let all = drawing.add(ProgressBar::new(count as u64));
+    all.set_style(style("{bar:30} {pos} of {len}, {eta} left, {msg}"));
+    all.set_message("0 without a score");
+    Bars {
+        all,
+        slots,
+        _drawing: drawing,
+    }
+}

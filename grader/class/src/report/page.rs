@@ -1,0 +1,238 @@
+//! `class.html`: the class on one page that asks no network for anything: who has what, how points
+//! spread, what most got wrong, and a link to each report.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use grader::tame::tame;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use sha2::{Digest, Sha256};
+
+use crate::model::{Class, Line};
+use crate::outcome::Told;
+use crate::summary::{Spread, Summary};
+
+const STYLE: &str = include_str!("page.css");
+
+/// The page.
+pub fn page(class: &Class, summary: &Summary) -> String {
+    let title = format!("{} submissions, {} exam", class.lines.len(), class.exam);
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(policy());
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { (said(&title)) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header {
+                    h1 { (said(&title)) }
+                    p {
+                        (summary.graded) " graded, " (summary.nothing_to_grade)
+                        " with nothing to grade, " (summary.not_graded) " not graded, "
+                        (summary.missing) " handed in nothing."
+                    }
+                }
+                main {
+                    (distribution(summary))
+                    (lists(summary))
+                    (students(class))
+                }
+                footer {
+                    p {
+                        "Exam " code { (said(&class.exam)) } ", "
+                        code { (said(class.exam_hash.get(..12).unwrap_or_default())) }
+                        "; isolation " code { (said(&class.isolation)) } ". For programs: "
+                        code { "class.json" } ", " code { "grades.csv" } " beside this page."
+                    }
+                }
+            }
+        }
+    };
+    page.into_string()
+}
+
+/// Nothing from elsewhere, no script, and this one style.
+fn policy() -> String {
+    let hash = STANDARD.encode(Sha256::digest(STYLE));
+    format!("default-src 'none'; style-src 'sha256-{hash}'; base-uri 'none'; form-action 'none'")
+}
+
+fn distribution(summary: &Summary) -> Markup {
+    let all = summary.points.iter().map(|points| ("All tasks", points));
+    let tasks = summary
+        .tasks
+        .iter()
+        .map(|task| (task.title.as_str(), &task.points));
+    html! {
+        section aria-labelledby="spread" {
+            h2 #spread { "Points" }
+            table {
+                caption { "How many have none, some, all: each column is a tenth of the points" }
+                thead {
+                    tr {
+                        th scope="col" { "Task" }
+                        th scope="col" { "Spread" }
+                        th scope="col" .number { "Mean" }
+                        th scope="col" .number { "Median" }
+                        th scope="col" .number { "Of" }
+                    }
+                }
+                tbody {
+                    @for (title, spread) in all.chain(tasks) {
+                        tr {
+                            th scope="row" { (said(title)) }
+                            td { (bars(spread)) }
+                            td .number { (format!("{:.1}", spread.mean)) }
+                            td .number { (spread.median) }
+                            td .number { (spread.of) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Ten columns, and in words the same.
+fn bars(spread: &Spread) -> Markup {
+    let highest = spread.bins.iter().max().copied().unwrap_or(0).max(1);
+    let counts: Vec<String> = spread.bins.iter().map(ToString::to_string).collect();
+    let label = format!(
+        "from the lowest tenth to the highest: {}",
+        counts.join(", ")
+    );
+    let column = |(place, count): (usize, &usize)| {
+        let height = 40.0 * *count as f64 / highest as f64;
+        let (x, y) = (12 * place, 41.0 - height);
+        format!("<rect x=\"{x}\" y=\"{y:.1}\" width=\"10\" height=\"{height:.1}\"/>")
+    };
+    let columns: String = spread.bins.iter().enumerate().map(column).collect();
+    html! {
+        (PreEscaped(format!(
+            "<svg class=\"bars\" viewBox=\"0 0 118 42\" role=\"img\" aria-label=\"{label}\">\
+             {columns}<path d=\"M0 41.5H118\"/></svg>"
+        )))
+    }
+}
+
+fn lists(summary: &Summary) -> Markup {
+    html! {
+        section aria-labelledby="mistakes" {
+            h2 #mistakes { "Most common mistakes" }
+            @if summary.mistakes.is_empty() { p { "None was recognised." } }
+            ol {
+                @for mistake in &summary.mistakes {
+                    li value=(mistake.count) { (said(&mistake.hint)) }
+                }
+            }
+        }
+        section aria-labelledby="failed" {
+            h2 #failed { "Failed most" }
+            ol {
+                @for failed in &summary.failed_most {
+                    li value=(failed.count) {
+                        (said(&failed.title)) " " code { (said(&failed.item)) }
+                    }
+                }
+            }
+        }
+        @if !summary.outliers.is_empty() {
+            section aria-labelledby="look" {
+                h2 #look { "To be looked at" }
+                ul {
+                    @for outlier in &summary.outliers {
+                        li { strong { (said(&outlier.id)) } ": " (said(&outlier.why)) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn students(class: &Class) -> Markup {
+    let first = class.scores().next();
+    let tasks = first.map_or(&[][..], |(_, score)| score.tasks.as_slice());
+    html! {
+        section aria-labelledby="students" {
+            h2 #students { "Submissions" }
+            div .wide {
+                table {
+                    thead {
+                        tr {
+                            th scope="col" { "Who" }
+                            th scope="col" .number { "Counts" }
+                            th scope="col" .number { "Points" }
+                            @for task in tasks { th scope="col" .number { (said(&task.title)) } }
+                            th scope="col" { "Notes" }
+                        }
+                    }
+                    tbody {
+                        @for line in &class.lines { (student(line, tasks.len())) }
+                        @for person in &class.missing {
+                            tr {
+                                th scope="row" { (said(person.words())) }
+                                td .number { "–" }
+                                td .number { "–" }
+                                @for _ in tasks { td {} }
+                                td { "nothing handed in" }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn student(line: &Line, tasks: usize) -> Markup {
+    let who = said(&line.row.about.words());
+    html! {
+        tr {
+            @match line.row.score() {
+                Some(score) => (scored(line, score, who)),
+                None => {
+                    th scope="row" { (who) }
+                    td .number { "–" }
+                    td .number { "–" }
+                    @for _ in 0..tasks { td {} }
+                    td { strong { (line.status()) } ": " (said(line.why())) }
+                },
+            }
+        }
+    }
+}
+
+fn scored(line: &Line, score: &Told, who: Markup) -> Markup {
+    let late = line.counted.map_or(0, |counted| counted.late_days);
+    let counts = line.counted.map_or(0, |counted| counted.points);
+    html! {
+        th scope="row" { a href=(link(&line.row.id)) { (who) } }
+        td .number { strong { (counts) } }
+        td .number { (score.points) }
+        @for task in &score.tasks {
+            td .number .less[task.points < task.max_points] { (task.points) }
+        }
+        td { @if late > 0 { (late) " late days" } }
+    }
+}
+
+/// An id has letters of any language, which a link must spell in bytes.
+fn link(id: &str) -> String {
+    let byte = |byte: u8| match byte {
+        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' => {
+            char::from(byte).to_string()
+        }
+        other => format!("%{other:02X}"),
+    };
+    let id: String = id.bytes().map(byte).collect();
+    format!("students/{id}/report.html")
+}
+
+/// What others have written, without power over what stands around it.
+fn said(text: &str) -> Markup {
+    html! { (tame(text, 300)) }
+}

@@ -1,0 +1,116 @@
+//! Who is in the class, from whatever list there is: its columns are recognised by their names.
+
+use std::path::Path;
+
+use crate::cli::Lists;
+use crate::entry::Person;
+use crate::table::{BadTable, Table};
+
+/// What platforms and people call a column, for each thing that we know of a person.
+const NAME: [&str; 4] = ["name", "full name", "student", "student name"];
+const FIRST: [&str; 3] = ["first name", "first_name", "given name"];
+const LAST: [&str; 4] = ["last name", "last_name", "surname", "family name"];
+const EMAIL: [&str; 3] = ["email", "email address", "e-mail"];
+const SID: [&str; 6] = [
+    "sid",
+    "student id",
+    "id number",
+    "sis user id",
+    "roster_identifier",
+    "matriculation number",
+];
+const LOGIN: [&str; 6] = [
+    "username",
+    "login",
+    "github",
+    "github_username",
+    "github username",
+    "sis login id",
+];
+
+/// What Canvas writes into its gradebook that is nobody.
+const NOBODY: [&str; 2] = ["Points Possible", "Student, Test"];
+
+/// The people in a list: a roster, or what a platform gives out to keep grades in.
+fn read(path: &Path) -> Result<Vec<Person>, BadTable> {
+    people(&Table::read(path)?).ok_or_else(|| BadTable::Lacks {
+        path: path.to_owned(),
+        lacks: "that tells who is who".to_owned(),
+        remedy: "name its columns name, email, sid, username".to_owned(),
+    })
+}
+
+fn people(table: &Table) -> Option<Vec<Person>> {
+    let column = |names: &[&str]| names.iter().find_map(|name| table.column(name));
+    let [name, first, last] = [column(&NAME), column(&FIRST), column(&LAST)];
+    let [email, sid, login] = [column(&EMAIL), column(&SID), column(&LOGIN)];
+    // Nothing else joins it with submissions.
+    email.or(sid).or(login).or(name)?;
+    // The platforms' own numbers, in the lists that can be told to be theirs.
+    let number = match table.column("Student") {
+        Some(_) => table.column("ID"),
+        None => table.column("Identifier"),
+    };
+    let person = |row: &Vec<String>| {
+        let cell = |column: Option<usize>| {
+            let cell = column.and_then(|column| row.get(column));
+            cell.map(|cell| cell.trim().to_owned()).unwrap_or_default()
+        };
+        let full = match cell(name) {
+            name if name.is_empty() => format!("{} {}", cell(first), cell(last)).trim().to_owned(),
+            name => name,
+        };
+        Person {
+            name: full,
+            email: cell(email),
+            sid: cell(sid),
+            login: cell(login),
+            // Moodle's stands behind a word of the site's language.
+            number: cell(number)
+                .rsplit(' ')
+                .next()
+                .unwrap_or_default()
+                .to_owned(),
+        }
+    };
+    let people = table.rows.iter().map(person);
+    let is_somebody =
+        |person: &Person| !person.words().is_empty() && !NOBODY.contains(&person.name.as_str());
+    Some(people.filter(is_somebody).collect())
+}
+
+/// Tells people what the lists know of them; returns those of the lists who are not among them.
+pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, BadTable> {
+    let files = [
+        &lists.roster,
+        &lists.canvas,
+        &lists.moodle,
+        &lists.gradescope,
+    ];
+    let mut missing: Vec<Person> = Vec::new();
+    for path in files.into_iter().flatten() {
+        for known in read(path)? {
+            let mut count = 0;
+            for person in people.iter_mut() {
+                if person.is(&known) || is_named(person, &known) {
+                    person.learn(&known);
+                    count += 1;
+                }
+            }
+            if count == 0 && !missing.iter().any(|other| other.is(&known)) {
+                missing.push(known);
+            }
+        }
+    }
+    Ok(missing)
+}
+
+/// A person who has nothing but a name, which is all that a folder tells, is known by that.
+fn is_named(person: &Person, known: &Person) -> bool {
+    let bare = person.email.is_empty() && person.sid.is_empty() && person.login.is_empty();
+    let names = [&known.name, &known.login, &known.sid, &known.email];
+    let name = person.name.to_lowercase();
+    bare && names
+        .iter()
+        .any(|known| !known.is_empty() && known.to_lowercase() == name)
+}

@@ -1,0 +1,53 @@
+//! A part of a class, for one of several machines.
+
+use std::str::FromStr;
+
+/// The `part`th of `of` parts, counted from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    part: usize,
+    of: usize,
+}
+
+impl Shard {
+    /// The whole class.
+    pub const ALL: Shard = Shard { part: 1, of: 1 };
+
+    /// Those of `all` that are its own: every `of`th, so that parts are of one size.
+    pub fn of<T>(self, all: Vec<T>) -> Vec<T> {
+        let own = |(place, one): (usize, T)| (place % self.of == self.part - 1).then_some(one);
+        all.into_iter().enumerate().filter_map(own).collect()
+    }
+}
+
+impl FromStr for Shard {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        const MEANT: &str = "K/N is meant, K from 1 to N, such as 2/8";
+        let (part, of) = text.split_once('/').ok_or(MEANT)?;
+        let number = |text: &str| text.parse::<usize>().map_err(|_| MEANT);
+        let (part, of) = (number(part)?, number(of)?);
+        match (1..=of).contains(&part) {
+            true => Ok(Shard { part, of }),
+            false => Err(MEANT),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_parts_are_the_whole_and_nobody_is_in_two() {
+        let all: Vec<usize> = (0..11).collect();
+        let shards = ["1/3", "2/3", "3/3"].map(|text| text.parse::<Shard>().unwrap());
+        let mut joined: Vec<usize> = shards.iter().flat_map(|s| s.of(all.clone())).collect();
+        joined.sort_unstable();
+        assert_eq!(joined, all);
+        for bad in ["0/3", "4/3", "1/0", "1", "a/b", "-1/3"] {
+            assert!(bad.parse::<Shard>().is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! The output folder. Each file appears in one step, and an entry's stamp last: whoever is killed
+//! leaves whole entries and none that only looks like one.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use grader::report::whole;
+
+use crate::entry::Entry;
+use crate::outcome::{Outcome, Row, Stamp, State, Told};
+use crate::run::Run;
+
+const SCORE: &str = "score.json";
+const PAGE: &str = "report.html";
+const STAMP: &str = "entry.json";
+const PREVIOUS: &str = "previous.json";
+const RUN: &str = "run.json";
+
+/// A folder of results.
+#[derive(Clone, Debug)]
+pub struct Store {
+    folder: PathBuf,
+}
+
+/// The output folder can not be used.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    /// The system does not let us.
+    #[error("can not use {path}: {source}")]
+    Io {
+        /// What.
+        path: PathBuf,
+        /// The system's words.
+        source: io::Error,
+    },
+    /// A file of ours is not as we write it.
+    #[error("{path} is not as it was written ({why}): take it away, and grade again")]
+    Damaged {
+        /// Which.
+        path: PathBuf,
+        /// What is wrong.
+        why: String,
+    },
+}
+
+impl Store {
+    /// The results in this folder, or those that will be.
+    pub fn at(folder: &Path) -> Self {
+        Store {
+            folder: folder.to_owned(),
+        }
+    }
+
+    /// The folder itself.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Where one entry's files are.
+    pub fn entry(&self, id: &str) -> PathBuf {
+        self.folder.join("students").join(id)
+    }
+
+    /// What is kept of the last run. None in a new folder.
+    pub fn run(&self) -> Result<Option<Run>, StoreError> {
+        let path = self.folder.join(RUN);
+        let text = match fs::read_to_string(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            read => read.map_err(|source| at(&path, source))?,
+        };
+        let run = serde_json::from_str(&text);
+        run.map(Some).map_err(|error| StoreError::Damaged {
+            path,
+            why: error.to_string(),
+        })
+    }
+
+    /// Keeps what the run is of.
+    pub fn set_run(&self, run: &Run) -> Result<(), StoreError> {
+        self.write(RUN, &json(run))
+    }
+
+    /// Writes a file of the class.
+    pub fn write(&self, name: &str, text: &str) -> Result<(), StoreError> {
+        let path = self.folder.join(name);
+        whole::write(text, &path).map_err(|source| at(&path, source))
+    }
+
+    /// The entry's row, if it was graded and its score follows from this key.
+    pub fn graded(&self, entry: &Entry, key: &str) -> Option<Row> {
+        let stamp = self.stamp(&entry.id).ok()??;
+        let score =
+            (stamp.key == key && stamp.state == State::Graded).then(|| self.told(&entry.id));
+        Some(Row {
+            id: entry.id.clone(),
+            about: entry.about.clone(),
+            outcome: Outcome::Graded(Box::new(score?.ok()?)),
+        })
+    }
+
+    /// Whether the same became of the entry before.
+    pub fn is_known(&self, id: &str, state: &State) -> bool {
+        let stamp = self.stamp(id).ok().flatten();
+        stamp.is_some_and(|stamp| stamp.state == *state)
+    }
+
+    /// Keeps what became of an entry whose score, if it has one, is written already.
+    pub fn keep(&self, row: &Row, key: &str) -> Result<(), StoreError> {
+        let folder = self.entry(&row.id);
+        let state = match &row.outcome {
+            Outcome::Graded(_) => State::Graded,
+            Outcome::NoSubmission(why) => State::NoSubmission(why.clone()),
+            Outcome::Fault(why) => State::Fault(why.clone()),
+        };
+        if state != State::Graded {
+            // Whatever lies here is of another time, and nobody shall take it for this one's.
+            for file in [SCORE, PAGE] {
+                remove(&folder.join(file))?;
+            }
+        }
+        let stamp = Stamp {
+            key: key.to_owned(),
+            about: row.about.clone(),
+            state,
+        };
+        let path = folder.join(STAMP);
+        whole::write(&json(&stamp), &path).map_err(|source| at(&path, source))
+    }
+
+    /// Takes the stamp away, before anything under it changes.
+    pub fn open(&self, id: &str) -> Result<(), StoreError> {
+        remove(&self.entry(id).join(STAMP))
+    }
+
+    /// All rows that there are, in the order of their ids.
+    pub fn rows(&self) -> Result<Vec<Row>, StoreError> {
+        let mut rows = Vec::new();
+        for id in self.ids()? {
+            let Some(Stamp { about, state, .. }) = self.stamp(&id)? else {
+                continue;
+            };
+            let outcome = match state {
+                State::Graded => Outcome::Graded(Box::new(self.told(&id)?)),
+                State::NoSubmission(why) => Outcome::NoSubmission(why),
+                State::Fault(why) => Outcome::Fault(why),
+            };
+            rows.push(Row { id, about, outcome });
+        }
+        Ok(rows)
+    }
+
+    /// Keeps every score as the one before.
+    pub fn keep_previous(&self) -> Result<(), StoreError> {
+        for id in self.ids()? {
+            if self.stamp(&id)?.is_some_and(|s| s.state == State::Graded) {
+                let folder = self.entry(&id);
+                let text = read(&folder.join(SCORE))?;
+                let path = folder.join(PREVIOUS);
+                whole::write(&text, &path).map_err(|source| at(&path, source))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The score before, if there is one.
+    pub fn previous(&self, id: &str) -> Option<Told> {
+        let text = fs::read_to_string(self.entry(id).join(PREVIOUS)).ok()?;
+        Told::read(&text).ok()
+    }
+
+    /// The names of all entries, sorted.
+    pub fn ids(&self) -> Result<Vec<String>, StoreError> {
+        let folder = self.folder.join("students");
+        let entries = match fs::read_dir(&folder) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+            entries => entries.map_err(|source| at(&folder, source))?,
+        };
+        let names = entries.flatten().map(|entry| entry.file_name());
+        let mut ids: Vec<String> = names.filter_map(|name| name.into_string().ok()).collect();
+        ids.sort();
+        Ok(ids)
+    }
+
+    fn told(&self, id: &str) -> Result<Told, StoreError> {
+        let path = self.entry(id).join(SCORE);
+        let text = read(&path)?;
+        Told::read(&text).map_err(|error| StoreError::Damaged {
+            path,
+            why: error.to_string(),
+        })
+    }
+
+    fn stamp(&self, id: &str) -> Result<Option<Stamp>, StoreError> {
+        let path = self.entry(id).join(STAMP);
+        match fs::read_to_string(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(source) => Err(at(&path, source)),
+            Ok(text) => {
+                serde_json::from_str(&text)
+                    .map(Some)
+                    .map_err(|error| StoreError::Damaged {
+                        path,
+                        why: error.to_string(),
+                    })
+            }
+        }
+    }
+}
+
+/// Pretty, with a line end.
+pub fn json(value: &impl serde::Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(value).expect("it has no maps of odd keys");
+    text.push('\n');
+    text
+}
+
+fn read(path: &Path) -> Result<String, StoreError> {
+    fs::read_to_string(path).map_err(|source| at(path, source))
+}
+
+fn remove(path: &Path) -> Result<(), StoreError> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(at(path, error)),
+        Ok(()) | Err(_) => Ok(()),
+    }
+}
+
+fn at(path: &Path, source: io::Error) -> StoreError {
+    StoreError::Io {
+        path: path.to_owned(),
+        source,
+    }
+}

@@ -1,0 +1,265 @@
+//! What a class did, in numbers: pure.
+
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::model::{Class, Line};
+use crate::outcome::Told;
+
+/// The version of `class.json`.
+const SCHEMA: u32 = 1;
+/// Of the longest lists, so many lines.
+const MOST: usize = 10;
+/// How many bars a distribution has.
+pub const BINS: usize = 10;
+
+/// What a class did.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The version of this format.
+    pub schema: u32,
+    /// The exam's name.
+    pub exam: String,
+    /// Of its bytes.
+    pub exam_hash: String,
+    /// How submissions were kept apart from the machine.
+    pub isolation: String,
+    /// How many were graded.
+    pub graded: usize,
+    /// How many had nothing that could be graded.
+    pub nothing_to_grade: usize,
+    /// How many were not graded for reasons of ours or the machine's.
+    pub not_graded: usize,
+    /// How many of the lists handed in nothing.
+    pub missing: usize,
+    /// All points. None without a score.
+    pub points: Option<Spread>,
+    /// In lecture order.
+    pub tasks: Vec<TaskSpread>,
+    /// The items that most have failed, the worst first.
+    pub failed_most: Vec<Failed>,
+    /// The known mistakes that most have made, the commonest first.
+    pub mistakes: Vec<Mistake>,
+    /// Whom a person should look at, and why.
+    pub outliers: Vec<Outlier>,
+}
+
+/// How numbers spread.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// The most that could be had.
+    pub of: u32,
+    /// The least.
+    pub least: u32,
+    /// A quarter has no more.
+    pub lower_quartile: u32,
+    /// Half have no more.
+    pub median: u32,
+    /// A quarter has no less.
+    pub upper_quartile: u32,
+    /// The most.
+    pub most: u32,
+    /// Rounded to tenths.
+    pub mean: f64,
+    /// How many are in each tenth of what could be had; the last holds those with all.
+    pub bins: [usize; BINS],
+}
+
+/// One task's points.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TaskSpread {
+    /// Such as `sphere`.
+    pub id: String,
+    /// What people read.
+    pub title: String,
+    /// How its points spread.
+    #[serde(flatten)]
+    pub points: Spread,
+}
+
+/// An item that was failed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Failed {
+    /// Such as `sphere.from_inside`.
+    pub item: String,
+    /// What must hold.
+    pub title: String,
+    /// How many lack points.
+    pub count: usize,
+}
+
+/// A mistake that was recognised.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Mistake {
+    /// What is wrong.
+    pub hint: String,
+    /// In how many submissions.
+    pub count: usize,
+}
+
+/// A submission that stands apart.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Outlier {
+    /// The entry's id.
+    pub id: String,
+    /// Why.
+    pub why: String,
+}
+
+impl Summary {
+    /// Of a class.
+    pub fn of(class: &Class) -> Self {
+        let scores: Vec<&Told> = class.scores().map(|(_, score)| score).collect();
+        let max_points = scores.first().map_or(0, |score| score.max_points);
+        let points: Vec<u32> = scores.iter().map(|score| score.points).collect();
+        let points = Spread::of(points, max_points);
+        let not_graded = class.faults();
+        Summary {
+            schema: SCHEMA,
+            exam: class.exam.clone(),
+            exam_hash: class.exam_hash.clone(),
+            isolation: class.isolation.clone(),
+            graded: scores.len(),
+            nothing_to_grade: class.lines.len() - scores.len() - not_graded,
+            not_graded,
+            missing: class.missing.len(),
+            tasks: tasks(&scores),
+            failed_most: failed_most(&scores),
+            mistakes: mistakes(&scores),
+            outliers: outliers(class, points.as_ref()),
+            points,
+        }
+    }
+}
+
+impl Spread {
+    fn of(mut points: Vec<u32>, of: u32) -> Option<Self> {
+        points.sort_unstable();
+        let (&least, &most) = (points.first()?, points.last()?);
+        let count = points.len();
+        // The nearest rank, which is somebody's.
+        let at = |quarter: usize| points[(quarter * count).div_ceil(4).max(1) - 1];
+        let mut bins = [0; BINS];
+        for &points in &points {
+            let bin = points as usize * BINS / of.max(1) as usize;
+            bins[bin.min(BINS - 1)] += 1;
+        }
+        let sum: u32 = points.iter().sum();
+        Some(Spread {
+            of,
+            least,
+            lower_quartile: at(1),
+            median: at(2),
+            upper_quartile: at(3),
+            most,
+            mean: (10.0 * f64::from(sum) / count as f64).round() / 10.0,
+            bins,
+        })
+    }
+}
+
+fn tasks(scores: &[&Told]) -> Vec<TaskSpread> {
+    let Some(first) = scores.first() else {
+        return Vec::new();
+    };
+    let spread = |place: usize| {
+        let task = &first.tasks[place];
+        let points = scores.iter().filter_map(|score| score.tasks.get(place));
+        let points = points.map(|task| task.points).collect();
+        Some(TaskSpread {
+            id: task.id.clone(),
+            title: task.title.clone(),
+            points: Spread::of(points, task.max_points)?,
+        })
+    };
+    (0..first.tasks.len()).filter_map(spread).collect()
+}
+
+fn failed_most(scores: &[&Told]) -> Vec<Failed> {
+    // In the order of asking, which settles ties.
+    let mut failed: Vec<Failed> = Vec::new();
+    for item in scores.iter().flat_map(|score| score.items()) {
+        let count = usize::from(item.points < item.max_points);
+        match failed.iter_mut().find(|failed| failed.item == item.id) {
+            Some(failed) => failed.count += count,
+            None => failed.push(Failed {
+                item: item.id.clone(),
+                title: item.title.clone(),
+                count,
+            }),
+        }
+    }
+    failed.retain(|failed| failed.count > 0);
+    failed.sort_by_key(|failed| Reverse(failed.count));
+    failed.truncate(MOST);
+    failed
+}
+
+fn mistakes(scores: &[&Told]) -> Vec<Mistake> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for score in scores {
+        // The likeliest of each item; once, however many items show it.
+        let hints = score.items().filter_map(|item| item.hints.first());
+        let mut hints: Vec<&str> = hints.map(|hint| hint.hint.as_str()).collect();
+        hints.sort_unstable();
+        hints.dedup();
+        for hint in hints {
+            *counts.entry(hint).or_default() += 1;
+        }
+    }
+    let mistake = |(hint, count): (&str, usize)| Mistake {
+        hint: hint.to_owned(),
+        count,
+    };
+    let mut mistakes: Vec<Mistake> = counts.into_iter().map(mistake).collect();
+    mistakes.sort_by_key(|mistake| Reverse(mistake.count));
+    mistakes.truncate(MOST);
+    mistakes
+}
+
+/// Those without a score, those with nothing, and those far below the others (Tukey's fence).
+fn outliers(class: &Class, points: Option<&Spread>) -> Vec<Outlier> {
+    let fence = points.map_or(0.0, |points| {
+        let (lower, upper) = (points.lower_quartile.into(), points.upper_quartile.into());
+        let (lower, upper): (f64, f64) = (lower, upper);
+        lower - 1.5 * (upper - lower)
+    });
+    let why = |line: &Line| match line.row.score() {
+        None => Some(format!("{}: {}", line.status(), line.why())),
+        Some(score) if score.items().all(|item| item.verdict == "not_compiled") => {
+            Some("0 points: nothing compiles".to_owned())
+        }
+        Some(score) if score.items().all(|item| item.verdict == "unimplemented") => {
+            Some("0 points: nothing is written yet".to_owned())
+        }
+        Some(score) if score.points == 0 => Some("0 points".to_owned()),
+        Some(score) if f64::from(score.points) < fence => {
+            Some(format!("{} points, far below the others", score.points))
+        }
+        Some(_) => None,
+    };
+    let outlier = |line: &Line| {
+        Some(Outlier {
+            id: line.row.id.clone(),
+            why: why(line)?,
+        })
+    };
+    class.lines.iter().filter_map(outlier).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spread_is_of_points_that_somebody_has() {
+        let spread = Spread::of(vec![100, 0, 55, 90, 55], 100).unwrap();
+        assert_eq!((spread.least, spread.median, spread.most), (0, 55, 100));
+        assert_eq!((spread.lower_quartile, spread.upper_quartile), (55, 90));
+        assert_eq!(spread.mean, 60.0);
+        assert_eq!(spread.bins, [1, 0, 0, 0, 0, 2, 0, 0, 0, 2]);
+        assert_eq!(Spread::of(Vec::new(), 100), None);
+    }
+}

@@ -1,0 +1,176 @@
+//! Tables as platforms export them: with commas or semicolons, with or without a byte order mark.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A table, each cell as it stands there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Table {
+    /// The first row.
+    pub header: Vec<String>,
+    /// The others.
+    pub rows: Vec<Vec<String>>,
+    delimiter: u8,
+    has_mark: bool,
+}
+
+/// A table can not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum BadTable {
+    /// The system does not let us.
+    #[error("can not read {path}: {source}")]
+    Io {
+        /// Which.
+        path: PathBuf,
+        /// The system's words.
+        source: io::Error,
+    },
+    /// It is no table.
+    #[error("{path}: {why}; export it again, as CSV in UTF-8")]
+    Csv {
+        /// Which.
+        path: PathBuf,
+        /// Where, and what is wrong there.
+        why: String,
+    },
+    /// It is another table.
+    #[error("{path} has no column {lacks}: {remedy}")]
+    Lacks {
+        /// Which.
+        path: PathBuf,
+        /// What is missing.
+        lacks: String,
+        /// What to do.
+        remedy: String,
+    },
+}
+
+const MARK: &[u8] = b"\xef\xbb\xbf";
+
+impl Table {
+    /// Reads a file.
+    pub fn read(path: &Path) -> Result<Self, BadTable> {
+        let bytes = fs::read(path).map_err(|source| BadTable::Io {
+            path: path.to_owned(),
+            source,
+        })?;
+        Table::parse(&bytes).map_err(|why| BadTable::Csv {
+            path: path.to_owned(),
+            why,
+        })
+    }
+
+    /// Reads bytes.
+    pub fn parse(bytes: &[u8]) -> Result<Self, String> {
+        let has_mark = bytes.starts_with(MARK);
+        let bytes = bytes.strip_prefix(MARK).unwrap_or(bytes);
+        let first = bytes
+            .split(|byte| *byte == b'\n')
+            .next()
+            .unwrap_or_default();
+        let count = |sign: u8| first.iter().filter(|byte| **byte == sign).count();
+        let delimiter = match count(b';') > count(b',') {
+            true => b';',
+            false => b',',
+        };
+        let mut reader = csv::ReaderBuilder::new()
+            .delimiter(delimiter)
+            .has_headers(false)
+            .flexible(true)
+            .from_reader(bytes);
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(|error| error.to_string())?;
+            rows.push(record.iter().map(str::to_owned).collect::<Vec<String>>());
+        }
+        if rows.is_empty() {
+            return Err("it is empty".to_owned());
+        }
+        let header = rows.remove(0);
+        for row in &mut rows {
+            row.resize(header.len().max(row.len()), String::new());
+        }
+        Ok(Table {
+            header,
+            rows,
+            delimiter,
+            has_mark,
+        })
+    }
+
+    /// A table of our own.
+    pub fn new(header: &[&str]) -> Self {
+        Table {
+            header: header.iter().map(|name| (*name).to_owned()).collect(),
+            rows: Vec::new(),
+            delimiter: b',',
+            has_mark: false,
+        }
+    }
+
+    /// The place of a column, whatever its case.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        let same = |column: &String| column.trim().eq_ignore_ascii_case(name);
+        self.header.iter().position(same)
+    }
+
+    /// The same table with these columns alone, in this order.
+    pub fn only(&self, columns: &[usize]) -> Self {
+        let pick = |row: &Vec<String>| {
+            let cell = |column: &usize| row.get(*column).cloned().unwrap_or_default();
+            columns.iter().map(cell).collect()
+        };
+        Table {
+            header: pick(&self.header),
+            rows: self.rows.iter().map(pick).collect(),
+            ..*self
+        }
+    }
+
+    /// As a file, in the manner in which it was read.
+    pub fn text(&self) -> String {
+        let mut writer = csv::WriterBuilder::new()
+            .delimiter(self.delimiter)
+            .flexible(true)
+            .from_writer(Vec::new());
+        for row in [&self.header].into_iter().chain(&self.rows) {
+            writer.write_record(row).expect("memory takes bytes");
+        }
+        let bytes = writer.into_inner().expect("memory takes bytes");
+        let text = String::from_utf8(bytes).expect("cells are text");
+        match self.has_mark {
+            true => format!("\u{feff}{text}"),
+            false => text,
+        }
+    }
+}
+
+/// A cell of our own that a spreadsheet shows and does not calculate: a name can be a formula that
+/// runs where the teacher opens the file (OWASP, "CSV Injection").
+pub fn guarded(text: &str) -> String {
+    match text.chars().next() {
+        Some('=' | '+' | '-' | '@' | '\t' | '\r') => format!("'{text}"),
+        Some(_) | None => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_is_written_as_it_was_read() {
+        let text = "\u{feff}Name;Grade\n\"Müller; Ann\";\"87,5\"\n";
+        let table = Table::parse(text.as_bytes()).unwrap();
+        assert_eq!(table.rows, [["Müller; Ann", "87,5"]]);
+        assert_eq!(table.text(), text);
+    }
+
+    #[test]
+    fn formulas_are_shown_and_numbers_stay_numbers() {
+        assert_eq!(guarded("=1+1"), "'=1+1");
+        assert_eq!(guarded("@SUM(A1)"), "'@SUM(A1)");
+        assert_eq!(guarded("O'Hara"), "O'Hara");
+    }
+}

@@ -1,0 +1,224 @@
+//! Who would be graded from what, of each platform's export. Names are as awkward as people's are.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::Path;
+
+use insta::assert_snapshot;
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
+
+use crate::harness::{FIVE, Place};
+
+/// An archive of five files, in a folder of their own.
+fn archive() -> Vec<u8> {
+    let mut writer = ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for file in FIVE {
+        let path = format!("my work/src/{file}");
+        writer
+            .start_file(path, SimpleFileOptions::default())
+            .unwrap();
+        writer.write_all(b"text").unwrap();
+    }
+    writer.finish().unwrap().into_inner()
+}
+
+/// The folder as the archive that a platform would have sent.
+fn zipped(folder: &Path, file: &Path) {
+    let mut writer = ZipWriter::new(File::create(file).unwrap());
+    let mut folders = vec![folder.to_owned()];
+    while let Some(here) = folders.pop() {
+        for entry in std::fs::read_dir(here).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let name = path
+                .strip_prefix(folder.parent().unwrap())
+                .unwrap()
+                .to_str()
+                .unwrap();
+            writer
+                .start_file(name, SimpleFileOptions::default())
+                .unwrap();
+            writer.write_all(&std::fs::read(&path).unwrap()).unwrap();
+        }
+    }
+    writer.finish().unwrap();
+}
+
+/// As Ruby writes it: symbols, numbers without quotes, tags, and all that an earlier grader said.
+const GRADESCOPE: &str = "---
+submission_101:
+  :submitters:
+  - :name: Zoë Ångström, Jr.
+    :sid: 70010001
+    :email: zoe@example.edu
+  :created_at: 2026-11-20 22:59:58.000000000 Z
+  :score: 12.0
+  :status: processed
+  :results: !ruby/hash:ActiveSupport::HashWithIndifferentAccess
+    output: |
+      submission_999:
+        :submitters:
+        - :name: nobody
+    tests: []
+  :history:
+  - :id: 99
+    :created_at: 2026-11-19 10:00:00.000000000 Z
+    :score:
+    :submitters: []
+submission_102:
+  :submitters:
+  - :name: \"=HYPERLINK(\\\"http://x\\\")\"
+    :sid:
+    :email: ann@example.edu
+  - :name: 'Bob O''Hara'
+    :sid: u42
+    :email: bob@example.edu
+  :created_at: 2026-11-21 00:10:00.000000000 Z
+  :score:
+  :status: processed
+submission_103:
+  :submitters:
+  - :name: Empty Handed
+    :sid: '0007'
+    :email: empty@example.edu
+  :created_at: 2026-11-20 12:00:00.000000000 Z
+";
+
+fn gradescope() -> Place {
+    Place::named("assignment_55_export")
+        .with("submission_metadata.yml", GRADESCOPE)
+        .with_five("submission_101")
+        .with_five("submission_102/student/src")
+        .with("submission_102/student/Cargo.toml", "no")
+        .with_five("submission_104")
+}
+
+#[test]
+fn gradescopes_export_has_groups_and_says_whose_each_is() {
+    assert_snapshot!(gradescope().preview());
+}
+
+#[test]
+fn an_export_is_the_same_in_its_archive() {
+    let place = gradescope();
+    let file = place.beside("assignment_55_export.zip");
+    zipped(&place.input(), &file);
+    assert_eq!(place.preview_of(&file, &[]), place.preview());
+}
+
+#[test]
+fn gradescopes_list_is_refused_with_place_and_remedy() {
+    let place = Place::named("export").with("submission_metadata.yml", "submission_1: [");
+    let output = crate::harness::class()
+        .arg(place.input())
+        .arg("--dry-run")
+        .output()
+        .unwrap();
+    let (code, error) = crate::harness::complaint(&output);
+    assert_eq!(code, 2);
+    assert!(error.contains("submission_metadata.yml"), "{error}");
+    assert!(error.contains("export the submissions again"), "{error}");
+}
+
+#[test]
+fn canvass_files_are_sorted_by_user_and_the_newest_counts() {
+    let place = Place::named("submissions")
+        .with("doejane_7001_9001_hw.zip", archive())
+        .with("doejane_7001_9005_hw-1.zip", archive())
+        .with("nunezjose_LATE_7002_9010_camera.rs", "old")
+        .with("nunezjose_LATE_7002_9020_camera-1.rs", "text")
+        .with("nunezjose_LATE_7002_9021_bvh.rs", "text")
+        .with("nunezjose_LATE_7002_9022_notes.pdf", "text")
+        .with("oharabob_7003_9030_report.pdf", "text")
+        .with("leeann_7004_text.html", "text")
+        .with("anon_xK3f9_9040_hw.zip", archive());
+    assert_snapshot!(place.preview());
+}
+
+#[test]
+fn moodles_folders_hold_files_or_an_archive() {
+    let place = Place::named("CG-Path tracing-77")
+        .with_five("José Núñez_301_assignsubmission_file_")
+        .with(
+            "Ann Lee, PhD_302_assignsubmission_file_/abgabe.zip",
+            archive(),
+        )
+        .with("Bob_303_assignsubmission_file_/a.zip", archive())
+        .with("Bob_303_assignsubmission_file_/b.zip", archive())
+        .with_folder("Team A-Zoë_304_assignsubmission_file_")
+        .with(
+            "Carl_305_assignsubmission_onlinetext_/onlinetext.html",
+            "text",
+        );
+    assert_snapshot!(place.preview());
+}
+
+#[test]
+fn moodles_flat_downloads_are_sorted_by_participant() {
+    let place = Place::named("flat")
+        .with("Ann Lee_302_assignsubmission_file_camera.rs", "text")
+        .with("Ann Lee_302_assignsubmission_file_my_notes.txt", "text")
+        .with("Participant_303_assignsubmission_file_hw.tar.gz", "text");
+    assert_snapshot!(place.preview());
+}
+
+#[test]
+fn clones_of_a_classroom_are_named_by_account_and_joined_with_the_roster() {
+    let place = Place::named("pathtracing-submissions")
+        .with_five("pathtracing-ann-lee/student/src")
+        .with_five("pathtracing-zoe/student/src")
+        .with("pathtracing-empty/README.md", "text");
+    let roster = place.list(
+        "roster.csv",
+        "name,email,github_username\n\"Lee, Ann\",ann@example.edu,Ann-Lee\nBob,bob@example.edu,bob\n",
+    );
+    let preview = place.preview_of(&place.input(), &["--roster", &roster]);
+    assert_snapshot!(preview);
+}
+
+#[test]
+fn classroom50s_clones_are_known_by_what_lies_beside_them() {
+    let place = Place::named("2026-11-20")
+        .with_five("cg-pathtracing-ann/student/src")
+        .with("cg-pathtracing-ann/result.json", "{}")
+        .with_five("cg-pathtracing-bob/student/src")
+        .with("cg-pathtracing-bob/result.json", "{}")
+        .with("scores.csv", "username,first_name,last_name\n");
+    assert_snapshot!(place.preview());
+}
+
+#[test]
+fn a_plain_folder_holds_folders_and_archives_and_nothing_is_passed_over_in_silence() {
+    let place = Place::named("class")
+        .with_five("ann lee")
+        .with_five("ANN_LEE")
+        .with("bob.zip", archive())
+        .with("bob/notes.txt", "text")
+        .with("carl.rar", "Rar!\x1a\x07\x01\x00")
+        .with("dora.tar.gz", "not at all")
+        .with("evil\u{202e}.zip", &archive()[..100])
+        .with("grades.xlsx", "text")
+        .with_five("two/a")
+        .with_five("two/b");
+    assert_snapshot!(place.preview());
+}
+
+#[test]
+fn one_submission_alone_is_not_a_class() {
+    let place = Place::named("student").with("camera.rs", "text");
+    let output = crate::harness::class()
+        .arg(place.input())
+        .arg("--dry-run")
+        .output()
+        .unwrap();
+    let (code, error) = crate::harness::complaint(&output);
+    assert_eq!(code, 2);
+    assert!(
+        error.contains("one alone is graded by `cargo grade`"),
+        "{error}"
+    );
+}

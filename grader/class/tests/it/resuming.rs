@@ -1,0 +1,121 @@
+//! Killed at any moment and started again; graded again on purpose.
+
+use std::process::Stdio;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::harness::{Place, class, complaint, lasting, told};
+
+const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
+const KILLS: u32 = 20;
+
+fn four(name: &str) -> Place {
+    Place::named(name)
+        .with_reference("ann")
+        .with_starter("bob")
+        .with_reference("carl")
+        .changed("carl/sphere.rs", "self.radius", "1.0 * self.radius")
+        .with_reference("dora")
+        .with("dora/bbox.rs", "fn (")
+        .with("eve.zip", "PK\x03\x04")
+}
+
+#[test]
+fn killed_at_any_moment_and_started_again_it_ends_as_if_nothing_had_been() {
+    let place = four("class");
+    let exam = place.exam(&ITEMS);
+    let began = Instant::now();
+    told(&place.grade(&exam, &[]));
+    let whole = began.elapsed();
+    let wanted = lasting(&place.out());
+    std::fs::remove_dir_all(place.out()).unwrap();
+
+    let mut killed = 0;
+    for round in 0..KILLS {
+        let mut run = place.command(&exam, &[]);
+        let mut run = run
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        // Whenever it comes, the end must be the same: moments spread over most of a run.
+        thread::sleep(whole * ((7 * round) % KILLS) / KILLS * 4 / 5 + Duration::from_millis(1));
+        killed += u32::from(run.try_wait().unwrap().is_none());
+        run.kill().unwrap();
+        run.wait().unwrap();
+    }
+    assert!(killed > 0, "no run was killed");
+    told(&place.grade(&exam, &[]));
+    assert_eq!(lasting(&place.out()), wanted);
+}
+
+#[test]
+fn only_what_changed_is_graded_again() {
+    let place = four("class");
+    let exam = place.exam(&ITEMS);
+    let first = place.grade(&exam, &[]);
+    told(&first);
+    let place = place.with("bob/notes.rs", "").with_reference("zoë");
+    let second = place.grade(&exam, &[]);
+    told(&second);
+    let lines = String::from_utf8(second.stderr).unwrap();
+    let graded = |id: &str| {
+        lines
+            .lines()
+            .any(|line| line.contains(&format!("] {id}: ")))
+    };
+    // A note in the report is a change of it.
+    assert!(graded("bob") && graded("zoë"), "{lines}");
+    assert!(
+        !graded("ann") && !graded("carl") && !graded("dora"),
+        "{lines}"
+    );
+}
+
+#[test]
+fn scores_that_are_not_comparable_are_never_mixed_and_a_regrade_says_what_changed() {
+    let place = four("class");
+    let exam = place.exam(&ITEMS);
+    told(&place.grade(&exam, &[]));
+
+    // The camera's item is worth one point less.
+    let mut other: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(&exam).unwrap()).unwrap();
+    let camera = &mut other["items"][0];
+    assert_eq!(camera["id"], "camera.offset");
+    let worth = camera["points"].as_u64().unwrap();
+    camera["points"] = (worth - 1).into();
+    let other = place.list("other.json", &other.to_string());
+
+    let (code, error) = complaint(&place.grade(&other, &[]));
+    assert_eq!(code, 2);
+    assert!(
+        error.contains("the exam changed; --regrade grades all again"),
+        "{error}"
+    );
+
+    let text = told(&place.grade(&other, &["--regrade"]));
+    assert!(
+        text.contains("regraded: 3 changed (different now: the exam)"),
+        "{text}"
+    );
+    assert!(
+        text.contains(&format!("camera.offset {worth} → {}: pass", worth - 1)),
+        "{text}"
+    );
+    assert!(place.out().join("students/ann/previous.json").is_file());
+    // A run that only goes on says the same, and grades nothing.
+    let again = told(&place.grade(&other, &[]));
+    assert!(again.contains("regraded: 3 changed"), "{again}");
+
+    let (code, error) = complaint(
+        &class()
+            .arg(place.input())
+            .args(["--regrade", "--isolation", "none", "--out"])
+            .arg(place.beside("nothing"))
+            .output()
+            .unwrap(),
+    );
+    assert_eq!(code, 2);
+    assert!(error.contains("holds no scores yet"), "{error}");
+}

@@ -1,0 +1,304 @@
+//! A class that is spread over machines: the parts are the whole, and the recipes for schedulers
+//! are tried out or read strictly.
+
+use std::fs;
+use std::process::Command;
+
+use crate::harness::{Place, class, complaint, lasting, told, workspace};
+
+const ITEMS: [&str; 1] = ["camera.offset"];
+
+fn three() -> Place {
+    Place::named("class")
+        .with_reference("ann")
+        .with_starter("bob")
+        .with("carl.zip", "no archive")
+}
+
+fn shard(place: &Place, exam: &str, which: &str) -> String {
+    let out = place.beside(&format!("shard-{}", which.replace('/', "-")));
+    let output = class()
+        .arg(place.input())
+        .args(["--exam", exam, "--no-reference", "--isolation", "none"])
+        .args(["--shard", which, "--out"])
+        .arg(&out)
+        .output()
+        .unwrap();
+    told(&output);
+    out.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn merged_shards_are_the_class_that_one_machine_grades() {
+    let place = three();
+    let exam = place.exam(&ITEMS);
+    told(&place.grade(&exam, &[]));
+    let shards = ["1/2", "2/2"].map(|which| shard(&place, &exam, which));
+    let merged = place.beside("merged");
+    let output = class()
+        .arg("merge")
+        .args(&shards)
+        .arg("--out")
+        .arg(&merged)
+        .output()
+        .unwrap();
+    told(&output);
+    assert_eq!(lasting(&merged), lasting(&place.out()));
+
+    let twice = [&shards[0], &shards[0]];
+    let output = class()
+        .arg("merge")
+        .args(twice)
+        .arg("--out")
+        .arg(&merged)
+        .output()
+        .unwrap();
+    let (code, error) = complaint(&output);
+    assert_eq!(code, 2);
+    assert!(
+        error.contains("were both given the same --shard?"),
+        "{error}"
+    );
+}
+
+/// What the recipes call, in the place of `cargo class`.
+fn with_class(command: &mut Command, place: &Place, exam: &str) {
+    command
+        .current_dir(workspace())
+        .env("CLASS", env!("CARGO_BIN_EXE_class"))
+        .env("INPUT", place.input())
+        .env("OUT", place.out())
+        .env(
+            "OPTIONS",
+            format!("--exam {exam} --no-reference --isolation none"),
+        );
+}
+
+fn recipe(name: &str) -> std::path::PathBuf {
+    workspace().join("grader/class/recipes").join(name)
+}
+
+/// Runs the script's array as `sbatch` does: as many tasks as it asks for, then what comes after.
+const SBATCH: &str = r#"#!/bin/bash
+set -euo pipefail
+for word in "$@"; do case "$word" in
+    --array=*) range=${word#--array=} ;;
+    --dependency=*) ;;
+    --parsable) ;;
+    *) script=$word; break ;;
+esac; done
+echo 1
+if [[ -n "${range:-}" ]]; then
+    for id in $(seq "${range%-*}" "${range#*-}"); do
+        SLURM_ARRAY_TASK_ID=$id SLURM_ARRAY_TASK_COUNT=${range#*-} bash "$script" >&2
+    done
+else
+    shift $(($# - 1))
+    bash "$script" >&2
+fi
+"#;
+
+#[cfg(unix)]
+#[test]
+fn the_recipe_for_slurm_grades_and_merges_an_array() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let place = three();
+    let exam = place.exam(&ITEMS);
+    let bin = place.beside("bin");
+    fs::create_dir(&bin).unwrap();
+    fs::write(bin.join("sbatch"), SBATCH).unwrap();
+    fs::set_permissions(bin.join("sbatch"), fs::Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
+
+    let mut submit = Command::new("bash");
+    submit
+        .arg(recipe("slurm.sh"))
+        .env("PATH", path)
+        .env("SHARDS", "2");
+    with_class(&mut submit, &place, &exam);
+    told(&submit.output().unwrap());
+    let grades = place.read("grades.csv");
+    assert_eq!(grades.lines().count(), 4, "{grades}");
+}
+
+#[test]
+fn the_recipe_for_gnu_parallel_grades_and_merges() {
+    let is_there = Command::new("parallel").arg("--version").output();
+    if !is_there.is_ok_and(|output| String::from_utf8_lossy(&output.stdout).contains("GNU")) {
+        assert!(std::env::var_os("CI").is_none(), "GNU parallel is missing");
+        return eprintln!("SKIPPED: there is no GNU parallel here");
+    }
+    let place = three();
+    let exam = place.exam(&ITEMS);
+    let mut run = Command::new("bash");
+    run.arg(recipe("parallel.sh")).env("SHARDS", "2");
+    with_class(&mut run, &place, &exam);
+    told(&run.output().unwrap());
+    assert_eq!(place.read("grades.csv").lines().count(), 4);
+}
+
+mod read_strictly {
+    use std::collections::BTreeMap;
+
+    use serde::Deserialize;
+    use serde_json::Value;
+
+    use super::{fs, recipe};
+
+    fn read<T: serde::de::DeserializeOwned>(name: &str) -> T {
+        let text = fs::read_to_string(recipe(name)).unwrap();
+        serde_saphyr::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    /// What Kubernetes takes (batch/v1, Job), as far as the recipe needs it.
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields, rename_all = "camelCase")]
+    struct Job {
+        api_version: String,
+        kind: String,
+        metadata: BTreeMap<String, String>,
+        spec: JobSpec,
+    }
+
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields, rename_all = "camelCase")]
+    struct JobSpec {
+        completion_mode: String,
+        completions: u32,
+        parallelism: u32,
+        backoff_limit_per_index: u32,
+        template: Template,
+    }
+
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Template {
+        spec: PodSpec,
+    }
+
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields, rename_all = "camelCase")]
+    struct PodSpec {
+        restart_policy: String,
+        containers: Vec<Container>,
+        volumes: Vec<Value>,
+    }
+
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields, rename_all = "camelCase")]
+    struct Container {
+        #[serde(rename = "name")]
+        _name: String,
+        #[serde(rename = "image")]
+        _image: String,
+        working_dir: String,
+        command: Vec<String>,
+        env: Vec<BTreeMap<String, String>>,
+        resources: Value,
+        volume_mounts: Vec<Value>,
+    }
+
+    #[test]
+    fn the_job_for_kubernetes_is_an_indexed_one_of_as_many_parts_as_it_names() {
+        let job: Job = read("kubernetes.yaml");
+        assert_eq!(
+            (job.api_version.as_str(), job.kind.as_str()),
+            ("batch/v1", "Job")
+        );
+        assert!(job.metadata.contains_key("name"));
+        assert_eq!(job.spec.completion_mode, "Indexed");
+        assert!(job.spec.parallelism <= job.spec.completions);
+        assert!(job.spec.backoff_limit_per_index > 0);
+        let pod = job.spec.template.spec;
+        assert_eq!(pod.restart_policy, "Never");
+        let [container] = pod.containers.as_slice() else {
+            panic!("one container")
+        };
+        // Counted from 0 there, and from 1 here.
+        let shards = &container.env[0];
+        assert_eq!(shards["name"], "SHARDS");
+        assert_eq!(shards["value"], job.spec.completions.to_string());
+        let command = container.command.join(" ");
+        assert!(command.contains("--shard \"$((JOB_COMPLETION_INDEX + 1))/$SHARDS\""));
+        assert!(
+            container.working_dir.starts_with('/') && container.resources["limits"].is_object()
+        );
+        assert_eq!(container.volume_mounts.len(), pod.volumes.len());
+    }
+
+    /// What GitHub takes of a workflow, as far as the recipe needs it.
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Workflow {
+        #[serde(rename = "name")]
+        _name: String,
+        on: Value,
+        permissions: BTreeMap<String, String>,
+        jobs: BTreeMap<String, WorkflowJob>,
+    }
+
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+    struct WorkflowJob {
+        runs_on: String,
+        #[serde(default)]
+        needs: Option<String>,
+        #[serde(default)]
+        strategy: Option<Strategy>,
+        steps: Vec<Step>,
+    }
+
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+    struct Strategy {
+        fail_fast: bool,
+        matrix: BTreeMap<String, Vec<u32>>,
+    }
+
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Step {
+        #[serde(default)]
+        uses: Option<String>,
+        #[serde(default)]
+        run: Option<String>,
+        #[serde(default, rename = "with")]
+        _with: Option<BTreeMap<String, Value>>,
+    }
+
+    #[test]
+    fn the_workflow_for_github_grades_every_part_and_then_merges() {
+        let workflow: Workflow = read("github-matrix.yml");
+        assert!(workflow.on["workflow_dispatch"].is_object() || workflow.on == "workflow_dispatch");
+        assert_eq!(workflow.permissions["contents"], "read");
+        let shard = &workflow.jobs["shard"];
+        let strategy = shard.strategy.as_ref().unwrap();
+        assert!(
+            !strategy.fail_fast,
+            "one part's fault must not stop the others"
+        );
+        let parts = &strategy.matrix["part"];
+        let wanted: Vec<u32> = (1..=parts.len() as u32).collect();
+        assert_eq!(*parts, wanted);
+        let runs = |job: &WorkflowJob| -> String {
+            job.steps
+                .iter()
+                .filter_map(|step| step.run.clone())
+                .collect()
+        };
+        let option = format!("--shard ${{{{ matrix.part }}}}/{}", parts.len());
+        assert!(runs(shard).contains(&option), "{}", runs(shard));
+        let merge = &workflow.jobs["merge"];
+        assert_eq!(merge.needs.as_deref(), Some("shard"));
+        assert!(runs(merge).contains("cargo class merge"));
+        for job in workflow.jobs.values() {
+            assert!(job.runs_on.starts_with("ubuntu-"));
+            assert!(
+                job.steps
+                    .iter()
+                    .all(|step| step.uses.is_some() != step.run.is_some())
+            );
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! OBJ files: from anywhere on the Internet.
+
+use std::fs;
+use std::sync::LazyLock;
+
+use framework::scene::Scene;
+use tempfile::TempDir;
+
+const SCENE: &str = r#"{
+    "camera": { "vertical_fov": 40, "film": [2, 2], "position": [0, 0, 4], "look_at": [0, 0, 0], "up": [0, 1, 0] },
+    "materials": { "clay": { "lambertian": { "albedo": [0.5, 0.5, 0.5] } } },
+    "shapes": [{ "mesh": { "file": "any.obj", "material": "clay", "subdivide": 1 } }]
+}"#;
+
+/// A scene, and beside it the place of its mesh.
+static FOLDER: LazyLock<TempDir> = LazyLock::new(|| {
+    let folder = TempDir::new().expect("a folder");
+    fs::write(folder.path().join("scene.json"), SCENE).expect("a file");
+    folder
+});
+
+/// The bytes as the mesh of a scene.
+pub fn read(bytes: &[u8]) {
+    let folder = FOLDER.path();
+    fs::write(folder.join("any.obj"), bytes).expect("a file");
+    match Scene::load(&folder.join("scene.json")) {
+        Err(error) => assert!(!error.to_string().is_empty()),
+        Ok(scene) => {
+            let _ = scene.extent();
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Scene files: students write their own.
+
+use framework::scene::Scene;
+
+/// A scene that is taken has only numbers that can be drawn with.
+pub fn read(bytes: &[u8]) {
+    let text = String::from_utf8_lossy(bytes);
+    match Scene::from_text(&text) {
+        Err(error) => assert!(!error.to_string().is_empty()),
+        Ok(scene) => {
+            let film = scene.camera.lens.film;
+            assert!(film.x > 0 && film.y > 0, "{film}");
+            for shape in &scene.shapes {
+                let material = shape.material() as usize;
+                assert!(material < scene.materials.len(), "{shape:?}");
+            }
+            let _ = (scene.extent(), scene.on_film(film));
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! The corpus as tests, on every machine: each input that once led somewhere, changes to it, noise.
+
+use std::fs;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+use fuzz::Target;
+use proptest::prelude::*;
+use proptest::sample::Index;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+
+/// Memory is counted for the whole process: one at a time.
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+
+/// Changes to the corpus, and as many inputs of pure noise. `cargo fuzz` tries millions.
+const CHANGES: u32 = 300;
+/// The longest noise, in bytes.
+const NOISE: usize = 300;
+
+fn corpus(target: &Target) -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
+    let mut files: Vec<_> = fs::read_dir(folder.join(target.name))
+        .expect("each target has a corpus")
+        .map(|entry| entry.expect("it can be read").path())
+        .collect();
+    files.sort();
+    files.iter().map(|file| fs::read(file).unwrap()).collect()
+}
+
+/// One small change to an input: what tools, disks and hands do.
+#[derive(Clone, Debug)]
+enum Change {
+    Cut(Index),
+    Flip(Index, u8),
+    Set(Index, u8),
+    Double(Index, Index),
+    Drop(Index, Index),
+    Splice(Index, Vec<u8>),
+}
+
+fn change() -> impl Strategy<Value = Change> {
+    let place = any::<Index>;
+    let digits = prop::sample::select(vec!["-1", "99999999999999999999", "1e400", "null", "[[[["]);
+    prop_oneof![
+        place().prop_map(Change::Cut),
+        (place(), 0..8_u8).prop_map(|(at, bit)| Change::Flip(at, 1 << bit)),
+        (place(), any::<u8>()).prop_map(|(at, byte)| Change::Set(at, byte)),
+        (place(), place()).prop_map(|(from, to)| Change::Double(from, to)),
+        (place(), place()).prop_map(|(from, to)| Change::Drop(from, to)),
+        (place(), digits).prop_map(|(at, text)| Change::Splice(at, text.into())),
+    ]
+}
+
+impl Change {
+    fn apply(&self, bytes: &mut Vec<u8>) {
+        if bytes.is_empty() {
+            return;
+        }
+        let length = bytes.len();
+        let span = |a: &Index, b: &Index| {
+            let (a, b) = (a.index(length), b.index(length));
+            a.min(b)..a.max(b)
+        };
+        match self {
+            Change::Cut(at) => bytes.truncate(at.index(length)),
+            Change::Flip(at, bit) => bytes[at.index(length)] ^= bit,
+            Change::Set(at, byte) => bytes[at.index(length)] = *byte,
+            Change::Double(a, b) => bytes.extend_from_within(span(a, b)),
+            Change::Drop(a, b) => drop(bytes.drain(span(a, b))),
+            Change::Splice(at, text) => {
+                let at = at.index(length);
+                bytes.splice(at..at, text.iter().copied());
+            }
+        }
+    }
+}
+
+/// The same every time: a test that fails today failed yesterday.
+fn runner() -> TestRunner {
+    let config = Config {
+        cases: CHANGES,
+        failure_persistence: None,
+        ..Config::default()
+    };
+    TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha))
+}
+
+fn survives_anything(name: &str) {
+    let _alone = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    let target = Target::named(name).expect("a target");
+    let corpus = corpus(&target);
+    corpus.iter().for_each(|bytes| target.run(bytes));
+
+    let changed = (
+        prop::sample::select(corpus),
+        prop::collection::vec(change(), 1..4),
+    );
+    let changed = changed.prop_map(|(mut bytes, changes)| {
+        changes.iter().for_each(|change| change.apply(&mut bytes));
+        bytes
+    });
+    let any = prop_oneof![changed, prop::collection::vec(any::<u8>(), 0..NOISE)];
+    let survived = runner().run(&any, |bytes| {
+        target.run(&bytes);
+        Ok(())
+    });
+    survived.unwrap();
+}
+
+#[test]
+fn frames_can_be_any_bytes() {
+    survives_anything("wire");
+}
+
+#[test]
+fn well_formed_answers_can_say_anything() {
+    survives_anything("answers");
+}
+
+#[test]
+fn exam_files_can_be_any_bytes() {
+    survives_anything("exam");
+}
+
+#[test]
+fn scene_files_can_be_any_bytes() {
+    survives_anything("scene");
+}
+
+#[test]
+fn meshes_can_be_any_bytes() {
+    survives_anything("mesh");
+}
+
+#[test]
+fn submissions_can_be_any_bytes() {
+    survives_anything("source");
+}
+
+#[test]
+fn compilers_can_say_anything() {
+    survives_anything("diagnostics");
+}
+
+#[test]
+fn memory_out_of_proportion_is_noticed() {
+    let _alone = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    let hoard = Target::new("hoard", |_| drop(vec![1_u8; 64 << 20]), 1);
+    let noticed = std::panic::catch_unwind(|| hoard.run(b"few")).unwrap_err();
+    let words = noticed.downcast_ref::<String>().expect("words");
+    assert!(words.contains("3 bytes took"), "{words}");
+}

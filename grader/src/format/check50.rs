@@ -1,0 +1,76 @@
+//! check50's JSON
+//! (<https://cs50.readthedocs.io/projects/check50/en/latest/json_specification.html>).
+//!
+//! `passed` has three values: null says that a check was not run, or did not come to an end.
+
+use serde_json::{Value, json};
+
+use crate::format::said::{said, what};
+use crate::format::{Around, Seen};
+use crate::score::{ItemScore, Verdict};
+
+/// The whole file.
+pub fn text(seen: &Seen, around: &Around) -> String {
+    let results: Vec<Value> = seen
+        .lines()
+        .map(|(_, item)| result(seen, item, around))
+        .collect();
+    super::json(&json!({
+        "slug": format!("pathtracing/{}", seen.now.exam.id),
+        "results": results,
+        "version": env!("CARGO_PKG_VERSION"),
+    }))
+}
+
+fn result(seen: &Seen, item: &ItemScore, around: &Around) -> Value {
+    let passed = passed(&item.verdict);
+    let rationale = match what(item) {
+        nothing if nothing.is_empty() => item.verdict.words().to_owned(),
+        what => what,
+    };
+    let help = said(seen, item, around);
+    let help = help.split_once('\n').map(|(_, help)| help);
+    let cause = match passed {
+        Some(true) => Value::Null,
+        Some(false) | None => json!({ "rationale": rationale, "help": help }),
+    };
+    let dependency = match &item.verdict {
+        Verdict::Blocked { by } => Some(by),
+        Verdict::Pass
+        | Verdict::Partial
+        | Verdict::Wrong
+        | Verdict::Panicked
+        | Verdict::Unimplemented
+        | Verdict::TimedOut
+        | Verdict::OutOfMemory
+        | Verdict::Crashed
+        | Verdict::Protocol
+        | Verdict::NotCompiled
+        | Verdict::Pending => None,
+    };
+    json!({
+        "name": item.id,
+        "description": item.title,
+        "passed": passed,
+        "log": [],
+        "cause": cause,
+        "data": { "points": item.points, "max_points": item.max_points },
+        "dependency": dependency,
+    })
+}
+
+fn passed(verdict: &Verdict) -> Option<bool> {
+    match verdict {
+        Verdict::Pass => Some(true),
+        Verdict::Partial | Verdict::Wrong | Verdict::Panicked | Verdict::Unimplemented => {
+            Some(false)
+        }
+        Verdict::TimedOut
+        | Verdict::OutOfMemory
+        | Verdict::Crashed
+        | Verdict::Protocol
+        | Verdict::NotCompiled
+        | Verdict::Blocked { .. }
+        | Verdict::Pending => None,
+    }
+}

@@ -1,0 +1,62 @@
+//! classroom50's `result.json`, version 1
+//! (<https://github.com/foundation50/classroom50>, `schemas/result-v1.schema.json`).
+//!
+//! Whose work it is comes from the runner's variables, and the runner checks that it is so.
+
+use serde_json::{Value, json};
+
+use crate::format::said::{said, what};
+use crate::format::{Around, Seen};
+use crate::score::Verdict;
+
+/// What the runner sets.
+pub const VARIABLES: [&str; 9] = [
+    "CLASSROOM",
+    "ASSIGNMENT",
+    "ASSIGNMENT_TYPE",
+    "OWNER",
+    "SUBMISSION_TAG",
+    "COMMIT_URL",
+    "RELEASE_URL",
+    "REVIEW_URL",
+    // The committer's date of the graded commit, which our package sets.
+    "SUBMITTED_AT",
+];
+
+/// The whole file.
+pub fn text(seen: &Seen, around: &Around) -> String {
+    let of = |name: &str| around.variables.get(name).cloned().unwrap_or_default();
+    let review = match of("REVIEW_URL") {
+        none if none.is_empty() => of("COMMIT_URL"),
+        review => review,
+    };
+    let tests: Vec<Value> = seen
+        .lines()
+        .map(|(_, item)| {
+            json!({
+                "test-name": format!("{}: {}", item.id, item.title),
+                "passed": item.verdict == Verdict::Pass,
+                "score": item.points,
+                "max-score": item.max_points,
+                "outcome": item.verdict.words(),
+                "message": what(item),
+                "output": said(seen, item, around),
+            })
+        })
+        .collect();
+    super::json(&json!({
+        "schema": "classroom50/result/v1",
+        "classroom": of("CLASSROOM"),
+        "assignment": of("ASSIGNMENT"),
+        "assignment_type": of("ASSIGNMENT_TYPE"),
+        "owner": of("OWNER"),
+        "submission": of("SUBMISSION_TAG"),
+        "commit": of("COMMIT_URL"),
+        "release": of("RELEASE_URL"),
+        "review": review,
+        "datetime": of("SUBMITTED_AT"),
+        "score": seen.counted.points,
+        "max-score": seen.counted.max_points,
+        "tests": tests,
+    }))
+}

@@ -1,0 +1,65 @@
+//! Commands to the runner, which are lines of the log
+//! (<https://docs.github.com/en/actions/reference/workflows-and-actions/workflow-commands>).
+
+use std::fmt::Write;
+
+/// A command with properties. Whatever their text and the message hold, it stays one command.
+pub fn command(name: &str, properties: &[(&str, String)], message: &str) -> String {
+    let properties = properties.iter();
+    let properties: Vec<String> = properties
+        .map(|(key, value)| format!("{key}={}", in_property(value)))
+        .collect();
+    format!(
+        "::{name} {}::{}\n",
+        properties.join(","),
+        in_message(message)
+    )
+}
+
+fn in_message(text: &str) -> String {
+    text.replace('%', "%25")
+        .replace('\r', "%0D")
+        .replace('\n', "%0A")
+}
+
+fn in_property(text: &str) -> String {
+    in_message(text).replace(':', "%3A").replace(',', "%2C")
+}
+
+/// A text in which the runner sees no commands: only this token ends its deafness.
+pub fn silenced(text: &str, token: &str) -> String {
+    format!("::stop-commands::{token}\n{text}\n::{token}::\n")
+}
+
+/// A token that nobody can guess.
+pub fn token() -> Result<String, getrandom::Error> {
+    let mut bytes = [0; 16];
+    getrandom::fill(&mut bytes)?;
+    let mut token = String::new();
+    for byte in bytes {
+        write!(token, "{byte:02x}").expect("text takes text");
+    }
+    Ok(token)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_text_ends_its_command_or_begins_another() {
+        let file = [("file", "a,b:c.rs".to_owned())];
+        let line = command("error", &file, "100%\r\n::set-output name=x::y");
+        assert_eq!(
+            line,
+            "::error file=a%2Cb%3Ac.rs::100%25%0D%0A::set-output name=x::y\n"
+        );
+        assert_eq!(line.lines().count(), 1);
+    }
+
+    #[test]
+    fn tokens_are_long_and_differ() {
+        let (one, other) = (token().unwrap(), token().unwrap());
+        assert!(one.len() == 32 && one != other);
+    }
+}

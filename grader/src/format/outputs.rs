@@ -1,0 +1,206 @@
+//! Where the formats go: the only part of this folder that touches the machine.
+
+use std::collections::BTreeMap;
+use std::env;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::exam::Task;
+use crate::format::github::annotations;
+use crate::format::{Around, Format, Seen, Wanted};
+use crate::given::TASK_FILES;
+use crate::report::whole;
+use crate::submission::Submission;
+
+/// The places of the five files in a checkout, as a submission is collected.
+const PLACES: [&str; 3] = ["", "src", "student/src"];
+
+/// Why a format can not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum NoOutput {
+    /// The platform has not said whose work it is.
+    #[error(
+        "--format {format} repeats what its runner says in {variable}, which is not set: run it there, or set all of {all}"
+    )]
+    Variable {
+        /// The format.
+        format: &'static str,
+        /// What is missing.
+        variable: &'static str,
+        /// What there must be.
+        all: String,
+    },
+    /// A file can not be read or written.
+    #[error("can not write {}: {source}", path.display())]
+    Io {
+        /// Which.
+        path: PathBuf,
+        /// The system's words.
+        source: io::Error,
+    },
+}
+
+/// The files that were asked for, and what is told in them of the surroundings.
+#[derive(Clone, Debug, Default)]
+pub struct Outputs {
+    files: Vec<Output>,
+    around: Around,
+}
+
+/// One format's file.
+#[derive(Clone, Debug)]
+struct Output {
+    format: Format,
+    path: PathBuf,
+    /// What others have written there before us, which stays.
+    before: String,
+}
+
+impl Outputs {
+    /// Those that the command line names, in `folder` unless a platform or `PATH` says otherwise.
+    pub fn of(
+        wanted: &[Wanted],
+        folder: &Path,
+        submitted: &Path,
+        submission: &Submission,
+        full_hints: bool,
+    ) -> Result<Self, NoOutput> {
+        let mut outputs = Outputs {
+            files: Vec::new(),
+            around: Around {
+                folder: in_checkout(submitted),
+                methods: methods(submission),
+                variables: BTreeMap::new(),
+                full_hints,
+            },
+        };
+        for wanted in wanted {
+            variables(wanted.format, &mut outputs.around.variables)?;
+            outputs.files.push(output(wanted, folder)?);
+        }
+        Ok(outputs)
+    }
+
+    /// Writes each file whole. What may be seen is only asked for where there are any.
+    pub fn write(&self, seen: &dyn Fn() -> Seen) -> Result<(), NoOutput> {
+        if self.is_empty() {
+            return Ok(());
+        }
+        let seen = &seen();
+        for Output {
+            format,
+            path,
+            before,
+        } in &self.files
+        {
+            let Some(text) = format.text(seen, &self.around) else {
+                continue;
+            };
+            let text = format!("{before}{text}");
+            whole::write(&text, path).map_err(|source| NoOutput::Io {
+                path: path.clone(),
+                source,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// What the runner is to be told on standard output.
+    pub fn commands(&self, seen: &Seen) -> Option<String> {
+        let mut files = self.files.iter();
+        let is_wanted = files.any(|output| output.format == Format::Github);
+        is_wanted.then(|| annotations(seen, &self.around))
+    }
+
+    /// Whether nothing was asked for.
+    pub fn is_empty(&self) -> bool {
+        self.files.is_empty()
+    }
+
+    /// The files that were asked for, but for the score file.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        let files = self.files.iter();
+        let others = files.filter(|output| output.format != Format::Json);
+        others.map(|output| output.path.as_path())
+    }
+}
+
+fn output(wanted: &Wanted, folder: &Path) -> Result<Output, NoOutput> {
+    let format = wanted.format;
+    // A step's own files: others of the step may have written there already.
+    let shared = match format {
+        Format::Github => env::var_os("GITHUB_STEP_SUMMARY"),
+        Format::GithubClassroom => env::var_os("GITHUB_OUTPUT"),
+        #[cfg(feature = "junit")]
+        Format::Junit => None,
+        Format::Json
+        | Format::Text
+        | Format::Gradescope
+        | Format::Classroom50
+        | Format::Check50
+        | Format::Prairielearn => None,
+    };
+    let shared = shared.filter(|path| !path.is_empty()).map(PathBuf::from);
+    let (path, before) = match (&wanted.path, shared) {
+        (Some(path), _) => (path.clone(), String::new()),
+        (None, None) => (folder.join(format.file()), String::new()),
+        (None, Some(path)) => match fs::read_to_string(&path) {
+            Ok(before) => (path, before),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => (path, String::new()),
+            Err(source) => return Err(NoOutput::Io { path, source }),
+        },
+    };
+    Ok(Output {
+        format,
+        path,
+        before,
+    })
+}
+
+/// Notes what the platform says, all of which a format needs.
+fn variables(format: Format, known: &mut BTreeMap<&'static str, String>) -> Result<(), NoOutput> {
+    for variable in format.variables() {
+        let value = env::var(variable).ok().filter(|value| !value.is_empty());
+        let value = value.ok_or_else(|| NoOutput::Variable {
+            format: format.id(),
+            variable,
+            all: format.variables().join(", "),
+        })?;
+        known.insert(variable, value);
+    }
+    Ok(())
+}
+
+/// The folder of the five files, from the checkout's, which is the current one unless the runner
+/// says otherwise. Empty if they are not below it.
+fn in_checkout(submitted: &Path) -> String {
+    let here = env::current_dir().unwrap_or_default();
+    let submitted = here.join(submitted);
+    let here = env::var_os("GITHUB_WORKSPACE").map_or(here, PathBuf::from);
+    let places = PLACES.map(|place| submitted.join(place));
+    let holds_some = |place: &PathBuf| {
+        let mut files = TASK_FILES.iter();
+        files.any(|file| place.join(file.name).symlink_metadata().is_ok())
+    };
+    let place = places.into_iter().find(holds_some);
+    let place = place.and_then(|place| Some(place.canonicalize().ok()?));
+    let below = place.and_then(|place| {
+        let below = place.strip_prefix(here.canonicalize().ok()?).ok()?;
+        Some(below.to_string_lossy().replace('\\', "/"))
+    });
+    below.unwrap_or_default()
+}
+
+/// The line of each task's method, counted from 1.
+fn methods(submission: &Submission) -> BTreeMap<Task, u32> {
+    let line = |task: Task| {
+        let mut files = submission.files.iter();
+        let (_, text) = files.find(|(file, _)| file.name == task.file())?;
+        let head = format!("pub fn {}(", task.method());
+        let mut lines = (1..).zip(text.as_ref().ok()?.lines());
+        let (line, _) = lines.find(|(_, line)| line.trim_start().starts_with(&head))?;
+        Some((task, line))
+    };
+    Task::ALL.into_iter().filter_map(line).collect()
+}

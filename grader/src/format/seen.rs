@@ -1,0 +1,196 @@
+//! What students may see of a score: all that any format is made of.
+
+use crate::again::Again;
+use crate::exam::Task;
+use crate::policy::{Counted, Lateness, Policy, Visibility};
+use crate::score::{ItemScore, Score, TaskScore, Verdict};
+
+/// A score without what the policy hides, and without what is the staff's.
+#[derive(Clone, Debug)]
+pub struct Seen {
+    /// What may be seen now. The items of a task that may not are one line.
+    pub now: Score,
+    /// Every item, for a platform that shows some of them later.
+    pub later: Vec<Line>,
+    /// What it counts for, if it was in time.
+    pub counted: Counted,
+}
+
+/// One item, and who may see it when.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// Whose points it counts for.
+    pub task: Task,
+    /// Without what the policy hides.
+    pub item: ItemScore,
+    /// When it may be seen.
+    pub visibility: Visibility,
+}
+
+impl Seen {
+    /// What this policy lets students see.
+    pub fn of(score: &Score, policy: &Policy) -> Self {
+        let mut now = score.clone();
+        // On their own machine they ask their own submission.
+        now.again = Again::default();
+        let mut later = Vec::new();
+        for task in &mut now.tasks {
+            let is_open =
+                |item: &ItemScore| policy.visibility(&score.exam, &item.id) == Visibility::All;
+            // What code prints while it is asked may tell what it was asked.
+            if !task.items.iter().all(is_open) {
+                task.printed = None;
+            }
+            for item in &task.items {
+                let visibility = policy.visibility(&score.exam, &item.id);
+                later.push(Line {
+                    task: task.id,
+                    item: redacted(item, visibility, &hides(policy, score)),
+                    visibility,
+                });
+            }
+            task.items = shown(task, &later);
+        }
+        Seen {
+            now,
+            later,
+            counted: policy.counted(score.points, score.max_points, Lateness::NONE),
+        }
+    }
+
+    /// All lines that may be seen now, each with its task.
+    pub fn lines(&self) -> impl Iterator<Item = (&TaskScore, &ItemScore)> {
+        let tasks = self.now.tasks.iter();
+        tasks.flat_map(|task| task.items.iter().map(move |item| (task, item)))
+    }
+
+    /// What to say as long as not everything has been asked.
+    pub fn unfinished(&self) -> Option<String> {
+        let all = self.later.len();
+        let asked = self
+            .later
+            .iter()
+            .filter(|line| line.item.verdict != Verdict::Pending);
+        (!self.now.complete).then(|| {
+            format!(
+                "UNFINISHED: {} of {all} items were asked; the others have no points yet",
+                asked.count()
+            )
+        })
+    }
+
+    /// Whether no file of the submission could be compiled.
+    pub fn nothing_compiled(&self) -> bool {
+        let all = crate::given::TASK_FILES.len();
+        self.now.build.not_compiled.len() == all
+    }
+}
+
+/// The ids of the items that can not be seen now.
+fn hides(policy: &Policy, score: &Score) -> Vec<String> {
+    let items = score.items();
+    let hidden = items.filter(|item| !policy.visibility(&score.exam, &item.id).is_shown_now());
+    hidden.map(|item| item.id.clone()).collect()
+}
+
+/// The item, as far as it may be seen when it may be seen.
+fn redacted(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemScore {
+    let mut item = ItemScore {
+        staff: None,
+        ..item.clone()
+    };
+    if let Verdict::Blocked { by } = &item.verdict
+        && hidden.contains(by)
+    {
+        let by = by.split('.').next().unwrap_or_default().to_owned();
+        item.verdict = Verdict::Blocked { by };
+    }
+    if let Some(named) = hidden.iter().find(|id| item.message.contains(*id)) {
+        let task = named.split('.').next().unwrap_or_default();
+        item.message = format!("rests on the task {task}");
+    }
+    match visibility {
+        Visibility::All => item,
+        Visibility::Feedback | Visibility::AfterDue | Visibility::AfterPublished => {
+            // A panic's words are the submission's: they may repeat the question.
+            if item.verdict == Verdict::Panicked || item.message.starts_with("panicked") {
+                item.message = "panicked".to_owned();
+            }
+            ItemScore {
+                evidence: None,
+                pictures: Vec::new(),
+                ..item
+            }
+        }
+        Visibility::Points | Visibility::Hidden => only_points(item),
+    }
+}
+
+/// Title and points.
+fn only_points(item: ItemScore) -> ItemScore {
+    ItemScore {
+        verdict: match item.verdict {
+            Verdict::Pending => Verdict::Pending,
+            Verdict::Pass
+            | Verdict::Partial
+            | Verdict::Wrong
+            | Verdict::Panicked
+            | Verdict::Unimplemented
+            | Verdict::TimedOut
+            | Verdict::OutOfMemory
+            | Verdict::Crashed
+            | Verdict::Protocol
+            | Verdict::NotCompiled
+            | Verdict::Blocked { .. } => by_points(item.points, item.max_points),
+        },
+        message: String::new(),
+        at: None,
+        look: None,
+        section: None,
+        hints: Vec::new(),
+        evidence: None,
+        carried_forward: false,
+        pictures: Vec::new(),
+        ..item
+    }
+}
+
+fn by_points(points: u32, max_points: u32) -> Verdict {
+    match points {
+        0 => Verdict::Wrong,
+        _ if points < max_points => Verdict::Partial,
+        _ => Verdict::Pass,
+    }
+}
+
+/// The items of a task that may be seen now, and one line for all that may not.
+fn shown(task: &TaskScore, lines: &[Line]) -> Vec<ItemScore> {
+    let of_task = || lines.iter().filter(|line| line.task == task.id);
+    let open = of_task().filter(|line| line.visibility.is_shown_now());
+    let mut items: Vec<ItemScore> = open.map(|line| line.item.clone()).collect();
+    let hidden: Vec<&ItemScore> = of_task()
+        .filter(|line| !line.visibility.is_shown_now())
+        .map(|line| &line.item)
+        .collect();
+    let Some(first) = hidden.first() else {
+        return items;
+    };
+    let is_pending = hidden.iter().any(|item| item.verdict == Verdict::Pending);
+    let points = hidden.iter().map(|item| item.points).sum();
+    let max_points = hidden.iter().map(|item| item.max_points).sum();
+    items.push(ItemScore {
+        id: format!("{}.not_shown", task.id),
+        title: match hidden.len() {
+            1 => "one item that is not shown".to_owned(),
+            count => format!("{count} items that are not shown"),
+        },
+        points,
+        max_points,
+        verdict: match is_pending {
+            true => Verdict::Pending,
+            false => by_points(points, max_points),
+        },
+        ..only_points((*first).clone())
+    });
+    items
+}

@@ -1,0 +1,239 @@
+//! From points to what counts: exact, in whole numbers, rounded once at the end.
+
+use std::fmt;
+
+use toml::value::{Datetime, Offset};
+
+use crate::policy::{Late, Of, Policy, Rounding};
+
+/// One day, in seconds.
+const DAY: u64 = 24 * 60 * 60;
+
+/// How long after the due time a submission came.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Lateness {
+    /// 0 is in time.
+    pub seconds: u64,
+}
+
+impl Lateness {
+    /// In time.
+    pub const NONE: Lateness = Lateness { seconds: 0 };
+}
+
+/// What a submission counts for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counted {
+    /// What it counts for.
+    pub points: u32,
+    /// What a perfect one in time counts for.
+    pub max_points: u32,
+    /// The begun days after the due time, free ones counted in.
+    pub late_days: u32,
+    /// Whether it came after the last day, and so counts for nothing.
+    pub is_closed: bool,
+}
+
+impl fmt::Display for Counted {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{} of {} points", self.points, self.max_points)
+    }
+}
+
+impl Policy {
+    /// What `points` of `max_points` count for: scaled, less what lateness costs, capped, rounded.
+    pub fn counted(&self, points: u32, max_points: u32, lateness: Lateness) -> Counted {
+        let out_of = self.points.out_of.unwrap_or(max_points);
+        let late_days = self.late.days(lateness);
+        let is_closed = self.late.closed_after_days.is_some_and(|n| late_days > n);
+        let share = match is_closed {
+            true => Share::NONE,
+            false => self
+                .late
+                .share(points.min(max_points), max_points, late_days),
+        };
+        Counted {
+            points: share.of(out_of, self.points.rounding),
+            max_points: out_of,
+            late_days,
+            is_closed,
+        }
+    }
+
+    /// How late a submission of this moment is, in seconds since 1970, UTC. None without a due time.
+    pub fn lateness(&self, submitted: i64) -> Option<Lateness> {
+        let seconds = submitted - unix(self.late.due.as_ref()?)?;
+        Some(Lateness {
+            seconds: u64::try_from(seconds).unwrap_or(0),
+        })
+    }
+}
+
+impl Late {
+    /// The begun days since the due time; none within the time of grace.
+    fn days(&self, lateness: Lateness) -> u32 {
+        match lateness.seconds <= u64::from(self.grace_minutes) * 60 {
+            true => 0,
+            false => u32::try_from(lateness.seconds.div_ceil(DAY)).unwrap_or(u32::MAX),
+        }
+    }
+
+    fn share(&self, points: u32, max_points: u32, late_days: u32) -> Share {
+        // In hundredths of a point, so that percentages are whole numbers.
+        let (points, all) = (u64::from(points) * 100, u64::from(max_points) * 100);
+        let days = late_days.saturating_sub(self.free_days);
+        if days == 0 {
+            return Share { part: points, all };
+        }
+        let percent = u64::from(days.saturating_mul(self.percent_per_day).min(100));
+        let of = match self.percent_of {
+            Of::Earned => points,
+            Of::Possible => all,
+        };
+        let part = points.saturating_sub(of / 100 * percent);
+        let most = all / 100 * u64::from(self.most_percent);
+        Share {
+            part: part.min(most),
+            all,
+        }
+    }
+}
+
+/// A part of the whole, exactly.
+#[derive(Clone, Copy, Debug)]
+struct Share {
+    part: u64,
+    all: u64,
+}
+
+impl Share {
+    const NONE: Share = Share { part: 0, all: 1 };
+
+    fn of(self, points: u32, rounding: Rounding) -> u32 {
+        let (exact, all) = (self.part * u64::from(points), self.all.max(1));
+        let rounded = match rounding {
+            Rounding::Down => exact / all,
+            Rounding::Nearest => (2 * exact + all) / (2 * all),
+            Rounding::Up => exact.div_ceil(all),
+        };
+        u32::try_from(rounded).unwrap_or(u32::MAX)
+    }
+}
+
+/// Seconds since 1970, UTC. None without a date, a time and an offset.
+pub(super) fn unix(moment: &Datetime) -> Option<i64> {
+    let (date, time) = (moment.date?, moment.time?);
+    let minutes = match moment.offset? {
+        Offset::Z => 0,
+        Offset::Custom { minutes } => i64::from(minutes),
+    };
+    let (hour, minute) = (i64::from(time.hour), i64::from(time.minute));
+    let second = i64::from(time.second.unwrap_or(0));
+    let days = days(date.year.into(), date.month.into(), date.day.into());
+    Some(((days * 24 + hour) * 60 + minute - minutes) * 60 + second)
+}
+
+/// Days since 1970-01-01 (Howard Hinnant, "chrono-Compatible Low-Level Date Algorithms").
+fn days(year: i64, month: i64, day: i64) -> i64 {
+    // Years begin in March, so that the odd day is the last.
+    let year = if month <= 2 { year - 1 } else { year };
+    let era = year.div_euclid(400);
+    let of_era = year.rem_euclid(400);
+    let of_year = (153 * ((month + 9) % 12) + 2) / 5 + day - 1;
+    era * 146_097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719_468
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn policy(text: &str) -> Policy {
+        toml::from_str(text).unwrap()
+    }
+
+    fn hours(hours: u64) -> Lateness {
+        Lateness {
+            seconds: hours * 60 * 60,
+        }
+    }
+
+    fn counts(text: &str, points: u32, late: Lateness) -> u32 {
+        policy(text).counted(points, 100, late).points
+    }
+
+    #[test]
+    fn without_a_policy_points_count_as_they_are_however_late() {
+        for late in [Lateness::NONE, hours(1000)] {
+            assert_eq!(counts("", 87, late), 87);
+        }
+    }
+
+    #[test]
+    fn fractions_are_rounded_once_and_as_told() {
+        let out_of = |rounding: &str| format!("[points]\nout_of = 50\nrounding = '{rounding}'");
+        assert_eq!(counts(&out_of("down"), 87, Lateness::NONE), 43);
+        assert_eq!(counts(&out_of("nearest"), 87, Lateness::NONE), 44);
+        assert_eq!(counts(&out_of("up"), 87, Lateness::NONE), 44);
+        assert_eq!(counts(&out_of("up"), 100, Lateness::NONE), 50);
+        // 10 % of 87 is 8.7, and half of what is left 39.15: nothing is rounded in between.
+        let late = out_of("down") + "\n[late]\npercent_per_day = 10";
+        assert_eq!(counts(&late, 87, hours(1)), 39);
+    }
+
+    #[test]
+    fn every_begun_day_costs_what_is_earned_or_possible() {
+        assert_eq!(counts("[late]\npercent_per_day = 10", 80, hours(25)), 64);
+        let possible = "[late]\npercent_per_day = 10\npercent_of = 'possible'";
+        assert_eq!(counts(possible, 80, hours(25)), 60);
+        assert_eq!(counts(possible, 10, hours(25)), 0);
+        assert_eq!(counts("[late]\npercent_per_day = 60", 80, hours(25)), 0);
+    }
+
+    #[test]
+    fn grace_and_free_days_cost_nothing() {
+        let late = "[late]\npercent_per_day = 10\ngrace_minutes = 60";
+        assert_eq!(counts(late, 100, hours(1)), 100);
+        assert_eq!(counts(late, 100, hours(2)), 90);
+        let late = "[late]\npercent_per_day = 10\nfree_days = 2\nmost_percent = 50";
+        assert_eq!(counts(late, 100, hours(48)), 100);
+        assert_eq!(counts(late, 100, hours(49)), 50);
+    }
+
+    #[test]
+    fn after_the_last_day_nothing_counts() {
+        let policy = policy("[late]\nfree_days = 5\nclosed_after_days = 2");
+        let last = policy.counted(70, 100, hours(48));
+        assert_eq!(
+            (last.points, last.is_closed, last.late_days),
+            (70, false, 2)
+        );
+        let later = policy.counted(70, 100, hours(49));
+        assert_eq!(
+            (later.points, later.is_closed, later.late_days),
+            (0, true, 3)
+        );
+    }
+
+    #[test]
+    fn an_exam_without_points_counts_for_nothing() {
+        assert_eq!(Policy::default().counted(0, 0, Lateness::NONE).points, 0);
+    }
+
+    #[test]
+    fn lateness_is_counted_from_the_due_moment_wherever_it_is() {
+        let due = |text: &str| policy(&format!("[late]\ndue = {text}"));
+        // `date -d 2026-11-20T23:59:59+01:00 +%s`
+        let moment = 1_795_215_599;
+        for same in ["2026-11-20T23:59:59+01:00", "2026-11-20T22:59:59Z"] {
+            let due = due(same);
+            assert_eq!(due.lateness(moment), Some(Lateness::NONE), "{same}");
+            assert_eq!(due.lateness(moment - 9), Some(Lateness::NONE), "{same}");
+            assert_eq!(due.lateness(moment + 9), Some(Lateness { seconds: 9 }));
+        }
+        assert_eq!(
+            unix(&"2024-02-29T12:00:00Z".parse().unwrap()),
+            Some(1_709_208_000)
+        );
+        assert_eq!(Policy::default().lateness(moment), None);
+    }
+}

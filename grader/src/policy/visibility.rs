@@ -1,0 +1,102 @@
+//! What students see of an item.
+
+use serde::Deserialize;
+
+use crate::policy::Policy;
+use crate::score::ExamName;
+
+/// The exam that students have, with its keys.
+const PRACTICE: &str = "practice";
+
+/// How much students see of an item, from all to nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Visibility {
+    /// What was asked, what came, what is right.
+    All,
+    /// What went wrong, in words; no question and no answer, from which an exam could be pieced
+    /// together.
+    Feedback,
+    /// Title and points.
+    Points,
+    /// Nothing before the late due date.
+    AfterDue,
+    /// Nothing before grades are published.
+    AfterPublished,
+    /// Nothing.
+    Hidden,
+}
+
+impl Visibility {
+    /// Whether students see that there is such an item, as soon as it is graded.
+    pub fn is_shown_now(self) -> bool {
+        match self {
+            Visibility::All | Visibility::Feedback | Visibility::Points => true,
+            Visibility::AfterDue | Visibility::AfterPublished | Visibility::Hidden => false,
+        }
+    }
+}
+
+impl Policy {
+    /// What students see of this item of this exam.
+    pub fn visibility(&self, exam: &ExamName, item: &str) -> Visibility {
+        let task = item.split('.').next().unwrap_or(item);
+        let exceptions = &self.visibility.items;
+        let exception = exceptions.get(item).or_else(|| exceptions.get(task));
+        exception.copied().unwrap_or(match exam.id.as_str() {
+            PRACTICE => self.visibility.practice,
+            _ => self.visibility.others,
+        })
+    }
+
+    /// An exception that is neither a task nor an item of these.
+    pub(super) fn unmatched<'a>(
+        &self,
+        items: impl Iterator<Item = &'a str> + Clone,
+    ) -> Option<&str> {
+        let matches = |name: &str, item: &str| {
+            item == name || item.split('.').next().is_some_and(|task| task == name)
+        };
+        let mut names = self.visibility.items.keys();
+        names
+            .find(|name| !items.clone().any(|item| matches(name, item)))
+            .map(String::as_str)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(policy: &str, exam: &str, item: &str) -> Visibility {
+        let exam = ExamName {
+            id: exam.to_owned(),
+            hash: String::new(),
+        };
+        let policy: Policy = toml::from_str(policy).unwrap();
+        policy.visibility(&exam, item)
+    }
+
+    #[test]
+    fn only_the_practice_exams_answers_are_shown_unless_told_otherwise() {
+        assert_eq!(of("", "practice", "bbox.flat"), Visibility::All);
+        assert_eq!(of("", "final", "bbox.flat"), Visibility::Feedback);
+    }
+
+    #[test]
+    fn an_items_own_line_comes_before_its_tasks() {
+        let policy = "[visibility.items]\nbbox = 'points'\n'bbox.flat' = 'hidden'";
+        assert_eq!(of(policy, "final", "bbox.flat"), Visibility::Hidden);
+        assert_eq!(of(policy, "final", "bbox.inside"), Visibility::Points);
+        assert_eq!(of(policy, "final", "sphere.miss"), Visibility::Feedback);
+    }
+
+    #[test]
+    fn an_exception_that_meets_nothing_is_told() {
+        let policy = "[visibility.items]\nbbox = 'points'\n'bbox.flat' = 'hidden'";
+        let policy: Policy = toml::from_str(policy).unwrap();
+        let items = ["bbox.flat", "sphere.miss"];
+        assert_eq!(policy.unmatched(items.into_iter()), None);
+        assert_eq!(policy.unmatched(["bbox.x"].into_iter()), Some("bbox.flat"));
+    }
+}

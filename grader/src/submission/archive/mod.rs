@@ -1,0 +1,218 @@
+//! From archives, which anybody may have made: read in memory and never unpacked. What a header
+//! claims of sizes and counts is not believed; what is really read and inflated is counted.
+
+mod stream;
+mod tarball;
+mod zipped;
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use super::place::{self, Several};
+use super::{Contents, LONGEST_FILE, NoSubmission, Unreadable, is_given, one_of_five, shown};
+
+use stream::Stream;
+use tarball::Tarball;
+use zipped::Zipped;
+
+/// The most files that an archive may hold. A checkout with its `target/` has some thousands.
+pub const MOST_MEMBERS: usize = 50_000;
+
+/// Why an archive is not read.
+#[derive(Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Refused {
+    /// It has no bytes, or no members.
+    #[error("it is empty: hand it in, or download it, again")]
+    Empty,
+    /// It is an archive of another kind.
+    #[error("it is a {0} archive: only .zip, .tar and .tar.gz are read, so pack it as one of them")]
+    OtherKind(&'static str),
+    /// It is anything else.
+    #[error("it is neither a folder nor a .zip, .tar or .tar.gz, whatever its name says")]
+    NotAnArchive,
+    /// It ends too soon, or is not what it claims to be.
+    #[error("it is damaged ({0}): download or pack it again")]
+    Damaged(String),
+    /// It is encrypted.
+    #[error("{0} in it needs a password: pack it without one")]
+    Encrypted(String),
+    /// It is compressed in an unusual way.
+    #[error("{0} in it is compressed in a way of its own: pack it as a plain .zip")]
+    Method(String),
+    /// Two members have the same name.
+    #[error("two files in it have the same name: pack it again")]
+    Twice,
+    /// There are too many members.
+    #[error("it holds more than {MOST_MEMBERS} files: pack the five files, without target/")]
+    TooMany,
+    /// There is too much in it.
+    #[error("it holds more than {} MiB: pack the five files, without target/", .0 >> 20)]
+    TooMuch(u64),
+    /// A member's path leads out of the archive.
+    #[error("{0} in it is a path that leads out of it: pack it again")]
+    Outside(String),
+    /// A member is a link or a device.
+    #[error("{0} in it is no regular file but a link or device: pack the file itself")]
+    Special(String),
+    /// The system does not let us read it.
+    #[error("it can not be read: {0}")]
+    Io(String),
+}
+
+/// One file of an archive.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Member {
+    /// With `/`, without `.`: never absolute, never leading outside.
+    pub path: String,
+    /// Where it stands in the archive.
+    place: usize,
+}
+
+/// An archive, open.
+#[derive(Debug)]
+pub struct Archive(Kind);
+
+#[derive(Debug)]
+enum Kind {
+    Zip(Box<Zipped>),
+    Tar(Tarball),
+}
+
+impl Archive {
+    /// Of which kind it is, is seen by its first bytes.
+    pub fn open(path: &Path) -> Result<Self, Refused> {
+        let mut head = Vec::new();
+        let file = File::open(path).map_err(io)?;
+        file.take(8).read_to_end(&mut head).map_err(io)?;
+        Ok(Archive(match head.as_slice() {
+            [] => return Err(Refused::Empty),
+            [b'P', b'K', 3, 4, ..] | [b'P', b'K', 5, 6, ..] => {
+                Kind::Zip(Box::new(Zipped::open(path)?))
+            }
+            [b'R', b'a', b'r', b'!', ..] => return Err(Refused::OtherKind(".rar")),
+            [b'7', b'z', 0xbc, 0xaf, ..] => return Err(Refused::OtherKind(".7z")),
+            [0xfd, b'7', b'z', b'X', ..] => return Err(Refused::OtherKind(".xz")),
+            [b'B', b'Z', b'h', ..] => return Err(Refused::OtherKind(".bz2")),
+            [0x28, 0xb5, 0x2f, 0xfd, ..] => return Err(Refused::OtherKind(".zst")),
+            [_, ..] => Kind::Tar(Tarball::open(path)?),
+        }))
+    }
+
+    /// Its regular files. Refused as a whole if any path leads outside, or is a link or device.
+    pub fn members(&mut self) -> Result<Vec<Member>, Refused> {
+        match &mut self.0 {
+            Kind::Zip(zip) => zip.members(),
+            Kind::Tar(tar) => tar.members(),
+        }
+    }
+
+    /// The bytes of each of these members, in their order; of a longer one only the first
+    /// `longest + 1`.
+    pub fn read(&mut self, members: &[&Member], longest: u64) -> Result<Vec<Vec<u8>>, Refused> {
+        match &mut self.0 {
+            Kind::Zip(zip) => zip.read(members, longest),
+            Kind::Tar(tar) => tar.read(members, longest),
+        }
+    }
+
+    /// How many members are read together at no higher cost: a tar is gone through each time.
+    pub fn cheap_at_once(&self) -> usize {
+        match &self.0 {
+            Kind::Zip(_) => 1,
+            Kind::Tar(_) => MOST_MEMBERS,
+        }
+    }
+}
+
+/// What lies where this archive holds the five files.
+pub(super) fn read(path: &Path) -> Result<Contents, NoSubmission> {
+    let refused = |why| NoSubmission::Refused {
+        path: path.to_owned(),
+        why,
+    };
+    let mut archive = Archive::open(path).map_err(refused)?;
+    let members = archive.members().map_err(refused)?;
+    let source = place::source(members.iter().map(|member| member.path.as_str()));
+    let source = source.map_err(|Several(folders)| NoSubmission::Several {
+        path: path.to_owned(),
+        folders: folders.iter().map(|folder| shown(folder)).collect(),
+    })?;
+    let source = source.ok_or_else(|| NoSubmission::NoneOfFive(path.to_owned()))?;
+
+    let name = |member: &Member| {
+        let (folder, name) = member.path.rsplit_once('/').unwrap_or(("", &member.path));
+        (folder == source).then(|| name.to_owned())
+    };
+    let here: Vec<(String, &Member)> = members
+        .iter()
+        .filter_map(|member| Some((name(member)?, member)))
+        .collect();
+    let is_read = |(name, _): &&(String, &Member)| one_of_five(name).is_some() || is_given(name);
+    let (read, others): (Vec<_>, Vec<_>) = here.iter().partition(is_read);
+    let wanted: Vec<&Member> = read.iter().map(|(_, member)| *member).collect();
+
+    let mut contents = Contents::default();
+    let bytes = archive.read(&wanted, LONGEST_FILE).map_err(refused)?;
+    for ((name, _), bytes) in read.iter().zip(bytes) {
+        match one_of_five(name) {
+            Some(name) => {
+                let is_too_long = bytes.len() as u64 > LONGEST_FILE;
+                let bytes = match is_too_long {
+                    true => Err(Unreadable::TooLong(name)),
+                    false => Ok(bytes),
+                };
+                contents.five.insert(name, bytes);
+            }
+            None => {
+                contents.beside.insert(name.clone(), bytes);
+            }
+        }
+    }
+    let others = others.iter().filter(|(name, _)| name.ends_with(".rs"));
+    contents
+        .beside
+        .extend(others.map(|(name, _)| (name.clone(), Vec::new())));
+    Ok(contents)
+}
+
+/// The archive's name without what says that it is one.
+pub(super) fn name(file: &str) -> String {
+    let endings = [".tar.gz", ".tgz", ".tar", ".zip"];
+    let lower = file.to_ascii_lowercase();
+    let ending = endings.iter().find(|ending| lower.ends_with(**ending));
+    let length = file.len() - ending.map_or(0, |ending| ending.len());
+    match &file[..length] {
+        "" => file.to_owned(),
+        stem => stem.to_owned(),
+    }
+}
+
+/// A member's path, from whatever stands in the archive.
+fn tidy(path: &str) -> Result<String, Refused> {
+    // Some programs on Windows write their own separator, against the standard.
+    let path = path.replace('\\', "/");
+    let is_absolute = path.starts_with('/') || path.get(1..2) == Some(":");
+    if is_absolute || path.split('/').any(|part| part == "..") {
+        return Err(Refused::Outside(shown(&path)));
+    }
+    let parts = path
+        .split('/')
+        .filter(|part| !part.is_empty() && *part != ".");
+    Ok(parts.collect::<Vec<_>>().join("/"))
+}
+
+/// A link or device. Cargo makes hard links in `target/`, and there nobody looks.
+fn special(path: &str) -> Result<(), Refused> {
+    match path.split('/').any(|part| part == "target") {
+        true => Ok(()),
+        false => Err(Refused::Special(shown(path))),
+    }
+}
+
+fn io(error: io::Error) -> Refused {
+    Refused::Io(error.kind().to_string())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,150 @@
+//! All entries, one after the other, and the closing line.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use grader::sandbox::Isolation;
+
+use crate::canary::Canaries;
+use crate::check::{Broken, Finding, broken};
+use crate::container;
+use crate::entry::Entry;
+use crate::leftovers::Leftovers;
+use crate::levels;
+use crate::run::{self, Run};
+
+/// What the command line asks for.
+struct Selection {
+    all: bool,
+    contained: bool,
+    levels: Vec<Isolation>,
+    names: Vec<String>,
+}
+
+impl Selection {
+    /// Flags of the usual test harness are none of ours, and pass.
+    fn from_arguments() -> Self {
+        let arguments: Vec<String> = std::env::args().skip(1).collect();
+        let (flags, names): (Vec<String>, _) = arguments
+            .into_iter()
+            .partition(|word| word.starts_with("--"));
+        let has = |flag: &str| flags.iter().any(|word| word == flag);
+        let levels = Isolation::ALL.into_iter();
+        Selection {
+            all: has("--all"),
+            contained: has("--contained"),
+            levels: levels.filter(|level| has(&format!("--{level}"))).collect(),
+            names,
+        }
+    }
+
+    fn takes(&self, entry: &Entry) -> bool {
+        match self.names.is_empty() {
+            true => self.all || !entry.expect.slow,
+            false => self.names.iter().any(|name| entry.name.contains(name)),
+        }
+    }
+}
+
+#[derive(Default)]
+struct Tally {
+    held: usize,
+    forged: usize,
+    leaked: usize,
+    left: usize,
+}
+
+pub fn main() -> ExitCode {
+    let mut selection = Selection::from_arguments();
+    run::adopt_orphans();
+    if selection.contained {
+        container::enter();
+    }
+    if selection.levels.is_empty() {
+        selection.levels.push(levels::best());
+    }
+    let entries = Entry::all(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hostile/entries"));
+    let entries: Vec<Entry> = entries
+        .into_iter()
+        .filter(|entry| selection.takes(entry))
+        .collect();
+    let held = selection.levels.iter().map(|level| all(&entries, *level));
+    // Every level is tried, also after one that does not hold.
+    match held.collect::<Vec<bool>>().contains(&false) {
+        false => ExitCode::SUCCESS,
+        true => ExitCode::FAILURE,
+    }
+}
+
+/// Whether all entries hold at one level.
+fn all(entries: &[Entry], level: Isolation) -> bool {
+    let honest = Entry::honest();
+    // Whatever is compiled once is compiled here.
+    run::grade(&honest, &Canaries::plant(), level);
+    let first = match graded(&honest, None, level) {
+        Ok(run) => run,
+        Err(broken) => {
+            tell("BROKEN", &honest, &broken);
+            return false;
+        }
+    };
+    let (here, below): (Vec<&Entry>, Vec<&Entry>) = entries
+        .iter()
+        .partition(|entry| entry.expect.least <= level);
+    let mut tally = Tally::default();
+    for entry in &here {
+        let own = graded(entry, None, level);
+        // Also after one that went wrong: whether it harms the next is what this is about.
+        let next = graded(&honest, Some(&first), level);
+        let broken: Vec<Broken> = [own, next]
+            .into_iter()
+            .filter_map(Result::err)
+            .flatten()
+            .collect();
+        tally.count(&broken);
+        let verdict = if broken.is_empty() { "held" } else { "BROKEN" };
+        tell(verdict, entry, &broken);
+    }
+    println!(
+        "{level}: hostile {} of {} held, forged {}, leaked {}, left {}; {} are for better levels",
+        tally.held,
+        here.len(),
+        tally.forged,
+        tally.leaked,
+        tally.left,
+        below.len(),
+    );
+    tally.held == here.len()
+}
+
+fn tell(verdict: &str, entry: &Entry, broken: &[Broken]) {
+    /// The most findings of one entry that are told.
+    const MOST: usize = 10;
+    println!("{verdict:>6}  {}: {}", entry.name, entry.expect.does);
+    for broken in broken.iter().take(MOST) {
+        println!("        {:?}: {}", broken.finding, broken.what);
+    }
+}
+
+impl Tally {
+    fn count(&mut self, broken: &[Broken]) {
+        let has = |finding| usize::from(broken.iter().any(|broken| broken.finding == finding));
+        self.held += usize::from(broken.is_empty());
+        self.forged += has(Finding::Forged);
+        self.leaked += has(Finding::Leaked);
+        self.left += has(Finding::Left);
+    }
+}
+
+/// Grades one entry and looks at all that it may have done. `as_before`: what an honest one got.
+fn graded(entry: &Entry, as_before: Option<&Run>, level: Isolation) -> Result<Run, Vec<Broken>> {
+    let canaries = Canaries::plant();
+    let before = Leftovers::look(&canaries);
+    let run = run::grade(entry, &canaries, level);
+    let after = Leftovers::look(&canaries);
+    let broken = broken(entry, &run, as_before, &canaries, before.what_came(&after));
+    match broken.is_empty() {
+        true => Ok(run),
+        false => Err(broken),
+    }
+}

@@ -1,0 +1,4 @@
+
+fn attack() {
+    eprintln!(concat!("reac", "hed: {}"), include_str!("@KEY@"));
+}

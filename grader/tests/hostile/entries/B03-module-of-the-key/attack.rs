@@ -1,0 +1,4 @@
+
+#[path = "@KEY@"]
+mod key;
+fn attack() {}

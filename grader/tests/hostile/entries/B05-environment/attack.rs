@@ -1,0 +1,4 @@
+
+fn attack() {
+    eprintln!("{:?} {:?}", option_env!("@VARIABLE@"), std::env::var("@VARIABLE@"));
+}

@@ -1,0 +1,4 @@
+
+extern crate grader;
+extern crate parts;
+extern crate reference;

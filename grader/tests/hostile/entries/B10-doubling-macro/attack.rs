@@ -1,0 +1,5 @@
+
+macro_rules! twice {
+    ($($thing:tt)*) => { twice! { $($thing)* $($thing)* } };
+}
+twice! { fn }

@@ -1,0 +1,4 @@
+
+fn attack() {
+    eprintln!("{}", include_bytes!("/dev/zero").len());
+}

@@ -1,0 +1,5 @@
+
+#[link(name = "c", kind = "static")]
+unsafe extern "C" {
+    fn getuid() -> u32;
+}

@@ -1,0 +1,2 @@
+
+#![feature(asm_experimental_arch)]

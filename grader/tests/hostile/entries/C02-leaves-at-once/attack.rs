@@ -1,0 +1,4 @@
+
+fn attack() {
+    std::process::exit(0);
+}

@@ -1,0 +1,15 @@
+
+/// Everything that this process has open, to write to.
+fn open() -> impl Iterator<Item = std::fs::File> {
+    let open = (0..64).map(|number| format!("/proc/self/fd/{number}"));
+    open.filter_map(|path| std::fs::OpenOptions::new().write(true).open(path).ok())
+}
+fn attack() {
+    use std::io::Write;
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        for mut file in open() {
+            file.write_all(&[1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 5]).ok();
+        }
+    });
+}

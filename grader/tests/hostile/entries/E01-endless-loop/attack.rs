@@ -1,0 +1,6 @@
+
+fn attack() {
+    loop {
+        std::hint::black_box(0);
+    }
+}

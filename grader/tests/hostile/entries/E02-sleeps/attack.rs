@@ -1,0 +1,6 @@
+
+fn attack() {
+    loop {
+        std::thread::park();
+    }
+}

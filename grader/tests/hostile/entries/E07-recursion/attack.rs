@@ -1,0 +1,7 @@
+
+fn attack() {
+    fn deeper(n: u64) -> u64 {
+        std::hint::black_box(deeper(n + 1) + n)
+    }
+    eprintln!("{}", deeper(0));
+}

@@ -1,0 +1,4 @@
+
+fn attack() {
+    panic!("no");
+}

@@ -1,0 +1,7 @@
+
+fn attack() {
+    let (sender, receiver) = std::sync::mpsc::channel::<()>();
+    std::thread::spawn(|| panic!("gone"));
+    receiver.recv().ok();
+    drop(sender);
+}

@@ -1,0 +1,184 @@
+//! One hostile submission: what it changes in an honest one, and what may come of it.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use grader::sandbox::Isolation;
+use serde::Deserialize;
+
+const FIVE: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
+/// What is put into one of the five. All other files lie beside them, or in their place.
+const ATTACK: &str = "attack.rs";
+const EXPECT: &str = "expect.toml";
+
+/// A folder of `entries/`.
+pub struct Entry {
+    pub name: String,
+    pub expect: Expect,
+    folder: Option<PathBuf>,
+}
+
+/// `expect.toml`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expect {
+    /// In words: "It ...".
+    pub does: String,
+    /// Below this level it is known to do harm, and is passed over.
+    #[serde(default = "Expect::any_level")]
+    pub least: Isolation,
+    /// The honest files that it changes.
+    #[serde(default)]
+    base: Base,
+    /// The file that `attack.rs` is put at the end of.
+    into: Option<String>,
+    /// The methods of that file in which `attack()` is called first of all.
+    #[serde(default)]
+    within: Vec<String>,
+    /// The most points of each task that it touches. Every other task has what is honest.
+    #[serde(default)]
+    pub points: BTreeMap<String, u64>,
+    /// What may become of the items of those tasks that are not passed.
+    #[serde(default)]
+    pub verdicts: Vec<String>,
+    /// What the report must say.
+    pub says: Option<String>,
+    /// In seconds.
+    #[serde(default = "a_minute")]
+    wall: u64,
+    /// Not among the quick ones.
+    #[serde(default)]
+    pub slow: bool,
+    #[serde(default)]
+    pub arguments: Vec<String>,
+}
+
+#[derive(Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Base {
+    #[default]
+    Reference,
+    Starter,
+}
+
+impl Expect {
+    fn any_level() -> Isolation {
+        Isolation::None
+    }
+}
+
+/// Nobody else's load shall break an entry.
+fn a_minute() -> u64 {
+    60
+}
+
+impl Entry {
+    /// All entries, by name.
+    pub fn all(folder: &Path) -> Vec<Self> {
+        let mut folders: Vec<PathBuf> = fs::read_dir(folder)
+            .expect("there is a corpus")
+            .map(|entry| entry.expect("it can be read").path())
+            .collect();
+        folders.sort();
+        folders.into_iter().map(Entry::read).collect()
+    }
+
+    fn read(folder: PathBuf) -> Self {
+        let name = folder.file_name().expect("it has a name");
+        let name = name.to_string_lossy().into_owned();
+        let text = fs::read_to_string(folder.join(EXPECT))
+            .unwrap_or_else(|error| panic!("{name}/{EXPECT}: {error}"));
+        Entry {
+            expect: toml::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}")),
+            folder: Some(folder),
+            name,
+        }
+    }
+
+    /// The reference as it stands.
+    pub fn honest() -> Self {
+        Entry {
+            name: "honest".to_owned(),
+            expect: toml::from_str("does = 'It is right.'\nwall = 300").expect("it is good"),
+            folder: None,
+        }
+    }
+
+    pub fn wall(&self) -> Duration {
+        Duration::from_secs(self.expect.wall)
+    }
+
+    /// The points of camera, triangle, sphere, bbox, build, traverse without the attack.
+    pub fn honest_points(&self) -> [(&'static str, u64); 6] {
+        let tasks = [
+            ("camera", 15),
+            ("triangle", 20),
+            ("sphere", 15),
+            ("bbox", 10),
+            ("build", 20),
+            ("traverse", 20),
+        ];
+        match self.expect.base {
+            Base::Reference => tasks,
+            Base::Starter => tasks.map(|(task, _)| (task, 0)),
+        }
+    }
+
+    /// Writes the submission into a new folder. `places` are what its text names as `@NAME@`.
+    pub fn write(&self, place: &Path, places: &[(&str, String)]) {
+        let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let honest = match self.expect.base {
+            Base::Reference => project.join("reference/src"),
+            Base::Starter => project.join("grader/starter"),
+        };
+        fs::create_dir_all(place).expect("a folder");
+        for file in FIVE {
+            fs::copy(honest.join(file), place.join(file)).expect("a file");
+        }
+        let Some(folder) = &self.folder else {
+            return;
+        };
+        for file in fs::read_dir(folder).expect("it was read").flatten() {
+            let name = file.file_name();
+            if name != ATTACK && name != EXPECT {
+                let text = fs::read_to_string(file.path()).expect("text");
+                fs::write(place.join(name), filled(&text, places)).expect("a file");
+            }
+        }
+        if let Some(into) = &self.expect.into {
+            let mut text = fs::read_to_string(place.join(into)).expect("one of the five");
+            for method in &self.expect.within {
+                text = called_first(&text, method);
+            }
+            let attack = fs::read_to_string(folder.join(ATTACK)).expect("an attack");
+            text.push_str(&filled(&attack, places));
+            fs::write(place.join(into), text).expect("a file");
+        }
+    }
+}
+
+/// The text with `attack();` as the first statement of a method.
+fn called_first(text: &str, method: &str) -> String {
+    let start = text
+        .find(&format!("fn {method}("))
+        .unwrap_or_else(|| panic!("there is no method {method}"));
+    let body = start + text[start..].find("{\n").expect("it has a body") + 2;
+    format!("{}        attack();\n{}", &text[..body], &text[body..])
+}
+
+/// `@NAME@` becomes the place, `@{1000x(}` a thousand parentheses.
+fn filled(text: &str, places: &[(&str, String)]) -> String {
+    let mut text = text.to_owned();
+    for (name, place) in places {
+        text = text.replace(&format!("@{name}@"), place);
+    }
+    while let Some(start) = text.find("@{") {
+        let end = start + text[start..].find('}').expect("it is closed");
+        let (count, what) = text[start + 2..end].split_once('x').expect("COUNTxTEXT");
+        let repeated = what.repeat(count.parse().expect("a count"));
+        text.replace_range(start..=end, &repeated);
+    }
+    text
+}

@@ -1,0 +1,115 @@
+//! One run of the real binary, watched from outside.
+
+use std::fs;
+use std::io::Read;
+use std::os::unix::process::CommandExt;
+use std::process::{Child, Command, Stdio};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use grader::sandbox::Isolation;
+use serde_json::Value;
+
+use crate::canary::Canaries;
+use crate::entry::Entry;
+
+/// What became of one run.
+pub struct Run {
+    /// Not there if it had to be ended.
+    pub exit_code: Option<i32>,
+    pub took: Duration,
+    /// The most memory that the grader itself has used, in bytes.
+    pub memory: u64,
+    /// Both streams.
+    pub printed: String,
+    pub score: Option<String>,
+    pub page: Option<String>,
+}
+
+impl Run {
+    /// The score file without what may differ from run to run.
+    pub fn lasting(&self) -> Option<Value> {
+        let mut score: Value = serde_json::from_str(self.score.as_ref()?).ok()?;
+        let fields = score.as_object_mut()?;
+        fields.remove("timings");
+        Some(score)
+    }
+}
+
+/// Whatever outlives its parent becomes ours, and is found.
+pub fn adopt_orphans() {
+    let own = rustix::process::getpid();
+    rustix::process::set_child_subreaper(Some(own)).expect("Linux can do this");
+}
+
+/// Grades one submission. Never waits for longer than it may take.
+pub fn grade(entry: &Entry, canaries: &Canaries, level: Isolation) -> Run {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let submission = folder.path().join("submission");
+    entry.write(&submission, &canaries.places());
+    let out = canaries.out();
+
+    let began = Instant::now();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_grader"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .arg(&submission)
+        .arg("--out")
+        .arg(&out)
+        .args(["--isolation", level.name()])
+        .args(&entry.expect.arguments)
+        .env(Canaries::VARIABLE, canaries.secret())
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .process_group(0)
+        .spawn()
+        .expect("the grader starts");
+    let printed = [
+        read(child.stdout.take().expect("it is piped")),
+        read(child.stderr.take().expect("it is piped")),
+    ];
+    let (exit_code, memory) = end_of(&mut child, began + entry.wall());
+    let took = began.elapsed();
+    let text = |name| fs::read_to_string(out.join(name)).ok();
+    Run {
+        exit_code,
+        took,
+        memory,
+        printed: printed
+            .map(|thread| thread.join().expect("it reads"))
+            .concat(),
+        score: text("score.json"),
+        page: text("report.html"),
+    }
+}
+
+fn read(mut pipe: impl Read + Send + 'static) -> JoinHandle<String> {
+    thread::spawn(move || {
+        let mut bytes = Vec::new();
+        pipe.read_to_end(&mut bytes).ok();
+        String::from_utf8_lossy(&bytes).into_owned()
+    })
+}
+
+fn end_of(child: &mut Child, deadline: Instant) -> (Option<i32>, u64) {
+    let mut memory = 0;
+    loop {
+        if let Some(status) = child.try_wait().expect("it is ours") {
+            return (status.code(), memory);
+        }
+        memory = memory.max(peak_memory(child).unwrap_or(0));
+        if Instant::now() >= deadline {
+            child.kill().ok();
+            child.wait().ok();
+            return (None, memory);
+        }
+        thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn peak_memory(child: &Child) -> Option<u64> {
+    let status = fs::read_to_string(format!("/proc/{}/status", child.id())).ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kilobytes << 10)
+}

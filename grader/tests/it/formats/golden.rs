@@ -1,0 +1,86 @@
+//! Each format of six submissions, each graded once: kept as it looks, and read as strictly as its
+//! platform describes it.
+
+use insta::assert_snapshot;
+
+use crate::formats::{FORMATS, exam, forging, models, written};
+use crate::harness::Submission;
+
+fn snapshots(case: &str, submission: &Submission, arguments: &[&str]) {
+    let written = written(submission, &exam("practice"), arguments);
+    for (format, _) in FORMATS {
+        models::check(format, &written[format]);
+    }
+    let mut settings = insta::Settings::clone_current();
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.add_filter(r#""execution_time": [0-9.]+"#, r#""execution_time": 1.5"#);
+    settings.add_filter(r#""isolation": "[a-z-]+""#, r#""isolation": "as reached""#);
+    settings.bind(|| {
+        for (format, _) in FORMATS {
+            let text = models::readable(format, &written[format]);
+            assert_snapshot!(format!("{format}-{case}"), text);
+        }
+        assert_snapshot!(format!("annotations-{case}"), annotations(&written["log"]));
+    });
+}
+
+/// What the runner takes as commands: what stands outside of the silence.
+fn annotations(log: &str) -> String {
+    let mut silence: Option<&str> = None;
+    let mut commands = Vec::new();
+    for line in log.lines() {
+        match silence {
+            None => match line.strip_prefix("::stop-commands::") {
+                Some(token) => silence = Some(token),
+                None => commands.push(line),
+            },
+            Some(token) if line == format!("::{token}::") => silence = None,
+            Some(_) => {}
+        }
+    }
+    assert_eq!(silence, None, "somebody ends the silence");
+    commands.join("\n")
+}
+
+#[test]
+fn of_a_perfect_submission() {
+    snapshots("perfect", &Submission::reference("perfect"), &[]);
+}
+
+#[test]
+fn of_the_starter() {
+    snapshots("starter", &Submission::starter("starter"), &[]);
+}
+
+#[test]
+fn of_a_known_mistake() {
+    let partial = Submission::reference("partial");
+    let partial = partial.changed("sphere.rs", "[near, far]", "[far, near]");
+    snapshots("partial", &partial, &[]);
+}
+
+#[test]
+fn of_a_file_that_does_not_compile() {
+    snapshots("not-compiling", &Submission::case("not_compiling"), &[]);
+}
+
+#[test]
+fn of_an_endless_loop() {
+    snapshots(
+        "hanging",
+        &Submission::case("looping"),
+        &["--cpu-limit", "1"],
+    );
+}
+
+#[test]
+fn of_words_that_attack_their_readers() {
+    snapshots("forging", &forging(), &[]);
+}
+
+#[test]
+fn only_what_stands_outside_of_the_silence_is_a_command() {
+    let log = "::stop-commands::t\n::error::x\n::u::\n::t::\n::error::ours";
+    assert_eq!(annotations(log), "::error::ours");
+}

@@ -1,0 +1,130 @@
+//! What students must not read in any format: the staff's words, and of a final exam its questions
+//! and what is right.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::formats::{FORMATS, Written, exam, forging, models, written};
+use crate::harness::Submission;
+
+/// All that students get to read: every format, and the log.
+fn readable(written: &Written) -> String {
+    let formats = FORMATS
+        .iter()
+        .map(|(format, _)| models::readable(format, &written[format]));
+    formats.chain([written["log"].clone()]).collect()
+}
+
+/// What the score file says of an item, for staff.
+fn secrets(written: &Written) -> Vec<String> {
+    let score: Value = serde_json::from_str(&written["json"]).unwrap();
+    let mut secrets = vec![score["exam"]["hash"].as_str().unwrap().to_owned()];
+    for task in score["tasks"].as_array().unwrap() {
+        for item in task["items"].as_array().unwrap() {
+            let evidence = &item["evidence"];
+            let texts = [&item["staff"], &evidence["asked"], &evidence["wanted"]];
+            let texts = texts.into_iter().filter_map(Value::as_str);
+            // Such as `none`: that is in every sentence.
+            secrets.extend(texts.filter(|text| text.len() > 12).map(str::to_owned));
+        }
+    }
+    secrets
+}
+
+fn policy(submission: Submission, text: &str) -> (Submission, String) {
+    let submission = submission.with("policy.toml", text);
+    let path = submission.path().join("policy.toml");
+    (submission, path.to_str().unwrap().to_owned())
+}
+
+#[test]
+fn no_format_tells_a_final_exams_questions_and_answers() {
+    let far = Submission::reference("far").changed("sphere.rs", "[near, far]", "[far, near]");
+    for submission in [far, forging()] {
+        let written = written(&submission, &exam("final"), &[]);
+        let (read, secrets) = (readable(&written), secrets(&written));
+        assert!(secrets.len() > 2, "there is something to keep");
+        for secret in secrets {
+            assert!(!read.contains(&secret), "{secret:?} is told");
+        }
+        assert!(
+            !read.contains("Vec3("),
+            "a panic's words are the submission's"
+        );
+    }
+}
+
+#[test]
+fn the_search_finds_what_is_told() {
+    let far = Submission::reference("far").changed("sphere.rs", "[near, far]", "[far, near]");
+    let written = written(&far, &exam("practice"), &[]);
+    let read = readable(&written);
+    let secrets = secrets(&written);
+    let told = secrets.iter().filter(|secret| read.contains(*secret));
+    assert!(
+        told.count() >= 2,
+        "of the practice exam, questions are told"
+    );
+    let staff: Vec<&String> = secrets
+        .iter()
+        .filter(|secret| secret.starts_with("answers like"))
+        .collect();
+    assert!(!staff.is_empty() && staff.iter().all(|words| !read.contains(*words)));
+}
+
+#[test]
+fn hidden_items_are_hidden_or_counted_together() {
+    let far = Submission::reference("far").changed("sphere.rs", "[near, far]", "[far, near]");
+    let (far, path) = policy(
+        far,
+        "[visibility.items]\nsphere = 'after_due'\ncamera = 'points'\n'camera.corners' = 'hidden'",
+    );
+    let written = written(&far, &exam("practice"), &["--policy", &path]);
+    let gradescope: Value = serde_json::from_str(&written["gradescope"]).unwrap();
+    let shown: Vec<&str> = gradescope["tests"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|test| test["visibility"].as_str().unwrap())
+        .collect();
+    let (visible, later) = ("visible", "after_due_date");
+    assert_eq!(
+        shown,
+        [
+            "hidden", visible, visible, later, later, visible, visible, visible
+        ]
+    );
+    // Where nothing can be shown later, nothing is told but a sum.
+    for format in [
+        "classroom50",
+        "junit",
+        "github",
+        "check50",
+        "prairielearn",
+        "text",
+    ] {
+        let text = &written[format];
+        assert!(!text.contains("sphere.near_side"), "{format}: {text}");
+        assert!(
+            !text.contains("from outside, the near side is hit"),
+            "{format}"
+        );
+    }
+    assert!(written["classroom50"].contains("2 items that are not shown"));
+    models::check("classroom50", &written["classroom50"]);
+}
+
+#[test]
+fn annotations_are_on_the_students_own_lines() {
+    let submission =
+        Submission::reference("checkout").changed("sphere.rs", "[near, far]", "[far, near]");
+    let written = written(&submission, &exam("practice"), &[]);
+    let text = fs::read_to_string(submission.path().join("sphere.rs")).unwrap();
+    let line = 1 + text
+        .lines()
+        .position(|line| line.contains("pub fn hit("))
+        .unwrap();
+    let head = format!("::error file=checkout/sphere.rs,line={line},title=Task 2%3A spheres");
+    assert!(written["log"].contains(&head), "{}", written["log"]);
+}

@@ -1,0 +1,114 @@
+//! What platforms read: as they document it, and as it looks.
+
+mod golden;
+mod leaks;
+mod models;
+mod unfinished;
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::harness::{Submission, grader, workspace};
+
+/// All formats but the score file, with the names of their files.
+pub const FORMATS: [(&str, &str); 8] = [
+    ("text", "report.txt"),
+    ("gradescope", "gradescope.json"),
+    ("classroom50", "classroom50.json"),
+    ("junit", "junit.xml"),
+    ("github", "github.md"),
+    ("github-classroom", "github-classroom.txt"),
+    ("check50", "check50.json"),
+    ("prairielearn", "prairielearn.json"),
+];
+
+/// What classroom50's runner sets.
+const RUNNER: [(&str, &str); 9] = [
+    ("CLASSROOM", "gfx-f26"),
+    ("ASSIGNMENT", "pathtracer"),
+    ("ASSIGNMENT_TYPE", "individual"),
+    ("OWNER", "alice"),
+    ("SUBMISSION_TAG", "submit/2026-11-20T21-10-05Z-a1b2c3d"),
+    ("COMMIT_URL", "https://example.org/commit/a1b2c3d"),
+    ("RELEASE_URL", "https://example.org/releases/1"),
+    ("REVIEW_URL", "https://example.org/compare/1"),
+    ("SUBMITTED_AT", "2026-11-20T21:09:58Z"),
+];
+
+/// A few items of each task: what a format makes of an item it makes of all.
+const ITEMS: [&str; 8] = [
+    "camera.corners",
+    "camera.unit_length",
+    "triangle.inside",
+    "sphere.near_side",
+    "sphere.far_root",
+    "bbox.through",
+    "build.partition",
+    "traverse.closest_hit",
+];
+
+/// All that one run wrote, by format; `log` is what it printed, `json` the score file.
+pub type Written = BTreeMap<&'static str, String>;
+
+/// The practice exam's items of these names, under another name.
+pub fn exam(id: &str) -> String {
+    let text = fs::read_to_string(workspace().join("grader/exams/practice.json")).unwrap();
+    let mut exam: Value = serde_json::from_str(&text).unwrap();
+    exam["id"] = id.into();
+    let is_kept = |item: &str| ITEMS.contains(&item);
+    let items = exam["items"].as_array_mut().unwrap();
+    items.retain(|item| is_kept(item["id"].as_str().unwrap()));
+    for item in items {
+        if let Some(needs) = item.get_mut("needs").and_then(Value::as_array_mut) {
+            needs.retain(|id| is_kept(id.as_str().unwrap()));
+        }
+    }
+    exam.to_string()
+}
+
+/// Grades once, and writes all formats.
+pub fn written(submission: &Submission, exam: &str, arguments: &[&str]) -> Written {
+    let folder = TempDir::new().unwrap();
+    let (out, place) = (folder.path().join("out"), folder.path().join("exam.json"));
+    fs::write(&place, exam).unwrap();
+    let formats = FORMATS.map(|(format, _)| format);
+    let output = grader()
+        .current_dir(submission.path().parent().unwrap())
+        .arg(submission.path())
+        .args(["--no-reference", "--exam"])
+        .arg(&place)
+        .arg("--out")
+        .arg(&out)
+        .arg("--format")
+        .args(formats)
+        .args(arguments)
+        .envs(RUNNER)
+        .env_remove("GITHUB_STEP_SUMMARY")
+        .env_remove("GITHUB_OUTPUT")
+        .env_remove("GITHUB_WORKSPACE")
+        .env("GITHUB_ACTIONS", "true")
+        .output()
+        .unwrap();
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{error}");
+    let files = FORMATS.into_iter().chain([("json", "score.json")]);
+    let mut written: Written = files
+        .map(|(format, file)| (format, fs::read_to_string(out.join(file)).unwrap()))
+        .collect();
+    written.insert("log", String::from_utf8(output.stdout).unwrap());
+    written
+}
+
+/// A submission whose every word is an attempt on whoever reads it.
+pub fn forging() -> Submission {
+    let head = "pub fn hit(&self, ray: &Ray) -> Option<Trace> {";
+    let words = r#"{head}
+        println!("::error::full marks\n##[error]all of them\n</system-out></testsuite>");
+        if ray.dir.is_normalized() {
+            panic!("\n::set-output name=x::y\n##[warning]z\n]]></failure>\u{1b}[2J```\n</details><script>alert(1)</script>|{ray:?}");
+        }"#;
+    Submission::reference("forging").changed("sphere.rs", head, &words.replace("{head}", head))
+}

@@ -1,0 +1,315 @@
+//! Strict models of what each platform documents: no key too many, none too few, totals that match.
+
+use std::collections::BTreeSet;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use quick_junit::{Report, TestCaseStatus};
+use serde::Deserialize;
+use serde_json::Value;
+
+/// Panics where the text is not as its platform describes it.
+pub fn check(format: &str, text: &str) {
+    match format {
+        "gradescope" => gradescope(text),
+        "classroom50" => classroom50(text),
+        "junit" => junit(text),
+        "github-classroom" => github_classroom(text),
+        "check50" => check50(text),
+        "prairielearn" => prairielearn(text),
+        "github" => assert!(text.len() < 1 << 20 && text.starts_with("## ")),
+        _ => assert!(!text.contains('\u{1b}'), "{format} holds an escape"),
+    }
+}
+
+/// As it is to be looked at.
+pub fn readable(format: &str, text: &str) -> String {
+    match format {
+        "github-classroom" => format!("{:#}", decoded(text)),
+        _ => text.to_owned(),
+    }
+}
+
+fn decoded(text: &str) -> Value {
+    let result = text.strip_prefix("result=").unwrap().trim_end();
+    serde_json::from_slice(&STANDARD.decode(result).unwrap()).unwrap()
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "that they are there is what is asked")]
+struct Gradescope {
+    score: f64,
+    execution_time: f64,
+    output: String,
+    output_format: TextFormat,
+    test_output_format: TextFormat,
+    test_name_format: TextFormat,
+    visibility: Shown,
+    stdout_visibility: Shown,
+    extra_data: Value,
+    tests: Vec<GradescopeTest>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "that they are there is what is asked")]
+struct GradescopeTest {
+    score: f64,
+    max_score: f64,
+    status: Option<Status>,
+    name: String,
+    name_format: TextFormat,
+    number: String,
+    output: String,
+    output_format: TextFormat,
+    tags: Vec<String>,
+    visibility: Shown,
+    extra_data: Value,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum TextFormat {
+    Text,
+    Html,
+    SimpleFormat,
+    Md,
+    Ansi,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Shown {
+    Hidden,
+    AfterDueDate,
+    AfterPublished,
+    Visible,
+}
+
+#[derive(Deserialize, PartialEq)]
+#[serde(rename_all = "snake_case")]
+enum Status {
+    Passed,
+    Failed,
+}
+
+fn gradescope(text: &str) {
+    assert!(text.len() <= 256 << 10, "{} bytes", text.len());
+    let results: Gradescope = serde_json::from_str(text).unwrap();
+    let sum: f64 = results.tests.iter().map(|test| test.score).sum();
+    assert_eq!(results.score, sum, "totals match");
+    let numbers: BTreeSet<&String> = results.tests.iter().map(|test| &test.number).collect();
+    assert_eq!(numbers.len(), results.tests.len(), "numbers differ");
+    for test in &results.tests {
+        let has_all = test.score == test.max_score;
+        let says_so = test.status.as_ref().map(|status| *status == Status::Passed);
+        assert!(
+            says_so.is_none_or(|passed| passed == has_all),
+            "{}",
+            test.name
+        );
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Classroom50 {
+    schema: String,
+    classroom: String,
+    assignment: String,
+    #[serde(rename = "assignment_type")]
+    assignment_type: AssignmentType,
+    owner: String,
+    submission: String,
+    commit: String,
+    release: String,
+    review: String,
+    datetime: String,
+    score: u32,
+    max_score: u32,
+    tests: Vec<Classroom50Test>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum AssignmentType {
+    Individual,
+    Group,
+}
+
+/// Other keys are allowed here, and kept.
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case")]
+struct Classroom50Test {
+    test_name: String,
+    passed: bool,
+    score: u32,
+    max_score: u32,
+}
+
+fn classroom50(text: &str) {
+    let result: Classroom50 = serde_json::from_str(text).unwrap();
+    assert_eq!(result.schema, "classroom50/result/v1");
+    assert!(matches!(result.assignment_type, AssignmentType::Individual));
+    assert!(result.submission.starts_with("submit/"));
+    let names = [&result.classroom, &result.assignment, &result.owner];
+    let links = [&result.commit, &result.release, &result.review];
+    assert!(names.iter().chain(&links).all(|text| !text.is_empty()));
+    let shape: String = result
+        .datetime
+        .chars()
+        .map(|c| if c.is_ascii_digit() { '0' } else { c })
+        .collect();
+    assert_eq!(shape, "0000-00-00T00:00:00Z");
+    assert!(result.score <= result.max_score);
+    for test in &result.tests {
+        assert!(!test.test_name.is_empty() && test.score <= test.max_score);
+        assert_eq!(test.passed, test.score == test.max_score);
+    }
+    assert_eq!(
+        result.score,
+        result.tests.iter().map(|test| test.score).sum::<u32>()
+    );
+}
+
+fn junit(text: &str) {
+    roxmltree::Document::parse(text).expect("it is XML");
+    let report = Report::deserialize_from_str(text).expect("it is JUnit's");
+    let suites: Vec<String> = report
+        .test_suites
+        .iter()
+        .map(|suite| suite.name.to_string())
+        .collect();
+    assert_eq!(
+        suites,
+        ["camera", "triangle", "sphere", "bbox", "build", "traverse"]
+    );
+    let suites = report.test_suites.iter();
+    let cases: Vec<_> = suites.flat_map(|suite| &suite.test_cases).collect();
+    let failed = cases
+        .iter()
+        .filter(|case| matches!(case.status, TestCaseStatus::NonSuccess { .. }));
+    assert_eq!(report.tests, cases.len());
+    assert_eq!(report.failures + report.errors, failed.count());
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GithubClassroom {
+    version: u32,
+    status: String,
+    max_score: u32,
+    tests: Vec<GithubClassroomTest>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "that they are there is what is asked")]
+struct GithubClassroomTest {
+    name: String,
+    status: String,
+    score: u32,
+    message: Option<String>,
+    test_code: String,
+    filename: String,
+    line_no: u32,
+}
+
+fn github_classroom(text: &str) {
+    assert_eq!(text.lines().count(), 1, "one output");
+    let result: GithubClassroom = serde_json::from_value(decoded(text)).unwrap();
+    assert_eq!(result.version, 1);
+    assert!(["pass", "fail", "error"].contains(&result.status.as_str()));
+    let statuses = result.tests.iter().map(|test| test.status.as_str());
+    assert!(
+        statuses
+            .clone()
+            .all(|status| ["pass", "fail", "error"].contains(&status))
+    );
+    assert!(result.tests.iter().map(|test| test.score).sum::<u32>() <= result.max_score);
+    assert!(result.tests.iter().all(|test| !test.name.is_empty()));
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "that they are there is what is asked")]
+struct Check50 {
+    slug: String,
+    results: Vec<Check50Result>,
+    version: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "that they are there is what is asked")]
+struct Check50Result {
+    name: String,
+    description: String,
+    passed: Option<bool>,
+    log: Vec<String>,
+    cause: Option<Cause>,
+    data: Value,
+    dependency: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "that they are there is what is asked")]
+struct Cause {
+    rationale: String,
+    help: Option<String>,
+}
+
+fn check50(text: &str) {
+    let report: Check50 = serde_json::from_str(text).unwrap();
+    let names: BTreeSet<&str> = report.results.iter().map(|result| &*result.name).collect();
+    for result in &report.results {
+        assert_eq!(
+            result.passed == Some(true),
+            result.cause.is_none(),
+            "{}",
+            result.name
+        );
+        let known = result
+            .dependency
+            .as_deref()
+            .is_none_or(|name| names.contains(name));
+        assert!(known, "{:?}", result.dependency);
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "that they are there is what is asked")]
+struct PrairieLearn {
+    gradable: bool,
+    score: f64,
+    message: Option<String>,
+    output: Option<String>,
+    format_errors: Option<Vec<String>>,
+    #[serde(default)]
+    tests: Vec<PrairieLearnTest>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "that they are there is what is asked")]
+struct PrairieLearnTest {
+    name: String,
+    description: String,
+    points: f64,
+    max_points: f64,
+    message: String,
+    output: String,
+}
+
+fn prairielearn(text: &str) {
+    assert!(text.len() < 1_000_000);
+    let results: PrairieLearn = serde_json::from_str(text).unwrap();
+    assert!((0.0..=1.0).contains(&results.score));
+    assert_eq!(results.gradable, results.format_errors.is_none());
+    let sum = |points: fn(&PrairieLearnTest) -> f64| results.tests.iter().map(points).sum::<f64>();
+    let share = sum(|test| test.points) / sum(|test| test.max_points).max(1.0);
+    assert!((results.score - share).abs() < 1e-9);
+}

@@ -1,0 +1,65 @@
+//! A job that was killed, or was never where it was meant to be.
+
+use clap::ValueEnum;
+use grader::exam_file;
+use grader::format::{Around, Format, Seen};
+use grader::policy::Policy;
+use grader::verdict::unasked;
+
+use crate::formats::models::{check, readable};
+use crate::harness::{Submission, grader};
+
+#[test]
+fn a_job_that_was_killed_says_that_it_is_unfinished() {
+    let file = exam_file::load(None).unwrap();
+    let mut around = Around::default();
+    for name in Format::Classroom50.variables() {
+        around.variables.insert(name, "submit/x".to_owned());
+    }
+    around
+        .variables
+        .insert("ASSIGNMENT_TYPE", "individual".to_owned());
+    around
+        .variables
+        .insert("SUBMITTED_AT", "2026-11-20T21:09:58Z".to_owned());
+    let score = unasked(&file.exam, file.name(), "killed");
+    let seen = Seen::of(&score, &Policy::default());
+    for format in Format::value_variants() {
+        let Some(text) = format.text(&seen, &around) else {
+            continue;
+        };
+        check(format.id(), &text);
+        let text = readable(format.id(), &text);
+        let marks = ["UNFINISHED: 0 of 82", "not asked yet"];
+        assert!(
+            marks.iter().any(|mark| text.contains(mark)),
+            "{}: {text}",
+            format.id()
+        );
+    }
+}
+
+#[test]
+fn a_format_that_repeats_its_runner_says_what_it_misses() {
+    let submission = Submission::starter("starter");
+    let output = grader()
+        .arg(submission.path())
+        .args(["--no-reference", "--format", "classroom50"])
+        .env_remove("CLASSROOM")
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(error.contains("CLASSROOM, which is not set"), "{error}");
+}
+
+#[test]
+fn an_unknown_format_is_answered_with_the_known_ones() {
+    let output = grader().args(["--format", "gradescop"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        error.contains("text, gradescope, classroom50, junit"),
+        "{error}"
+    );
+}

@@ -1,0 +1,49 @@
+//! What a course decides by itself: what points count for, and that a slip in saying so is told.
+
+use insta::assert_snapshot;
+
+use crate::harness::{Submission, grader};
+
+/// What is said of a policy, in which nothing is graded.
+fn refused(policy: &str) -> String {
+    let submission = Submission::starter("any").with("policy.toml", policy);
+    let path = submission.path().join("policy.toml");
+    let path = path.to_str().unwrap();
+    let graded = submission.grade_with(&["--policy", path]);
+    assert_eq!(graded.exit_code(), 2, "{policy}: {}", graded.error());
+    assert!(graded.score.is_none(), "nothing was asked");
+    graded.error().replace(path, "policy.toml")
+}
+
+#[test]
+fn bad_ones_are_refused_with_line_and_remedy() {
+    let bad = [
+        "[late]\nfree_dayz = 2",
+        "[points]\n\nrounding = 'upwards'",
+        "[late]\nfree_days = -1",
+        "[late]\nmost_percent = 120",
+        "[late]\ndue = 2026-11-20",
+        "[late\n",
+        "[visibility.items]\nbuild = 'secret'",
+        "[visibility.items]\n'sphere.inside_out' = 'hidden'",
+    ];
+    assert_snapshot!(bad.map(refused).join("\n"));
+}
+
+#[test]
+fn points_count_as_the_policy_says_and_the_score_stays() {
+    let submission = Submission::case("not_compiling").with("policy.toml", "[points]\nout_of = 30");
+    let path = submission.path().join("policy.toml");
+    let graded = submission.grade_with(&["--policy", path.to_str().unwrap()]);
+    let points = graded.score()["points"].as_u64().unwrap();
+    let counted = (2 * points * 30 + 100) / 200;
+    let told = format!("  counts for {counted} of 30 points");
+    assert!(graded.report().contains(&told), "{}", graded.report());
+}
+
+#[test]
+fn the_default_policy_explains_itself() {
+    let output = grader().arg("--policy-default").output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(text, grader::policy::DEFAULT);
+}

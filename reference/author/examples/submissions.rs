@@ -1,0 +1,50 @@
+//! A class of any size, made of the known mistakes and the variants: to see how fast one is graded.
+//!
+//! ```text
+//! cargo run --release -p author --example submissions -- target/class 200
+//! time cargo class target/class --out target/graded
+//! ```
+
+use std::env;
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use author::proof::catalogue::mistakes;
+use author::proof::sources::Sources;
+use author::proof::variants::variants;
+use grader::given::TASK_FILES;
+use grader::workspace::Workspace;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut words = env::args().skip(1);
+    let (Some(folder), Some(count)) = (words.next(), words.next()) else {
+        return Err("a folder and a number are meant: target/class 200".into());
+    };
+    let (folder, count) = (PathBuf::from(folder), count.parse()?);
+    let workspace = Workspace::find()?;
+    let root = workspace.root();
+
+    let reference = Sources::reference(root)?;
+    let mut solutions = Vec::new();
+    for mistake in mistakes(root)? {
+        solutions.push((mistake.id.clone(), mistake.apply(&reference)?));
+    }
+    for variant in variants(root)? {
+        solutions.push((variant.id.clone(), variant.apply(&reference, root)?));
+    }
+    for place in 0..count {
+        // Strided, so that a small class is of all tasks as well.
+        let (id, sources) = &solutions[(7 * place) % solutions.len()];
+        write(&folder.join(format!("{place:04}-{id}")), sources)?;
+    }
+    Ok(())
+}
+
+fn write(folder: &Path, sources: &Sources) -> Result<(), Box<dyn Error>> {
+    fs::create_dir_all(folder)?;
+    for file in TASK_FILES {
+        fs::write(folder.join(file.name), sources.text(file.name).unwrap_or_default())?;
+    }
+    Ok(())
+}

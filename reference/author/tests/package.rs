@@ -1,0 +1,70 @@
+//! What staff uploads: all that it needs, and what students can read without a secret.
+
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+use author::bundle::secrets::Secrets;
+use author::bundle::{Bundle, archive};
+use author::package::{Course, NoPackage, Platform, collect};
+use grader::doctor::package::complaints;
+
+/// Stands for a final exam: the same, but for its name.
+static FINAL: LazyLock<Course> = LazyLock::new(|| {
+    let exam = std::fs::read_to_string(root().join("grader/exams/practice.json")).unwrap();
+    let mut course = Course::new(None, None, None).unwrap();
+    course.exam = Some(exam.replacen("\"practice\"", "\"final\"", 1));
+    course
+});
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn without_exam() -> Course {
+    Course::new(None, None, None).unwrap()
+}
+
+#[test]
+fn gradescopes_zip_is_whole_and_holds_no_more_than_is_needed() {
+    let package = collect(&root(), Platform::Gradescope, FINAL.clone()).unwrap();
+    let folder = tempfile::TempDir::new().unwrap();
+    let zip = folder.path().join("gradescope.zip");
+    std::fs::write(&zip, archive::zip_below(&package, "").unwrap()).unwrap();
+    assert_eq!(complaints(&zip).unwrap(), [""; 0]);
+    for path in package.files.keys() {
+        for staff in [
+            "mistakes", "variants", "mutants", "author", "tests/", "handout/",
+        ] {
+            assert!(!path.contains(staff), "{path}");
+        }
+    }
+    assert!(
+        package
+            .files
+            .contains_key("pathtracing/reference/src/bvh.rs")
+    );
+}
+
+#[test]
+fn what_students_can_read_holds_no_solution_and_no_final_exam() {
+    for platform in [Platform::Classroom50, Platform::Github] {
+        let refused = collect(&root(), platform, FINAL.clone());
+        assert!(
+            matches!(refused, Err(NoPackage::NoSecret(_))),
+            "{platform:?}"
+        );
+    }
+    let package = collect(&root(), Platform::Classroom50, without_exam()).unwrap();
+    let unpacked = archive::unzip(&package.files["pathtracing.zip"]).unwrap();
+    let students = Bundle::collect(&root(), None).unwrap();
+    let secrets = Secrets::gather(&root(), &students).unwrap();
+    assert_eq!(secrets.search(&unpacked), []);
+    let size: usize = package.files.values().map(Vec::len).sum();
+    assert!(size < 10 << 20, "classroom50 takes 10 MiB: {size}");
+}
+
+#[test]
+fn what_counts_on_gradescope_is_never_the_practice_exam_by_accident() {
+    let refused = collect(&root(), Platform::Gradescope, without_exam());
+    assert!(matches!(refused, Err(NoPackage::NoExam)));
+}

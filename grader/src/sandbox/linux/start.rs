@@ -106,8 +106,8 @@ impl Program {
             kill_current_process_group(Signal::KILL)?;
         }
         let status = child.wait()?;
-        // Ends in the same way, and takes along whatever its program has left behind.
         if let Some(signal) = status.signal().and_then(Signal::from_named_raw) {
+            // Ends in the same way, and takes along whatever its program has left behind.
             kill_current_process_group(signal)?;
         }
         let code = u8::try_from(status.code().unwrap_or(1)).unwrap_or(1);

@@ -19,11 +19,13 @@ mod windows;
 pub use linux::{cpu_time, limit};
 #[cfg(unix)]
 pub use unix::{
-    ending, kill_group, open_regular, open_to_all, own_group, readable_by_all, runnable_by_all,
+    ending, kill_group, link, open_regular, open_to_all, own_group, readable_by_all,
+    runnable_by_all,
 };
 #[cfg(windows)]
 pub use windows::{
-    ending, kill_group, open_regular, open_to_all, own_group, readable_by_all, runnable_by_all,
+    ending, kill_group, link, open_regular, open_to_all, own_group, readable_by_all,
+    runnable_by_all,
 };
 
 /// What a process may use. Where the system knows no such limit, wall time is the only one.

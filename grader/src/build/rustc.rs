@@ -129,7 +129,7 @@ impl Rustc {
             })
             .arg(source.root);
         if self.sandbox.confines() {
-            confined::arguments(self, source, &mut command);
+            confined::arguments(self, source, &mut command)?;
         }
         let profile = confined::profile(self, source);
         let mut process = self

@@ -48,6 +48,11 @@ pub fn open_to_all(folder: &Path) -> io::Result<()> {
     std::fs::set_permissions(folder, Permissions::from_mode(0o755))
 }
 
+/// Makes a symbolic link at `path`.
+pub fn link(original: &Path, path: &Path) -> io::Result<()> {
+    std::os::unix::fs::symlink(original, path)
+}
+
 /// Opens a regular file that has one name, in one step: what else lies there is never followed,
 /// waited for, or changed between a look and the opening. `None` if it is something else.
 pub fn open_regular(path: &Path) -> io::Result<Option<File>> {

@@ -28,6 +28,11 @@ pub fn runnable_by_all(_: &File) -> io::Result<()> {
     Ok(())
 }
 
+/// Makes a symbolic link at `path`.
+pub fn link(original: &Path, path: &Path) -> io::Result<()> {
+    std::os::windows::fs::symlink_file(original, path)
+}
+
 /// Opens a regular file. Nobody is kept apart here who could put something else in its place.
 pub fn open_regular(path: &Path) -> io::Result<Option<File>> {
     let file = File::open(path)?;

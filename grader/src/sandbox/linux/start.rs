@@ -106,10 +106,9 @@ impl Program {
             kill_current_process_group(Signal::KILL)?;
         }
         let status = child.wait()?;
-        match status.signal().and_then(Signal::from_named_raw) {
+        if let Some(signal) = status.signal().and_then(Signal::from_named_raw) {
             // Ends in the same way, and takes along whatever its program has left behind.
-            Some(signal) => kill_current_process_group(signal)?,
-            None => {}
+            kill_current_process_group(signal)?;
         }
         let code = u8::try_from(status.code().unwrap_or(1)).unwrap_or(1);
         Ok(ExitCode::from(code))

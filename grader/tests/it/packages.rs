@@ -14,6 +14,9 @@ const RUN: (&str, &str) = ("run_autograder", "#!/bin/sh\n");
 const POLICY: (&str, &str) = ("pathtracing/policy.toml", "");
 const CRATE: (&str, &str) = ("pathtracing/crates/registry/cache/x/glam.crate", "");
 
+/// What is wrong, the files that show it, and the mode of all of them.
+type Case<'a> = (&'a str, Vec<(&'a str, &'a str)>, u32);
+
 /// What is said of a zip with these files, and the exit code.
 fn told(files: &[(&str, &str)], mode: u32) -> (i32, String) {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
@@ -55,7 +58,7 @@ fn a_whole_one_has_nothing_wrong_with_it() {
 fn what_is_wrong_is_told_with_what_to_do() {
     let (good, practice) = (exam("final"), exam("practice"));
     let good = ("pathtracing/exam.json", good.as_str());
-    let bad: [(&str, Vec<(&str, &str)>, u32); 8] = [
+    let bad: [Case; 8] = [
         (
             "the folder was zipped",
             vec![("mine/setup.sh", ""), ("mine/run_autograder", "")],

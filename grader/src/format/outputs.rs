@@ -184,7 +184,7 @@ fn in_checkout(submitted: &Path) -> String {
         files.any(|file| place.join(file.name).symlink_metadata().is_ok())
     };
     let place = places.into_iter().find(holds_some);
-    let place = place.and_then(|place| Some(place.canonicalize().ok()?));
+    let place = place.and_then(|place| place.canonicalize().ok());
     let below = place.and_then(|place| {
         let below = place.strip_prefix(here.canonicalize().ok()?).ok()?;
         Some(below.to_string_lossy().replace('\\', "/"))

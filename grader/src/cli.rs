@@ -89,6 +89,10 @@ pub struct Arguments {
     #[arg(long)]
     pub policy_default: bool,
 
+    /// Say at the end where the time went
+    #[arg(long, conflicts_with_all = ["replay", "watch"])]
+    pub timings: bool,
+
     /// CPU time that an item may use, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=600))]
     pub cpu_limit: u64,

@@ -2,6 +2,7 @@
 
 use std::io;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use protocol::Answer;
 
@@ -30,7 +31,7 @@ pub fn examine<E: From<io::Error>>(
     mut progress: impl FnMut(&mut Score, &Exhibits) -> Result<(), E>,
 ) -> Result<(), E> {
     let mut exhibits = Exhibits::default();
-    for task in Task::ALL {
+    for (number, task) in Task::ALL.into_iter().enumerate() {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
         // A process for each task: what one leaves behind can not help or harm another.
         let mut sessions = Sessions::new(build, budget);
@@ -42,7 +43,13 @@ pub fn examine<E: From<io::Error>>(
             progress(score, &exhibits)?;
         }
         if let Some(scores) = score.tasks.iter_mut().find(|scores| scores.id == task) {
+            let spent = sessions.spent();
+            let began = Instant::now();
             scores.printed = sessions.finish(exam, &mut scores.items);
+            let stages = &mut score.timings.stages;
+            stages.start += spent.start;
+            stages.asking[number] += spent.asking;
+            stages.judging += spent.judging + began.elapsed();
         }
     }
     score.complete = true;
@@ -87,6 +94,17 @@ impl<'a> Sessions<'a> {
                 let again = item_score(item, &outcome);
                 Ok((carried_forward(by, &line, again), answers))
             }
+        }
+    }
+
+    /// Where the time went, of both.
+    fn spent(&self) -> Spent {
+        let carried = self.carried.as_ref().map(|session| session.spent);
+        let (own, carried) = (self.own.spent, carried.unwrap_or_default());
+        Spent {
+            start: own.start + carried.start,
+            asking: own.asking + carried.asking,
+            judging: own.judging + carried.judging,
         }
     }
 
@@ -135,6 +153,15 @@ struct Session {
     printed: String,
     out_of_time: usize,
     sightings: Sightings,
+    spent: Spent,
+}
+
+/// Where one session's time went.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spent {
+    start: Duration,
+    asking: Duration,
+    judging: Duration,
 }
 
 impl Session {
@@ -146,6 +173,7 @@ impl Session {
             printed: String::new(),
             out_of_time: 0,
             sightings: Sightings::default(),
+            spent: Spent::default(),
         }
     }
 
@@ -158,18 +186,26 @@ impl Session {
             let fault = Fault::TimedOut(Budgeted::Cpu(self.budget.cpu));
             return Ok((Outcome::GivenUp(fault), Vec::new()));
         }
+        let began = Instant::now();
         let mut probe = match self.probe.take() {
             Some(probe) => probe,
             None => launcher.start(self.budget)?,
         };
+        let started = Instant::now();
         let questions = item.questions.iter().map(|asked| &asked.question);
-        match probe.ask(questions, self.budget) {
+        let answered = probe.ask(questions, self.budget);
+        self.spent.start += started - began;
+        self.spent.asking += started.elapsed();
+        let began = Instant::now();
+        match answered {
             Ok(answers) => {
                 self.probe = Some(probe);
                 self.sightings.note(item, Ok(&answers));
                 let judged = item.questions.iter().zip(&answers);
                 let judged = judged.map(|(asked, answer)| judge(asked, answer));
-                Ok((Outcome::Answered(judged.collect()), answers))
+                let outcome = Outcome::Answered(judged.collect());
+                self.spent.judging += began.elapsed();
+                Ok((outcome, answers))
             }
             Err(fault) => {
                 self.out_of_time += usize::from(matches!(fault, Fault::TimedOut(_)));

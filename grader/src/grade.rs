@@ -1,12 +1,13 @@
 //! The main job, from a command line to a score.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::again::Again;
 use crate::ask::Budget;
-use crate::build::{Build, BuildError, Builder};
+use crate::build::{Build, BuildError, Builder, NotCompiled};
 use crate::cli::Arguments;
 use crate::error::Error;
 use crate::exam::Exam;
@@ -45,23 +46,31 @@ impl Graded {
 
 /// Loads the exam, collects the submission, builds it, asks, judges, scores.
 pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
+    let began = Instant::now();
     let grader = Grader::prepare(arguments)?;
     let submission = grader.collect()?;
-    let built = grader.build(&submission)?;
+    let prepared = began.elapsed();
+    let built = grader.build_telling(&submission, say_what_does_not_compile())?;
     let exam = grader.exam();
     let mut files = grader.files(&submission);
     if let Some(files) = &mut files {
         files.outputs = grader.outputs(&submission, &files.folder)?;
     }
     let mut score = grader.unasked(&submission, &built);
+    let mut writing = Duration::ZERO;
     grader.examine(exam, &built, &mut score, |score, exhibits| {
+        let began = Instant::now();
         let files = files.as_mut();
-        files.map_or(Ok(()), |files| {
+        let written = files.map_or(Ok(()), |files| {
             files.write(score, exam, exhibits)?;
             files.outputs.write(&|| grader.seen(score))?;
             Ok::<(), Error>(())
-        })
+        });
+        writing += began.elapsed();
+        written
     })?;
+    score.timings.stages.prepare = prepared;
+    score.timings.stages.report = writing;
     let seen = grader.seen(&score);
     Ok(Graded { score, files, seen })
 }
@@ -157,8 +166,17 @@ impl<'a> Grader<'a> {
 
     /// Makes a program of it, as far as it compiles.
     pub fn build(&self, submission: &Submission) -> Result<Built, Error> {
+        self.build_telling(submission, |_| {})
+    }
+
+    /// The same; says what does not compile as soon as that is known.
+    fn build_telling(
+        &self,
+        submission: &Submission,
+        tell: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
+    ) -> Result<Built, Error> {
         let began = Instant::now();
-        let build = self.builder.build(submission)?;
+        let build = self.builder.build_telling(submission, tell)?;
         Ok(Built {
             build,
             took: began.elapsed(),
@@ -175,6 +193,7 @@ impl<'a> Grader<'a> {
         score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
         score.timings.build_ms = millis(built.took);
+        score.timings.stages.build = built.took;
         score
     }
 
@@ -248,6 +267,19 @@ fn submitted(arguments: &Arguments, workspace: &Workspace) -> PathBuf {
 pub fn budget(arguments: &Arguments) -> Budget {
     Budget {
         cpu: Duration::from_secs(arguments.cpu_limit),
+    }
+}
+
+/// On standard error, each file once and in short: the report that follows has all the compiler's
+/// words.
+fn say_what_does_not_compile() -> impl FnMut(&BTreeMap<&'static str, NotCompiled>) {
+    let mut said = BTreeSet::new();
+    move |files| {
+        for (file, why) in files.iter().filter(|(file, _)| said.insert(**file)) {
+            let message = file_message(file, why);
+            let first = message.lines().next().unwrap_or_default();
+            anstream::eprintln!("{file}: {first}; grading the rest");
+        }
     }
 }
 

@@ -10,7 +10,7 @@
 //! | the job | [`grade`], [`replay`], [`watch`], [`doctor`]; [`files`] |
 //! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`], [`format`] |
 //! | its steps | [`isolate`], [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
-//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`again`], [`policy`], [`submission`], [`given`], [`score`] |
+//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`again`], [`policy`], [`submission`], [`given`], [`stages`], [`score`] |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`] |
 
 pub mod again;
@@ -43,6 +43,7 @@ pub mod sandbox;
 pub mod score;
 pub mod section;
 pub mod shown;
+pub mod stages;
 pub mod submission;
 pub mod system;
 pub mod tame;

@@ -77,6 +77,9 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     if let Some(files) = graded.files.as_ref().filter(|_| arguments.open) {
         desktop::show(&files.page);
     }
+    if arguments.timings {
+        anstream::println!("{}", graded.score.timings.stages.table());
+    }
     let required = arguments.require.unwrap_or(0);
     Ok(if graded.score.points < required {
         ExitCode::from(1)

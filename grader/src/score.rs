@@ -11,6 +11,7 @@ use crate::exam::Task;
 use crate::given::TASK_FILES;
 use crate::sandbox::Isolation;
 use crate::section::Section;
+use crate::stages::Stages;
 
 /// The version of this format.
 pub const SCHEMA: u32 = 1;
@@ -237,6 +238,9 @@ pub struct Timings {
     pub build_ms: u64,
     /// Asking and judging.
     pub exam_ms: u64,
+    /// In detail, for `--timings`: not in the file.
+    #[serde(skip)]
+    pub stages: Stages,
 }
 
 impl ItemScore {

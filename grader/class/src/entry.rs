@@ -137,7 +137,7 @@ mod tests {
     fn a_folders_name_leads_nowhere_else() {
         assert_eq!(folder_name("../é ü/x:y"), "_é_ü_x_y");
         assert_eq!(folder_name(".."), "_");
-        assert_eq!(folder_name("=cmd|' /C calc'!A0"), "_cmd___C_calc__A0");
+        assert_eq!(folder_name("=cmd|' /C calc'!A0"), "_cmd____C_calc__A0");
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! corpus and on noise, everywhere; `cargo fuzz run` (see README.md) runs it for as long as one likes.
 
 mod answers;
+mod archive;
 mod diagnostics;
 mod exam;
 mod mesh;
@@ -29,10 +30,12 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 7] = [
+pub const TARGETS: [Target; 8] = [
     // A miss is two bytes on the wire and 64 in memory, and a list grows by doubling.
     Target::new("wire", wire::read, 128),
     Target::new("answers", answers::read, 1024),
+    // A megabyte of the same letter is a kilobyte when it is packed.
+    Target::new("archive", archive::read, 2048),
     Target::new("exam", exam::read, 512),
     Target::new("scene", scene::read, 512),
     Target::new("mesh", mesh::read, 512),

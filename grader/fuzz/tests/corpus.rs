@@ -118,6 +118,11 @@ fn well_formed_answers_can_say_anything() {
 }
 
 #[test]
+fn archives_can_be_any_bytes() {
+    survives_anything("archive");
+}
+
+#[test]
 fn exam_files_can_be_any_bytes() {
     survives_anything("exam");
 }

@@ -16,7 +16,7 @@ use crate::workspace::Workspace;
 /// The crates that a submission may name.
 const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
 /// Changes when this module makes something else of the same sources.
-const RECIPE: &str = "1";
+const RECIPE: &str = "2";
 
 /// Where the compiled dependencies lie.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -156,7 +156,7 @@ fn make(
             .env("CARGO_INCREMENTAL", "0")
             .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "2")
             .env("CARGO_PROFILE_RELEASE_DEBUG", "false")
-            .env("CARGO_PROFILE_RELEASE_LTO", "false")
+            .env("CARGO_PROFILE_RELEASE_LTO", "off")
             .env("CARGO_PROFILE_RELEASE_PANIC", "unwind");
         cargo.output().map_err(at(&toolchain.cargo))
     };

@@ -186,6 +186,16 @@ impl Builder {
 
     /// Builds a submission, with the starter's file in place of each that can not be compiled.
     pub fn build(&self, submission: &Submission) -> Result<Build, BuildError> {
+        self.build_telling(submission, |_| {})
+    }
+
+    /// The same; says which files can not be compiled before the others are, whenever there are
+    /// more of them. A student need not wait for what is graded all the same.
+    pub fn build_telling(
+        &self,
+        submission: &Submission,
+        mut tell: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
+    ) -> Result<Build, BuildError> {
         let io = |source| BuildError::Io {
             path: self.folder.clone(),
             source,
@@ -211,6 +221,7 @@ impl Builder {
                 }
                 Compiled::Failed(why) => blame_all(submission, &why, &mut not_compiled),
             }
+            tell(&not_compiled);
             if not_compiled.len() == submission.files.len() {
                 break;
             }

@@ -9,7 +9,7 @@ use std::time::Duration;
 use crate::submission::Submission;
 
 /// How often is looked.
-const PAUSE: Duration = Duration::from_millis(40);
+const PAUSE: Duration = Duration::from_millis(20);
 
 /// A submission that may be saved at any time.
 pub struct Saves<'a> {

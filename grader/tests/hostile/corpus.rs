@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use grader::sandbox::Isolation;
 
+use crate::calls;
 use crate::canary::Canaries;
 use crate::check::{Broken, Finding, broken};
 use crate::container;
@@ -114,7 +115,17 @@ fn all(entries: &[Entry], level: Isolation) -> bool {
         tally.left,
         below.len(),
     );
-    tally.held == here.len()
+    tally.held == here.len() && calls_are_closed(level)
+}
+
+/// Whether none of the calls that no submission may make is let through.
+fn calls_are_closed(level: Isolation) -> bool {
+    if level == Isolation::None {
+        return true;
+    }
+    let open = calls::open(level);
+    println!("{level}: system calls let through: {open:?}");
+    open.is_empty()
 }
 
 fn tell(verdict: &str, entry: &Entry, broken: &[Broken]) {

@@ -12,6 +12,8 @@
 //! What each does, and what may come of it, stands in its folder: `entries/ID-NAME/expect.toml`.
 
 #[cfg(target_os = "linux")]
+mod calls;
+#[cfg(target_os = "linux")]
 mod canary;
 #[cfg(target_os = "linux")]
 mod check;

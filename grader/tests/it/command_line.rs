@@ -118,6 +118,23 @@ fn one_task_is_reported_alone_and_writes_no_score() {
 }
 
 #[test]
+fn timings_say_where_the_time_went() {
+    let graded = Submission::reference("timed").grade_with(&["--task", "camera", "--timings"]);
+    let report = graded.report();
+    let (_, table) = report.split_once("where the time went").unwrap();
+    let millis = |stage: &str| {
+        let line = table.lines().find(|line| line.trim().starts_with(stage));
+        let number = line.unwrap().split_whitespace().last().unwrap();
+        number.parse::<f64>().unwrap()
+    };
+    // No compiler is done in less, and what was not asked took no time.
+    assert!(millis("compiling") > 10.0, "{report}");
+    assert!(millis("asking: camera") > 0.0, "{report}");
+    assert_eq!(millis("asking: traverse"), 0.0, "{report}");
+    assert!(millis("together") > millis("compiling"), "{report}");
+}
+
+#[test]
 fn one_question_can_be_asked_again() {
     let submission = Submission::case("panicking");
     let score = submission.grade().score();

@@ -61,9 +61,21 @@ fn the_author_never_links_the_reference() {
 }
 
 #[test]
+fn a_class_is_graded_by_the_grader_and_by_nothing_else_of_ours() {
+    assert!(dependencies("class").contains("grader"));
+    assert_eq!(
+        meets("class", &["framework", "student", "reference", "author"]),
+        [""; 0]
+    );
+}
+
+#[test]
 fn the_students_side_knows_nothing_of_the_grader() {
     for package in ["student", "framework", "protocol"] {
-        assert_eq!(meets(package, &["grader", "reference", "author"]), [""; 0]);
+        assert_eq!(
+            meets(package, &["grader", "class", "reference", "author"]),
+            [""; 0]
+        );
     }
     assert_eq!(meets("protocol", &["framework"]), [""; 0]);
 }

@@ -155,18 +155,28 @@ fn pack(root: &Path, platform: Platform, package: &Bundle, out: &Path, check: bo
             if !is_zip {
                 return Err("Gradescope takes a zip: let --out end with .zip".into());
             }
+            out.parent().map_or(Ok(()), std::fs::create_dir_all)?;
             std::fs::write(out, archive::zip_below(package, "")?)?;
             let (count, size) = (package.files.len(), package.size() / 1_000_000);
             println!("{count} files, {size} MB unpacked: {}", out.display());
             match check {
                 true => conclude(
-                    &trial::gradescope(root, out)?,
+                    &trial::gradescope::check(root, out)?,
                     "it grades as Gradescope runs it",
                 ),
                 false => Ok(()),
             }
         }
-        Platform::Classroom50 => Ok(archive::write_folder(package, out)?),
+        Platform::Classroom50 => {
+            archive::write_folder(package, out)?;
+            match check {
+                true => conclude(
+                    &trial::classroom50::check(root, out)?,
+                    "it grades a checkout",
+                ),
+                false => Ok(()),
+            }
+        }
         Platform::Github => hand_out(root, package, Some(out), check),
     }
 }

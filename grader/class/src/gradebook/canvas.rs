@@ -60,6 +60,7 @@ pub fn canvas(path: &Path, meant: Option<&str>, class: &Class) -> Result<Filled,
             keys,
             // Rows such as the maximum's have no number.
             is_person: &|row| !row[id].trim().is_empty() && row[student].trim() != POSSIBLE,
+            is_locked: &|_| false,
             name: &|row| row[student].clone(),
         },
         class,

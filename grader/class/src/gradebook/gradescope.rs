@@ -32,6 +32,7 @@ pub fn gradescope(path: &Path, class: &Class) -> Result<Filled, BadTable> {
             target,
             keys,
             is_person: &|row| !row[email].trim().is_empty(),
+            is_locked: &|_| false,
             name: &|row| {
                 let names: Vec<&str> = names.iter().map(|name| row[*name].as_str()).collect();
                 match names.join(" ").trim() {

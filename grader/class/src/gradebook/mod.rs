@@ -52,6 +52,8 @@ struct Shape<'a> {
     keys: Vec<Key<'a>>,
     /// Which rows are people.
     is_person: &'a dyn Fn(&[String]) -> bool,
+    /// Which rows the platform would not change.
+    is_locked: &'a dyn Fn(&[String]) -> bool,
     /// How a row is called.
     name: &'a dyn Fn(&[String]) -> String,
 }
@@ -83,6 +85,7 @@ fn fill(shape: Shape, class: &Class) -> Filled {
         target,
         keys,
         is_person,
+        is_locked,
         name,
     } = shape;
     let (places, mut warnings) = match_rows(&table, &keys, is_person, name, class);
@@ -104,12 +107,17 @@ fn fill(shape: Shape, class: &Class) -> Filled {
     };
     for (place, line) in filled {
         let who = name(&table.rows[place]);
+        let locked = is_locked(&table.rows[place]);
         let cell = &mut table.rows[place][target];
         let Some(counted) = line.counted else {
             warnings.push(format!("{who}: {}, left as it is", line.status()));
             continue;
         };
         if twice(&warnings, &who) {
+            continue;
+        }
+        if locked {
+            warnings.push(format!("{who} can not be changed there, left as it is"));
             continue;
         }
         if cell.trim() == EXCUSED {

@@ -81,7 +81,10 @@ fn entry(mut files: Vec<(Name, &Node)>) -> Entry {
         id: format!("{}_{}", last.who, last.user),
         about: About {
             people: vec![Person {
-                name: last.who.clone(),
+                name: match last.who.as_str() {
+                    "anon" => format!("anon {}", last.user),
+                    who => who.to_owned(),
+                },
                 number: last.user.to_owned(),
                 ..Person::default()
             }],

@@ -71,7 +71,11 @@ fn entry(found: Vec<(Name, &Node)>) -> Entry {
         id: format!("{}_{}", name.who, name.participant),
         about: About {
             people: vec![Person {
-                name: name.who.to_owned(),
+                // Where marking is blind, the number is all that there is.
+                name: match name.who {
+                    "Participant" => format!("Participant {}", name.participant),
+                    who => who.to_owned(),
+                },
                 number: name.participant.to_owned(),
                 ..Person::default()
             }],

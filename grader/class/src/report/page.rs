@@ -124,17 +124,18 @@ fn lists(summary: &Summary) -> Markup {
         section aria-labelledby="mistakes" {
             h2 #mistakes { "Most common mistakes" }
             @if summary.mistakes.is_empty() { p { "None was recognised." } }
-            ol {
+            ul .counted {
                 @for mistake in &summary.mistakes {
-                    li value=(mistake.count) { (said(&mistake.hint)) }
+                    li { strong { (mistake.count) " × " } (said(&mistake.hint)) }
                 }
             }
         }
         section aria-labelledby="failed" {
             h2 #failed { "Failed most" }
-            ol {
+            ul .counted {
                 @for failed in &summary.failed_most {
-                    li value=(failed.count) {
+                    li {
+                        strong { (failed.count) " × " }
                         (said(&failed.title)) " " code { (said(&failed.item)) }
                     }
                 }

@@ -40,7 +40,7 @@ fn write_preview(out: &mut String, found: &Found, missing: &[Person]) -> fmt::Re
     for (one, other) in twice(&found.entries) {
         writeln!(
             out,
-            "\n  {one} and {other} are of the same person: both are graded"
+            "\n  {one} and {other} are of the same person: keep the one that counts"
         )?;
     }
     if !found.unmatched.is_empty() {
@@ -78,7 +78,7 @@ fn what(entry: &Entry) -> Result<String, String> {
     Ok(match lacks.as_slice() {
         [] => "five files".to_owned(),
         lacks => format!(
-            "{} files; {}",
+            "{} of 5 files; {}",
             submission.files.len() - lacks.len(),
             lacks.join("; ")
         ),

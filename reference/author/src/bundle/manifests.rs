@@ -69,6 +69,11 @@ pub(super) fn cut(root: &Path, bundle: &mut Bundle) -> Result<(), BadManifest> {
             key: "workspace.members",
         })?;
     keep_members(members, bundle);
+    // Cargo warns of what is said of a package that is not there.
+    let packages = manifest["profile"]["release"].get_mut("package");
+    if let Some(packages) = packages.and_then(Item::as_table_like_mut) {
+        packages.remove("reference");
+    }
     bundle.put("Cargo.toml", manifest.to_string());
 
     let path = ".cargo/config.toml";

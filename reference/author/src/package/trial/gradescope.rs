@@ -3,7 +3,6 @@
 
 use std::env;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
@@ -11,12 +10,13 @@ use std::time::{Duration, Instant};
 use grader::given::TASK_FILES;
 use serde::Deserialize;
 use zip::ZipArchive;
-use zip::result::ZipError;
+
+use crate::package::trial::{NotTried, at};
 
 /// Where it is tried, from the workspace's root.
 const PLACE: &str = "target/package/gradescope";
 /// How a machine like the platform's is entered.
-const ENTER: &str = include_str!("own/gradescope/trial.sh");
+const ENTER: &str = include_str!("../own/gradescope/trial.sh");
 /// What it has for itself.
 const NAMESPACES: [&str; 4] = ["--mount", "--net", "--pid", "--fork"];
 /// Half of the platform's ten minutes, at half of a core.
@@ -25,25 +25,6 @@ const LONGEST: Duration = Duration::from_secs(150);
 const METADATA: &str = r#"{"id": 1, "created_at": "2026-11-20T21:09:58.000000-08:00", "users": [],
 "assignment": {"due_date": "2026-11-21T00:00:00.000000-08:00", "total_points": "100.0"},
 "submission_method": "upload", "previous_submissions": []}"#;
-
-/// The zip was not tried: our fault, or the machine's.
-#[derive(Debug, thiserror::Error)]
-pub enum NotTried {
-    /// Cargo did not start us.
-    #[error("cargo has to say where it is: run `cargo author package gradescope … --check`")]
-    NoCargo,
-    /// It can not be unpacked.
-    #[error("the zip: {0}")]
-    Zip(#[from] ZipError),
-    /// The system does not let us.
-    #[error("can not use {}: {source}", path.display())]
-    Io {
-        /// What.
-        path: PathBuf,
-        /// The system's words.
-        source: io::Error,
-    },
-}
 
 /// What is read of `results.json`.
 #[derive(Deserialize)]
@@ -66,7 +47,7 @@ struct Machine {
 }
 
 /// Tries the zip, and tells what is not as it should be.
-pub fn gradescope(workspace: &Path, zip: &Path) -> Result<Vec<String>, NotTried> {
+pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, NotTried> {
     if !can_enter() {
         eprintln!("SKIPPED: the zip is tried as root only, on Linux with namespaces");
         return Ok(Vec::new());
@@ -109,11 +90,6 @@ impl Results {
         let max: u32 = self.tests.iter().map(|test| test.max_score).sum();
         self.score == points && max == if has_tests { 100 } else { 0 }
     }
-}
-
-fn at(path: &Path) -> impl FnOnce(io::Error) -> NotTried {
-    let path = path.to_owned();
-    move |source| NotTried::Io { path, source }
 }
 
 /// Whether this system gives us a machine of our own.

@@ -1,0 +1,187 @@
+//! What grading costs beside compiling: the table of `README.md` in the folder above.
+//!
+//! Every round changes the submission, and then does each thing once, turn by turn, so that a noisy
+//! machine disturbs all. What is compared is CPU time, of one round.
+
+mod bare;
+mod cost;
+mod watching;
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use grader::build::Builder;
+use grader::submission::Submission;
+use grader::workspace::Workspace;
+use tempfile::TempDir;
+
+use bare::Bare;
+use cost::Cost;
+use watching::Watching;
+
+const ROUNDS: usize = 15;
+const FIVE: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
+const GIVEN: [&str; 2] = ["lib.rs", "primitive.rs"];
+
+/// What is measured, in the order of one round, and what it is compared with.
+const ROWS: [Row; 6] = [
+    Row::new("bare rustc of the five files (F)", "F", By::Cpu),
+    Row::new("the same as far as types (T)", "F", By::Cpu),
+    Row::new("changed submission to probe", "F", By::Cpu),
+    Row::new("changed submission to score.json", "F", By::Cpu),
+    // What a program has used so far that goes on is not known.
+    Row::new("does not compile: until it is said", "T", By::Wall),
+    Row::new("--watch: save to report", "F", By::Wall),
+];
+
+/// One line of the table.
+struct Row {
+    name: &'static str,
+    unit: &'static str,
+    by: By,
+}
+
+/// Which time is compared.
+#[derive(Clone, Copy)]
+enum By {
+    Cpu,
+    Wall,
+}
+
+impl Row {
+    const fn new(name: &'static str, unit: &'static str, by: By) -> Self {
+        Row { name, unit, by }
+    }
+
+    fn ratio(&self, cost: Cost, [f, t]: [Cost; 2]) -> f64 {
+        let against = match self.unit {
+            "T" => t,
+            _ => f,
+        };
+        match self.by {
+            By::Cpu => cost.cpu.as_secs_f64() / against.cpu.as_secs_f64(),
+            By::Wall => cost.wall.as_secs_f64() / against.wall.as_secs_f64(),
+        }
+    }
+}
+
+fn main() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let (folder, broken, watched) = (submission(&root), submission(&root), submission(&root));
+    // The probe's way in needs `world`, the floor does not.
+    let lib = folder.path().join("lib.rs");
+    let text = fs::read_to_string(&lib).expect("it was copied");
+    fs::write(&lib, text.replace("pub mod world;\n", "")).expect("it can be written");
+
+    grade(folder.path(), 100);
+    let workspace = Workspace::find().expect("it is around us");
+    let builder = Builder::prepare(&workspace).expect("it was prepared");
+    let bare = Bare::prepare(&workspace.grade().join("dependencies"));
+    let mut watching = Watching::start(watched.path());
+    let mut rounds = Vec::new();
+    for round in 0..ROUNDS {
+        change(&root, folder.path(), round);
+        let floor = Cost::of_program(&mut bare.compile(folder.path()));
+        let types = Cost::of_program(&mut bare.check(folder.path()));
+        let probe = Cost::of(|| {
+            let changed = Submission::collect(folder.path()).expect("it is there");
+            let build = builder.build(&changed).expect("it can be built");
+            assert!(build.probe.is_some(), "the reference compiles");
+        });
+        let whole = grade(folder.path(), 100);
+        change(&root, broken.path(), round);
+        spoil(&broken.path().join("sphere.rs"));
+        let told = until_told(broken.path());
+        let saved = Cost::of(|| {
+            change(&root, watched.path(), round);
+            watching.report();
+        });
+        rounds.push([floor, types, probe, whole, told, saved]);
+    }
+    print(&rounds);
+}
+
+fn print(rounds: &[[Cost; ROWS.len()]]) {
+    println!("median of {} rounds; ratios within one round", rounds.len());
+    println!("{:36}{:>9}{:>9}{:>8}", "", "wall ms", "CPU ms", "ratio");
+    for (which, row) in ROWS.iter().enumerate() {
+        let costs = || rounds.iter().map(|round| round[which]);
+        let wall = 1e3 * median(costs().map(|cost| cost.wall.as_secs_f64()));
+        let cpu = match row.by {
+            By::Cpu => 1e3 * median(costs().map(|cost| cost.cpu.as_secs_f64())),
+            By::Wall => f64::NAN,
+        };
+        let ratio = median(
+            rounds
+                .iter()
+                .map(|round| row.ratio(round[which], [round[0], round[1]])),
+        );
+        let (name, unit) = (row.name, row.unit);
+        println!("{name:36}{wall:>9.0}{cpu:>9.0}{ratio:>8.2} {unit}");
+    }
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+fn submission(root: &Path) -> TempDir {
+    let folder = TempDir::new().expect("there is room for a folder");
+    for file in FIVE.into_iter().chain(GIVEN) {
+        let source = root.join("reference/src").join(file);
+        fs::copy(source, folder.path().join(file)).expect("the reference is there");
+    }
+    folder
+}
+
+/// Really changes the submission: a constant in two hot functions.
+fn change(root: &Path, folder: &Path, round: usize) {
+    for (file, place) in [
+        ("sphere.rs", "discriminant < 0.0"),
+        ("triangle.rs", "determinant == 0.0"),
+    ] {
+        let path = root.join("reference/src").join(file);
+        let text = fs::read_to_string(path).expect("the reference is there");
+        assert!(text.contains(place), "{file} has no {place}");
+        let changed = text.replace(place, &format!("{place} || ray.range.max < -{round}.5"));
+        fs::write(folder.join(file), changed).expect("it can be written");
+    }
+}
+
+/// Until the first word on a file that does not compile. The rest is graded after that.
+fn until_told(folder: &Path) -> Cost {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
+    command.arg(folder).arg("--out").arg(folder.join("out"));
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut said = String::new();
+    let mut child = None;
+    let cost = Cost::of(|| {
+        let child = child.insert(command.spawn().expect("it can be started"));
+        let words = child.stderr.take().expect("it is a pipe");
+        let read = BufReader::new(words).read_line(&mut said);
+        read.expect("it writes text");
+    });
+    assert!(said.starts_with("sphere.rs: error"), "{said}");
+    child
+        .expect("it was started")
+        .wait()
+        .expect("it comes to an end");
+    cost
+}
+
+/// An error of types.
+fn spoil(file: &Path) {
+    let text = fs::read_to_string(file).expect("it was written");
+    fs::write(file, format!("{text}\nconst RADIUS: f32 = \"one\";\n")).expect("it can be written");
+}
+
+fn grade(folder: &Path, required: u32) -> Cost {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
+    command.arg(folder).arg("--out").arg(folder.join("out"));
+    command.args(["--require", &required.to_string()]);
+    Cost::of_program(&mut command)
+}

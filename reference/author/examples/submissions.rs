@@ -44,7 +44,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn write(folder: &Path, sources: &Sources) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(folder)?;
     for file in TASK_FILES {
-        fs::write(folder.join(file.name), sources.text(file.name).unwrap_or_default())?;
+        fs::write(
+            folder.join(file.name),
+            sources.text(file.name).unwrap_or_default(),
+        )?;
     }
     Ok(())
 }

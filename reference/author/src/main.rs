@@ -161,7 +161,7 @@ fn pack(root: &Path, platform: Platform, package: &Bundle, out: &Path, check: bo
             println!("{count} files, {size} MB unpacked: {}", out.display());
             match check {
                 true => conclude(
-                    &trial::gradescope(root, out)?,
+                    &trial::gradescope::check(root, out)?,
                     "it grades as Gradescope runs it",
                 ),
                 false => Ok(()),

@@ -109,7 +109,8 @@ fn a_bad_pixel_is_marked_in_every_picture_and_says_how_to_ask_it_again() {
         "ray from (0, 0, 0) toward",
         "got",
         "wanted",
-        "cargo grade --replay triangle.picture#",
+        "Ask it again: cargo grade",
+        "--replay triangle.picture#",
     ] {
         assert!(told.contains(part), "{told}");
     }

@@ -18,8 +18,18 @@ const PARTS: [&str; 7] = [
 ];
 /// What only the staff needs, wherever it lies in those folders.
 const LEFT_OUT: [&str; 4] = ["tests", "benches", "fuzz", "target"];
-/// What grades a class, which no student has.
-const CLASS: &str = "grader/class";
+/// What students do not have: what grades a class and others' code, and what is written for those who
+/// do that.
+const STAFFS: [&str; 5] = [
+    "grader/class",
+    "grader/SECURITY.md",
+    "handout/src/gradescope.md",
+    "handout/src/classroom50.md",
+    "handout/src/github.md",
+];
+/// The book's contents, and the part of it that is about those pages.
+const CONTENTS: &str = "handout/src/SUMMARY.md";
+const FOR_STAFF: &str = "# For instructors";
 /// Made from the reference, and never taken from disk.
 const PROJECTED: &str = "grader/starter";
 /// Where an exam may lie that is not to be seen yet.
@@ -58,7 +68,11 @@ pub(crate) fn take(place: &Path, path: &str, bundle: &mut Bundle) -> Result<(), 
     };
     let kind = fs::symlink_metadata(place).map_err(at)?.file_type();
     if kind.is_file() {
-        bundle.put(path, fs::read(place).map_err(at)?);
+        let mut bytes = fs::read(place).map_err(at)?;
+        if path == CONTENTS {
+            bytes.truncate(before(&bytes, FOR_STAFF));
+        }
+        bundle.put(path, bytes);
         return Ok(());
     }
     if !kind.is_dir() {
@@ -76,10 +90,18 @@ pub(crate) fn take(place: &Path, path: &str, bundle: &mut Bundle) -> Result<(), 
     Ok(())
 }
 
+/// Where these words begin, if they are there; else the end.
+fn before(bytes: &[u8], words: &str) -> usize {
+    let mut places = bytes.windows(words.len());
+    places
+        .position(|window| window == words.as_bytes())
+        .unwrap_or(bytes.len())
+}
+
 fn is_handed_out(path: &str, name: &str) -> bool {
     let secret = path.starts_with(EXAMS) && path != EXAMS && path != PRACTICE;
     let hidden = name.starts_with('.');
-    let whole = [PROJECTED, CLASS].contains(&path);
+    let whole = path == PROJECTED || STAFFS.contains(&path);
     !(secret || hidden || whole || LEFT_OUT.contains(&name))
 }
 
@@ -102,6 +124,8 @@ mod tests {
         for path in [
             "grader/tests",
             "grader/class",
+            "grader/SECURITY.md",
+            "handout/src/gradescope.md",
             "student/protocol/tests",
             "scenes/.flat.json.swp",
         ] {

@@ -56,10 +56,26 @@ impl Files {
     /// Writes both: at the first item and at the end, and between them after each item that took its
     /// time.
     pub fn write(&mut self, score: &Score, exam: &Exam, exhibits: &Exhibits) -> Result<(), Error> {
+        self.write_score(score)?;
+        self.write_page(score, exam, exhibits)
+    }
+
+    /// Writes the score file, if it is time to.
+    pub fn write_score(&mut self, score: &Score) -> Result<(), Error> {
         if score.complete || is_due(self.score_written, SCORE_PACE) {
             write(&self.score, &json::text(score))?;
             self.score_written = Some(Instant::now());
         }
+        Ok(())
+    }
+
+    /// Writes the page, if it is time to.
+    pub fn write_page(
+        &mut self,
+        score: &Score,
+        exam: &Exam,
+        exhibits: &Exhibits,
+    ) -> Result<(), Error> {
         if score.complete || is_due(self.page_written, PAGE_PACE) {
             write(&self.page, &html::page(score, exam, exhibits, self.reload))?;
             self.page_written = Some(Instant::now());

@@ -28,7 +28,6 @@ pub fn watch(arguments: &Arguments, hints: Hints) -> Result<Infallible, Error> {
     loop {
         match round(&grader, &submission, &saves, last.as_ref(), &mut screen) {
             Ok(score) => {
-                screen.show(&score, State::Waiting)?;
                 last = Some(score);
                 // Once: from now on it reloads itself.
                 if let Some(files) = page.take() {
@@ -43,7 +42,7 @@ pub fn watch(arguments: &Arguments, hints: Hints) -> Result<Infallible, Error> {
     }
 }
 
-/// One version of the submission: what failed last time, then everything.
+/// One version of the submission: what failed last time, then everything. In the end the screen waits.
 fn round(
     grader: &Grader,
     submission: &Submission,
@@ -82,10 +81,17 @@ fn round(
     grader.examine(exam, &built, &mut score, |score, exhibits| {
         asked += 1;
         let of = exam.items.len();
-        let shown = if failed.is_some() { &shown } else { score };
-        screen.show(shown, State::Asking { asked, of })?;
         if let Some(files) = &mut files {
-            files.write(score, exam, exhibits)?;
+            files.write_score(score)?;
+        }
+        match (score.complete, &failed) {
+            (true, _) => screen.show(score, State::Waiting)?,
+            (false, Some(_)) => screen.show(&shown, State::Asking { asked, of })?,
+            (false, None) => screen.show(score, State::Asking { asked, of })?,
+        }
+        // Its reader is elsewhere: who looks at the screen does not wait for the page.
+        if let Some(files) = &mut files {
+            files.write_page(score, exam, exhibits)?;
         }
         go_on()
     })?;

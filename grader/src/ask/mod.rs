@@ -6,7 +6,7 @@ mod culprit;
 mod fault;
 mod part;
 
-use std::io::{BufReader, Write};
+use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -73,7 +73,10 @@ impl Launcher {
 
     /// Starts a process that waits for its first question. On Linux it ends with the thread that
     /// starts it, so that it does not outlive a grader that is killed.
-    pub fn start(&self, budget: Budget) -> std::io::Result<Probe> {
+    ///
+    /// Before that question none of the submission's code runs: what fails until then is our fault, or
+    /// the machine's.
+    pub fn start(&self, budget: Budget) -> io::Result<Probe> {
         let folder = self.program.parent().unwrap_or(Path::new("."));
         let mut command = Command::new(&self.program);
         system::clear_environment(&mut command);
@@ -114,13 +117,22 @@ impl Launcher {
                 }
             }
         });
-        Ok(Probe {
+        let mut probe = Probe {
             process,
             questions,
             limits,
             frames,
             output: Capture::start(stderr, KEPT),
-        })
+        };
+        match probe.ask([], budget) {
+            Ok(_) => Ok(probe),
+            Err(fault) => {
+                let said = probe.finish();
+                Err(io::Error::other(format!(
+                    "{fault}, and nothing was asked yet: see `cargo grade --doctor` {said}"
+                )))
+            }
+        }
     }
 }
 
@@ -225,4 +237,25 @@ fn nonce() -> u64 {
 
 fn protocol_fault(error: WireError) -> Fault {
     Fault::Protocol(error.to_string())
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_that_does_not_even_start_is_no_fault_of_the_submission() {
+        let launcher = Launcher {
+            program: "/usr/bin/false".into(),
+            sandbox: Sandbox::none(),
+        };
+        let budget = Budget {
+            cpu: Duration::from_secs(1),
+        };
+        let error = launcher.start(budget).expect_err("it says nothing");
+        assert!(
+            error.to_string().contains("nothing was asked yet"),
+            "{error}"
+        );
+    }
 }

@@ -7,6 +7,7 @@ mod confined;
 mod dependencies;
 pub mod diagnostics;
 mod kept;
+mod room;
 mod rustc;
 mod taken;
 mod toolchain;
@@ -17,14 +18,13 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use tempfile::TempDir;
-
 use crate::ask::Launcher;
 use crate::build::carried::{CarryForward, NoParts, Parts};
 use crate::build::compile::compile;
 use crate::build::dependencies::{Dependencies, NoDependencies};
 use crate::build::diagnostics::Diagnostic;
 use crate::build::kept::Kept;
+use crate::build::room::{Room, clear_up};
 use crate::build::rustc::{Compiled, Rustc};
 use crate::build::toolchain::{NoToolchain, Toolchain};
 use crate::exam::Task;
@@ -57,7 +57,7 @@ pub struct Build {
     carry: Option<CarryForward>,
     sandbox: Sandbox,
     /// Holds the programs; vanishes with them.
-    _folder: TempDir,
+    _room: Room,
 }
 
 /// A submission's `bvh.rs` with the reference's parts in place of its other files.
@@ -121,6 +121,8 @@ impl Builder {
     pub fn prepare(workspace: &Workspace) -> Result<Self, BuildError> {
         let toolchain = Toolchain::find()?;
         let dependencies = Dependencies::prepare(workspace, &toolchain)?;
+        let folder = workspace.grade().join("work");
+        clear_up(&folder);
         Ok(Builder {
             rustc: Rustc {
                 toolchain,
@@ -129,7 +131,7 @@ impl Builder {
                 sandbox: Sandbox::none(),
             },
             parts: None,
-            folder: workspace.grade().join("work"),
+            folder,
         })
     }
 
@@ -200,15 +202,13 @@ impl Builder {
             path: self.folder.clone(),
             source,
         };
-        std::fs::create_dir_all(&self.folder).map_err(io)?;
-        // Fresh each time: nothing of an earlier submission can be taken for this one's.
-        let folder = TempDir::new_in(&self.folder).map_err(io)?;
+        let room = Room::new_in(&self.folder).map_err(io)?;
         let mut not_compiled = missing_parts(submission);
 
         let mut probe = None;
         for attempt in 0..ATTEMPTS {
             let files = with_stand_ins(submission, &not_compiled);
-            let place = folder.path().join(attempt.to_string());
+            let place = room.path().join(attempt.to_string());
             match compile(&files, &place, &self.rustc).map_err(io)? {
                 Compiled::Done(path) => {
                     probe = Some(path);
@@ -227,16 +227,16 @@ impl Builder {
             }
         }
         if probe.is_none() {
-            self.prove(folder.path())?;
+            self.prove(room.path())?;
             let why = "the files that were left did not compile together";
             blame_all(submission, why, &mut not_compiled);
         }
         Ok(Build {
-            carry: self.carry(submission, &not_compiled, &folder),
+            carry: self.carry(submission, &not_compiled, room.path()),
             probe,
             not_compiled,
             sandbox: self.rustc.sandbox.clone(),
-            _folder: folder,
+            _room: room,
         })
     }
 
@@ -257,7 +257,7 @@ impl Builder {
         &self,
         submission: &Submission,
         not_compiled: &BTreeMap<&'static str, NotCompiled>,
-        folder: &TempDir,
+        room: &Path,
     ) -> Option<CarryForward> {
         let parts = self.parts.clone()?;
         let mut files = submission.files.iter();
@@ -267,7 +267,7 @@ impl Builder {
             bvh,
             parts,
             rustc: self.rustc.clone(),
-            folder: folder.path().join("carried"),
+            folder: room.join("carried"),
             program: OnceLock::new(),
         })
     }

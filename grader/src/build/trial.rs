@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 use crate::build::Builder;
+use crate::build::room::Room;
 use crate::build::rustc::{Compiled, Crate, Kind, Rustc};
 use crate::capture::Capture;
 use crate::sandbox::{Isolation, Profile};
@@ -54,8 +55,7 @@ pub enum Shortfall {
 impl Builder {
     /// Tries out the sandbox that submissions are built and asked in.
     pub fn try_sandbox(&self) -> Result<(), Shortfall> {
-        fs::create_dir_all(&self.folder).map_err(Shortfall::NotInPlace)?;
-        let work = TempDir::new_in(&self.folder).map_err(Shortfall::NotInPlace)?;
+        let work = Room::new_in(&self.folder).map_err(Shortfall::NotInPlace)?;
         // Where every user of the machine could read it, were it not for the sandbox.
         let place = TempDir::new().map_err(Shortfall::NotInPlace)?;
         let key = place.path().join("key");

@@ -1,10 +1,11 @@
-//! The main job, from a command line to a score.
+//! What grades submissions: the exam, the builder and the rules, prepared once.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use super::files_said::build_report;
 use crate::again::Again;
 use crate::ask::Budget;
 use crate::build::{Build, BuildError, Builder, NotCompiled};
@@ -21,59 +22,10 @@ use crate::isolate::isolated;
 use crate::policy::{Policy, PolicyError};
 use crate::report::html::Reload;
 use crate::sandbox::Isolation;
-use crate::score::{BuildReport, ExamName, FileReport, Score};
+use crate::score::{ExamName, Score};
 use crate::submission::Submission;
-use crate::verdict::{file_line, file_message, unasked};
+use crate::verdict::unasked;
 use crate::workspace::Workspace;
-
-/// A submission's score, and where it was written, if it was.
-#[derive(Debug)]
-pub struct Graded {
-    /// The score.
-    pub score: Score,
-    /// The files that tell it.
-    pub files: Option<Files>,
-    /// As much of it as students may see.
-    pub seen: Seen,
-}
-
-impl Graded {
-    /// What a runner is to be told on standard output, if one was asked for.
-    pub fn commands(&self) -> Option<String> {
-        self.files.as_ref()?.outputs.commands(&self.seen)
-    }
-}
-
-/// Loads the exam, collects the submission, builds it, asks, judges, scores.
-pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
-    let began = Instant::now();
-    let grader = Grader::prepare(arguments)?;
-    let submission = grader.collect()?;
-    let prepared = began.elapsed();
-    let built = grader.build_telling(&submission, say_what_does_not_compile())?;
-    let exam = grader.exam();
-    let mut files = grader.files(&submission);
-    if let Some(files) = &mut files {
-        files.outputs = grader.outputs(&submission, &files.folder)?;
-    }
-    let mut score = grader.unasked(&submission, &built);
-    let mut writing = Duration::ZERO;
-    grader.examine(exam, &built, &mut score, |score, exhibits| {
-        let began = Instant::now();
-        let files = files.as_mut();
-        let written = files.map_or(Ok(()), |files| {
-            files.write(score, exam, exhibits)?;
-            files.outputs.write(&|| grader.seen(score))?;
-            Ok::<(), Error>(())
-        });
-        writing += began.elapsed();
-        written
-    })?;
-    score.timings.stages.prepare = prepared;
-    score.timings.stages.report = writing;
-    let seen = grader.seen(&score);
-    Ok(Graded { score, files, seen })
-}
 
 /// All that stays as it is from one version of a submission to the next.
 pub struct Grader<'a> {
@@ -128,7 +80,11 @@ impl<'a> Grader<'a> {
     }
 
     /// The formats that were asked for, in `folder` unless they belong elsewhere.
-    fn outputs(&self, submission: &Submission, folder: &Path) -> Result<Outputs, NoOutput> {
+    pub(super) fn outputs(
+        &self,
+        submission: &Submission,
+        folder: &Path,
+    ) -> Result<Outputs, NoOutput> {
         let submitted = submitted(self.arguments, &self.workspace);
         let (formats, hints) = (&self.arguments.format, self.arguments.hints);
         Outputs::of(formats, folder, &submitted, submission, hints)
@@ -170,7 +126,7 @@ impl<'a> Grader<'a> {
     }
 
     /// The same; says what does not compile as soon as that is known.
-    fn build_telling(
+    pub(super) fn build_telling(
         &self,
         submission: &Submission,
         tell: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
@@ -268,50 +224,6 @@ pub fn budget(arguments: &Arguments) -> Budget {
     Budget {
         cpu: Duration::from_secs(arguments.cpu_limit),
     }
-}
-
-/// On standard error, each file once and in short: the report that follows has all the compiler's
-/// words.
-fn say_what_does_not_compile() -> impl FnMut(&BTreeMap<&'static str, NotCompiled>) {
-    let mut said = BTreeSet::new();
-    move |files| {
-        for (file, why) in files.iter().filter(|(file, _)| said.insert(**file)) {
-            let message = file_message(file, why);
-            let first = message.lines().next().unwrap_or_default();
-            anstream::eprintln!("{file}: {first}; grading the rest");
-        }
-    }
-}
-
-fn build_report(submission: &Submission, build: &Build) -> BuildReport {
-    let not_compiled = build.not_compiled.iter().map(|(file, why)| FileReport {
-        file: (*file).to_owned(),
-        line: file_line(why),
-        message: file_message(file, why),
-    });
-    BuildReport {
-        not_compiled: not_compiled.collect(),
-        notes: notes(submission, build),
-    }
-}
-
-/// What is worth knowing of a submission's files and costs nothing.
-fn notes(submission: &Submission, build: &Build) -> Vec<String> {
-    let mut notes = submission.notes.clone();
-    let compiled = submission
-        .files
-        .iter()
-        .filter(|(file, _)| !build.not_compiled.contains_key(file.name));
-    for (file, text) in compiled {
-        let changed = text.as_ref().map_or(Vec::new(), |text| file.changed(text));
-        if !changed.is_empty() {
-            let (file, changed) = (file.name, changed.join(", "));
-            notes.push(format!(
-                "{file}: given methods were changed, at no cost by itself: {changed}"
-            ));
-        }
-    }
-    notes
 }
 
 fn millis(duration: Duration) -> u64 {

@@ -1,0 +1,79 @@
+//! The main job, from a command line to a score.
+
+mod files_said;
+mod grader;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::{Duration, Instant};
+
+use crate::build::NotCompiled;
+use crate::cli::Arguments;
+use crate::error::Error;
+use crate::files::Files;
+use crate::format::Seen;
+use crate::score::Score;
+use crate::verdict::file_message;
+
+pub use grader::{Built, Grader, budget, collect};
+
+/// A submission's score, and where it was written, if it was.
+#[derive(Debug)]
+pub struct Graded {
+    /// The score.
+    pub score: Score,
+    /// The files that tell it.
+    pub files: Option<Files>,
+    /// As much of it as students may see.
+    pub seen: Seen,
+}
+
+impl Graded {
+    /// What a runner is to be told on standard output, if one was asked for.
+    pub fn commands(&self) -> Option<String> {
+        self.files.as_ref()?.outputs.commands(&self.seen)
+    }
+}
+
+/// Loads the exam, collects the submission, builds it, asks, judges, scores.
+pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
+    let began = Instant::now();
+    let grader = Grader::prepare(arguments)?;
+    let submission = grader.collect()?;
+    let prepared = began.elapsed();
+    let built = grader.build_telling(&submission, say_what_does_not_compile())?;
+    let exam = grader.exam();
+    let mut files = grader.files(&submission);
+    if let Some(files) = &mut files {
+        files.outputs = grader.outputs(&submission, &files.folder)?;
+    }
+    let mut score = grader.unasked(&submission, &built);
+    let mut writing = Duration::ZERO;
+    grader.examine(exam, &built, &mut score, |score, exhibits| {
+        let began = Instant::now();
+        let files = files.as_mut();
+        let written = files.map_or(Ok(()), |files| {
+            files.write(score, exam, exhibits)?;
+            files.outputs.write(&|| grader.seen(score))?;
+            Ok::<(), Error>(())
+        });
+        writing += began.elapsed();
+        written
+    })?;
+    score.timings.stages.prepare = prepared;
+    score.timings.stages.report = writing;
+    let seen = grader.seen(&score);
+    Ok(Graded { score, files, seen })
+}
+
+/// On standard error, each file once and in short: the report that follows has all the compiler's
+/// words.
+fn say_what_does_not_compile() -> impl FnMut(&BTreeMap<&'static str, NotCompiled>) {
+    let mut said = BTreeSet::new();
+    move |files| {
+        for (file, why) in files.iter().filter(|(file, _)| said.insert(**file)) {
+            let message = file_message(file, why);
+            let first = message.lines().next().unwrap_or_default();
+            anstream::eprintln!("{file}: {first}; grading the rest");
+        }
+    }
+}

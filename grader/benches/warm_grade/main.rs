@@ -33,7 +33,7 @@ const ROWS: [Row; 6] = [
     Row::new("changed submission to score.json", "F", By::Cpu),
     // What a program has used so far that goes on is not known.
     Row::new("does not compile: until it is said", "T", By::Wall),
-    Row::new("--watch: save to report", "F", By::Wall),
+    Row::new("--watch: save to all points", "F", By::Wall),
 ];
 
 /// One line of the table.

@@ -8,7 +8,7 @@
 //! | floor | modules |
 //! |---|---|
 //! | the job | [`grade`], [`replay`], [`watch`], [`doctor`]; [`files`] |
-//! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`], [`format`] |
+//! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`], [`mod@format`] |
 //! | its steps | [`isolate`], [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
 //! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`again`], [`policy`], [`submission`], [`given`], [`stages`], [`score`] |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`] |

@@ -66,11 +66,42 @@ impl Dependencies {
         if let Some(ready) = read(&record) {
             return Ok(ready);
         }
-        let made = make(workspace, toolchain, &cache.join("target"))?;
-        let text = serde_json::to_vec_pretty(&made).expect("paths are text");
-        fs::write(&record, text).map_err(at(&record))?;
+        eprintln!("Preparing what submissions are built with: this once, it takes half a minute.");
+        let framework = ["--package", "framework", "--no-default-features"];
+        let rlibs = make(&framework, workspace, toolchain, &cache.join("target"))?;
+        let made = named(&rlibs)?;
+        write(&record, &made)?;
         Ok(made)
     }
+
+    /// Those and one more crate of the lock file: for a solution of ours. No submission is ever built
+    /// with them.
+    pub fn and(
+        &self,
+        name: &str,
+        workspace: &Workspace,
+        toolchain: &Toolchain,
+    ) -> Result<Self, NoDependencies> {
+        let cache = workspace.grade().join("dependencies");
+        let cache = cache.join(&key(workspace, toolchain)?[..16]);
+        let record = cache.join(format!("and-{name}.json"));
+        if let Some(ready) = read(&record) {
+            return Ok(ready);
+        }
+        let package = ["--package", name];
+        let mut rlibs = make(&package, workspace, toolchain, &cache.join("target"))?;
+        let rlib = rlibs.remove(name);
+        let rlib = rlib.ok_or_else(|| NoDependencies::Nothing(name.to_owned()))?;
+        let mut made = self.clone();
+        made.externs.insert(name.to_owned(), rlib);
+        write(&record, &made)?;
+        Ok(made)
+    }
+}
+
+fn write(record: &Path, made: &Dependencies) -> Result<(), NoDependencies> {
+    let text = serde_json::to_vec_pretty(made).expect("paths are text");
+    fs::write(record, text).map_err(at(record))
 }
 
 fn at(path: &Path) -> impl FnOnce(io::Error) -> NoDependencies {
@@ -122,17 +153,18 @@ fn sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), NoDependencies
     Ok(())
 }
 
-/// Runs cargo: without the network if that is enough.
+/// Runs cargo for one package: without the network if that is enough. Returns the rlib of each crate.
 fn make(
+    package: &[&str],
     workspace: &Workspace,
     toolchain: &Toolchain,
     target: &Path,
-) -> Result<Dependencies, NoDependencies> {
-    eprintln!("Preparing what submissions are built with: this once, it takes half a minute.");
+) -> Result<BTreeMap<String, PathBuf>, NoDependencies> {
     let run = |offline: bool| {
         let mut cargo = Command::new(&toolchain.cargo);
         cargo
-            .args(["build", "--package", "framework", "--no-default-features"])
+            .arg("build")
+            .args(package)
             .args([
                 "--release",
                 "--locked",
@@ -167,12 +199,12 @@ fn make(
     if !output.status.success() {
         return Err(NoDependencies::Cargo);
     }
-    from_messages(&String::from_utf8_lossy(&output.stdout))
+    Ok(rlibs(&String::from_utf8_lossy(&output.stdout)))
 }
 
 /// Finds the rlibs in cargo's messages, one JSON value a line.
-fn from_messages(messages: &str) -> Result<Dependencies, NoDependencies> {
-    let rlibs: BTreeMap<String, PathBuf> = messages
+fn rlibs(messages: &str) -> BTreeMap<String, PathBuf> {
+    messages
         .lines()
         .filter_map(|line| serde_json::from_str::<Value>(line).ok())
         .filter(|message| message["reason"] == "compiler-artifact")
@@ -184,8 +216,11 @@ fn from_messages(messages: &str) -> Result<Dependencies, NoDependencies> {
                 .find(|file| file.ends_with(".rlib"))?;
             Some((message["target"]["name"].as_str()?.to_owned(), rlib.into()))
         })
-        .collect();
+        .collect()
+}
 
+/// What every submission may name, of all that was made.
+fn named(rlibs: &BTreeMap<String, PathBuf>) -> Result<Dependencies, NoDependencies> {
     let mut externs = BTreeMap::new();
     for name in EXTERNS {
         let rlib = rlibs

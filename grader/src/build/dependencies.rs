@@ -20,6 +20,8 @@ use crate::workspace::Workspace;
 
 /// The crates that a submission may name.
 const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
+/// The package that they all come with, as the probe needs it.
+const FRAMEWORK: [&str; 3] = ["--package", "framework", "--no-default-features"];
 /// Changes when this module makes something else of the same sources.
 const RECIPE: &str = "3";
 
@@ -63,20 +65,58 @@ impl Dependencies {
             return Ok(ready);
         }
 
-        fs::create_dir_all(&cache).map_err(at(&cache))?;
-        let lock_path = cache.join("lock");
-        let lock = File::create(&lock_path).map_err(at(&lock_path))?;
-        lock.lock().map_err(at(&lock_path))?;
+        let _lock = lock(&cache)?;
         // Somebody else may have made them while we waited.
         if let Some(ready) = read(&record) {
             return Ok(ready);
         }
-        let built = build(workspace, toolchain)?;
-        let made = copy(built, &cache.join("crates"))?;
-        let text = serde_json::to_vec_pretty(&made).expect("paths are text");
-        fs::write(&record, text).map_err(at(&record))?;
+        eprintln!("Preparing what submissions are built with: this once, it takes some seconds.");
+        let libraries = build(&FRAMEWORK, workspace, toolchain)?;
+        let made = copy(libraries, &EXTERNS, &cache.join("crates"))?;
+        write(&record, &made)?;
         Ok(made)
     }
+
+    /// Those and one more crate of the lock file: for a solution of ours. No submission is ever built
+    /// with them.
+    pub fn and(
+        name: &str,
+        workspace: &Workspace,
+        toolchain: &Toolchain,
+    ) -> Result<Self, NoDependencies> {
+        let cache = workspace.grade().join("dependencies");
+        let cache = cache.join(format!("{}-{name}", &key(workspace, toolchain)?[..16]));
+        let record = cache.join("dependencies.json");
+        if let Some(ready) = read(&record) {
+            return Ok(ready);
+        }
+
+        let _lock = lock(&cache)?;
+        let mut libraries = build(&FRAMEWORK, workspace, toolchain)?;
+        libraries.extend(build(&["--package", name], workspace, toolchain)?);
+        let [framework, glam, protocol] = EXTERNS;
+        let made = copy(
+            libraries,
+            &[framework, glam, protocol, name],
+            &cache.join("crates"),
+        )?;
+        write(&record, &made)?;
+        Ok(made)
+    }
+}
+
+/// Held by whoever makes what lies in this folder.
+fn lock(cache: &Path) -> Result<File, NoDependencies> {
+    fs::create_dir_all(cache).map_err(at(cache))?;
+    let path = cache.join("lock");
+    let lock = File::create(&path).map_err(at(&path))?;
+    lock.lock().map_err(at(&path))?;
+    Ok(lock)
+}
+
+fn write(record: &Path, made: &Dependencies) -> Result<(), NoDependencies> {
+    let text = serde_json::to_vec_pretty(made).expect("paths are text");
+    fs::write(record, text).map_err(at(record))
 }
 
 fn at(path: &Path) -> impl FnOnce(io::Error) -> NoDependencies {
@@ -128,16 +168,18 @@ fn sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), NoDependencies
     Ok(())
 }
 
-/// Runs cargo: without the network if that is enough. Returns where each crate's library is.
+/// Runs cargo for one package: without the network if that is enough. Returns where each crate's
+/// library is.
 fn build(
+    package: &[&str],
     workspace: &Workspace,
     toolchain: &Toolchain,
 ) -> Result<Vec<(String, PathBuf)>, NoDependencies> {
-    eprintln!("Preparing what submissions are built with: this once, it takes some seconds.");
     let run = |offline: bool| {
         let mut cargo = Command::new(&toolchain.cargo);
         cargo
-            .args(["build", "--package", "framework", "--no-default-features"])
+            .arg("build")
+            .args(package)
             .args([
                 "--release",
                 "--locked",
@@ -186,23 +228,30 @@ fn libraries(messages: &str) -> Vec<(String, PathBuf)> {
                 .iter()
                 .filter_map(Value::as_str)
                 .find(|file| file.ends_with(".rlib") || file.ends_with(DLL_SUFFIX))?;
-            Some((message["target"]["name"].as_str()?.to_owned(), library.into()))
+            Some((
+                message["target"]["name"].as_str()?.to_owned(),
+                library.into(),
+            ))
         })
         .collect()
 }
 
-/// Copies all of them into one folder.
-fn copy(libraries: Vec<(String, PathBuf)>, folder: &Path) -> Result<Dependencies, NoDependencies> {
+/// Copies all of them into one folder. A submission may name these.
+fn copy(
+    libraries: Vec<(String, PathBuf)>,
+    names: &[&str],
+    folder: &Path,
+) -> Result<Dependencies, NoDependencies> {
     fs::create_dir_all(folder).map_err(at(folder))?;
     let mut externs = BTreeMap::new();
     for (name, library) in libraries {
         let copy = folder.join(library.file_name().expect("cargo names files"));
         fs::copy(&library, &copy).map_err(at(&library))?;
-        if EXTERNS.contains(&&*name) {
+        if names.contains(&&*name) {
             externs.insert(name, copy);
         }
     }
-    if let Some(name) = EXTERNS.iter().find(|name| !externs.contains_key(**name)) {
+    if let Some(name) = names.iter().find(|name| !externs.contains_key(**name)) {
         return Err(NoDependencies::Nothing((*name).to_owned()));
     }
     Ok(Dependencies {

@@ -168,6 +168,14 @@ impl Builder {
         })
     }
 
+    /// Builds that may name one more crate of the lock file: for solutions of ours that need it, and
+    /// never for submissions.
+    pub fn and_crate(&self, name: &str, workspace: &Workspace) -> Result<Self, BuildError> {
+        let mut builder = self.clone();
+        builder.rustc.dependencies = Dependencies::and(name, workspace, &self.rustc.toolchain)?;
+        Ok(builder)
+    }
+
     /// The name of all that programs follow from, beside the submission.
     pub fn identity(&self) -> String {
         let parts = self.parts.as_ref().map(Parts::content).unwrap_or_default();

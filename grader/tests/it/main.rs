@@ -14,5 +14,6 @@ mod isolation;
 mod packages;
 mod policies;
 mod scores;
+mod unchanged;
 mod walls;
 mod watch;

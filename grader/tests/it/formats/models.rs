@@ -26,7 +26,10 @@ pub fn check(format: &str, text: &str) {
 pub fn readable(format: &str, text: &str) -> String {
     match format {
         "github-classroom" => format!("{:#}", decoded(text)),
-        "junit" => Report::deserialize_from_str(text).unwrap().to_string().unwrap(),
+        "junit" => Report::deserialize_from_str(text)
+            .unwrap()
+            .to_string()
+            .unwrap(),
         _ => text.to_owned(),
     }
 }

@@ -50,8 +50,8 @@ pub enum Error {
         /// The system's words.
         source: io::Error,
     },
-    /// A probe can not be started.
-    #[error("can not start the submission's program: {0}")]
+    /// A probe can not be started, or made.
+    #[error("can not run the submission's program: {0}")]
     Probe(#[from] io::Error),
 }
 

@@ -21,6 +21,7 @@ use std::str::FromStr;
 use clap::ValueEnum;
 
 use crate::exam::Task;
+use crate::report::html;
 use crate::report::text::{Hints, report};
 
 pub use seen::{Line, Seen};
@@ -32,6 +33,8 @@ pub enum Format {
     Json,
     /// The report that is read on a terminal.
     Text,
+    /// A page, for students of an exam that they do not have.
+    Html,
     /// Gradescope's `results.json`.
     Gradescope,
     /// classroom50's `result.json`.
@@ -77,6 +80,7 @@ impl Format {
         match self {
             Format::Json => "score.json",
             Format::Text => "report.txt",
+            Format::Html => "feedback.html",
             Format::Gradescope => "gradescope.json",
             Format::Classroom50 => "classroom50.json",
             #[cfg(feature = "junit")]
@@ -96,6 +100,7 @@ impl Format {
             Format::Junit => &[],
             Format::Json
             | Format::Text
+            | Format::Html
             | Format::Gradescope
             | Format::Github
             | Format::GithubClassroom
@@ -109,6 +114,7 @@ impl Format {
         Some(match self {
             Format::Json => return None,
             Format::Text => terminal(seen, around),
+            Format::Html => html::feedback(&seen.now),
             Format::Gradescope => gradescope::text(seen, around),
             Format::Classroom50 => classroom50::text(seen, around),
             #[cfg(feature = "junit")]
@@ -170,6 +176,7 @@ impl Format {
         match self {
             Format::Json => "json",
             Format::Text => "text",
+            Format::Html => "html",
             Format::Gradescope => "gradescope",
             Format::Classroom50 => "classroom50",
             #[cfg(feature = "junit")]

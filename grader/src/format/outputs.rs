@@ -136,6 +136,7 @@ fn output(wanted: &Wanted, folder: &Path) -> Result<Output, NoOutput> {
         Format::Junit => None,
         Format::Json
         | Format::Text
+        | Format::Html
         | Format::Gradescope
         | Format::Classroom50
         | Format::Check50

@@ -70,6 +70,10 @@ pub struct Arguments {
     #[arg(long)]
     pub hints: bool,
 
+    /// Grade again, even if nothing has changed since the last time
+    #[arg(long)]
+    pub fresh: bool,
+
     /// Open the report, a page, when it is written
     #[arg(long, conflicts_with_all = ["task", "replay"])]
     pub open: bool,

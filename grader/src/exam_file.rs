@@ -74,10 +74,25 @@ pub enum BadExam {
 
 /// Reads the exam at `path`, from standard input for `-`; without a path, the practice exam.
 pub fn load(path: Option<&Path>) -> Result<ExamFile, BadExam> {
-    let path = match path {
-        None => return parse(Path::new("practice.json"), PRACTICE.as_bytes()),
-        Some(path) => path,
-    };
+    match path {
+        None => parse(Path::new("practice.json"), PRACTICE.as_bytes()),
+        Some(path) => parse(path, &read(path)?),
+    }
+}
+
+/// The hash of the exam at `path`, which need not be a good one; without a path, of the practice exam.
+pub fn hash(path: Option<&Path>) -> Result<String, BadExam> {
+    Ok(match path {
+        None => hash_of(PRACTICE.as_bytes()),
+        Some(path) => hash_of(&read(path)?),
+    })
+}
+
+fn hash_of(bytes: &[u8]) -> String {
+    blake3::hash(bytes).to_hex()[..32].to_owned()
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, BadExam> {
     let mut bytes = Vec::new();
     let read = match path.to_str() {
         Some("-") => io::stdin().take(LONGEST_FILE + 1).read_to_end(&mut bytes),
@@ -91,7 +106,7 @@ pub fn load(path: Option<&Path>) -> Result<ExamFile, BadExam> {
     if bytes.len() as u64 > LONGEST_FILE {
         return Err(BadExam::TooLong(path.to_owned()));
     }
-    parse(path, &bytes)
+    Ok(bytes)
 }
 
 /// The exam in a file's bytes; `path` is for the error.
@@ -108,7 +123,7 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, BadExam> {
     }
     Ok(ExamFile {
         exam,
-        hash: blake3::hash(bytes).to_hex()[..32].to_owned(),
+        hash: hash_of(bytes),
     })
 }
 

@@ -47,6 +47,11 @@ impl Files {
         }
     }
 
+    /// Those in this folder, of a page that stays as it is.
+    pub fn usual(folder: &Path) -> Self {
+        Files::of(folder, Reload::Never)
+    }
+
     /// All of them.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         let own = [self.score.as_path(), self.page.as_path()];

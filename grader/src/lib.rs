@@ -7,7 +7,7 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | the job | [`grade`], [`replay`], [`watch`], [`doctor`]; [`files`] |
+//! | the job | [`grade`], [`replay`], [`unchanged`], [`watch`], [`doctor`]; [`earlier`], [`files`] |
 //! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`], [`mod@format`] |
 //! | its steps | [`isolate`], [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
 //! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`again`], [`policy`], [`submission`], [`given`], [`stages`], [`score`] |
@@ -22,6 +22,7 @@ pub mod describe;
 pub mod desktop;
 pub mod doctor;
 pub mod drawing;
+pub mod earlier;
 pub mod error;
 pub mod exam;
 pub mod exam_file;
@@ -48,6 +49,7 @@ pub mod submission;
 pub mod system;
 pub mod tame;
 pub mod tells;
+pub mod unchanged;
 pub mod verdict;
 pub mod watch;
 pub mod workspace;

@@ -8,6 +8,7 @@ use clap::Parser;
 use grader::cli::Arguments;
 use grader::desktop;
 use grader::doctor::{examine_machine, package};
+use grader::earlier;
 use grader::error::Error;
 use grader::files::Files;
 use grader::format::github;
@@ -16,8 +17,13 @@ use grader::policy;
 use grader::replay::replay;
 use grader::report::text::{Hints, report};
 use grader::sandbox;
-use grader::score::Score;
+use grader::score;
+use grader::unchanged;
 use grader::watch::watch;
+
+/// Said of what was not graded once more.
+const UNCHANGED: &str =
+    "  Nothing has changed since this was graded; `--fresh` grades it once more.\n\n";
 
 fn main() -> ExitCode {
     if let Some(ended) = sandbox::launched() {
@@ -32,7 +38,7 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     if arguments.schema {
-        anstream::println!("{:#}", Score::schema().as_value());
+        anstream::print!("{}", score::PUBLISHED);
         return Ok(ExitCode::SUCCESS);
     }
     if arguments.policy_default {
@@ -69,8 +75,22 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         let never = watch(arguments, hints)?;
         match never {}
     }
+    if let Some((earlier, files)) = unchanged::find(arguments)? {
+        tell(&format!("{}{UNCHANGED}{}", earlier.told, places(&files)))?;
+        if arguments.open {
+            desktop::show(&files.page);
+        }
+        return Ok(enough(earlier.points, arguments));
+    }
     let graded = grade(arguments)?;
-    tell(&told(&graded, arguments, hints))?;
+    let told = told(&graded, arguments, hints);
+    tell(&format!(
+        "{told}{}",
+        graded.files.as_ref().map_or(String::new(), places)
+    ))?;
+    if let (Some(key), Some(files)) = (&graded.key, &graded.files) {
+        earlier::keep(key, &graded.score, &told, files);
+    }
     if let Some(commands) = graded.commands() {
         anstream::print!("{commands}");
     }
@@ -80,12 +100,15 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     if arguments.timings {
         anstream::println!("{}", graded.score.timings.stages.table());
     }
-    let required = arguments.require.unwrap_or(0);
-    Ok(if graded.score.points < required {
-        ExitCode::from(1)
-    } else {
-        ExitCode::SUCCESS
-    })
+    Ok(enough(graded.score.points, arguments))
+}
+
+/// Whether that many points are as many as required.
+fn enough(points: u32, arguments: &Arguments) -> ExitCode {
+    match points < arguments.require.unwrap_or(0) {
+        true => ExitCode::from(1),
+        false => ExitCode::SUCCESS,
+    }
 }
 
 /// What is read on a terminal. With a platform's format, students read it in a log.
@@ -98,10 +121,15 @@ fn told(graded: &Graded, arguments: &Arguments, hints: Hints) -> String {
     if arguments.policy.is_some() && arguments.task.is_none() {
         told.push_str(&format!("  counts for {}\n\n", graded.seen.counted));
     }
-    for file in graded.files.iter().flat_map(Files::paths) {
-        told.push_str(&format!("  {}\n", from_here(file).display()));
-    }
     told
+}
+
+/// The files that tell it, a line each.
+fn places(files: &Files) -> String {
+    let lines = files.paths().map(from_here);
+    lines
+        .map(|file| format!("  {}\n", file.display()))
+        .collect()
 }
 
 /// Prints it. Where a runner looks for commands in all that is printed, it is told not to.

@@ -3,7 +3,6 @@
 //!
 //! The same submission, exam and toolchain give the same bytes, but for `timings`, `isolation`.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::again::Again;
@@ -16,8 +15,13 @@ use crate::stages::Stages;
 /// The version of this format.
 pub const SCHEMA: u32 = 1;
 
+/// The format, as a JSON schema. Committed, and compared with the types by a test: whoever grades
+/// need not compile what derives it.
+pub const PUBLISHED: &str = include_str!("score.schema.json");
+
 /// One submission, graded.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Score {
     /// The version of this format: 1.
     pub schema: u32,
@@ -46,7 +50,8 @@ pub struct Score {
 }
 
 /// Which exam this is.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ExamName {
     /// Such as `practice`.
     pub id: String,
@@ -55,7 +60,8 @@ pub struct ExamName {
 }
 
 /// One task's items.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TaskScore {
     /// Which.
     pub id: Task,
@@ -73,7 +79,8 @@ pub struct TaskScore {
 }
 
 /// One item, judged.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ItemScore {
     /// Such as `sphere.from_inside`.
     pub id: String,
@@ -114,7 +121,8 @@ pub struct ItemScore {
 }
 
 /// A line of one of the five files.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct CodePlace {
     /// Such as `sphere.rs`.
     pub file: String,
@@ -136,7 +144,8 @@ impl CodePlace {
 }
 
 /// What a known mistake would do well to hear.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Hint {
     /// A question that leads there.
     pub nudge: String,
@@ -145,7 +154,8 @@ pub struct Hint {
 }
 
 /// What was asked, what came, what should have come.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Evidence {
     /// Which question of the item, counted from 1: `cargo grade --replay ITEM#NUMBER`.
     pub number: usize,
@@ -158,7 +168,8 @@ pub struct Evidence {
 }
 
 /// What became of one item.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "verdict", rename_all = "snake_case")]
 pub enum Verdict {
     /// All points.
@@ -211,7 +222,8 @@ impl Verdict {
 }
 
 /// What the compiler and the grader had to say of the files.
-#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct BuildReport {
     /// The files in whose place the starter's was taken.
     pub not_compiled: Vec<FileReport>,
@@ -220,7 +232,8 @@ pub struct BuildReport {
 }
 
 /// One file that could not be used.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FileReport {
     /// Such as `sphere.rs`.
     pub file: String,
@@ -232,7 +245,8 @@ pub struct FileReport {
 }
 
 /// How long it took, in milliseconds.
-#[derive(Clone, Copy, Debug, Default, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Timings {
     /// From files to a probe.
     pub build_ms: u64,
@@ -275,9 +289,23 @@ impl Score {
         }
         self.points = self.tasks.iter().map(|task| task.points).sum();
     }
+}
 
-    /// The schema of the score file.
-    pub fn schema() -> schemars::Schema {
-        schemars::schema_for!(Score)
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_published_schema_is_that_of_these_types() {
+        let schema = schemars::schema_for!(Score);
+        let schema = format!("{:#}\n", schema.as_value());
+        if std::env::var_os("INSTA_UPDATE").is_some_and(|what| what == "always") {
+            let place = concat!(env!("CARGO_MANIFEST_DIR"), "/src/score.schema.json");
+            std::fs::write(place, &schema).unwrap();
+        }
+        assert_eq!(
+            PUBLISHED, schema,
+            "`INSTA_UPDATE=always cargo test -p grader --lib schema` writes it anew"
+        );
     }
 }

@@ -5,15 +5,17 @@ mod budget;
 mod culprit;
 mod fault;
 mod part;
+mod streams;
 
-use std::io::{self, BufReader, Write};
+use std::io;
+use std::mem;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::RecvTimeoutError;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use protocol::wire::{self, Frame, WireError};
+use protocol::wire::{Frame, WireError};
 use protocol::{Answer, Question};
 
 use crate::capture::Capture;
@@ -21,6 +23,7 @@ use crate::sandbox::{Ending, Process, Profile, Sandbox};
 use crate::system::{self, Limits};
 
 use budget::Watch;
+use streams::{Batch, Streams};
 
 pub use budget::Budget;
 pub use culprit::culprit;
@@ -48,10 +51,7 @@ const RUNTIME_WORDS: [&str; 4] = [
 #[derive(Debug)]
 pub struct Probe {
     process: Process,
-    questions: Sender<Vec<u8>>,
-    /// The longest frame to take next, for the thread that reads.
-    limits: Sender<usize>,
-    frames: Receiver<Result<Frame, WireError>>,
+    streams: Streams,
     output: Capture,
 }
 
@@ -88,40 +88,12 @@ impl Launcher {
         let mut process = self
             .sandbox
             .start(command, folder, Profile::Probe, limits)?;
-        let mut stdin = process.child.stdin.take().expect("it is piped");
+        let stdin = process.child.stdin.take().expect("it is piped");
         let stdout = process.child.stdout.take().expect("it is piped");
         let stderr = process.child.stderr.take().expect("it is piped");
-
-        // A thread for each direction: a probe that never reads must not block our writing.
-        let (questions, to_write) = channel::<Vec<u8>>();
-        thread::spawn(move || {
-            for frame in to_write {
-                if stdin
-                    .write_all(&frame)
-                    .and_then(|()| stdin.flush())
-                    .is_err()
-                {
-                    return; // Whoever waits for the answer sees that it ended.
-                }
-            }
-        });
-        let (limits, to_read) = channel::<usize>();
-        let (answered, frames) = channel();
-        thread::spawn(move || {
-            let mut stdout = BufReader::with_capacity(1 << 16, stdout);
-            for limit in to_read {
-                let frame = wire::read(&mut stdout, limit);
-                let ended = frame.is_err();
-                if answered.send(frame).is_err() || ended {
-                    return;
-                }
-            }
-        });
         let mut probe = Probe {
             process,
-            questions,
-            limits,
-            frames,
+            streams: Streams::open(stdin, stdout),
             output: Capture::start(stderr, KEPT),
         };
         match probe.ask([], budget) {
@@ -145,17 +117,18 @@ impl Probe {
         budget: Budget,
     ) -> Result<Vec<Answer>, Fault> {
         // The last one asks nothing: bytes that came before its answer were not asked for.
-        let questions = questions.into_iter().chain([&Question::Done]);
-        let mut nonces = Vec::new();
-        for question in questions {
-            let nonce = nonce();
-            let frame = wire::encode(nonce, question)
+        let questions: Vec<&Question> = questions.into_iter().chain([&Question::Done]).collect();
+        let nonces = nonces(questions.len());
+        let mut batch = Batch::default();
+        for (nonce, question) in nonces.iter().zip(questions) {
+            batch
+                .add(*nonce, question)
                 .map_err(|error| Fault::Protocol(format!("can not be asked: {error}")))?;
-            nonces.push(nonce);
-            // If a thread has gone, the frame that it should have read is missed below.
-            self.limits.send(question.largest_answer()).ok();
-            self.questions.send(frame).ok();
+            if batch.is_full() {
+                self.streams.send(mem::take(&mut batch));
+            }
         }
+        self.streams.send(batch);
 
         let watch = Watch::begin(budget, self.process.cpu_time());
         let mut answers = Vec::with_capacity(nonces.len());
@@ -186,7 +159,7 @@ impl Probe {
 
     fn frame(&mut self, watch: &Watch) -> Result<Frame, Fault> {
         loop {
-            match self.frames.recv_timeout(TICK) {
+            match self.streams.next(TICK) {
                 Ok(Ok(frame)) => return Ok(frame),
                 Ok(Err(WireError::Ended | WireError::Io(_)))
                 | Err(RecvTimeoutError::Disconnected) => return Err(self.post_mortem()),
@@ -199,7 +172,7 @@ impl Probe {
             }
             // A child of the probe may hold the pipe open: do not wait for its end.
             if self.process.ending().is_some() {
-                return match self.frames.recv_timeout(LAST_WORDS) {
+                return match self.streams.next(LAST_WORDS) {
                     Ok(Ok(frame)) => Ok(frame),
                     Ok(Err(_)) | Err(_) => Err(self.post_mortem()),
                 };
@@ -231,8 +204,14 @@ impl Probe {
 }
 
 /// Nothing that a submission could know or guess.
-fn nonce() -> u64 {
-    getrandom::u64().expect("the system has random numbers")
+fn nonces(count: usize) -> Vec<u64> {
+    let mut bytes = vec![0; 8 * count];
+    getrandom::fill(&mut bytes).expect("the system has random numbers");
+    let (nonces, _) = bytes.as_chunks();
+    nonces
+        .iter()
+        .map(|nonce| u64::from_le_bytes(*nonce))
+        .collect()
 }
 
 fn protocol_fault(error: WireError) -> Fault {

@@ -1,5 +1,9 @@
 //! What every submission is linked with: `glam`, `protocol`, and `framework` as the probe needs
-//! it. Compiled once per toolchain by cargo, locked, into the grader's own cache.
+//! it. Compiled once per toolchain by cargo, locked, and copied into the grader's own cache.
+//!
+//! Cargo compiles where it has compiled the grader: half of the crates are the same, and are there
+//! already. The copy is what submissions see. In cargo's folder the reference lies as well, and what
+//! is there today may be another tomorrow.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -15,8 +19,10 @@ use crate::workspace::Workspace;
 
 /// The crates that a submission may name.
 const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
+/// The package that they all come with, as the probe needs it.
+const FRAMEWORK: [&str; 3] = ["--package", "framework", "--no-default-features"];
 /// Changes when this module makes something else of the same sources.
-const RECIPE: &str = "2";
+const RECIPE: &str = "3";
 
 /// Where the compiled dependencies lie.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -58,19 +64,58 @@ impl Dependencies {
             return Ok(ready);
         }
 
-        fs::create_dir_all(&cache).map_err(at(&cache))?;
-        let lock_path = cache.join("lock");
-        let lock = File::create(&lock_path).map_err(at(&lock_path))?;
-        lock.lock().map_err(at(&lock_path))?;
+        let _lock = lock(&cache)?;
         // Somebody else may have made them while we waited.
         if let Some(ready) = read(&record) {
             return Ok(ready);
         }
-        let made = make(workspace, toolchain, &cache.join("target"))?;
-        let text = serde_json::to_vec_pretty(&made).expect("paths are text");
-        fs::write(&record, text).map_err(at(&record))?;
+        eprintln!("Preparing what submissions are built with: this once, it takes some seconds.");
+        let rlibs = build(&FRAMEWORK, workspace, toolchain)?;
+        let made = copy(rlibs, &EXTERNS, &cache.join("crates"))?;
+        write(&record, &made)?;
         Ok(made)
     }
+
+    /// Those and one more crate of the lock file: for a solution of ours. No submission is ever built
+    /// with them.
+    pub fn and(
+        name: &str,
+        workspace: &Workspace,
+        toolchain: &Toolchain,
+    ) -> Result<Self, NoDependencies> {
+        let cache = workspace.grade().join("dependencies");
+        let cache = cache.join(format!("{}-{name}", &key(workspace, toolchain)?[..16]));
+        let record = cache.join("dependencies.json");
+        if let Some(ready) = read(&record) {
+            return Ok(ready);
+        }
+
+        let _lock = lock(&cache)?;
+        let mut rlibs = build(&FRAMEWORK, workspace, toolchain)?;
+        rlibs.extend(build(&["--package", name], workspace, toolchain)?);
+        let [framework, glam, protocol] = EXTERNS;
+        let made = copy(
+            rlibs,
+            &[framework, glam, protocol, name],
+            &cache.join("crates"),
+        )?;
+        write(&record, &made)?;
+        Ok(made)
+    }
+}
+
+/// Held by whoever makes what lies in this folder.
+fn lock(cache: &Path) -> Result<File, NoDependencies> {
+    fs::create_dir_all(cache).map_err(at(cache))?;
+    let path = cache.join("lock");
+    let lock = File::create(&path).map_err(at(&path))?;
+    lock.lock().map_err(at(&path))?;
+    Ok(lock)
+}
+
+fn write(record: &Path, made: &Dependencies) -> Result<(), NoDependencies> {
+    let text = serde_json::to_vec_pretty(made).expect("paths are text");
+    fs::write(record, text).map_err(at(record))
 }
 
 fn at(path: &Path) -> impl FnOnce(io::Error) -> NoDependencies {
@@ -122,25 +167,24 @@ fn sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), NoDependencies
     Ok(())
 }
 
-/// Runs cargo: without the network if that is enough.
-fn make(
+/// Runs cargo for one package: without the network if that is enough. Returns where each crate's
+/// rlib is.
+fn build(
+    package: &[&str],
     workspace: &Workspace,
     toolchain: &Toolchain,
-    target: &Path,
-) -> Result<Dependencies, NoDependencies> {
-    eprintln!("Preparing what submissions are built with: this once, it takes half a minute.");
+) -> Result<Vec<(String, PathBuf)>, NoDependencies> {
     let run = |offline: bool| {
         let mut cargo = Command::new(&toolchain.cargo);
         cargo
-            .args(["build", "--package", "framework", "--no-default-features"])
+            .arg("build")
+            .args(package)
             .args([
                 "--release",
                 "--locked",
                 "--message-format=json-render-diagnostics",
             ])
             .args(offline.then_some("--offline"))
-            .arg("--target-dir")
-            .arg(target)
             .current_dir(workspace.root())
             .stderr(if offline {
                 Stdio::null()
@@ -167,12 +211,12 @@ fn make(
     if !output.status.success() {
         return Err(NoDependencies::Cargo);
     }
-    from_messages(&String::from_utf8_lossy(&output.stdout))
+    Ok(rlibs(&String::from_utf8_lossy(&output.stdout)))
 }
 
 /// Finds the rlibs in cargo's messages, one JSON value a line.
-fn from_messages(messages: &str) -> Result<Dependencies, NoDependencies> {
-    let rlibs: BTreeMap<String, PathBuf> = messages
+fn rlibs(messages: &str) -> Vec<(String, PathBuf)> {
+    messages
         .lines()
         .filter_map(|line| serde_json::from_str::<Value>(line).ok())
         .filter(|message| message["reason"] == "compiler-artifact")
@@ -184,17 +228,29 @@ fn from_messages(messages: &str) -> Result<Dependencies, NoDependencies> {
                 .find(|file| file.ends_with(".rlib"))?;
             Some((message["target"]["name"].as_str()?.to_owned(), rlib.into()))
         })
-        .collect();
+        .collect()
+}
 
+/// Copies all of them into one folder. A submission may name these.
+fn copy(
+    rlibs: Vec<(String, PathBuf)>,
+    names: &[&str],
+    folder: &Path,
+) -> Result<Dependencies, NoDependencies> {
+    fs::create_dir_all(folder).map_err(at(folder))?;
     let mut externs = BTreeMap::new();
-    for name in EXTERNS {
-        let rlib = rlibs
-            .get(name)
-            .ok_or_else(|| NoDependencies::Nothing(name.to_owned()))?;
-        externs.insert(name.to_owned(), rlib.clone());
+    for (name, rlib) in rlibs {
+        let copy = folder.join(rlib.file_name().expect("cargo names files"));
+        fs::copy(&rlib, &copy).map_err(at(&rlib))?;
+        if names.contains(&&*name) {
+            externs.insert(name, copy);
+        }
     }
-    // Those of a path dependency lie beside `deps/`, the others in it.
-    let deps = externs["glam"].parent().map(Path::to_owned);
-    let folder = deps.ok_or_else(|| NoDependencies::Nothing("deps folder".to_owned()))?;
-    Ok(Dependencies { externs, folder })
+    if let Some(name) = names.iter().find(|name| !externs.contains_key(**name)) {
+        return Err(NoDependencies::Nothing((*name).to_owned()));
+    }
+    Ok(Dependencies {
+        externs,
+        folder: folder.to_owned(),
+    })
 }

@@ -33,6 +33,8 @@ use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, Unreadable};
 use crate::workspace::Workspace;
 
+pub use crate::build::kept::Content;
+pub use crate::build::toolchain::modified;
 pub use crate::build::trial::Shortfall;
 
 /// How often a submission is compiled at most.
@@ -87,6 +89,23 @@ pub enum NotCompiled {
     },
     /// The compiler did not finish, and did not say because of which file.
     Compiler(String),
+}
+
+impl NotCompiled {
+    /// Whether it would be the same on any day.
+    pub fn is_settled(&self) -> bool {
+        match self {
+            NotCompiled::Unreadable(
+                Unreadable::Missing(_)
+                | Unreadable::NotAFile(_)
+                | Unreadable::TooLong(_)
+                | Unreadable::NotText { .. },
+            )
+            | NotCompiled::Lacks(_)
+            | NotCompiled::Error { .. } => true,
+            NotCompiled::Unreadable(Unreadable::Io { .. }) | NotCompiled::Compiler(_) => false,
+        }
+    }
 }
 
 /// The grader's own fault, or the machine's.
@@ -147,6 +166,14 @@ impl Builder {
             parts: Some(parts),
             ..self
         })
+    }
+
+    /// Builds that may name one more crate of the lock file: for solutions of ours that need it, and
+    /// never for submissions.
+    pub fn and_crate(&self, name: &str, workspace: &Workspace) -> Result<Self, BuildError> {
+        let mut builder = self.clone();
+        builder.rustc.dependencies = Dependencies::and(name, workspace, &self.rustc.toolchain)?;
+        Ok(builder)
     }
 
     /// The name of all that programs follow from, beside the submission.

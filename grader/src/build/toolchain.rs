@@ -45,12 +45,19 @@ impl Toolchain {
 
     /// What changes when the compiler does. Asking it for its version would take 10 ms.
     pub fn fingerprint(&self) -> String {
-        let metadata = fs::metadata(&self.rustc);
-        let size = metadata.as_ref().map_or(0, fs::Metadata::len);
-        let age = metadata.and_then(|metadata| metadata.modified()).ok();
-        let age = age.and_then(|time| time.duration_since(UNIX_EPOCH).ok());
-        format!("{} {size} {age:?}", self.rustc.display())
+        let driver = self.sysroot().join("lib");
+        let [rustc, driver] = [&self.rustc, &driver].map(|path| modified(path));
+        format!("{} {rustc} {driver}", self.rustc.display())
     }
+}
+
+/// What changes when a file, or what a folder holds, is replaced: its size, and when that was.
+pub fn modified(path: &Path) -> String {
+    let metadata = fs::metadata(path);
+    let size = metadata.as_ref().map_or(0, fs::Metadata::len);
+    let age = metadata.and_then(|metadata| metadata.modified()).ok();
+    let age = age.and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+    format!("{size} {age:?}")
 }
 
 fn beside(cargo: &Path) -> Option<Toolchain> {

@@ -7,7 +7,6 @@ mod key;
 use std::fmt;
 
 use protocol::Question;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::section::Section;
@@ -17,9 +16,8 @@ use crate::tells::{KnownMistake, Tells};
 pub use key::{Hit, Key, Part, RayPart, Surface, TreePart};
 
 /// The six things to write, in lecture order.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Task {
     /// `Camera::sample_ray`

@@ -6,7 +6,6 @@ mod classroom50;
 pub mod github;
 mod github_classroom;
 mod gradescope;
-#[cfg(feature = "junit")]
 mod junit;
 pub mod outputs;
 mod prairielearn;
@@ -40,7 +39,6 @@ pub enum Format {
     /// classroom50's `result.json`.
     Classroom50,
     /// JUnit's XML: a suite for each task.
-    #[cfg(feature = "junit")]
     Junit,
     /// A summary in Markdown; annotations go to standard output.
     Github,
@@ -83,7 +81,6 @@ impl Format {
             Format::Html => "feedback.html",
             Format::Gradescope => "gradescope.json",
             Format::Classroom50 => "classroom50.json",
-            #[cfg(feature = "junit")]
             Format::Junit => "junit.xml",
             Format::Github => "github.md",
             Format::GithubClassroom => "github-classroom.txt",
@@ -96,12 +93,11 @@ impl Format {
     pub fn variables(self) -> &'static [&'static str] {
         match self {
             Format::Classroom50 => &classroom50::VARIABLES,
-            #[cfg(feature = "junit")]
-            Format::Junit => &[],
             Format::Json
             | Format::Text
             | Format::Html
             | Format::Gradescope
+            | Format::Junit
             | Format::Github
             | Format::GithubClassroom
             | Format::Check50
@@ -117,7 +113,6 @@ impl Format {
             Format::Html => html::feedback(&seen.now),
             Format::Gradescope => gradescope::text(seen, around),
             Format::Classroom50 => classroom50::text(seen, around),
-            #[cfg(feature = "junit")]
             Format::Junit => junit::text(seen, around),
             Format::Github => github::summary(seen, around),
             Format::GithubClassroom => github_classroom::text(seen, around),
@@ -179,7 +174,6 @@ impl Format {
             Format::Html => "html",
             Format::Gradescope => "gradescope",
             Format::Classroom50 => "classroom50",
-            #[cfg(feature = "junit")]
             Format::Junit => "junit",
             Format::Github => "github",
             Format::GithubClassroom => "github-classroom",

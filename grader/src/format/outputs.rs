@@ -132,13 +132,12 @@ fn output(wanted: &Wanted, folder: &Path) -> Result<Output, NoOutput> {
     let shared = match format {
         Format::Github => env::var_os("GITHUB_STEP_SUMMARY"),
         Format::GithubClassroom => env::var_os("GITHUB_OUTPUT"),
-        #[cfg(feature = "junit")]
-        Format::Junit => None,
         Format::Json
         | Format::Text
         | Format::Html
         | Format::Gradescope
         | Format::Classroom50
+        | Format::Junit
         | Format::Check50
         | Format::Prairielearn => None,
     };

@@ -44,6 +44,14 @@ pub struct Built {
     took: Duration,
 }
 
+impl Built {
+    /// Whether as much of it would compile on any day.
+    pub(super) fn is_settled(&self) -> bool {
+        let mut why = self.build.not_compiled.values();
+        why.all(NotCompiled::is_settled)
+    }
+}
+
 impl<'a> Grader<'a> {
     /// Loads the exam, and whatever submissions are built with.
     pub fn prepare(arguments: &'a Arguments) -> Result<Self, Error> {
@@ -176,7 +184,7 @@ impl<'a> Grader<'a> {
     pub fn files(&self, submission: &Submission) -> Option<Files> {
         let folder = match &self.arguments.out {
             Some(folder) => folder.clone(),
-            None => self.workspace.grade().join(&submission.name),
+            None => usual_folder(&self.workspace, submission),
         };
         let reload = match self.arguments.watch {
             true => Reload::WhileAway,
@@ -206,8 +214,13 @@ fn lateness(arguments: &Arguments, policy: &Policy) -> Result<Lateness, NoMoment
     lateness.unwrap_or(Ok(Lateness::NONE))
 }
 
+/// Where a score goes unless told otherwise.
+pub fn usual_folder(workspace: &Workspace, submission: &Submission) -> PathBuf {
+    workspace.grade().join(&submission.name)
+}
+
 /// What submissions are built with: with the reference, where it is at hand and not declined.
-fn builder(arguments: &Arguments, workspace: &Workspace) -> Result<Builder, BuildError> {
+pub fn builder(arguments: &Arguments, workspace: &Workspace) -> Result<Builder, BuildError> {
     let builder = Builder::prepare(workspace)?;
     match workspace.reference() {
         Some(reference) if !arguments.no_reference => builder.with_reference(&reference, workspace),

@@ -8,13 +8,14 @@ use std::time::{Duration, Instant};
 
 use crate::build::NotCompiled;
 use crate::cli::Arguments;
+use crate::earlier::Key;
 use crate::error::Error;
 use crate::files::Files;
 use crate::format::Seen;
 use crate::score::Score;
 use crate::verdict::file_message;
 
-pub use grader::{Built, Grader, budget, collect};
+pub use grader::{Built, Grader, budget, builder, collect, usual_folder};
 
 /// A submission's score, and where it was written, if it was.
 #[derive(Debug)]
@@ -25,6 +26,8 @@ pub struct Graded {
     pub files: Option<Files>,
     /// As much of it as students may see.
     pub seen: Seen,
+    /// What it follows from, if it may be said again without grading.
+    pub key: Option<Key>,
 }
 
 impl Graded {
@@ -47,6 +50,13 @@ pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
         files.outputs = grader.outputs(&submission, &files.folder)?;
     }
     let mut score = grader.unasked(&submission, &built);
+    let key = Key::of(
+        arguments,
+        &submission,
+        &score.exam.hash,
+        &grader.built_with(),
+    );
+    let key = key.filter(|_| built.is_settled());
     let mut writing = Duration::ZERO;
     grader.examine(exam, &built, &mut score, |score, exhibits| {
         let began = Instant::now();
@@ -62,7 +72,12 @@ pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
     score.timings.stages.prepare = prepared;
     score.timings.stages.report = writing;
     let seen = grader.seen(&score);
-    Ok(Graded { score, files, seen })
+    Ok(Graded {
+        score,
+        files,
+        seen,
+        key,
+    })
 }
 
 /// On standard error, each file once and in short: the report that follows has all the compiler's

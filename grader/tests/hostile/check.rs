@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use boon::{Compiler, SchemaIndex, Schemas};
-use grader::score::Score;
+use grader::score;
 use serde_json::Value;
 
 use crate::canary::Canaries;
@@ -128,7 +128,7 @@ fn unfit(run: &Run) -> Vec<String> {
 static SCHEMA: LazyLock<(Schemas, SchemaIndex)> = LazyLock::new(|| {
     let mut schemas = Schemas::new();
     let mut compiler = Compiler::new();
-    let schema = Score::schema().to_value();
+    let schema = serde_json::from_str(score::PUBLISHED).expect("JSON");
     compiler
         .add_resource("score.json", schema)
         .expect("a schema");

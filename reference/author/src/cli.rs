@@ -98,6 +98,9 @@ pub enum Command {
         /// How many of the seeds the mistakes are asked as well
         #[arg(long, default_value_t = 10)]
         mistakes: u64,
+        /// Ask this variant alone, such as bvh.wide, and no mistakes
+        #[arg(long, value_name = "ID", conflicts_with_all = ["mistakes", "write"])]
+        variant: Option<String>,
         /// Write down what was found out, with date and commit
         #[arg(long)]
         write: bool,

@@ -71,9 +71,14 @@ fn run(command: Command) -> Done {
         Command::Prove {
             seeds,
             mistakes,
+            variant,
             write,
         } => {
-            let summary = prove(&exhibits()?, seeds, mistakes)?;
+            let exhibits = match variant {
+                Some(id) => exhibits()?.only(&id)?,
+                None => exhibits()?,
+            };
+            let summary = prove(&exhibits, seeds, mistakes)?;
             if write {
                 let record = summary.record(&today(), &commit(root)?);
                 put(&[record], Mode::Write, "prove")?;

@@ -27,5 +27,5 @@ fn in_one_seed_all_margins_are_wide_enough() {
 #[test]
 fn the_committed_table_is_of_several_seeds() {
     let table = table();
-    assert!(table.contains("of 60 seeds (0 to 59)"), "{table}");
+    assert!(table.contains("of 200 seeds (0 to 199)"), "{table}");
 }

@@ -68,15 +68,27 @@ impl Frame {
 
 /// The bytes of a frame that holds `value`.
 pub fn encode<T: Serialize>(nonce: u64, value: &T) -> Result<Vec<u8>, WireError> {
+    append(Vec::new(), nonce, value)
+}
+
+/// These bytes, and after them a frame that holds `value`: many frames go out as one.
+pub fn append<T: Serialize>(
+    mut bytes: Vec<u8>,
+    nonce: u64,
+    value: &T,
+) -> Result<Vec<u8>, WireError> {
     const HEADER: [u8; 12] = [0; 12];
-    let mut bytes = postcard::to_extend(value, HEADER.to_vec()).map_err(WireError::Malformed)?;
-    let length = bytes.len() - HEADER.len();
+    let start = bytes.len();
+    bytes.extend(HEADER);
+    let mut bytes = postcard::to_extend(value, bytes).map_err(WireError::Malformed)?;
+    let length = bytes.len() - start - HEADER.len();
     let announced = u32::try_from(length).map_err(|_| WireError::TooLong {
         length,
         limit: u32::MAX as usize,
     })?;
-    bytes[..4].copy_from_slice(&announced.to_le_bytes());
-    bytes[4..12].copy_from_slice(&nonce.to_le_bytes());
+    let header = &mut bytes[start..];
+    header[..4].copy_from_slice(&announced.to_le_bytes());
+    header[4..12].copy_from_slice(&nonce.to_le_bytes());
     Ok(bytes)
 }
 

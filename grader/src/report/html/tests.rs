@@ -1,4 +1,7 @@
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use protocol::{Answer, Outcome, Panic};
+use sha2::{Digest, Sha256};
 
 use super::Reload;
 use crate::exam::Exam;
@@ -179,4 +182,19 @@ fn only_a_watched_page_reloads_itself() {
     let page = |reload| super::page(&score, &exam, &Exhibits::default(), reload);
     assert!(page(Reload::WhileAway).contains("<body data-reload>"));
     assert!(page(Reload::Never).contains("<body>"));
+}
+
+#[test]
+fn the_policy_names_the_style_and_the_script_that_the_page_has() {
+    let name = |text: &str| format!("sha256-{}", STANDARD.encode(Sha256::digest(text)));
+    assert_eq!(
+        super::STYLE_NAME,
+        name(super::STYLE),
+        "of page.css, in mod.rs"
+    );
+    assert_eq!(
+        super::SCRIPT_NAME,
+        name(super::SCRIPT),
+        "of page.js, in mod.rs"
+    );
 }

@@ -28,6 +28,10 @@ pub fn readable(format: &str, text: &str) -> String {
     match format {
         "github-classroom" => format!("{:#}", decoded(text)),
         "html" => without(without(text, "style"), "script").replace("><", ">\n<"),
+        "junit" => Report::deserialize_from_str(text)
+            .unwrap()
+            .to_string()
+            .unwrap(),
         _ => text.to_owned(),
     }
 }

@@ -9,7 +9,8 @@ use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
 use grader::exam::{Asked, Key, Surface};
 use protocol::{Question, Rays, Sample, Shape, View, every_pixel};
 
-use crate::oracle::{Beam, Meeting, scan};
+use crate::oracle::scan::Scan;
+use crate::oracle::{Beam, Meeting};
 
 /// How far the neighbours are, in pixels, across and up.
 const NEIGHBOUR: f32 = 5e-4;
@@ -39,7 +40,8 @@ pub fn narrow(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> View {
 
 /// The question of what is seen of these shapes, each by its own `hit`.
 pub fn shapes(view: View, shapes: Vec<Shape>) -> Asked {
-    let key = first_hits(&view, |beam| scan::closest(beam, &shapes));
+    let scan = Scan::of(&shapes);
+    let key = first_hits(&view, |beam| scan.closest(beam));
     let rays = Rays::View(view);
     Asked::new(Question::Shapes { shapes, rays }, key)
 }

@@ -13,8 +13,11 @@ pub fn meet(beam: &Beam, shape: &Shape) -> Option<Meeting> {
             ref vertices,
             material,
         } => triangle::meet(beam, vertices, material),
+        // Most facets are missed: their vertices are only made for those that are not.
         Shape::Facet { corners, material } => {
-            triangle::meet(beam, &Shape::facet_vertices(corners), material)
+            let crossing = triangle::passage(beam, corners.map(|corner| corner.as_dvec3()))?;
+            let vertices = Shape::facet_vertices(corners);
+            Some(triangle::meeting(beam, &crossing, &vertices, material))
         }
         Shape::Sphere {
             center,
@@ -30,6 +33,36 @@ pub fn closest<'a>(beam: &Beam, shapes: impl IntoIterator<Item = &'a Shape>) -> 
         .into_iter()
         .filter_map(|shape| meet(beam, shape))
         .min_by(|a, b| a.distance.total_cmp(&b.distance))
+}
+
+/// Shapes that very many rays are to scan, as pictures do.
+#[derive(Debug)]
+pub struct Scan<'a> {
+    guarded: Vec<(Ball, &'a Shape)>,
+}
+
+impl<'a> Scan<'a> {
+    /// Puts a ball around each shape, a little larger than it has to be.
+    pub fn of(shapes: &'a [Shape]) -> Self {
+        let guarded = |shape| {
+            let bounds = bounds(shape);
+            let ball = Ball {
+                center: bounds.center(),
+                radius: 0.500_001 * bounds.min.distance(bounds.max),
+            };
+            (ball, shape)
+        };
+        Scan {
+            guarded: shapes.iter().map(guarded).collect(),
+        }
+    }
+
+    /// The closest of all meetings: what [`closest`] finds, but only shapes whose balls the ray's
+    /// line passes through are asked.
+    pub fn closest(&self, beam: &Beam) -> Option<Meeting> {
+        let passing = self.guarded.iter().filter(|(ball, _)| ball.is_passed(beam));
+        closest(beam, passing.map(|&(_, shape)| shape))
+    }
 }
 
 /// The tightest box around a shape.
@@ -87,10 +120,11 @@ fn ball(center: glam::Vec3, radius: f32) -> Ball {
 
 #[cfg(test)]
 mod tests {
-    use glam::{Vec3, vec3};
+    use glam::{DVec3, Vec3, vec3};
     use protocol::Ray;
 
     use super::*;
+    use crate::seed::Seed;
 
     fn shapes() -> [Shape; 2] {
         [
@@ -117,6 +151,27 @@ mod tests {
         assert_eq!((met.distance, met.material), (5.0, 1));
         let met = closest(&Beam::from(&ray.within(6.0, 20.0)), &shapes()).unwrap();
         assert_eq!((met.distance, met.material), (7.0, 0));
+    }
+
+    #[test]
+    fn balls_around_shapes_change_nothing() {
+        let mut draw = Seed(1).draw("scan");
+        let shapes = shapes();
+        let scan = Scan::of(&shapes);
+        let mut hits = 0;
+        for _ in 0..1000 {
+            let target = draw.point(4.0) - 6.0 * DVec3::Z;
+            let beam = Beam {
+                origin: DVec3::ZERO,
+                dir: target.normalize(),
+                min: 0.0,
+                max: f64::INFINITY,
+            };
+            let met = closest(&beam, &shapes);
+            assert_eq!(scan.closest(&beam), met);
+            hits += usize::from(met.is_some());
+        }
+        assert!((100..900).contains(&hits), "{hits} of 1000 hit");
     }
 
     #[test]

@@ -37,6 +37,12 @@ impl Ball {
         }
     }
 
+    /// Whether the ray's whole line passes through the sphere.
+    pub fn is_passed(&self, beam: &Beam) -> bool {
+        let aside = (self.center - beam.origin).cross(beam.dir);
+        aside.length_squared() <= self.radius * self.radius * beam.dir.length_squared()
+    }
+
     /// Where the ray first meets the sphere within its range.
     pub fn meet(&self, beam: &Beam, material: u32) -> Option<Meeting> {
         let roots = self.passage(beam).roots;

@@ -41,26 +41,34 @@ pub fn crossing(beam: &Beam, [p0, p1, p2]: [DVec3; 3]) -> Option<Crossing> {
 }
 
 /// The corners of a triangle, exactly.
-pub fn corners(vertices: &[Vertex; 3]) -> [DVec3; 3] {
-    vertices.map(|vertex| vertex.position.as_dvec3())
+pub fn corners([p0, p1, p2]: &[Vertex; 3]) -> [DVec3; 3] {
+    [p0, p1, p2].map(|vertex| vertex.position.as_dvec3())
 }
 
-/// Where the ray meets the triangle within its range.
-pub fn meet(beam: &Beam, vertices: &[Vertex; 3], material: u32) -> Option<Meeting> {
-    let crossing = crossing(beam, corners(vertices))?;
-    if crossing.depth() < 0.0 || !beam.reaches(crossing.distance) {
-        return None;
-    }
+/// Where the ray passes through the triangle within its range.
+pub fn passage(beam: &Beam, corners: [DVec3; 3]) -> Option<Crossing> {
+    crossing(beam, corners)
+        .filter(|crossing| beam.reaches(crossing.distance) && crossing.depth() >= 0.0)
+}
+
+/// What is met there.
+pub fn meeting(beam: &Beam, crossing: &Crossing, vertices: &[Vertex; 3], material: u32) -> Meeting {
     let weighted = || crossing.weights.into_iter().zip(vertices);
     let normal: DVec3 = weighted().map(|(w, v)| w * v.normal.as_dvec3()).sum();
     let uv: DVec2 = weighted().map(|(w, v)| w * v.uv.as_dvec2()).sum();
-    Some(Meeting {
+    Meeting {
         distance: crossing.distance,
         position: beam.at(crossing.distance),
         normal: normal.normalize_or_zero(),
         uv,
         material,
-    })
+    }
+}
+
+/// Where the ray meets the triangle within its range.
+pub fn meet(beam: &Beam, vertices: &[Vertex; 3], material: u32) -> Option<Meeting> {
+    let crossing = passage(beam, corners(vertices))?;
+    Some(meeting(beam, &crossing, vertices, material))
 }
 
 #[cfg(test)]

@@ -41,6 +41,9 @@ pub enum NotProven {
         .0.join("\n")
     )]
     Problems(Vec<String>),
+    /// There is nothing of this name to ask.
+    #[error("there is no variant {0}: reference/variants/variants.toml lists them")]
+    NoVariant(String),
     /// What was found out can not be kept.
     #[error("can not write {}: {source}", path.display())]
     Unwritable {
@@ -89,6 +92,16 @@ impl Exhibits {
             recorder: Recorder::open(&workbench)?,
             workbench,
         })
+    }
+
+    /// One variant alone, and no mistakes.
+    pub fn only(mut self, id: &str) -> Result<Self, NotProven> {
+        self.mistakes.clear();
+        self.variants.retain(|(variant, _)| variant.id == id);
+        match self.variants.len() {
+            0 => Err(NotProven::NoVariant(id.to_owned())),
+            _ => Ok(self),
+        }
     }
 
     /// What every mistake earns in an exam.

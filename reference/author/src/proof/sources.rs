@@ -29,6 +29,8 @@ pub fn read(path: &Path) -> Result<String, Unreadable> {
 #[derive(Clone, Debug)]
 pub struct Sources {
     files: Vec<(TaskFile, String)>,
+    /// What they name that submissions may not.
+    crates: Vec<String>,
 }
 
 impl Sources {
@@ -36,7 +38,10 @@ impl Sources {
     pub fn reference(root: &Path) -> Result<Self, Unreadable> {
         let text = |file: TaskFile| Ok((file, read(&root.join("reference/src").join(file.name))?));
         let files: Result<_, _> = TASK_FILES.into_iter().map(text).collect();
-        Ok(Sources { files: files? })
+        Ok(Sources {
+            files: files?,
+            crates: Vec::new(),
+        })
     }
 
     /// The text of one of the five.
@@ -54,6 +59,17 @@ impl Sources {
             }
         }
         self
+    }
+
+    /// With these crates at hand, beside those of every submission.
+    pub fn naming(self, crates: &[String]) -> Self {
+        let crates = crates.to_vec();
+        Sources { crates, ..self }
+    }
+
+    /// The crates that they name, beside those of every submission.
+    pub fn crates(&self) -> &[String] {
+        &self.crates
     }
 
     /// As the grader takes it.

@@ -26,6 +26,9 @@ pub struct Variant {
     /// surface area heuristic.
     #[serde(default)]
     pub may_lose: Vec<String>,
+    /// The crates that it names and submissions may not.
+    #[serde(default)]
+    pub crates: Vec<String>,
 }
 
 /// The list can not be used.
@@ -78,6 +81,7 @@ impl Variant {
     /// The reference with this file in the place of its own.
     pub fn apply(&self, reference: &Sources, root: &Path) -> Result<Sources, Unreadable> {
         let text = read(&root.join(self.path()))?;
-        Ok(reference.clone().with(&self.file(), text))
+        let sources = reference.clone().with(&self.file(), text);
+        Ok(sources.naming(&self.crates))
     }
 }

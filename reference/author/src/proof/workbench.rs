@@ -1,5 +1,6 @@
 //! Building and asking many solutions, again and again: what was built once is kept.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -74,7 +75,11 @@ impl Workbench {
 
     /// Builds a solution, of which all must compile.
     pub fn build(&self, sources: &Sources, id: &str) -> Result<Solution, NotTried> {
-        let build = self.builder.build(&sources.submission(id))?;
+        let mut builder = Cow::Borrowed(&self.builder);
+        for name in sources.crates() {
+            builder = Cow::Owned(builder.and_crate(name, &self.workspace)?);
+        }
+        let build = builder.build(&sources.submission(id))?;
         if let Some(message) = complaint(&build.not_compiled) {
             let id = id.to_owned();
             return Err(NotTried::NotCompiled { id, message });

@@ -6,7 +6,7 @@ use protocol::{Question, Rays};
 
 use super::{FIRST_ORPHAN, from_around, honest, item, needs, rays, soup_tree};
 use crate::items::{hits, meshes, picture};
-use crate::oracle::scan;
+use crate::oracle::scan::{self, Scan};
 use crate::recorded::Recorded;
 use crate::seed::{Draw, Seed};
 
@@ -51,7 +51,8 @@ pub(super) fn picture(seed: Seed) -> Item {
     let corner = |x: f64, y: f64| DVec3::new(x, y, 3.0);
     let curtain = [corner(-4.0, -4.0), corner(0.3, 0.6), corner(-4.0, 4.0)];
 
-    let key = picture::first_hits(&view, |beam| scan::closest(beam, &tree.shapes));
+    let scan = Scan::of(&tree.shapes);
+    let key = picture::first_hits(&view, |beam| scan.closest(beam));
     tree.shapes.push(meshes::facet(curtain, FIRST_ORPHAN));
     let question = Question::Traverse {
         shapes: tree.shapes,

@@ -1,0 +1,197 @@
+//! Who is compared: each builds a tree of the same triangles, and finds the closest hits.
+
+use std::hint::black_box;
+use std::rc::Rc;
+use std::time::Duration;
+
+use ::bvh::aabb::{Aabb, Bounded};
+use ::bvh::bounding_hierarchy::BHShape;
+use ::bvh::bvh::Bvh as CrateBvh;
+use glam::Vec3;
+use nalgebra::{Point3, Vector3};
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2_from_tris;
+use obvhs::ray::RayHit;
+use obvhs::triangle::Triangle;
+use protocol::Ray;
+
+use crate::bvh::Bvh;
+use crate::eight;
+use crate::embree::EmbreeScene;
+
+/// At most so many primitives in a leaf, of ours.
+pub const LEAF: usize = 4;
+
+/// A tree that was built.
+pub trait Contender {
+    /// How far it is to the closest hit; infinitely far without one.
+    fn distances(&self, rays: &[Ray]) -> Vec<f32>;
+}
+
+/// The reference: what students read. All of the [`protocol::Trace`] is computed.
+impl Contender for Bvh {
+    fn distances(&self, rays: &[Ray]) -> Vec<f32> {
+        let distance = |ray| black_box(self.hit(ray)).map_or(f32::INFINITY, |trace| trace.distance);
+        rays.iter().map(distance).collect()
+    }
+}
+
+/// The variant that is eight wide. The same.
+impl Contender for eight::Bvh {
+    fn distances(&self, rays: &[Ray]) -> Vec<f32> {
+        let distance = |ray| black_box(self.hit(ray)).map_or(f32::INFINITY, |trace| trace.distance);
+        rays.iter().map(distance).collect()
+    }
+}
+
+impl Contender for EmbreeScene<'_> {
+    fn distances(&self, rays: &[Ray]) -> Vec<f32> {
+        rays.iter().map(|ray| self.distance(ray)).collect()
+    }
+}
+
+/// The crate `obvhs`: its binary tree, `medium_build`.
+pub struct Obvhs {
+    bvh: Bvh2,
+    /// In the order of the leaves, as its documentation advises.
+    triangles: Vec<Triangle>,
+}
+
+impl Obvhs {
+    pub fn triangles(corners: &[[Vec3; 3]]) -> Vec<Triangle> {
+        let triangle = |[v0, v1, v2]: &[Vec3; 3]| Triangle {
+            v0: (*v0).into(),
+            v1: (*v1).into(),
+            v2: (*v2).into(),
+        };
+        corners.iter().map(triangle).collect()
+    }
+
+    pub fn build(triangles: &[Triangle]) -> Self {
+        let mut ignored = Duration::ZERO;
+        let bvh = build_bvh2_from_tris(triangles, BvhBuildParams::medium_build(), &mut ignored);
+        let places = bvh.primitive_indices.iter();
+        let triangles = places.map(|&place| triangles[place as usize]).collect();
+        Obvhs { bvh, triangles }
+    }
+}
+
+impl Contender for Obvhs {
+    fn distances(&self, rays: &[Ray]) -> Vec<f32> {
+        let distance = |ray: &Ray| {
+            let range = ray.range;
+            let ray = obvhs::ray::Ray::new(ray.origin.into(), ray.dir.into(), range.min, range.max);
+            let mut hit = RayHit::none();
+            self.bvh
+                .ray_traverse(ray, &mut hit, |ray, id| self.triangles[id].intersect(ray));
+            hit.t
+        };
+        rays.iter().map(distance).collect()
+    }
+}
+
+/// The crate `bvh`. It offers two walks, of which now one is faster and now the other.
+pub struct OfCrate {
+    bvh: CrateBvh<f32, 3>,
+    triangles: Vec<Corners>,
+}
+
+impl OfCrate {
+    pub fn build(corners: &[[Vec3; 3]]) -> Self {
+        let corners = corners.iter().copied();
+        let mut triangles: Vec<Corners> = corners
+            .map(|corners| Corners { corners, node: 0 })
+            .collect();
+        let bvh = CrateBvh::build(&mut triangles);
+        OfCrate { bvh, triangles }
+    }
+
+    /// In order of distance, until a box begins beyond the closest hit.
+    fn nearest(&self, ray: &Ray) -> f32 {
+        let query = query(ray);
+        let mut closest = f32::INFINITY;
+        for triangle in self.bvh.nearest_traverse_iterator(&query, &self.triangles) {
+            let entry = query.intersection_slice_for_aabb(&triangle.aabb());
+            if entry.is_some_and(|(entry, _)| entry > closest) {
+                break;
+            }
+            closest = closest.min(triangle.distance(ray));
+        }
+        closest
+    }
+
+    /// Every triangle whose box is met.
+    fn every(&self, ray: &Ray) -> f32 {
+        let query = query(ray);
+        let met = self.bvh.traverse_iterator(&query, &self.triangles);
+        met.map(|triangle| triangle.distance(ray))
+            .fold(f32::INFINITY, f32::min)
+    }
+}
+
+/// By its first walk.
+pub struct Nearest(pub Rc<OfCrate>);
+
+impl Contender for Nearest {
+    fn distances(&self, rays: &[Ray]) -> Vec<f32> {
+        rays.iter().map(|ray| self.0.nearest(ray)).collect()
+    }
+}
+
+/// By its second.
+pub struct Every(pub Rc<OfCrate>);
+
+impl Contender for Every {
+    fn distances(&self, rays: &[Ray]) -> Vec<f32> {
+        rays.iter().map(|ray| self.0.every(ray)).collect()
+    }
+}
+
+fn query(ray: &Ray) -> ::bvh::ray::Ray<f32, 3> {
+    ::bvh::ray::Ray::new(
+        Point3::from(ray.origin.to_array()),
+        Vector3::from(ray.dir.to_array()),
+    )
+}
+
+/// A triangle as that crate wants it.
+struct Corners {
+    corners: [Vec3; 3],
+    node: usize,
+}
+
+impl Corners {
+    /// Möller and Trumbore's test, two-sided, for the distance alone: that crate's own culls back
+    /// faces. Infinite for a miss.
+    fn distance(&self, ray: &Ray) -> f32 {
+        let [p0, p1, p2] = self.corners;
+        let (e1, e2) = (p1 - p0, p2 - p0);
+        let p = ray.dir.cross(e2);
+        let determinant = e1.dot(p);
+        let s = ray.origin - p0;
+        let u = s.dot(p) / determinant;
+        let q = s.cross(e1);
+        let v = ray.dir.dot(q) / determinant;
+        let t = e2.dot(q) / determinant;
+        let hit = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && ray.range.contains(t);
+        if hit { t } else { f32::INFINITY }
+    }
+}
+
+impl Bounded<f32, 3> for Corners {
+    fn aabb(&self) -> Aabb<f32, 3> {
+        let [a, b, c] = self.corners.map(|corner| Point3::from(corner.to_array()));
+        Aabb::empty().grow(&a).grow(&b).grow(&c)
+    }
+}
+
+impl BHShape<f32, 3> for Corners {
+    fn set_bh_node_index(&mut self, index: usize) {
+        self.node = index;
+    }
+
+    fn bh_node_index(&self) -> usize {
+        self.node
+    }
+}

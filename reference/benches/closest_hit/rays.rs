@@ -1,0 +1,104 @@
+//! Three kinds of rays, the same for every contender: what a path tracer sends out first, what it
+//! sends out next, and what has no order at all.
+
+use glam::{Vec3, vec3};
+use protocol::Ray;
+
+use crate::bvh::Bvh;
+use crate::mesh::Mesh;
+
+/// Of each kind, about; a square of pixels.
+const SIDE: u32 = 512;
+
+/// Rays of one kind.
+pub struct Rays {
+    pub kind: &'static str,
+    pub rays: Vec<Ray>,
+}
+
+/// All three.
+pub fn all(mesh: &Mesh, bvh: &Bvh) -> [Rays; 3] {
+    let primary = primary(mesh);
+    let bounce = bounce(mesh, bvh, &primary);
+    let random = random(mesh);
+    [("primary", primary), ("bounce", bounce), ("random", random)]
+        .map(|(kind, rays)| Rays { kind, rays })
+}
+
+/// One ray through each pixel, row by row.
+fn primary(mesh: &Mesh) -> Vec<Ray> {
+    let (center, size) = (mesh.bbox.center(), mesh.bbox.max - mesh.bbox.min);
+    let (eye, ahead, width) = if mesh.is_building {
+        (center - vec3(0.35, 0.05, 0.0) * size, Vec3::X, 1.5)
+    } else {
+        (center + 1.1 * size.length() * Vec3::Z, Vec3::NEG_Z, 0.6)
+    };
+    let across = |i: u32| ((i as f32 + 0.5) / SIDE as f32 - 0.5) * width;
+    let ray = |i| {
+        let (x, y) = (across(i % SIDE), across(i / SIDE));
+        Ray::new(eye, ahead + x * ahead.cross(Vec3::Y) + y * Vec3::Y)
+    };
+    (0..SIDE * SIDE).map(ray).collect()
+}
+
+/// From where the others hit, anywhere into the hemisphere; and from where those hit, and again.
+fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
+    let gap = 1e-4 * (mesh.bbox.max - mesh.bbox.min).length();
+    let mut numbers = Numbers(1);
+    let mut all = Vec::new();
+    let mut last = primary.to_vec();
+    while all.len() < (SIDE * SIDE) as usize && !last.is_empty() {
+        let hits = last.iter().filter_map(|ray| Some((ray, bvh.hit(ray)?)));
+        let next = hits.map(|(ray, trace)| {
+            let facing = trace.normal * -ray.dir.dot(trace.normal).signum();
+            let dir = (facing + numbers.direction()).normalize_or(facing);
+            Ray::new(trace.position, dir).within(gap, f32::INFINITY)
+        });
+        last = next.collect();
+        all.extend_from_slice(&last);
+    }
+    all.truncate((SIDE * SIDE) as usize);
+    all
+}
+
+/// From a sphere around the mesh, or from inside a building, to anywhere in its box.
+fn random(mesh: &Mesh) -> Vec<Ray> {
+    let (center, size) = (mesh.bbox.center(), mesh.bbox.max - mesh.bbox.min);
+    let mut numbers = Numbers(2);
+    let ray = |_| {
+        let to = mesh.bbox.min + numbers.point() * size;
+        let from = if mesh.is_building {
+            mesh.bbox.min + numbers.point() * size
+        } else {
+            center + size.length() * numbers.direction()
+        };
+        Ray::new(from, to - from)
+    };
+    (0..SIDE * SIDE).map(ray).collect()
+}
+
+/// SplitMix64: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
+struct Numbers(u64);
+
+impl Numbers {
+    fn unit(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    fn point(&mut self) -> Vec3 {
+        vec3(self.unit(), self.unit(), self.unit())
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        loop {
+            let point = 2.0 * self.point() - 1.0;
+            if (0.01..1.0).contains(&point.length_squared()) {
+                return point.normalize();
+            }
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! The tables of one mesh: what was measured, and the ratios that count.
+
+use std::fmt;
+
+use crate::cost::Spread;
+
+/// What was measured, in the order in which it came.
+#[derive(Default)]
+pub struct Report {
+    names: Vec<&'static str>,
+    columns: Vec<&'static str>,
+    cells: Vec<(&'static str, &'static str, Spread)>,
+    /// The largest share of rays that hit something else than the reference's.
+    differing: f64,
+    of: &'static str,
+}
+
+/// The kinds of rays.
+const RAYS: [&str; 3] = ["primary", "bounce", "random"];
+const BUILD: &str = "build, ms";
+
+impl Report {
+    pub fn add(&mut self, name: &'static str, column: &'static str, spread: Spread) {
+        if !self.names.contains(&name) {
+            self.names.push(name);
+        }
+        if !self.columns.contains(&column) {
+            self.columns.push(column);
+        }
+        self.cells.push((name, column, spread));
+    }
+
+    pub fn differing(&mut self, name: &'static str, share: f64) {
+        if share > self.differing {
+            self.differing = share;
+            self.of = name;
+        }
+    }
+
+    fn cell(&self, name: &str, column: &str) -> Option<Spread> {
+        let mut cells = self.cells.iter();
+        let cell = cells.find(|cell| (cell.0, cell.1) == (name, column));
+        cell.map(|cell| cell.2)
+    }
+
+    /// How many times as fast, for each kind of rays. Of several others the fastest counts.
+    fn rays(&self, name: &str, others: &[&str]) -> Option<[f64; 3]> {
+        let mut ratios = [0.0; 3];
+        for (ratio, kind) in ratios.iter_mut().zip(RAYS) {
+            let others = others.iter().filter_map(|other| self.cell(other, kind));
+            let fastest = others.map(|spread| spread.median).max_by(f64::total_cmp)?;
+            *ratio = self.cell(name, kind)?.median / fastest;
+        }
+        Some(ratios)
+    }
+
+    fn build(&self, name: &str, other: &str) -> Option<f64> {
+        Some(self.cell(name, BUILD)?.median / self.cell(other, BUILD)?.median)
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:14}", "")?;
+        for column in &self.columns {
+            write!(f, "{column:>22}")?;
+        }
+        writeln!(f)?;
+        for name in &self.names {
+            write!(f, "{name:14}")?;
+            for column in &self.columns {
+                let cell = self.cell(name, column).map(|spread| {
+                    let digits = if *column == BUILD { 1 } else { 2 };
+                    let Spread {
+                        median,
+                        least,
+                        greatest,
+                    } = spread;
+                    format!("{median:.digits$} ({least:.digits$}–{greatest:.digits$})")
+                });
+                write!(f, "{:>22}", cell.unwrap_or_default())?;
+            }
+            writeln!(f)?;
+        }
+        writeln!(
+            f,
+            "rays: millions a second, median (least–greatest); {:.4} % of {}'s differ at most\n",
+            100.0 * self.differing,
+            self.of
+        )?;
+        for (name, others) in [
+            ("reference", &["obvhs"][..]),
+            ("reference", &["bvh, nearest", "bvh, all"]),
+            ("wide", &["reference"]),
+            ("wide", &["Embree"]),
+        ] {
+            let Some(rays) = self.rays(name, others) else {
+                continue;
+            };
+            let mean = rays.iter().product::<f64>().cbrt();
+            let [primary, bounce, random] = rays;
+            write!(
+                f,
+                "{name} / {}: primary {primary:.2}, bounce {bounce:.2}, random {random:.2}; geometric mean {mean:.2}",
+                others[0]
+            )?;
+            match self.build(name, others[0]) {
+                Some(build) => writeln!(f, "; build time {build:.2}")?,
+                None => writeln!(f)?,
+            }
+        }
+        Ok(())
+    }
+}

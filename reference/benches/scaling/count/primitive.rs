@@ -1,0 +1,29 @@
+//! The reference's primitive, that counts how often it is tested.
+
+use protocol::{Ray, Shape, Trace};
+
+use crate::bbox::BBox;
+use crate::count;
+
+#[path = "../../../src/primitive.rs"]
+#[allow(dead_code, reason = "nobody asks for its material")]
+mod plain;
+
+/// See the reference.
+#[derive(Clone, Copy, Debug)]
+pub struct Primitive(plain::Primitive);
+
+impl Primitive {
+    pub fn new(shape: &Shape) -> Self {
+        Primitive(plain::Primitive::new(shape))
+    }
+
+    pub fn bbox(&self) -> BBox {
+        self.0.bbox()
+    }
+
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        count::a_primitive();
+        self.0.hit(ray)
+    }
+}

@@ -1,0 +1,70 @@
+//! One surface in more and more triangles, and rays at it.
+
+use glam::{Vec3, vec3};
+use protocol::{Ray, Shape};
+
+/// A cube of 12 · pieces² triangles, blown up into a ball with bumps. Nothing but the four operations
+/// and square roots, which are the same on every machine.
+pub fn bumpy_ball(pieces: u32) -> Vec<Shape> {
+    let place = |i: u32| 2.0 * i as f32 / pieces as f32 - 1.0;
+    let mut shapes = Vec::new();
+    for axis in 0..3 {
+        for side in [-1.0, 1.0] {
+            let point = |i: u32, j: u32| {
+                let mut corner = Vec3::ZERO;
+                corner[axis] = side;
+                corner[(axis + 1) % 3] = place(i);
+                corner[(axis + 2) % 3] = place(j);
+                bumpy(corner.normalize())
+            };
+            for i in 0..pieces {
+                for j in 0..pieces {
+                    let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+                    let [a, b, c, d] = corners.map(|(i, j)| point(i, j));
+                    shapes.extend([[a, b, c], [a, c, d]].map(|corners| Shape::Facet {
+                        corners,
+                        material: 0,
+                    }));
+                }
+            }
+        }
+    }
+    shapes
+}
+
+fn bumpy(dir: Vec3) -> Vec3 {
+    let bumps = 4.0 * dir.x * dir.y * dir.z + dir.x * dir.x * dir.z;
+    (1.0 + 0.3 * bumps) * dir
+}
+
+/// From a sphere around the ball to anywhere in it.
+pub fn rays(count: usize) -> Vec<Ray> {
+    let mut numbers = Numbers(1);
+    let ray = |_| {
+        let origin = 3.0 * numbers.in_ball().normalize();
+        Ray::new(origin, numbers.in_ball() - origin)
+    };
+    (0..count).map(ray).collect()
+}
+
+/// SplitMix64: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
+struct Numbers(u64);
+
+impl Numbers {
+    fn unit(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    fn in_ball(&mut self) -> Vec3 {
+        loop {
+            let point = vec3(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0;
+            if (0.01..1.0).contains(&point.length_squared()) {
+                return point;
+            }
+        }
+    }
+}

@@ -11,8 +11,11 @@ mod harness;
 mod hints;
 #[cfg(target_os = "linux")]
 mod isolation;
+#[cfg(target_os = "linux")]
+mod ordinary_user;
 mod packages;
 mod policies;
 mod scores;
+mod unchanged;
 mod walls;
 mod watch;

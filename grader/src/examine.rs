@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use protocol::Answer;
 
-use crate::ask::{Budget, Budgeted, Fault, Launcher, Probe, culprit};
+use crate::ask::{Budget, Budgeted, Crash, Fault, Launcher, Probe, culprit};
 use crate::build::{Build, Carried};
 use crate::exam::{Exam, Item, Task};
 use crate::exhibit::Exhibits;
@@ -145,6 +145,10 @@ fn is_answered(verdict: &Verdict) -> bool {
     }
 }
 
+fn was_killed(answered: &Result<Vec<Answer>, Fault>) -> bool {
+    matches!(answered, Err(Fault::Crashed(Crash::Killed)))
+}
+
 /// One task's process, started when there is something to ask and again after a fault.
 struct Session {
     launcher: Option<Launcher>,
@@ -193,7 +197,12 @@ impl Session {
         };
         let started = Instant::now();
         let questions = item.questions.iter().map(|asked| &asked.question);
-        let answered = probe.ask(questions, self.budget);
+        let mut answered = probe.ask(questions.clone(), self.budget);
+        if was_killed(&answered) {
+            // Nothing that a submission does. What the system lacks, it may have by now.
+            probe = launcher.start(self.budget)?;
+            answered = probe.ask(questions, self.budget);
+        }
         self.spent.start += started - began;
         self.spent.asking += started.elapsed();
         let began = Instant::now();
@@ -207,6 +216,7 @@ impl Session {
                 self.spent.judging += began.elapsed();
                 Ok((outcome, answers))
             }
+            Err(fault @ Fault::Crashed(Crash::Killed)) => Err(io::Error::other(fault.to_string())),
             Err(fault) => {
                 self.out_of_time += usize::from(matches!(fault, Fault::TimedOut(_)));
                 let place = culprit(launcher, item)?;

@@ -115,7 +115,8 @@ pub fn silence(fault: &Fault) -> Seen {
         Fault::TimedOut(_) => Silence::Time,
         Fault::OutOfMemory => Silence::Memory,
         Fault::Crashed(Crash::StackOverflow) => Silence::Stack,
-        Fault::Crashed(Crash::Exited(_) | Crash::Signal(_)) | Fault::Protocol(_) => Silence::Other,
+        Fault::Crashed(Crash::Exited(_) | Crash::Signal(_) | Crash::Killed)
+        | Fault::Protocol(_) => Silence::Other,
     })
 }
 

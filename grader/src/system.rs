@@ -16,16 +16,16 @@ mod unix;
 mod windows;
 
 #[cfg(target_os = "linux")]
-pub use linux::{cpu_time, limit};
+pub use linux::{cpu_time, limit, memory};
 #[cfg(unix)]
 pub use unix::{
-    ending, kill_group, link, open_regular, open_to_all, own_group, readable_by_all,
-    runnable_by_all,
+    ending, free_space, kill_group, link, open_file, open_regular, open_to_all, own_group,
+    readable_by_all, runnable_by_all, tied,
 };
 #[cfg(windows)]
 pub use windows::{
-    ending, kill_group, link, open_regular, open_to_all, own_group, readable_by_all,
-    runnable_by_all,
+    ending, free_space, kill_group, link, open_file, open_regular, open_to_all, own_group,
+    readable_by_all, runnable_by_all, tied,
 };
 
 /// What a process may use. Where the system knows no such limit, wall time is the only one.
@@ -38,6 +38,10 @@ pub struct Limits {
     /// The largest file that it may write, in bytes.
     pub file: u64,
 }
+
+/// How many seconds of CPU time a process may ignore that its time is over, before it is killed.
+#[cfg(target_os = "linux")]
+pub(crate) const GRACE: u64 = 1;
 
 /// How a process ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,5 +98,11 @@ pub fn limit(_: &std::process::Child, _: Limits) -> std::io::Result<()> {
 /// Not told.
 #[cfg(not(target_os = "linux"))]
 pub fn cpu_time(_: &std::process::Child) -> Option<Duration> {
+    None
+}
+
+/// Not told.
+#[cfg(not(target_os = "linux"))]
+pub fn memory(_: &std::process::Child) -> Option<u64> {
     None
 }

@@ -10,6 +10,7 @@ mod diagnostics;
 mod exam;
 mod mesh;
 mod scene;
+mod score;
 mod source;
 mod wire;
 
@@ -30,7 +31,7 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 8] = [
+pub const TARGETS: [Target; 9] = [
     // A miss is two bytes on the wire and 64 in memory, and a list grows by doubling.
     Target::new("wire", wire::read, 128),
     Target::new("answers", answers::read, 1024),
@@ -39,6 +40,7 @@ pub const TARGETS: [Target; 8] = [
     Target::new("exam", exam::read, 512),
     Target::new("scene", scene::read, 512),
     Target::new("mesh", mesh::read, 512),
+    Target::new("score", score::read, 1024),
     Target::new("source", source::read, 64),
     Target::new("diagnostics", diagnostics::read, 512),
 ];

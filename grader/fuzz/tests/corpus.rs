@@ -133,6 +133,11 @@ fn scene_files_can_be_any_bytes() {
 }
 
 #[test]
+fn score_files_can_be_any_bytes() {
+    survives_anything("score");
+}
+
+#[test]
 fn meshes_can_be_any_bytes() {
     survives_anything("mesh");
 }

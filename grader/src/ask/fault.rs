@@ -34,6 +34,9 @@ pub enum Crash {
     Exited(i32),
     /// The system ended it.
     Signal(i32),
+    /// Somebody ended it who is neither itself nor its limits, and it held little memory: where
+    /// memory runs out, the system ends whom it likes.
+    Killed,
 }
 
 impl fmt::Display for Fault {
@@ -60,6 +63,10 @@ impl fmt::Display for Fault {
             Fault::Crashed(Crash::Signal(signal)) => {
                 write!(f, "the program was ended by signal {signal}")
             }
+            Fault::Crashed(Crash::Killed) => f.write_str(
+                "the system has ended the program (signal 9), which held little memory: give this \
+                 machine more, or grade fewer at once",
+            ),
             Fault::Protocol(why) => write!(f, "what came back is no answer: {why}"),
         }
     }

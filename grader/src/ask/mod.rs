@@ -37,6 +37,10 @@ const TICK: Duration = Duration::from_millis(10);
 /// How long the last words of a probe that has ended may take to arrive.
 const LAST_WORDS: Duration = Duration::from_millis(200);
 
+/// How long a probe may take to be gone after it has closed its pipe: all of its memory is to be
+/// given back, on a machine that may be busy.
+const LAST_BREATH: Duration = Duration::from_secs(2);
+
 // What Rust's runtime says on its way out.
 const STACK_OVERFLOW: &str = "has overflowed its stack";
 const OUT_OF_MEMORY: &str = "memory allocation of ";
@@ -53,6 +57,8 @@ pub struct Probe {
     process: Process,
     streams: Streams,
     output: Capture,
+    /// The most memory that it was seen to hold, in bytes.
+    memory: u64,
 }
 
 /// Starts probes of one submission.
@@ -70,6 +76,8 @@ impl Launcher {
     /// A probe serves a whole task, whose items are judged by their own time. This many items' time
     /// ends it even if the grader itself is killed.
     const ITEMS: u32 = 30;
+    /// Who holds more of it than this and is killed, has itself to blame: honest ones hold a tenth.
+    const MUCH: u64 = Self::MEMORY / 4;
 
     /// Starts a process that waits for its first question. On Linux it ends with the thread that
     /// starts it, so that it does not outlive a grader that is killed.
@@ -95,6 +103,7 @@ impl Launcher {
             process,
             streams: Streams::open(stdin, stdout),
             output: Capture::start(stderr, KEPT),
+            memory: 0,
         };
         match probe.ask([], budget) {
             Ok(_) => Ok(probe),
@@ -166,6 +175,7 @@ impl Probe {
                 Ok(Err(error)) => return Err(protocol_fault(error)),
                 Err(RecvTimeoutError::Timeout) => {}
             }
+            self.memory = self.memory.max(self.process.memory().unwrap_or(0));
             if let Some(over) = watch.over(self.process.cpu_time()) {
                 self.process.kill();
                 return Err(Fault::TimedOut(over));
@@ -183,9 +193,18 @@ impl Probe {
     /// Why the probe ended. Its words are diagnosis only: no verdict here earns a point.
     fn post_mortem(&mut self) -> Fault {
         // It may have closed its pipe and live on.
-        let deadline = Instant::now() + LAST_WORDS;
-        while self.process.ending().is_none() && Instant::now() < deadline {
-            thread::sleep(Duration::from_millis(1));
+        let deadline = Instant::now() + LAST_BREATH;
+        let ended = loop {
+            match self.process.ending() {
+                None if Instant::now() < deadline => thread::sleep(Duration::from_millis(1)),
+                ended => break ended,
+            }
+        };
+        if ended.is_some_and(Ending::is_by_others) {
+            return match self.memory > Launcher::MUCH {
+                true => Fault::OutOfMemory,
+                false => Fault::Crashed(Crash::Killed),
+            };
         }
         let ending = self.process.kill();
         self.output.settle(LAST_WORDS);
@@ -221,6 +240,34 @@ fn protocol_fault(error: WireError) -> Fault {
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_program_that_closes_its_pipe_and_stays_is_ended() {
+        use std::os::unix::fs::PermissionsExt;
+
+        // Length and number of a question are those of its answer; the fifth kind asks nothing more.
+        let script = "#!/bin/sh\nhead -c 12\nprintf '\\005'\nexec 1>&-\nexec sleep 600\n";
+        let folder = tempfile::TempDir::new().unwrap();
+        let program = folder.path().join("program");
+        std::fs::write(&program, script).unwrap();
+        std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
+        let launcher = Launcher {
+            program,
+            sandbox: Sandbox::none(),
+        };
+        let budget = Budget {
+            cpu: Duration::from_secs(10),
+        };
+        let mut probe = launcher.start(budget).unwrap();
+        let began = Instant::now();
+        let fault = probe.ask([], budget).unwrap_err();
+        assert!(
+            matches!(fault, Fault::Crashed(Crash::Signal(_))),
+            "{fault:?}"
+        );
+        assert!(began.elapsed() < budget.wall());
+        assert!(probe.process.ending().is_some());
+    }
 
     #[test]
     fn a_program_that_does_not_even_start_is_no_fault_of_the_submission() {

@@ -15,7 +15,7 @@ use tempfile::TempDir;
 
 use crate::build::kept::Content;
 use crate::build::rustc::{Compiled, Crate, Kind, Rustc};
-use crate::given::GIVEN_FILES;
+use crate::given::{GIVEN_FILES, TASK_FILES};
 use crate::sandbox::Sandbox;
 
 /// The reference's files that make up the parts, in the order of their dependence.
@@ -203,8 +203,33 @@ impl CarryForward {
         let content = self.parts.content().with(self.bvh.as_bytes());
         Ok(match self.rustc.once(&content, || self.compile_afresh())? {
             Compiled::Done(program) => Some(program),
-            Compiled::Errors(_) | Compiled::Failed(_) => None,
+            Compiled::Errors(errors) if errors.iter().any(|error| error.blamed().is_some()) => None,
+            Compiled::Errors(_) | Compiled::Failed(_) => {
+                self.prove()?;
+                None
+            }
         })
+    }
+
+    /// Compiles the starter's `bvh.rs` in its place, where nothing says why the submission's does not
+    /// compile: if that does not either, the machine is to blame.
+    fn prove(&self) -> io::Result<()> {
+        let [.., bvh] = TASK_FILES;
+        let starter = CarryForward {
+            bvh: bvh.starter.to_owned(),
+            parts: self.parts.clone(),
+            rustc: self.rustc.clone(),
+            folder: self.folder.with_extension("starter"),
+            program: OnceLock::new(),
+        };
+        let why = match starter.compile_afresh()? {
+            Compiled::Done(_) => return Ok(()),
+            Compiled::Errors(errors) => errors[0].text().to_owned(),
+            Compiled::Failed(why) => why,
+        };
+        Err(io::Error::other(format!(
+            "not even the file that was handed out compiles on the reference's parts: {why}"
+        )))
     }
 
     fn compile_afresh(&self) -> io::Result<Compiled> {

@@ -10,12 +10,13 @@ use std::env::consts::DLL_SUFFIX;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::build::toolchain::Toolchain;
+use crate::system;
 use crate::workspace::Workspace;
 
 /// The crates that a submission may name.
@@ -176,7 +177,7 @@ fn build(
     toolchain: &Toolchain,
 ) -> Result<Vec<(String, PathBuf)>, NoDependencies> {
     let run = |offline: bool| {
-        let mut cargo = Command::new(&toolchain.cargo);
+        let mut cargo = system::tied(&toolchain.cargo);
         cargo
             .arg("build")
             .args(package)
@@ -203,7 +204,7 @@ fn build(
             .env("CARGO_PROFILE_RELEASE_DEBUG", "false")
             .env("CARGO_PROFILE_RELEASE_LTO", "off")
             .env("CARGO_PROFILE_RELEASE_PANIC", "unwind");
-        cargo.output().map_err(at(&toolchain.cargo))
+        output(&mut cargo).map_err(at(&toolchain.cargo))
     };
     let mut output = run(true)?;
     if !output.status.success() {
@@ -213,6 +214,15 @@ fn build(
         return Err(NoDependencies::Cargo);
     }
     Ok(libraries(&String::from_utf8_lossy(&output.stdout)))
+}
+
+/// What it prints. Its standard input stays open as long as we wait: that is what it is tied to.
+fn output(cargo: &mut Command) -> io::Result<Output> {
+    let mut child = cargo.stdout(Stdio::piped()).spawn()?;
+    let tie = child.stdin.take();
+    let output = child.wait_with_output();
+    drop(tie);
+    output
 }
 
 /// Finds each crate's library in cargo's messages, one JSON value a line. Of macros that is one of

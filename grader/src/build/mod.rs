@@ -7,6 +7,7 @@ mod confined;
 mod dependencies;
 pub mod diagnostics;
 mod kept;
+mod lacking;
 mod room;
 mod rustc;
 mod taken;

@@ -12,6 +12,7 @@ use crate::build::confined;
 use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::{self, Diagnostic};
 use crate::build::kept::{Content, Kept};
+use crate::build::lacking::Lacking;
 use crate::build::taken;
 use crate::build::toolchain::Toolchain;
 use crate::capture::Capture;
@@ -113,7 +114,7 @@ impl Rustc {
         })
     }
 
-    /// Compiles one crate.
+    /// Compiles one crate. What the machine lacks for that is an error, and no fault of the crate's.
     pub fn compile(&self, source: &Crate) -> io::Result<Compiled> {
         let mut command = Command::new(&self.toolchain.rustc);
         system::clear_environment(&mut command);
@@ -161,6 +162,7 @@ impl Rustc {
             return Ok(Compiled::Done(made));
         }
         let errors = diagnostics::errors(&messages.head());
+        Lacking::check(ending, &errors, source.folder).map_err(io::Error::other)?;
         Ok(if errors.is_empty() {
             Compiled::Failed(failure(ending))
         } else {

@@ -20,7 +20,7 @@ use crate::files::Files;
 use crate::format::Seen;
 use crate::format::outputs::{NoOutput, Outputs};
 use crate::isolate::isolated;
-use crate::policy::{Policy, PolicyError};
+use crate::policy::{HandedIn, Lateness, NoMoments, Policy, PolicyError};
 use crate::report::html::Reload;
 use crate::sandbox::Isolation;
 use crate::score::{ExamName, Score};
@@ -35,6 +35,7 @@ pub struct Grader<'a> {
     exam: Exam,
     exam_name: ExamName,
     policy: Policy,
+    lateness: Lateness,
     builder: Builder,
 }
 
@@ -129,6 +130,7 @@ impl<'a> Grader<'a> {
         let policy = policy(arguments, &file.exam)?;
         Ok(Grader {
             arguments,
+            lateness: lateness(arguments, &policy)?,
             exam_name: file.name(),
             exam: match arguments.task {
                 Some(task) => file.exam.with_what_it_needs(|item| item.task == task),
@@ -142,7 +144,7 @@ impl<'a> Grader<'a> {
 
     /// As much of a score as the policy lets students see.
     pub fn seen(&self, score: &Score) -> Seen {
-        Seen::of(score, &self.policy)
+        Seen::of(score, &self.policy, self.lateness)
     }
 
     /// The formats that were asked for, in `folder` unless they belong elsewhere.
@@ -247,6 +249,13 @@ fn policy(arguments: &Arguments, exam: &Exam) -> Result<Policy, PolicyError> {
     let policy = Policy::read(path)?;
     policy.check(path, exam)?;
     Ok(policy)
+}
+
+/// How late the submission is, where a platform says so.
+fn lateness(arguments: &Arguments, policy: &Policy) -> Result<Lateness, NoMoments> {
+    let handed_in = arguments.gradescope_metadata.as_deref().map(HandedIn::read);
+    let lateness = handed_in.map(|read| read.map(|handed_in| policy.lateness_of(handed_in)));
+    lateness.unwrap_or(Ok(Lateness::NONE))
 }
 
 /// Where a score goes unless told otherwise.

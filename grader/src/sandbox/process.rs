@@ -62,6 +62,11 @@ impl Process {
         system::cpu_time(&self.child)
     }
 
+    /// The memory that it holds now, in bytes, if the system tells it.
+    pub fn memory(&self) -> Option<u64> {
+        system::memory(&self.child)
+    }
+
     /// How the process ended, if it has.
     pub fn ending(&mut self) -> Option<Ending> {
         self.child.try_wait().ok().flatten().map(system::ending)
@@ -89,5 +94,13 @@ impl Ending {
     /// Whether the process says that all went well. Worth nothing from one that we do not trust.
     pub fn is_success(self) -> bool {
         self == Ending::Code(0)
+    }
+
+    /// Whether somebody has ended it who is neither itself nor one of its limits: those end a process
+    /// by other signals. Where memory runs out, that is the system.
+    pub fn is_by_others(self) -> bool {
+        /// SIGKILL, everywhere.
+        const KILL: i32 = 9;
+        self == Ending::Signal(KILL)
     }
 }

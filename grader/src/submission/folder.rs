@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::place::{self, PLACES, Several};
 use super::{Contents, LONGEST_FILE, NoSubmission, Unreadable, is_given, one_of_five};
 use crate::given::TASK_FILES;
+use crate::system;
 
 /// What lies where this folder holds the five files.
 pub(super) fn read(folder: &Path) -> Result<Contents, NoSubmission> {
@@ -75,13 +76,10 @@ fn read_file(path: &Path, name: &'static str) -> Result<Vec<u8>, Unreadable> {
         name,
         why: error.kind().to_string(),
     };
-    // Looked at before it is opened: opening a pipe would wait for ever.
-    let metadata = path.symlink_metadata().map_err(io)?;
-    if !metadata.is_file() {
+    let Some(file) = system::open_file(path).map_err(io)? else {
         return Err(Unreadable::NotAFile(name));
-    }
+    };
     let mut bytes = Vec::new();
-    let file = fs::File::open(path).map_err(io)?;
     file.take(LONGEST_FILE + 1)
         .read_to_end(&mut bytes)
         .map_err(io)?;

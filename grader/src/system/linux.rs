@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use rustix::process::{Resource, Rlimit, prlimit};
 
-use super::Limits;
 use super::unix::pid;
+use super::{GRACE, Limits};
 
 /// Sets the limits of a process that has just been started.
 pub fn limit(child: &Child, limits: Limits) -> io::Result<()> {
@@ -22,7 +22,7 @@ pub fn limit(child: &Child, limits: Limits) -> io::Result<()> {
     ] {
         let limit = Rlimit {
             current: Some(most),
-            maximum: Some(most),
+            maximum: Some(most + if resource == Resource::Cpu { GRACE } else { 0 }),
         };
         match prlimit(pid(child), resource, limit) {
             // It has ended already, which whoever waits for it will see.
@@ -43,4 +43,11 @@ pub fn cpu_time(child: &Child) -> Option<Duration> {
     let ticks = fields.next()?.parse::<u64>().ok()? + fields.next()?.parse::<u64>().ok()?;
     let hertz = rustix::param::clock_ticks_per_second();
     Some(Duration::from_secs_f64(ticks as f64 / hertz as f64))
+}
+
+/// The memory that a process holds now, in bytes.
+pub fn memory(child: &Child) -> Option<u64> {
+    let pages = fs::read_to_string(format!("/proc/{}/statm", child.id())).ok()?;
+    let pages: u64 = pages.split_whitespace().nth(1)?.parse().ok()?;
+    Some(pages * rustix::param::page_size() as u64)
 }

@@ -5,7 +5,7 @@ use std::io;
 use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::Path;
-use std::process::{Child, Command, ExitStatus};
+use std::process::{Child, Command, ExitStatus, Stdio};
 
 use rustix::fs::{Mode, OFlags};
 use rustix::io::Errno;
@@ -16,6 +16,24 @@ use super::Ending;
 /// Starts the program in a process group of its own, which can be ended as one.
 pub fn own_group(command: &mut Command) {
     command.process_group(0);
+}
+
+/// A command for a program that starts others, all of which end when its standard input does: so
+/// does what holds the other end, however it ends. That is for whoever starts it to hold.
+pub fn tied(program: &Path) -> Command {
+    // The shell's own words about what it ends are of no interest.
+    const SCRIPT: &str = r#"
+        exec 3<&0
+        { read -r _ <&3; kill -KILL 0; } >/dev/null 2>&1 &
+        "$@" </dev/null 3<&-
+        code=$?
+        exec 2>/dev/null
+        kill -KILL $!
+        exit $code"#;
+    let mut command = Command::new("/bin/sh");
+    command.args(["-c", SCRIPT, "sh"]).arg(program);
+    command.process_group(0).stdin(Stdio::piped());
+    command
 }
 
 /// Ends all processes of the child's group.
@@ -53,17 +71,33 @@ pub fn link(original: &Path, path: &Path) -> io::Result<()> {
     std::os::unix::fs::symlink(original, path)
 }
 
-/// Opens a regular file that has one name, in one step: what else lies there is never followed,
-/// waited for, or changed between a look and the opening. `None` if it is something else.
+/// Opens a regular file that has one name. `None` if it is something else.
 pub fn open_regular(path: &Path) -> io::Result<Option<File>> {
+    let Some(file) = open_file(path)? else {
+        return Ok(None);
+    };
+    let has_one_name = file.metadata()?.nlink() == 1;
+    Ok(has_one_name.then_some(file))
+}
+
+/// Opens a regular file in one step: what else lies there is never followed, waited for, or changed
+/// between a look and the opening. `None` if it is something else.
+pub fn open_file(path: &Path) -> io::Result<Option<File>> {
     let flags = OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::CLOEXEC | OFlags::RDONLY;
     let file = match rustix::fs::open(path, flags, Mode::empty()) {
         Ok(file) => File::from(file),
-        Err(Errno::LOOP) => return Ok(None),
+        // A link; a socket.
+        Err(Errno::LOOP | Errno::NXIO) => return Ok(None),
         Err(error) => return Err(error.into()),
     };
-    let metadata = file.metadata()?;
-    Ok((metadata.is_file() && metadata.nlink() == 1).then_some(file))
+    let is_file = file.metadata()?.is_file();
+    Ok(is_file.then_some(file))
+}
+
+/// The room that is left on the disk of a folder, in bytes, if the system tells it.
+pub fn free_space(folder: &Path) -> Option<u64> {
+    let disk = rustix::fs::statvfs(folder).ok()?;
+    Some(disk.f_bavail.saturating_mul(disk.f_frsize))
 }
 
 pub(super) fn pid(child: &Child) -> Option<Pid> {

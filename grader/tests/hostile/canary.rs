@@ -10,6 +10,9 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use tempfile::TempDir;
 
+/// Where the grader keeps what it uses again.
+const GRADE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/grade");
+
 /// Planted anew for each run.
 pub struct Canaries {
     folder: TempDir,
@@ -62,7 +65,7 @@ impl Canaries {
     }
 
     /// What an entry's text may name.
-    pub fn places(&self) -> [(&'static str, String); 7] {
+    pub fn places(&self) -> [(&'static str, String); 8] {
         let port = |address: std::io::Result<std::net::SocketAddr>| {
             address.expect("it is bound").port().to_string()
         };
@@ -71,6 +74,7 @@ impl Canaries {
             ("VARIABLE", Canaries::VARIABLE.to_owned()),
             ("MARK", self.mark.clone()),
             ("OUT", self.out().display().to_string()),
+            ("GRADE", GRADE.to_owned()),
             ("TCP", port(self.tcp.local_addr())),
             ("UDP", port(self.udp.local_addr())),
             (

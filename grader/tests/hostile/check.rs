@@ -12,6 +12,9 @@ use crate::run::Run;
 
 /// The most memory that the grader itself may take, in bytes.
 const MEMORY: u64 = 256 << 20;
+/// The most files that it may have open at once. Three streams, three for each program that it has
+/// started, and what it reads or writes just then: honest work takes 14.
+const FILES: usize = 32;
 /// Stands in what entries print and must never reach a page as it is.
 const MARKUP: &str = "<b id=forged>";
 
@@ -66,6 +69,20 @@ pub fn broken(
         let megabytes = run.memory >> 20;
         found(Finding::Harmed, format!("the grader took {megabytes} MiB"));
     }
+    if run.files > FILES {
+        found(
+            Finding::Harmed,
+            format!("the grader had {} files open", run.files),
+        );
+    }
+    if let Some(why) = &entry.expect.refused {
+        let is_refused = run.exit_code == Some(2) && run.printed.contains(why);
+        if !is_refused || run.score.is_some() || !is_tame(&run.printed) {
+            let (code, printed) = (run.exit_code, &run.printed);
+            found(Finding::Harmed, format!("not refused, {code:?}: {printed}"));
+        }
+        return all;
+    }
     if run.exit_code != Some(0) {
         let (code, printed) = (run.exit_code, &run.printed);
         found(Finding::Harmed, format!("exit code {code:?}: {printed}"));
@@ -111,18 +128,22 @@ fn unfit(run: &Run) -> Vec<String> {
     if value["complete"] != true {
         unfit.push("the score is not complete".to_owned());
     }
-    let controls = |text: &str| text.contains(|c: char| c.is_control() && c != '\n');
-    if controls(&run.printed) {
+    if !is_tame(&run.printed) {
         unfit.push("a control character reaches the terminal".to_owned());
     }
     let page = run.page.as_deref().unwrap_or_default();
-    if page.contains(MARKUP) || controls(page) || !page.ends_with("</html>") {
+    if page.contains(MARKUP) || !is_tame(page) || !page.ends_with("</html>") {
         unfit.push("the page is not whole, or not escaped".to_owned());
     }
     if page.len() > 20 << 20 || score.len() > 2 << 20 || run.printed.len() > 1 << 20 {
         unfit.push("a report is as long as a submission likes".to_owned());
     }
     unfit
+}
+
+/// Whether nothing in it moves on a terminal.
+fn is_tame(text: &str) -> bool {
+    !text.contains(|c: char| c.is_control() && c != '\n')
 }
 
 static SCHEMA: LazyLock<(Schemas, SchemaIndex)> = LazyLock::new(|| {

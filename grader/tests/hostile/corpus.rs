@@ -1,5 +1,6 @@
 //! All entries, one after the other, and the closing line.
 
+use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -64,7 +65,9 @@ pub fn main() -> ExitCode {
     if selection.levels.is_empty() {
         selection.levels.push(levels::best());
     }
-    let entries = Entry::all(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hostile/entries"));
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hostile");
+    let entries = Entry::all(&corpus.join("entries"));
+    is_listed(&entries, &corpus.join("README.md"));
     let entries: Vec<Entry> = entries
         .into_iter()
         .filter(|entry| selection.takes(entry))
@@ -74,6 +77,15 @@ pub fn main() -> ExitCode {
     match held.collect::<Vec<bool>>().contains(&false) {
         false => ExitCode::SUCCESS,
         true => ExitCode::FAILURE,
+    }
+}
+
+/// An idea that the list of all ideas does not know would be thought to be missing.
+fn is_listed(entries: &[Entry], list: &Path) {
+    let list = fs::read_to_string(list).expect("there is a list");
+    for entry in entries {
+        let listed = list.contains(&format!("`{}`", entry.name));
+        assert!(listed, "{} is not in README.md", entry.name);
     }
 }
 
@@ -132,7 +144,11 @@ fn tell(verdict: &str, entry: &Entry, broken: &[Broken]) {
     /// The most findings of one entry that are told.
     const MOST: usize = 10;
     println!("{verdict:>6}  {}: {}", entry.name, entry.expect.does);
-    for broken in broken.iter().take(MOST) {
+    // What is left is often for a reason that is told as well.
+    let (left, others): (Vec<_>, Vec<_>) = broken
+        .iter()
+        .partition(|broken| broken.finding == Finding::Left);
+    for broken in others.into_iter().chain(left).take(MOST) {
         println!("        {:?}: {}", broken.finding, broken.what);
     }
 }

@@ -8,6 +8,9 @@ use std::time::Duration;
 use grader::sandbox::Isolation;
 use serde::Deserialize;
 
+use crate::canary::Canaries;
+use crate::pack::{Pack, pack};
+
 const FIVE: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 /// What is put into one of the five. All other files lie beside them, or in their place.
 const ATTACK: &str = "attack.rs";
@@ -37,6 +40,13 @@ pub struct Expect {
     /// The methods of that file in which `attack()` is called first of all.
     #[serde(default)]
     within: Vec<String>,
+    /// What is called there.
+    #[serde(default = "Expect::attack")]
+    call: String,
+    /// As what it is handed in, if not as a folder.
+    pack: Option<Pack>,
+    /// Words of the reason why it is not graded at all.
+    pub refused: Option<String>,
     /// The most points of each task that it touches. Every other task has what is honest.
     #[serde(default)]
     pub points: BTreeMap<String, u64>,
@@ -46,7 +56,7 @@ pub struct Expect {
     /// What the report must say.
     pub says: Option<String>,
     /// In seconds.
-    #[serde(default = "a_minute")]
+    #[serde(default = "some_minutes")]
     wall: u64,
     /// Not among the quick ones.
     #[serde(default)]
@@ -67,11 +77,15 @@ impl Expect {
     fn any_level() -> Isolation {
         Isolation::None
     }
+
+    fn attack() -> String {
+        "attack();".to_owned()
+    }
 }
 
-/// Nobody else's load shall break an entry.
-fn a_minute() -> u64 {
-    60
+/// Some ten times what one takes on a machine of its own: nobody else's load shall break an entry.
+fn some_minutes() -> u64 {
+    240
 }
 
 impl Entry {
@@ -126,8 +140,17 @@ impl Entry {
         }
     }
 
-    /// Writes the submission into a new folder. `places` are what its text names as `@NAME@`.
-    pub fn write(&self, place: &Path, places: &[(&str, String)]) {
+    /// Writes the submission into a new folder; returns what is handed in. `places` are what its text
+    /// names as `@NAME@`.
+    pub fn write(&self, place: &Path, canaries: &Canaries) -> PathBuf {
+        self.write_folder(place, &canaries.places());
+        match self.expect.pack {
+            Some(how) => pack(place, how, &canaries.key_file()),
+            None => place.to_owned(),
+        }
+    }
+
+    fn write_folder(&self, place: &Path, places: &[(&str, String)]) {
         let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let honest = match self.expect.base {
             Base::Reference => project.join("reference/src"),
@@ -140,17 +163,11 @@ impl Entry {
         let Some(folder) = &self.folder else {
             return;
         };
-        for file in fs::read_dir(folder).expect("it was read").flatten() {
-            let name = file.file_name();
-            if name != ATTACK && name != EXPECT {
-                let text = fs::read_to_string(file.path()).expect("text");
-                fs::write(place.join(name), filled(&text, places)).expect("a file");
-            }
-        }
+        copy_filled(folder, place, places);
         if let Some(into) = &self.expect.into {
             let mut text = fs::read_to_string(place.join(into)).expect("one of the five");
             for method in &self.expect.within {
-                text = called_first(&text, method);
+                text = called_first(&text, method, &self.expect.call);
             }
             let attack = fs::read_to_string(folder.join(ATTACK)).expect("an attack");
             text.push_str(&filled(&attack, places));
@@ -159,13 +176,27 @@ impl Entry {
     }
 }
 
-/// The text with `attack();` as the first statement of a method.
-fn called_first(text: &str, method: &str) -> String {
+/// All that lies in an entry's folder beside the attack, folders too.
+fn copy_filled(folder: &Path, place: &Path, places: &[(&str, String)]) {
+    for file in fs::read_dir(folder).expect("it was read").flatten() {
+        let (name, path) = (file.file_name(), file.path());
+        if path.is_dir() {
+            fs::create_dir_all(place.join(&name)).expect("a folder");
+            copy_filled(&path, &place.join(name), places);
+        } else if name != ATTACK && name != EXPECT {
+            let text = fs::read_to_string(path).expect("text");
+            fs::write(place.join(name), filled(&text, places)).expect("a file");
+        }
+    }
+}
+
+/// The text with a call as the first statement of a method.
+fn called_first(text: &str, method: &str, call: &str) -> String {
     let start = text
         .find(&format!("fn {method}("))
         .unwrap_or_else(|| panic!("there is no method {method}"));
     let body = start + text[start..].find("{\n").expect("it has a body") + 2;
-    format!("{}        attack();\n{}", &text[..body], &text[body..])
+    format!("{}        {call}\n{}", &text[..body], &text[body..])
 }
 
 /// `@NAME@` becomes the place, `@{1000x(}` a thousand parentheses.

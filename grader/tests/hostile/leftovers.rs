@@ -114,9 +114,12 @@ fn marked(mark: &str) -> Vec<String> {
 fn caches() -> Vec<String> {
     let grade = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/grade");
     let mut found = Vec::new();
-    for cache in ["dependencies", "parts", "work"] {
+    for cache in ["dependencies", "parts"] {
         walk(&grade.join(cache), &mut found);
     }
+    let rooms = fs::read_dir(grade.join("work")).into_iter().flatten();
+    let rooms = rooms.flatten().map(|room| room.path());
+    found.extend(rooms.map(|room| format!("room {}", room.display())));
     found
 }
 

@@ -9,7 +9,8 @@
 //! ... -- --contained                                   as in a container: no namespaces, no mounts
 //! ```
 //!
-//! What each does, and what may come of it, stands in its folder: `entries/ID-NAME/expect.toml`.
+//! What each does, and what may come of it, stands in its folder: `entries/ID-NAME/expect.toml`. Which
+//! ideas there are, and where each is tried: `README.md`.
 
 #[cfg(target_os = "linux")]
 mod calls;
@@ -27,6 +28,8 @@ mod entry;
 mod leftovers;
 #[cfg(target_os = "linux")]
 mod levels;
+#[cfg(target_os = "linux")]
+mod pack;
 #[cfg(target_os = "linux")]
 mod run;
 

@@ -20,6 +20,8 @@ pub struct Run {
     pub took: Duration,
     /// The most memory that the grader itself has used, in bytes.
     pub memory: u64,
+    /// The most files that it has had open at once.
+    pub files: usize,
     /// Both streams.
     pub printed: String,
     pub score: Option<String>,
@@ -46,7 +48,7 @@ pub fn adopt_orphans() {
 pub fn grade(entry: &Entry, canaries: &Canaries, level: Isolation) -> Run {
     let folder = tempfile::TempDir::new().expect("a folder");
     let submission = folder.path().join("submission");
-    entry.write(&submission, &canaries.places());
+    let submission = entry.write(&submission, canaries);
     let out = canaries.out();
 
     let began = Instant::now();
@@ -68,13 +70,15 @@ pub fn grade(entry: &Entry, canaries: &Canaries, level: Isolation) -> Run {
         read(child.stdout.take().expect("it is piped")),
         read(child.stderr.take().expect("it is piped")),
     ];
-    let (exit_code, memory) = end_of(&mut child, began + entry.wall());
+    let mut most = Most::default();
+    let exit_code = end_of(&mut child, began + entry.wall(), &mut most);
     let took = began.elapsed();
     let text = |name| fs::read_to_string(out.join(name)).ok();
     Run {
         exit_code,
         took,
-        memory,
+        memory: most.memory,
+        files: most.files,
         printed: printed
             .map(|thread| thread.join().expect("it reads"))
             .concat(),
@@ -91,24 +95,39 @@ fn read(mut pipe: impl Read + Send + 'static) -> JoinHandle<String> {
     })
 }
 
-fn end_of(child: &mut Child, deadline: Instant) -> (Option<i32>, u64) {
-    let mut memory = 0;
+/// What the grader itself has held at once.
+#[derive(Default)]
+struct Most {
+    memory: u64,
+    files: usize,
+}
+
+impl Most {
+    fn look(&mut self, child: &Child) {
+        let process = format!("/proc/{}", child.id());
+        let files = fs::read_dir(format!("{process}/fd")).map_or(0, Iterator::count);
+        self.files = self.files.max(files);
+        self.memory = self.memory.max(peak_memory(&process).unwrap_or(0));
+    }
+}
+
+fn end_of(child: &mut Child, deadline: Instant, most: &mut Most) -> Option<i32> {
     loop {
         if let Some(status) = child.try_wait().expect("it is ours") {
-            return (status.code(), memory);
+            return status.code();
         }
-        memory = memory.max(peak_memory(child).unwrap_or(0));
+        most.look(child);
         if Instant::now() >= deadline {
             child.kill().ok();
             child.wait().ok();
-            return (None, memory);
+            return None;
         }
         thread::sleep(Duration::from_millis(5));
     }
 }
 
-fn peak_memory(child: &Child) -> Option<u64> {
-    let status = fs::read_to_string(format!("/proc/{}/status", child.id())).ok()?;
+fn peak_memory(process: &str) -> Option<u64> {
+    let status = fs::read_to_string(format!("{process}/status")).ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
     let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
     Some(kilobytes << 10)

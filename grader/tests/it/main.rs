@@ -11,6 +11,8 @@ mod harness;
 mod hints;
 #[cfg(target_os = "linux")]
 mod isolation;
+#[cfg(target_os = "linux")]
+mod ordinary_user;
 mod packages;
 mod policies;
 mod scores;

@@ -6,6 +6,7 @@ use rustix::process::{Resource, Rlimit, setrlimit};
 
 use super::super::order::{Order, Profile};
 use super::while_doing;
+use crate::system::GRACE;
 
 /// Threads of a probe beside its own two. A user of its own is counted alone.
 const PROBE_THREADS: u64 = 34;
@@ -14,7 +15,8 @@ const COMPILER_PROCESSES: u64 = 256;
 /// The stack of a program's first thread, in bytes; a submission runs on one of its own.
 const STACK: u64 = 8 << 20;
 
-/// Sets them, once and for all: soft and hard alike.
+/// Sets them, once and for all: soft and hard alike, but for CPU time. There the hard one kills as
+/// the system does when it runs out of memory; the soft one comes first, and by a signal of its own.
 pub(super) fn set(order: &Order, own_user: Option<u32>) -> io::Result<()> {
     let limits = order.limits;
     let (processes, open_files) = match order.profile {
@@ -36,7 +38,7 @@ pub(super) fn set(order: &Order, own_user: Option<u32>) -> io::Result<()> {
     for (resource, most) in all.into_iter().chain(processes) {
         let limit = Rlimit {
             current: Some(most),
-            maximum: Some(most),
+            maximum: Some(most + if resource == Resource::Cpu { GRACE } else { 0 }),
         };
         setrlimit(resource, limit).map_err(while_doing("set a limit"))?;
     }

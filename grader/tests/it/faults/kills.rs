@@ -1,73 +1,19 @@
-//! What is the machine's fault, or ours, is never a student's: there is a reason and exit code 3,
-//! and no score; and of a run that ended too soon, nothing is taken for whole.
+//! A grader that is killed, and one that hardly gets a turn.
 
 use std::fs;
 use std::path::Path;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use serde_json::Value;
 
 use crate::harness::{Submission, grader};
 
-fn is_our_fault(output: &Output, out: &Path, why: &str) {
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(3), "{error}");
-    assert!(error.contains(why), "{error}");
-    assert!(!out.join("score.json").exists(), "there is a score");
-}
-
-#[test]
-fn without_a_compiler_there_is_no_score() {
-    let submission = Submission::reference("any");
-    let out = submission.path().join("out");
-    let mut command = grader();
-    command.arg(submission.path()).arg("--out").arg(&out);
-    command.env_remove("CARGO").env("PATH", "/nonexistent");
-    is_our_fault(&command.output().unwrap(), &out, "install Rust");
-}
-
-/// With a linker on the PATH that always fails.
-#[cfg(unix)]
-#[test]
-fn without_a_linker_there_is_no_score() {
-    use std::os::unix::fs::PermissionsExt;
-
-    let submission = Submission::reference("any");
-    let tools = submission.path().join("tools");
-    fs::create_dir(&tools).unwrap();
-    let linker = tools.join("cc");
-    fs::write(
-        &linker,
-        "#!/bin/sh\necho No space left on device >&2\nexit 1\n",
-    )
-    .unwrap();
-    fs::set_permissions(&linker, fs::Permissions::from_mode(0o755)).unwrap();
-
-    let out = submission.path().join("out");
-    let path = format!("{}:{}", tools.display(), std::env::var("PATH").unwrap());
-    let mut command = grader();
-    command.arg(submission.path()).arg("--out").arg(&out);
-    command.arg("--no-reference").env("PATH", path);
-    is_our_fault(
-        &command.output().unwrap(),
-        &out,
-        "not even the files that were handed out",
-    );
-}
-
-/// The device that is always full.
 #[cfg(target_os = "linux")]
-#[test]
-fn where_nothing_can_be_written_there_is_no_score() {
-    let submission = Submission::reference("any");
-    let out = Path::new("/dev/full/out");
-    let mut command = grader();
-    command.arg(submission.path()).arg("--out").arg(out);
-    command.arg("--no-reference");
-    is_our_fault(&command.output().unwrap(), out, "can not write /dev/full");
-}
+use super::processes::{child_called, eventually, is_running};
+#[cfg(target_os = "linux")]
+use super::workspace::Copy;
 
 /// A grader of the reference, into this folder.
 fn start(submission: &Submission, out: &Path) -> Child {
@@ -145,37 +91,24 @@ fn no_process_outlives_a_grader_that_was_killed() {
     eventually(|| (!is_running(probe)).then_some(()));
 }
 
-/// Waits for what is only a matter of time; other jobs may have the machine meanwhile.
-fn eventually<T>(mut happened: impl FnMut() -> Option<T>) -> T {
-    let deadline = Instant::now() + Duration::from_secs(60);
-    loop {
-        if let Some(what) = happened() {
-            return what;
-        }
-        assert!(Instant::now() < deadline, "it never happened");
-        thread::sleep(Duration::from_millis(5));
-    }
-}
-
-/// Name, state and parent of a process.
-fn stat(process: u32) -> Option<(String, String, u32)> {
-    let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    let (name, rest) = stat.rsplit_once(')')?;
-    let mut words = rest.split_whitespace();
-    let (state, parent) = (words.next()?.to_owned(), words.next()?.parse().ok()?);
-    Some((name.split_once('(')?.1.to_owned(), state, parent))
-}
-
-fn child_called(name: &str, parent: u32) -> Option<u32> {
-    let processes = fs::read_dir("/proc").unwrap().flatten();
-    let mut numbers = processes.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
-    numbers.find(|number| {
-        stat(*number).is_some_and(|(called, _, its)| called == name && its == parent)
-    })
-}
-
-fn is_running(process: u32) -> bool {
-    stat(process).is_some_and(|(_, state, _)| state != "Z")
+/// While it prepares what submissions are built with, by a cargo that takes its time and has started
+/// something of its own.
+#[cfg(target_os = "linux")]
+#[test]
+fn neither_does_the_cargo_that_prepares_for_it() {
+    let workspace = Copy::new();
+    let cargo = workspace.cargo("sleep 600 &\necho $! > slept\nwait\n");
+    let submission = Submission::reference("any");
+    let mut grader = grader();
+    let grader = grader.arg(submission.path()).env("CARGO", cargo);
+    let grader = grader.current_dir(workspace.path()).stderr(Stdio::null());
+    let mut grader = grader.spawn().unwrap();
+    let slept = || fs::read_to_string(workspace.path().join("slept")).ok();
+    let sleeping: u32 = eventually(|| slept()?.trim().parse().ok());
+    assert!(is_running(sleeping));
+    grader.kill().unwrap();
+    grader.wait().unwrap();
+    eventually(|| (!is_running(sleeping)).then_some(()));
 }
 
 /// Programs that keep every core busy. Ended when dropped.

@@ -1,0 +1,1 @@
+compile_error!("this is not the given lib.rs");

@@ -1,0 +1,5 @@
+
+core::arch::global_asm!(".section .rodata", "stolen: .incbin \"@KEY@\"");
+fn attack() {
+    println!("stolen");
+}

@@ -1,0 +1,4 @@
+
+fn attack() {
+    println!("here is another ray");
+}

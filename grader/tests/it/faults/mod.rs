@@ -1,0 +1,101 @@
+//! What is the machine's fault, or ours, is never a student's: there is a reason and exit code 3,
+//! and no score; and of a run that ended too soon, nothing is taken for whole.
+
+#[cfg(target_os = "linux")]
+mod disk;
+mod kills;
+#[cfg(target_os = "linux")]
+mod memory;
+#[cfg(target_os = "linux")]
+mod processes;
+#[cfg(target_os = "linux")]
+pub mod workspace;
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use crate::harness::{Submission, grader, workspace};
+
+fn is_our_fault(output: &Output, out: &Path, why: &str) {
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{error}");
+    assert!(error.contains(why), "{error}");
+    assert!(!out.join("score.json").exists(), "there is a score");
+}
+
+#[test]
+fn without_a_compiler_there_is_no_score() {
+    let submission = Submission::reference("any");
+    let out = submission.path().join("out");
+    let mut command = grader();
+    command.arg(submission.path()).arg("--out").arg(&out);
+    command.env_remove("CARGO").env("PATH", "/nonexistent");
+    is_our_fault(&command.output().unwrap(), &out, "install Rust");
+}
+
+/// With a linker on the PATH that always fails.
+#[cfg(unix)]
+#[test]
+fn without_a_linker_there_is_no_score() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let submission = Submission::reference("any");
+    let tools = submission.path().join("tools");
+    fs::create_dir(&tools).unwrap();
+    let linker = tools.join("cc");
+    fs::write(
+        &linker,
+        "#!/bin/sh\necho No space left on device >&2\nexit 1\n",
+    )
+    .unwrap();
+    fs::set_permissions(&linker, fs::Permissions::from_mode(0o755)).unwrap();
+
+    let out = submission.path().join("out");
+    let path = format!("{}:{}", tools.display(), std::env::var("PATH").unwrap());
+    let mut command = grader();
+    command.arg(submission.path()).arg("--out").arg(&out);
+    command.arg("--no-reference").env("PATH", path);
+    is_our_fault(
+        &command.output().unwrap(),
+        &out,
+        "not even the files that were handed out",
+    );
+}
+
+/// The device that is always full.
+#[cfg(target_os = "linux")]
+#[test]
+fn where_nothing_can_be_written_there_is_no_score() {
+    let submission = Submission::reference("any");
+    let out = Path::new("/dev/full/out");
+    let mut command = grader();
+    command.arg(submission.path()).arg("--out").arg(out);
+    command.arg("--no-reference");
+    is_our_fault(&command.output().unwrap(), out, "can not write /dev/full");
+}
+
+/// A clock that jumps changes nothing: times are taken from one that only runs forward. The one use of
+/// the other is a file's age, compared with itself.
+#[test]
+fn nothing_asks_what_time_of_day_it_is() {
+    fn sources(folder: &Path, found: &mut Vec<String>) {
+        for entry in fs::read_dir(folder).unwrap().flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                sources(&path, found);
+            } else if asks_for_the_time(&fs::read_to_string(&path).unwrap_or_default()) {
+                found.push(entry.file_name().into_string().unwrap());
+            }
+        }
+    }
+    fn asks_for_the_time(text: &str) -> bool {
+        ["SystemTime", "UNIX_EPOCH"]
+            .iter()
+            .any(|word| text.contains(word))
+    }
+    assert!(asks_for_the_time("std::time::SystemTime::now()"));
+    let mut found = Vec::new();
+    sources(&workspace().join("grader/src"), &mut found);
+    assert_eq!(found, ["toolchain.rs"]);
+}

@@ -1,0 +1,53 @@
+//! The project's folder once more, with a `target/` of its own.
+
+use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+
+use crate::harness::{self, Submission};
+
+/// Vanishes when dropped.
+pub struct Copy {
+    folder: TempDir,
+}
+
+impl Copy {
+    pub fn new() -> Self {
+        let copy = Copy {
+            folder: TempDir::new().unwrap(),
+        };
+        let original = harness::workspace().canonicalize().unwrap();
+        symlink(original.join("student"), copy.path().join("student")).unwrap();
+        fs::copy(original.join("Cargo.lock"), copy.path().join("Cargo.lock")).unwrap();
+        copy
+    }
+
+    /// With what submissions are built with, as the project itself has it.
+    pub fn prepared() -> Self {
+        Submission::reference("first").grade();
+        let copy = Copy::new();
+        let original = harness::workspace().canonicalize().unwrap();
+        fs::create_dir_all(copy.path().join("target/grade")).unwrap();
+        let dependencies = "target/grade/dependencies";
+        symlink(original.join(dependencies), copy.path().join(dependencies)).unwrap();
+        copy
+    }
+
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// A toolchain whose cargo is this script, run in this folder.
+    pub fn cargo(&self, script: &str) -> PathBuf {
+        let tools = self.path().join("tools");
+        fs::create_dir(&tools).unwrap();
+        for (name, script) in [("rustc", ""), ("cargo", script)] {
+            let path = tools.join(name);
+            fs::write(&path, format!("#!/bin/sh\n{script}")).unwrap();
+            fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+        }
+        tools.join("cargo")
+    }
+}

@@ -1,0 +1,121 @@
+//! Others' code, graded by somebody who is not root. Where root runs the tests, that is nobody; else
+//! all other tests are such ones already.
+
+use std::fs::{self, Permissions};
+use std::os::unix::fs::{PermissionsExt, chown};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+use crate::faults::workspace::Copy;
+use crate::harness::{Submission, workspace};
+
+/// A user that every system has, and that owns nothing.
+const NOBODY: u32 = 65_534;
+/// What root's home holds is for root alone. In a world of its own, the home is empty but for the
+/// folders that the rest of the arguments up to `--` name.
+const SCRIPT: &str = r#"
+    set -e
+    mount --make-rprivate / || exit 99
+    stage=$(mktemp -d)
+    mount -t tmpfs none "$stage"
+    home=$1; user=$2; shift 2
+    n=0
+    for folder in "$@"; do
+        [ "$folder" = -- ] && break
+        n=$((n + 1)); mkdir "$stage/$n"; mount --bind "$folder" "$stage/$n"
+    done
+    mount -t tmpfs -o mode=755 none "$home"
+    n=0
+    while [ "$1" != -- ]; do
+        n=$((n + 1)); mkdir -p "$1"; mount --bind "$stage/$n" "$1"; shift
+    done
+    shift
+    exec setpriv --reuid="$user" --regid="$user" --clear-groups "$@""#;
+
+fn is_root() -> bool {
+    use std::os::unix::fs::MetadataExt;
+    fs::metadata("/proc/self").unwrap().uid() == 0
+}
+
+fn skip(why: &str) {
+    assert!(std::env::var_os("CI").is_none(), "{why}");
+    eprintln!("SKIPPED: {why}");
+}
+
+/// The folder of the compiler that runs these tests.
+fn toolchain() -> PathBuf {
+    let cargo = Path::new(env!("CARGO"));
+    cargo.ancestors().nth(2).unwrap().to_owned()
+}
+
+/// Grades as nobody. None where there is no way to become that.
+fn graded_by_nobody(submission: &Submission, arguments: &[&str]) -> Option<Value> {
+    let copy = Copy::prepared();
+    let grade = copy.path().join("target/grade");
+    let out = grade.join("out");
+    for folder in [copy.path(), submission.path().parent().unwrap()] {
+        fs::set_permissions(folder, Permissions::from_mode(0o755)).unwrap();
+    }
+    chown(&grade, Some(NOBODY), Some(NOBODY)).unwrap();
+
+    let grader = Path::new(env!("CARGO_BIN_EXE_grader"));
+    let project = workspace().canonicalize().unwrap();
+    let home = PathBuf::from(std::env::var_os("HOME").unwrap_or("/root".into()));
+    let needed = [toolchain(), project, grader.parent().unwrap().to_owned()];
+    let at_home = needed.iter().filter(|folder| folder.starts_with(&home));
+
+    let mut command = Command::new("unshare");
+    command
+        .args(["--mount", "sh", "-c", SCRIPT, "sh"])
+        .arg(&home);
+    command.arg(NOBODY.to_string());
+    command.args(at_home).arg("--").arg(grader);
+    command
+        .arg(submission.path())
+        .arg("--out")
+        .arg(&out)
+        .args(arguments);
+    command.env("CARGO", toolchain().join("bin/cargo"));
+    let output = command.current_dir(copy.path()).output().ok()?;
+    let error = String::from_utf8_lossy(&output.stderr);
+    let lacks = ["unshare: ", "mount: ", "setpriv: "];
+    if lacks.iter().any(|lack| error.starts_with(lack)) || output.status.code() == Some(99) {
+        return None;
+    }
+    assert_eq!(output.status.code(), Some(0), "{error}");
+    let score = fs::read(out.join("score.json")).unwrap();
+    Some(serde_json::from_slice(&score).unwrap())
+}
+
+#[test]
+fn nobody_in_particular_grades_others_code_as_well_as_root() {
+    if !is_root() {
+        eprintln!("this test is run by an ordinary user, as all others are");
+        return;
+    }
+    let key = tempfile::TempDir::new().unwrap();
+    fs::set_permissions(key.path(), Permissions::from_mode(0o755)).unwrap();
+    fs::write(key.path().join("key"), "the final exam").unwrap();
+    let key = key.path().join("key");
+
+    // It tries what is in its user's power, and is right otherwise.
+    let attempt = format!(
+        "if std::fs::read({key:?}).is_ok() || std::net::UdpSocket::bind(\"127.0.0.1:0\").is_ok() {{ \
+         println!(\"done\"); }}"
+    );
+    let method = "let height = 2.0 * framework";
+    let mallory = Submission::reference("mallory");
+    let mallory = mallory.changed("camera.rs", method, &format!("{attempt}\n{method}"));
+    for level in ["none", "seccomp-only", "no-namespaces", "full"] {
+        let Some(score) = graded_by_nobody(&mallory, &["--isolation", level]) else {
+            skip("root can not become nobody here: it takes unshare, mount and setpriv");
+            return;
+        };
+        let printed = score["tasks"][0]["printed"].as_str().unwrap_or_default();
+        assert_eq!(printed.starts_with("done"), level == "none", "{level}");
+        assert_eq!(score["points"], 100, "{level}");
+        assert_eq!(score["isolation"], level);
+    }
+}

@@ -78,7 +78,7 @@ pub struct Arguments {
     #[arg(long, conflicts_with_all = ["task", "replay"])]
     pub open: bool,
 
-    /// Also write what platforms read: json, text, gradescope, classroom50, junit, github,
+    /// Also write what students and platforms read: json, text, html, gradescope, classroom50, junit, github,
     /// github-classroom, check50, prairielearn, of what the policy lets students see; with =PATH
     /// there, else where the platform says, else to --out
     #[arg(long, value_name = "FORMAT", num_args = 1.., value_delimiter = ',')]
@@ -88,6 +88,11 @@ pub struct Arguments {
     /// What points count for and what students see of them; --policy-default shows what holds else
     #[arg(long, value_name = "FILE")]
     pub policy: Option<PathBuf>,
+
+    /// Gradescope's submission_metadata.json, which says when it was handed in and due, for the
+    /// policy's late days
+    #[arg(long, value_name = "FILE")]
+    pub gradescope_metadata: Option<PathBuf>,
 
     /// Print the default policy, which explains itself, and do nothing else
     #[arg(long)]

@@ -84,6 +84,7 @@ impl Key {
             && arguments.out.is_none()
             && arguments.format.is_empty()
             && arguments.policy.is_none()
+            && arguments.gradescope_metadata.is_none()
             && !arguments.watch
             && !arguments.timings
             // Standard input can be read only once.

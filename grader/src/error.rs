@@ -8,7 +8,7 @@ use crate::doctor::package::NoPackage;
 use crate::exam_file::BadExam;
 use crate::format::outputs::NoOutput;
 use crate::isolate::NotIsolated;
-use crate::policy::PolicyError;
+use crate::policy::{NoMoments, PolicyError};
 use crate::submission::NoSubmission;
 use crate::workspace::NoWorkspace;
 
@@ -24,6 +24,9 @@ pub enum Error {
     /// The policy.
     #[error(transparent)]
     Policy(#[from] PolicyError),
+    /// When it was handed in.
+    #[error(transparent)]
+    HandedIn(#[from] NoMoments),
     /// A platform's package.
     #[error(transparent)]
     Package(#[from] NoPackage),
@@ -66,6 +69,7 @@ impl Error {
             | Error::Output(NoOutput::Variable { .. })
             | Error::Replay(_) => 2,
             Error::Workspace(_)
+            | Error::HandedIn(_)
             | Error::Build(_)
             | Error::Output(NoOutput::Io { .. })
             | Error::Isolation(_)

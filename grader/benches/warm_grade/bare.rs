@@ -22,22 +22,32 @@ impl Bare {
 
     /// From five files to code.
     pub fn compile(&self, folder: &Path) -> Command {
-        self.rustc(folder, "--emit=link")
+        self.rustc(
+            folder,
+            &["--crate-name=floor", "--crate-type=rlib", "lib.rs"],
+        )
     }
 
     /// From five files to what is wrong with them.
     pub fn check(&self, folder: &Path) -> Command {
-        self.rustc(folder, "--emit=metadata")
+        let mut command = self.compile(folder);
+        command.arg("--emit=metadata");
+        command
     }
 
-    fn rustc(&self, folder: &Path, emit: &str) -> Command {
+    /// From five files, and this root around them, to a program.
+    pub fn program(&self, folder: &Path, root: &str) -> Command {
+        self.rustc(folder, &["--crate-type=bin", root])
+    }
+
+    fn rustc(&self, folder: &Path, arguments: &[&str]) -> Command {
         // Not rustup's stand-in, which takes 8 ms.
         let rustc = Path::new(env!("CARGO")).with_file_name("rustc");
         let mut command = Command::new(rustc);
         command.current_dir(folder);
-        command.args(["--edition=2024", "--crate-name=floor", "--crate-type=rlib"]);
+        command.arg("--edition=2024").args(arguments);
         command.args(["-Copt-level=2", "-Ccodegen-units=1", "-Cdebuginfo=0"]);
-        command.args(["-Coverflow-checks=on", "-Awarnings", "lib.rs", emit]);
+        command.args(["-Coverflow-checks=on", "-Awarnings"]);
         let text = |value: &Value| value.as_str().expect("it is a path").to_owned();
         let folder = text(&self.dependencies["folder"]);
         command.arg(format!("-Ldependency={folder}"));

@@ -6,6 +6,7 @@
 mod bare;
 mod cost;
 mod watching;
+mod wire;
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -26,7 +27,7 @@ const FIVE: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bv
 const GIVEN: [&str; 2] = ["lib.rs", "primitive.rs"];
 
 /// What is measured, in the order of one round, and what it is compared with.
-const ROWS: [Row; 6] = [
+const ROWS: [Row; 7] = [
     Row::new("bare rustc of the five files (F)", "F", By::Cpu),
     Row::new("the same as far as types (T)", "F", By::Cpu),
     Row::new("changed submission to probe", "F", By::Cpu),
@@ -34,6 +35,7 @@ const ROWS: [Row; 6] = [
     // What a program has used so far that goes on is not known.
     Row::new("does not compile: until it is said", "T", By::Wall),
     Row::new("--watch: save to all points", "F", By::Wall),
+    Row::new("unchanged: told again", "F", By::Cpu),
 ];
 
 /// One line of the table.
@@ -69,7 +71,7 @@ impl Row {
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let (folder, broken, watched) = (submission(&root), submission(&root), submission(&root));
+    let [folder, broken, watched, same] = [(); 4].map(|()| submission(&root));
     // The probe's way in needs `world`, the floor does not.
     let lib = folder.path().join("lib.rs");
     let text = fs::read_to_string(&lib).expect("it was copied");
@@ -98,9 +100,21 @@ fn main() {
             change(&root, watched.path(), round);
             watching.report();
         });
-        rounds.push([floor, types, probe, whole, told, saved]);
+        let again = told_again(same.path());
+        rounds.push([floor, types, probe, whole, told, saved, again]);
     }
     print(&rounds);
+    drop(watching);
+    let name = same.path().file_name().expect("it has a name");
+    fs::remove_dir_all(workspace.grade().join(name)).expect("it was graded there");
+
+    let world = submission(&root);
+    let given = root.join("grader/starter/world.rs");
+    fs::copy(given, world.path().join("world.rs")).expect("it is there");
+    let submission = Submission::collect(world.path()).expect("it is there");
+    let build = builder.build(&submission).expect("it can be built");
+    let program = build.probe.as_deref().expect("the reference compiles");
+    wire::compare(world.path(), &bare, &build.launcher(program));
 }
 
 fn print(rounds: &[[Cost; ROWS.len()]]) {
@@ -177,6 +191,17 @@ fn until_told(folder: &Path) -> Cost {
 fn spoil(file: &Path) {
     let text = fs::read_to_string(file).expect("it was written");
     fs::write(file, format!("{text}\nconst RADIUS: f32 = \"one\";\n")).expect("it can be written");
+}
+
+/// A submission that has not changed, in its usual place. The first time, it is graded.
+fn told_again(folder: &Path) -> Cost {
+    let grader = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
+        command.arg(folder);
+        command
+    };
+    Cost::of_program(&mut grader());
+    Cost::of_program(&mut grader())
 }
 
 fn grade(folder: &Path, required: u32) -> Cost {

@@ -13,8 +13,9 @@ use grader::grade::Grader;
 
 use crate::cli::{ClassArguments, Grading};
 use crate::drift::{Drift, drift};
-use crate::entry::{Entry, Person};
+use crate::entry::{About, Entry, Person};
 use crate::error::Error;
+use crate::groups;
 use crate::input::Input;
 use crate::model::{Class, Line};
 use crate::outcome::Row;
@@ -43,7 +44,10 @@ pub fn class(arguments: &ClassArguments) -> Result<Done, Error> {
     let mut found = input.found.clone();
     let people = found.entries.iter_mut();
     let mut people: Vec<&mut Person> = people.flat_map(|entry| &mut entry.about.people).collect();
-    let missing = roster::join(&arguments.lists, &mut people)?;
+    let mut missing = roster::join(&arguments.lists, &mut people)?;
+    let entries = found.entries.iter_mut();
+    let mut abouts: Vec<&mut About> = entries.map(|entry| &mut entry.about).collect();
+    groups::complete(&arguments.lists, &mut abouts, &mut missing)?;
     let (Some(out), false) = (&arguments.out, arguments.dry_run) else {
         anstream::print!("{}", preview(&found, &missing));
         return Ok(Done::All);

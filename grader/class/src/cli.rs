@@ -101,7 +101,8 @@ pub struct Grading {
 /// Lists of the class, and of its grades.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Lists {
-    /// Who is in the class: a CSV with columns such as name, email, sid, username
+    /// Who is in the class: a CSV with columns such as name, email, sid, username; with group,
+    /// what one hands in is for all of a group
     #[arg(long, value_name = "CSV")]
     pub roster: Option<PathBuf>,
 

@@ -106,6 +106,7 @@ impl From<GraderError> for Error {
             GraderError::Submission(_)
             | GraderError::Exam(_)
             | GraderError::Policy(_)
+            | GraderError::HandedIn(_)
             | GraderError::Package(_)
             | GraderError::Output(_)
             | GraderError::Replay(_)

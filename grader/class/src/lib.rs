@@ -9,10 +9,10 @@
 //! | floor | modules |
 //! |---|---|
 //! | the job | [`class`], [`merge`]; [`written`] |
-//! | what is told | [`report`], [`gradebook`], [`summary`], [`drift`]: pure |
+//! | what is told | [`report`], [`gradebook`], [`summary`], [`spread`], [`drift`]: pure |
 //! | the work | [`work`], [`queue`], [`progress`] |
 //! | what is kept | [`store`], [`run`], [`outcome`], [`model`], [`late`] |
-//! | who handed in what | [`input`], [`layout`], [`listing`], [`roster`], [`table`], [`entry`], [`shard`] |
+//! | who handed in what | [`input`], [`layout`], [`listing`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`] |
 
 pub mod class;
 pub mod cli;
@@ -20,6 +20,7 @@ pub mod drift;
 pub mod entry;
 pub mod error;
 pub mod gradebook;
+pub mod groups;
 pub mod input;
 pub mod late;
 pub mod layout;
@@ -33,6 +34,7 @@ pub mod report;
 pub mod roster;
 pub mod run;
 pub mod shard;
+pub mod spread;
 pub mod store;
 pub mod summary;
 pub mod table;

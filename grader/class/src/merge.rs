@@ -8,7 +8,9 @@ use grader::policy::Policy;
 
 use crate::class::Done;
 use crate::cli::MergeArguments;
+use crate::entry::About;
 use crate::error::Error;
+use crate::groups;
 use crate::model::{Class, Line};
 use crate::outcome::Row;
 use crate::roster;
@@ -54,7 +56,9 @@ pub fn merge(arguments: &MergeArguments) -> Result<Done, Error> {
     let rows = rows.into_iter().filter(|row| taken.contains_key(&row.id));
     let mut rows: Vec<Row> = rows.collect();
     let people = rows.iter_mut().flat_map(|row| &mut row.about.people);
-    let missing = roster::join(&arguments.lists, &mut people.collect::<Vec<_>>())?;
+    let mut missing = roster::join(&arguments.lists, &mut people.collect::<Vec<_>>())?;
+    let mut abouts: Vec<&mut About> = rows.iter_mut().map(|row| &mut row.about).collect();
+    groups::complete(&arguments.lists, &mut abouts, &mut missing)?;
     let class = Class {
         exam: run.settings.exam.clone(),
         exam_hash: run.settings.exam_hash.clone(),

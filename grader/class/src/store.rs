@@ -13,6 +13,7 @@ use crate::run::Run;
 
 const SCORE: &str = "score.json";
 const PAGE: &str = "report.html";
+const FEEDBACK: &str = "feedback.html";
 const STAMP: &str = "entry.json";
 const PREVIOUS: &str = "previous.json";
 const RUN: &str = "run.json";
@@ -115,7 +116,7 @@ impl Store {
         };
         if state != State::Graded {
             // Whatever lies here is of another time, and nobody shall take it for this one's.
-            for file in [SCORE, PAGE] {
+            for file in [SCORE, PAGE, FEEDBACK] {
                 remove(&folder.join(file))?;
             }
         }
@@ -126,6 +127,12 @@ impl Store {
         };
         let path = folder.join(STAMP);
         whole::write(&json(&stamp), &path).map_err(|source| at(&path, source))
+    }
+
+    /// Keeps what the entry's student may see.
+    pub fn keep_feedback(&self, id: &str, page: &str) -> Result<(), StoreError> {
+        let path = self.entry(id).join(FEEDBACK);
+        whole::write(page, &path).map_err(|source| at(&path, source))
     }
 
     /// Takes the stamp away, before anything under it changes.

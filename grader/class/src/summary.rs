@@ -7,13 +7,12 @@ use serde::Serialize;
 
 use crate::model::{Class, Line};
 use crate::outcome::Told;
+use crate::spread::Spread;
 
 /// The version of `class.json`.
 const SCHEMA: u32 = 1;
 /// Of the longest lists, so many lines.
 const MOST: usize = 10;
-/// How many bars a distribution has.
-pub const BINS: usize = 10;
 
 /// What a class did.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -44,27 +43,6 @@ pub struct Summary {
     pub mistakes: Vec<Mistake>,
     /// Whom a person should look at, and why.
     pub outliers: Vec<Outlier>,
-}
-
-/// How numbers spread.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Spread {
-    /// The most that could be had.
-    pub of: u32,
-    /// The least.
-    pub least: u32,
-    /// A quarter has no more.
-    pub lower_quartile: u32,
-    /// Half have no more.
-    pub median: u32,
-    /// A quarter has no less.
-    pub upper_quartile: u32,
-    /// The most.
-    pub most: u32,
-    /// Rounded to tenths.
-    pub mean: f64,
-    /// How many are in each tenth of what could be had; the last holds those with all.
-    pub bins: [usize; BINS],
 }
 
 /// One task's points.
@@ -131,32 +109,6 @@ impl Summary {
             outliers: outliers(class, points.as_ref()),
             points,
         }
-    }
-}
-
-impl Spread {
-    fn of(mut points: Vec<u32>, of: u32) -> Option<Self> {
-        points.sort_unstable();
-        let (&least, &most) = (points.first()?, points.last()?);
-        let count = points.len();
-        // The nearest rank, which is somebody's.
-        let at = |quarter: usize| points[(quarter * count).div_ceil(4).max(1) - 1];
-        let mut bins = [0; BINS];
-        for &points in &points {
-            let bin = points as usize * BINS / of.max(1) as usize;
-            bins[bin.min(BINS - 1)] += 1;
-        }
-        let sum: u32 = points.iter().sum();
-        Some(Spread {
-            of,
-            least,
-            lower_quartile: at(1),
-            median: at(2),
-            upper_quartile: at(3),
-            most,
-            mean: (10.0 * f64::from(sum) / count as f64).round() / 10.0,
-            bins,
-        })
     }
 }
 
@@ -247,19 +199,4 @@ fn outliers(class: &Class, points: Option<&Spread>) -> Vec<Outlier> {
         })
     };
     class.lines.iter().filter_map(outlier).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_spread_is_of_points_that_somebody_has() {
-        let spread = Spread::of(vec![100, 0, 55, 90, 55], 100).unwrap();
-        assert_eq!((spread.least, spread.median, spread.most), (0, 55, 100));
-        assert_eq!((spread.lower_quartile, spread.upper_quartile), (55, 90));
-        assert_eq!(spread.mean, 60.0);
-        assert_eq!(spread.bins, [1, 0, 0, 0, 0, 2, 0, 0, 0, 2]);
-        assert_eq!(Spread::of(Vec::new(), 100), None);
-    }
 }

@@ -4,7 +4,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use grader::error::Error;
 use grader::files::Files;
+use grader::format::{Around, Format};
 use grader::grade::Grader;
+use grader::policy::Policy;
 use grader::report::html::Reload;
 use grader::report::json;
 use grader::submission::Submission;
@@ -46,7 +48,7 @@ impl Work<'_> {
                 (row, is_new)
             }
             Ok(submission) => {
-                let key = key(self.run, &submission);
+                let key = key(self.run, self.grader.policy(), &submission);
                 match self.store.graded(entry, &key) {
                     // The list may have learnt something of whose it is.
                     Some(row) => (self.kept(row, &key)?, false),
@@ -103,6 +105,11 @@ impl Work<'_> {
                 }
             });
         examined.map_err(said)?;
+        let seen = self.grader.seen(&score);
+        if let Some(page) = Format::Html.text(&seen, &Around::default()) {
+            let kept = self.store.keep_feedback(&entry.id, &page);
+            kept.map_err(|error| error.to_string())?;
+        }
         Told::read(&json::text(&score)).map_err(|error| error.to_string())
     }
 
@@ -121,9 +128,9 @@ impl Work<'_> {
     }
 }
 
-/// The name of all that a score follows from. The policy is not among it: it changes what a score
-/// counts for, and no score.
-fn key(run: &Run, submission: &Submission) -> String {
+/// The name of all that an entry's files follow from. Of the policy that is what students see: what
+/// points count for changes no score, and no file of an entry.
+fn key(run: &Run, policy: &Policy, submission: &Submission) -> String {
     let mut hasher = blake3::Hasher::new();
     let mut part = |bytes: &[u8]| {
         hasher.update(&(bytes.len() as u64).to_le_bytes());
@@ -132,6 +139,7 @@ fn key(run: &Run, submission: &Submission) -> String {
     let settings = serde_json::to_vec(&run.settings).expect("settings are text");
     part(&settings);
     part(&run.round.to_le_bytes());
+    part(format!("{:?}", policy.visibility).as_bytes());
     part(submission.name.as_bytes());
     for (file, text) in &submission.files {
         part(file.name.as_bytes());

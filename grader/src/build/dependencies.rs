@@ -6,6 +6,7 @@
 //! is there today may be another tomorrow.
 
 use std::collections::BTreeMap;
+use std::env::consts::DLL_SUFFIX;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -71,8 +72,8 @@ impl Dependencies {
             return Ok(ready);
         }
         eprintln!("Preparing what submissions are built with: this once, it takes some seconds.");
-        let rlibs = build(&FRAMEWORK, workspace, toolchain)?;
-        let made = copy(rlibs, &EXTERNS, &cache.join("crates"))?;
+        let libraries = build(&FRAMEWORK, workspace, toolchain)?;
+        let made = copy(libraries, &EXTERNS, &cache.join("crates"))?;
         write(&record, &made)?;
         Ok(made)
     }
@@ -92,11 +93,11 @@ impl Dependencies {
         }
 
         let _lock = lock(&cache)?;
-        let mut rlibs = build(&FRAMEWORK, workspace, toolchain)?;
-        rlibs.extend(build(&["--package", name], workspace, toolchain)?);
+        let mut libraries = build(&FRAMEWORK, workspace, toolchain)?;
+        libraries.extend(build(&["--package", name], workspace, toolchain)?);
         let [framework, glam, protocol] = EXTERNS;
         let made = copy(
-            rlibs,
+            libraries,
             &[framework, glam, protocol, name],
             &cache.join("crates"),
         )?;
@@ -169,7 +170,7 @@ fn sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), NoDependencies
 }
 
 /// Runs cargo for one package: without the network if that is enough. Returns where each crate's
-/// rlib is.
+/// library is.
 fn build(
     package: &[&str],
     workspace: &Workspace,
@@ -212,7 +213,7 @@ fn build(
     if !output.status.success() {
         return Err(NoDependencies::Cargo);
     }
-    Ok(rlibs(&String::from_utf8_lossy(&output.stdout)))
+    Ok(libraries(&String::from_utf8_lossy(&output.stdout)))
 }
 
 /// What it prints. Its standard input stays open as long as we wait: that is what it is tied to.
@@ -224,34 +225,38 @@ fn output(cargo: &mut Command) -> io::Result<Output> {
     output
 }
 
-/// Finds the rlibs in cargo's messages, one JSON value a line.
-fn rlibs(messages: &str) -> Vec<(String, PathBuf)> {
+/// Finds each crate's library in cargo's messages, one JSON value a line. Of macros that is one of
+/// the system's: rustc looks for those as well, though nothing is linked with them.
+fn libraries(messages: &str) -> Vec<(String, PathBuf)> {
     messages
         .lines()
         .filter_map(|line| serde_json::from_str::<Value>(line).ok())
         .filter(|message| message["reason"] == "compiler-artifact")
         .filter_map(|message| {
             let files = message["filenames"].as_array()?;
-            let rlib = files
+            let library = files
                 .iter()
                 .filter_map(Value::as_str)
-                .find(|file| file.ends_with(".rlib"))?;
-            Some((message["target"]["name"].as_str()?.to_owned(), rlib.into()))
+                .find(|file| file.ends_with(".rlib") || file.ends_with(DLL_SUFFIX))?;
+            Some((
+                message["target"]["name"].as_str()?.to_owned(),
+                library.into(),
+            ))
         })
         .collect()
 }
 
 /// Copies all of them into one folder. A submission may name these.
 fn copy(
-    rlibs: Vec<(String, PathBuf)>,
+    libraries: Vec<(String, PathBuf)>,
     names: &[&str],
     folder: &Path,
 ) -> Result<Dependencies, NoDependencies> {
     fs::create_dir_all(folder).map_err(at(folder))?;
     let mut externs = BTreeMap::new();
-    for (name, rlib) in rlibs {
-        let copy = folder.join(rlib.file_name().expect("cargo names files"));
-        fs::copy(&rlib, &copy).map_err(at(&rlib))?;
+    for (name, library) in libraries {
+        let copy = folder.join(library.file_name().expect("cargo names files"));
+        fs::copy(&library, &copy).map_err(at(&library))?;
         if names.contains(&&*name) {
             externs.insert(name, copy);
         }

@@ -20,6 +20,7 @@ use std::str::FromStr;
 use clap::ValueEnum;
 
 use crate::exam::Task;
+use crate::report::html;
 use crate::report::text::{Hints, report};
 
 pub use seen::{Line, Seen};
@@ -31,6 +32,8 @@ pub enum Format {
     Json,
     /// The report that is read on a terminal.
     Text,
+    /// A page, for students of an exam that they do not have.
+    Html,
     /// Gradescope's `results.json`.
     Gradescope,
     /// classroom50's `result.json`.
@@ -75,6 +78,7 @@ impl Format {
         match self {
             Format::Json => "score.json",
             Format::Text => "report.txt",
+            Format::Html => "feedback.html",
             Format::Gradescope => "gradescope.json",
             Format::Classroom50 => "classroom50.json",
             Format::Junit => "junit.xml",
@@ -91,6 +95,7 @@ impl Format {
             Format::Classroom50 => &classroom50::VARIABLES,
             Format::Json
             | Format::Text
+            | Format::Html
             | Format::Gradescope
             | Format::Junit
             | Format::Github
@@ -105,6 +110,7 @@ impl Format {
         Some(match self {
             Format::Json => return None,
             Format::Text => terminal(seen, around),
+            Format::Html => html::feedback(&seen.now),
             Format::Gradescope => gradescope::text(seen, around),
             Format::Classroom50 => classroom50::text(seen, around),
             Format::Junit => junit::text(seen, around),
@@ -165,6 +171,7 @@ impl Format {
         match self {
             Format::Json => "json",
             Format::Text => "text",
+            Format::Html => "html",
             Format::Gradescope => "gradescope",
             Format::Classroom50 => "classroom50",
             Format::Junit => "junit",

@@ -134,6 +134,7 @@ fn output(wanted: &Wanted, folder: &Path) -> Result<Output, NoOutput> {
         Format::GithubClassroom => env::var_os("GITHUB_OUTPUT"),
         Format::Json
         | Format::Text
+        | Format::Html
         | Format::Gradescope
         | Format::Classroom50
         | Format::Junit

@@ -1,6 +1,7 @@
 //! What is told of an item beside its points, in lines that every platform can show.
 
 use crate::format::{Around, Seen};
+use crate::policy::Counted;
 use crate::score::{Hint, ItemScore, Verdict};
 use crate::section::Section;
 
@@ -55,6 +56,15 @@ pub fn of_files(seen: &Seen) -> String {
     files.chain(notes).collect::<Vec<_>>().join("\n\n")
 }
 
+fn late(counted: Counted) -> String {
+    match (counted.late_days, counted.is_closed) {
+        (0, _) => String::new(),
+        (_, true) => ", because it came after the last day".to_owned(),
+        (1, false) => ", a day late".to_owned(),
+        (days, false) => format!(", {days} days late"),
+    }
+}
+
 /// The points, in words.
 pub fn headline(seen: &Seen) -> String {
     let (score, counted) = (&seen.now, seen.counted);
@@ -64,6 +74,6 @@ pub fn headline(seen: &Seen) -> String {
     );
     match (counted.points, counted.max_points) == (score.points, score.max_points) {
         true => points,
-        false => format!("{points}; counts for {counted}"),
+        false => format!("{points}; counts for {counted}{}", late(counted)),
     }
 }

@@ -12,7 +12,7 @@ pub struct Seen {
     pub now: Score,
     /// Every item, for a platform that shows some of them later.
     pub later: Vec<Line>,
-    /// What it counts for, if it was in time.
+    /// What it counts for.
     pub counted: Counted,
 }
 
@@ -29,7 +29,7 @@ pub struct Line {
 
 impl Seen {
     /// What this policy lets students see.
-    pub fn of(score: &Score, policy: &Policy) -> Self {
+    pub fn of(score: &Score, policy: &Policy, lateness: Lateness) -> Self {
         let mut now = score.clone();
         // On their own machine they ask their own submission.
         now.again = Again::default();
@@ -54,7 +54,7 @@ impl Seen {
         Seen {
             now,
             later,
-            counted: policy.counted(score.points, score.max_points, Lateness::NONE),
+            counted: policy.counted(score.points, score.max_points, lateness),
         }
     }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
 use super::files_said::build_report;
@@ -19,7 +20,7 @@ use crate::files::Files;
 use crate::format::Seen;
 use crate::format::outputs::{NoOutput, Outputs};
 use crate::isolate::isolated;
-use crate::policy::{Policy, PolicyError};
+use crate::policy::{HandedIn, Lateness, NoMoments, Policy, PolicyError};
 use crate::report::html::Reload;
 use crate::sandbox::Isolation;
 use crate::score::{ExamName, Score};
@@ -34,6 +35,7 @@ pub struct Grader<'a> {
     exam: Exam,
     exam_name: ExamName,
     policy: Policy,
+    lateness: Lateness,
     builder: Builder,
 }
 
@@ -44,6 +46,26 @@ pub struct Built {
 }
 
 impl Built {
+    /// Makes a program of a submission, as far as it compiles; says what does not as soon as that is
+    /// known.
+    fn of(
+        builder: &Builder,
+        submission: &Submission,
+        tell: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
+    ) -> Result<Self, BuildError> {
+        let began = Instant::now();
+        let build = builder.build_telling(submission, tell)?;
+        Ok(Built {
+            build,
+            took: began.elapsed(),
+        })
+    }
+
+    /// How long that took.
+    pub(super) fn took(&self) -> Duration {
+        self.took
+    }
+
     /// Whether as much of it would compile on any day.
     pub(super) fn is_settled(&self) -> bool {
         let mut why = self.build.not_compiled.values();
@@ -58,33 +80,71 @@ impl<'a> Grader<'a> {
         let file = exam_file::load(arguments.exam.as_deref())?;
         // A submission that is nowhere is told of before anything is compiled.
         collect(arguments, &workspace)?;
-        Grader::of(arguments, workspace, file)
+        let builder = isolated(builder(arguments, &workspace)?, arguments)?;
+        Grader::of(arguments, workspace, builder, file)
+    }
+
+    /// The same for one submission, which is built meanwhile: reading an exam takes a tenth of the
+    /// time that compiling does, and neither waits for the other.
+    pub(super) fn prepare_building(
+        arguments: &'a Arguments,
+        tell: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
+    ) -> Result<(Self, Submission, Built), Error> {
+        let workspace = Workspace::find()?;
+        let submission = collect(arguments, &workspace)?;
+        let (builder, built, file) = thread::scope(|scope| {
+            let reading = scope.spawn(|| exam_file::load(arguments.exam.as_deref()));
+            let read = |reading: ScopedJoinHandle<'_, _>| reading.join().expect("it reads a file");
+            let builder = isolated(builder(arguments, &workspace)?, arguments)?;
+            // The first time, all that took its time: a bad exam need not wait for more.
+            let (built, file) = match reading.is_finished() {
+                true => {
+                    let file = read(reading)?;
+                    (Built::of(&builder, &submission, tell)?, file)
+                }
+                false => {
+                    let built = Built::of(&builder, &submission, tell)?;
+                    (built, read(reading)?)
+                }
+            };
+            Ok::<_, Error>((builder, built, file))
+        })?;
+        let grader = Grader::of(arguments, workspace, builder, file)?;
+        Ok((grader, submission, built))
     }
 
     /// The same for whoever brings submissions of their own.
     pub fn for_many(arguments: &'a Arguments) -> Result<Self, Error> {
         let file = exam_file::load(arguments.exam.as_deref())?;
-        Grader::of(arguments, Workspace::find()?, file)
+        let workspace = Workspace::find()?;
+        let builder = isolated(builder(arguments, &workspace)?, arguments)?;
+        Grader::of(arguments, workspace, builder, file)
     }
 
-    fn of(arguments: &'a Arguments, workspace: Workspace, file: ExamFile) -> Result<Self, Error> {
+    fn of(
+        arguments: &'a Arguments,
+        workspace: Workspace,
+        builder: Builder,
+        file: ExamFile,
+    ) -> Result<Self, Error> {
         let policy = policy(arguments, &file.exam)?;
         Ok(Grader {
             arguments,
+            lateness: lateness(arguments, &policy)?,
             exam_name: file.name(),
             exam: match arguments.task {
                 Some(task) => file.exam.with_what_it_needs(|item| item.task == task),
                 None => file.exam,
             },
             policy,
-            builder: isolated(builder(arguments, &workspace)?, arguments)?,
+            builder,
             workspace,
         })
     }
 
     /// As much of a score as the policy lets students see.
     pub fn seen(&self, score: &Score) -> Seen {
-        Seen::of(score, &self.policy)
+        Seen::of(score, &self.policy, self.lateness)
     }
 
     /// The formats that were asked for, in `folder` unless they belong elsewhere.
@@ -130,21 +190,7 @@ impl<'a> Grader<'a> {
 
     /// Makes a program of it, as far as it compiles.
     pub fn build(&self, submission: &Submission) -> Result<Built, Error> {
-        self.build_telling(submission, |_| {})
-    }
-
-    /// The same; says what does not compile as soon as that is known.
-    pub(super) fn build_telling(
-        &self,
-        submission: &Submission,
-        tell: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
-    ) -> Result<Built, Error> {
-        let began = Instant::now();
-        let build = self.builder.build_telling(submission, tell)?;
-        Ok(Built {
-            build,
-            took: began.elapsed(),
-        })
+        Ok(Built::of(&self.builder, submission, |_| {})?)
     }
 
     /// The score before anything is asked.
@@ -203,6 +249,13 @@ fn policy(arguments: &Arguments, exam: &Exam) -> Result<Policy, PolicyError> {
     let policy = Policy::read(path)?;
     policy.check(path, exam)?;
     Ok(policy)
+}
+
+/// How late the submission is, where a platform says so.
+fn lateness(arguments: &Arguments, policy: &Policy) -> Result<Lateness, NoMoments> {
+    let handed_in = arguments.gradescope_metadata.as_deref().map(HandedIn::read);
+    let lateness = handed_in.map(|read| read.map(|handed_in| policy.lateness_of(handed_in)));
+    lateness.unwrap_or(Ok(Lateness::NONE))
 }
 
 /// Where a score goes unless told otherwise.

@@ -40,10 +40,9 @@ impl Graded {
 /// Loads the exam, collects the submission, builds it, asks, judges, scores.
 pub fn grade(arguments: &Arguments) -> Result<Graded, Error> {
     let began = Instant::now();
-    let grader = Grader::prepare(arguments)?;
-    let submission = grader.collect()?;
-    let prepared = began.elapsed();
-    let built = grader.build_telling(&submission, say_what_does_not_compile())?;
+    let tell = say_what_does_not_compile();
+    let (grader, submission, built) = Grader::prepare_building(arguments, tell)?;
+    let prepared = began.elapsed().saturating_sub(built.took());
     let exam = grader.exam();
     let mut files = grader.files(&submission);
     if let Some(files) = &mut files {

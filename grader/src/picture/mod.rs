@@ -75,6 +75,16 @@ pub fn of(asked: &Asked, answer: &Answer) -> Option<Picture> {
     })
 }
 
+/// What came of a picture that is right: its film, and each quantity's name and pixels. The same as
+/// [`of`] has, for a tenth of the work, since most pictures are right.
+pub fn received(
+    asked: &Asked,
+    answer: &Answer,
+) -> Option<(UVec2, Vec<(&'static str, Vec<Colour>)>)> {
+    let (film, per_pixel) = grid(&asked.question)?;
+    Some((film, paint::received(asked, answer, per_pixel)?))
+}
+
 fn cell(blemishes: &[Option<Blemish>], something: &[bool]) -> Cell {
     let aspects = blemishes.iter().flatten().map(|blemish| blemish.aspect);
     match aspects.min() {

@@ -1,7 +1,7 @@
 //! Colours for what can not be seen by itself: depths, normals, texture coordinates, directions.
 
 use glam::{Vec2, Vec3};
-use protocol::{Answer, Outcome, Trace};
+use protocol::{Answer, Outcome, Ray, Trace};
 
 use crate::exam::{Asked, Key, Surface};
 use crate::judge::{Aspect, Blemish};
@@ -79,6 +79,44 @@ pub(super) fn views(
     Some(layers.iter().map(view).collect())
 }
 
+/// What came, quantity by quantity, as [`views`] paints it where nothing is wrong.
+pub(super) fn received(
+    asked: &Asked,
+    answer: &Answer,
+    per_pixel: usize,
+) -> Option<Vec<(&'static str, Vec<Colour>)>> {
+    Some(match (&asked.key, answer) {
+        (Key::FirstHits { hits, .. }, Answer::Hits(got)) => {
+            let grey = greys(hits);
+            let paint = |colour: &dyn Fn(&Trace) -> Vec3| {
+                let hit = |hit: &Option<Trace>| hit.as_ref().map_or(NOTHING, colour);
+                means(got, per_pixel, |outcome| of(outcome, hit))
+            };
+            vec![
+                ("normal", paint(&|hit| signed(hit.normal))),
+                ("depth", paint(&|hit| grey(hit.distance))),
+                ("uv", paint(&|hit| texture(hit.uv))),
+            ]
+        }
+        (Key::Rays { .. }, Answer::Rays(rays)) => {
+            let direction = |ray: &Outcome<Ray>| of(ray, |ray| signed(ray.dir));
+            vec![("direction", means(rays, per_pixel, direction))]
+        }
+        (Key::Radiance { .. }, Answer::Picture(Outcome::Value(got))) => {
+            vec![("light", means(got, per_pixel, |pixel| screen(*pixel)))]
+        }
+        (
+            Key::Rays { .. }
+            | Key::Hits { .. }
+            | Key::Spans { .. }
+            | Key::Tree { .. }
+            | Key::FirstHits { .. }
+            | Key::Radiance { .. },
+            _,
+        ) => return None,
+    })
+}
+
 /// Whether there is something to be seen at each position of the right picture.
 pub(super) fn something(asked: &Asked) -> Vec<bool> {
     match &asked.key {
@@ -101,15 +139,7 @@ fn shown_by(aspect: Aspect) -> &'static str {
 }
 
 fn first_hits(hits: &[Option<Surface>], got: &[Outcome<Option<Trace>>]) -> Vec<Layer> {
-    let depths = hits.iter().flatten().map(|surface| surface.depth);
-    let (near, far) = depths.fold((f32::INFINITY, 0.0), |(near, far), depth| {
-        (depth.min(near), depth.max(far))
-    });
-    let grey = |depth: f32| {
-        number(Vec3::splat(
-            1.0 - 0.8 * (depth - near) / (far - near).max(1e-6),
-        ))
-    };
+    let grey = greys(hits);
     let layer = |name, of_key: &dyn Fn(&Surface) -> Vec3, of_got: &dyn Fn(&Trace) -> Vec3| Layer {
         name,
         wanted: hits
@@ -128,6 +158,19 @@ fn first_hits(hits: &[Option<Surface>], got: &[Outcome<Option<Trace>>]) -> Vec<L
         layer("depth", &|hit| grey(hit.depth), &|hit| grey(hit.distance)),
         layer("uv", &|hit| texture(hit.uv), &|hit| texture(hit.uv)),
     ]
+}
+
+/// Depths, the nearest white.
+fn greys(hits: &[Option<Surface>]) -> impl Fn(f32) -> Vec3 {
+    let depths = hits.iter().flatten().map(|surface| surface.depth);
+    let (near, far) = depths.fold((f32::INFINITY, 0.0), |(near, far), depth| {
+        (depth.min(near), depth.max(far))
+    });
+    move |depth: f32| {
+        number(Vec3::splat(
+            1.0 - 0.8 * (depth - near) / (far - near).max(1e-6),
+        ))
+    }
 }
 
 fn of<T>(outcome: &Outcome<T>, paint: impl Fn(&T) -> Vec3) -> Vec3 {
@@ -180,7 +223,12 @@ fn view(layer: &Layer, blemishes: &[Option<Blemish>], per_pixel: usize) -> View 
 }
 
 fn pixels(positions: &[Vec3], per_pixel: usize) -> Vec<Colour> {
-    let mean = |pixel: &[Vec3]| pixel.iter().sum::<Vec3>() / per_pixel as f32;
+    means(positions, per_pixel, |colour| *colour)
+}
+
+/// Each pixel's mean over its positions.
+fn means<T>(positions: &[T], per_pixel: usize, paint: impl Fn(&T) -> Vec3) -> Vec<Colour> {
+    let mean = |pixel: &[T]| pixel.iter().map(&paint).sum::<Vec3>() / per_pixel as f32;
     let bytes = |colour: Vec3| {
         colour
             .to_array()

@@ -3,6 +3,7 @@
 //! Nothing here changes a score: `score.json` says what a submission is worth as if in time, and
 //! what counts follows from it and from the policy.
 
+mod handed_in;
 mod late;
 mod read;
 mod visibility;
@@ -12,6 +13,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::value::Datetime;
 
+pub use handed_in::{HandedIn, NoMoments};
 pub use late::{Counted, Lateness};
 pub use read::PolicyError;
 pub use visibility::Visibility;

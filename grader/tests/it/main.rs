@@ -16,5 +16,6 @@ mod ordinary_user;
 mod packages;
 mod policies;
 mod scores;
+mod unchanged;
 mod walls;
 mod watch;

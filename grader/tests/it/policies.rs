@@ -1,7 +1,9 @@
 //! What a course decides by itself: what points count for, and that a slip in saying so is told.
 
 use insta::assert_snapshot;
+use serde_json::Value;
 
+use crate::formats::{exam, written};
 use crate::harness::{Submission, grader};
 
 /// What is said of a policy, in which nothing is graded.
@@ -46,4 +48,37 @@ fn the_default_policy_explains_itself() {
     let output = grader().arg("--policy-default").output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     assert_eq!(text, grader::policy::DEFAULT);
+}
+
+#[test]
+fn what_comes_late_on_gradescope_counts_as_the_policy_says_and_is_told() {
+    let metadata = r#"{"id": 1, "created_at": "2026-11-21T00:10:00.365935-08:00",
+        "assignment": {"due_date": "2026-11-20T23:59:59.000000-08:00", "late_due_date": null}}"#;
+    let submission = Submission::reference("late")
+        .with("policy.toml", "[late]\npercent_per_day = 10")
+        .with("metadata.json", metadata);
+    let path = |name: &str| submission.path().join(name).to_str().unwrap().to_owned();
+    let (policy, metadata) = (path("policy.toml"), path("metadata.json"));
+    let late = ["--policy", &policy, "--gradescope-metadata", &metadata];
+    let written = written(&submission, &exam("final"), &late);
+    let results: Value = serde_json::from_str(&written["gradescope"]).unwrap();
+    let points = results["extra_data"]["points"].as_u64().unwrap();
+    let counted = (points * 9 + 5) / 10;
+    assert_eq!(results["score"], counted);
+    let told = format!("counts for {counted} of {points} points, a day late");
+    let output = results["output"].as_str().unwrap();
+    assert!(output.contains(&told), "{output}");
+}
+
+#[test]
+fn a_platform_that_tells_no_moments_is_no_students_fault() {
+    let submission = Submission::starter("any").with("metadata.json", "{}");
+    let path = submission.path().join("metadata.json");
+    let graded = submission.grade_with(&["--gradescope-metadata", path.to_str().unwrap()]);
+    assert_eq!(graded.exit_code(), 3, "{}", graded.error());
+    assert!(
+        graded.error().contains("nothing counts as late"),
+        "{}",
+        graded.error()
+    );
 }

@@ -72,8 +72,8 @@ pub enum Command {
         /// What counts, and who sees what; default: `cargo grade --policy-default`
         #[arg(long, value_name = "FILE")]
         policy: Option<PathBuf>,
-        /// Set it up as the platform does and grade the starter and the reference there;
-        /// gradescope's without a network, on Linux, as root
+        /// Set it up and run it as the platform does, without a network, within half of a core, and
+        /// grade the reference, the starter and what steals there; on Linux, as root or with sudo
         #[arg(long)]
         check: bool,
     },

@@ -177,12 +177,21 @@ fn pack(root: &Path, platform: Platform, package: &Bundle, out: &Path, check: bo
             match check {
                 true => conclude(
                     &trial::classroom50::check(root, out)?,
-                    "it grades a checkout",
+                    "it grades a checkout as classroom50 runs it",
                 ),
                 false => Ok(()),
             }
         }
-        Platform::Github => hand_out(root, package, Some(out), check),
+        Platform::Github => {
+            hand_out(root, package, Some(out), false)?;
+            match check {
+                true => conclude(
+                    &trial::github::check(root, package)?,
+                    "its workflow grades a checkout",
+                ),
+                false => Ok(()),
+            }
+        }
     }
 }
 

@@ -125,6 +125,7 @@ fn a_variant_that_is_wrong_is_found() {
         title: String::new(),
         source: None,
         may_lose: Vec::new(),
+        crates: Vec::new(),
     };
     let lost = EXHIBITS.variant_losses(&variant, sources, &practice_exam());
     assert!(!lost.unwrap().is_empty());

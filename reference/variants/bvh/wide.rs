@@ -146,10 +146,16 @@ impl Bvh {
                         continue;
                     }
                     if open.is_full() {
-                        // A tree so deep is rare: what does not fit has a call of its own.
-                        self.walk(first.child(), beam, ray, closest);
+                        // A tree so deep is rare: what does not fit has calls of its own.
+                        let mut here = Open::new();
+                        here.insert(0, first);
                         while mask != 0 {
-                            self.walk(visit(&mut mask).child(), beam, ray, closest);
+                            here.insert(0, visit(&mut mask));
+                        }
+                        while let Some(next) = here.pop() {
+                            if next.entry() <= closest.distance {
+                                self.walk(next.child(), beam, ray, closest);
+                            }
                         }
                     } else {
                         let base = open.len;
@@ -506,19 +512,19 @@ impl Folding<'_> {
 
     fn leaf(&mut self, node: &Node) -> u32 {
         let start = self.packs.len();
-        let mut triangles = Vec::new();
+        let mut in_fours = Vec::new();
         for place in node.start..node.start + node.size {
             let primitive = &self.primitives[place];
             let place = small(place);
             match primitive {
-                Primitive::Triangle(triangle) => triangles.push((place, triangle)),
+                Primitive::Triangle(triangle) => in_fours.push((place, triangle)),
                 Primitive::Sphere(_) => {
                     let is_last = false;
                     self.packs.push(Pack::Sphere { place, is_last });
                 }
             }
         }
-        let fours = triangles.chunks(4);
+        let fours = in_fours.chunks(4);
         self.packs
             .extend(fours.map(|four| Pack::Triangles(Four::new(four))));
         match self.packs[start..].last_mut() {

@@ -9,7 +9,8 @@ use sha2::{Digest, Sha256};
 
 use crate::model::{Class, Line};
 use crate::outcome::Told;
-use crate::summary::{Spread, Summary};
+use crate::spread::Spread;
+use crate::summary::Summary;
 
 const STYLE: &str = include_str!("page.css");
 

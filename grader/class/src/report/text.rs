@@ -8,7 +8,8 @@ use grader::tame::tame;
 
 use crate::drift::Drift;
 use crate::gradebook::Filled;
-use crate::summary::{Spread, Summary};
+use crate::spread::Spread;
+use crate::summary::Summary;
 
 const STRONG: Style = Style::new().bold();
 const FAINT: Style = Style::new().dimmed();

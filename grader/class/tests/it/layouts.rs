@@ -140,6 +140,23 @@ fn canvass_files_are_sorted_by_user_and_the_newest_counts() {
 }
 
 #[test]
+fn one_of_a_group_hands_in_for_all_where_canvas_says_who_they_are() {
+    let place = Place::named("submissions")
+        .with("doejane_7001_9001_hw.zip", archive())
+        .with("oharabob_7003_9030_hw.zip", archive());
+    let groups = place.list(
+        "groups.csv",
+        "name,canvas_user_id,user_id,login_id,sections,group_name,canvas_group_id,group_id
+Jane Doe,7001,u1,jane,Lab 2,Team A,51,
+\"Núñez, José\",7002,u2,jose,Lab 2,Team A,51,
+Bob O'Hara,7003,u3,bob,Lab 1,,,
+Ann Lee,7004,u4,ann,Lab 1,Team B,52,
+",
+    );
+    assert_snapshot!(place.preview_of(&place.input(), &["--roster", &groups]));
+}
+
+#[test]
 fn moodles_folders_hold_files_or_an_archive() {
     let place = Place::named("CG-Path tracing-77")
         .with_five("José Núñez_301_assignsubmission_file_")

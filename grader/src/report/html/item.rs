@@ -17,10 +17,9 @@ pub(super) fn failing(
     score: &ItemScore,
     item: Option<&Item>,
     exhibits: &Exhibits,
-    again: &Again,
+    again: Option<&Again>,
     is_open: bool,
 ) -> Markup {
-    let (asked, got, wanted) = three_rows(score, item);
     html! {
         details .item id=(score.id) open[is_open] {
             summary {
@@ -33,12 +32,14 @@ pub(super) fn failing(
             }
             div .body {
                 @if !score.message.is_empty() { p { (said(&score.message)) } }
-                (rows(&asked, &got, &wanted))
+                (three(score, item))
                 (drawn(score, item, exhibits))
                 (look(score))
                 (hints(score))
-                p .again { "Ask it again: " (command(&score.again(again))) }
-                @if let Some(item) = item { (pictures::failing(item, exhibits, again)) }
+                @if let Some(again) = again {
+                    p .again { "Ask it again: " (command(&score.again(again))) }
+                    @if let Some(item) = item { (pictures::failing(item, exhibits, again)) }
+                }
             }
         }
     }
@@ -75,14 +76,22 @@ fn verdict(score: &ItemScore) -> Markup {
     }
 }
 
-/// Asked, got, wanted. Where there is no evidence, they say why.
-fn three_rows(score: &ItemScore, item: Option<&Item>) -> (String, String, String) {
-    if let Some(evidence) = &score.evidence {
-        let evidence = evidence.clone();
-        return (evidence.asked, evidence.got, evidence.wanted);
+/// Asked, got, wanted. Nothing of an item that its reader is not to know.
+fn three(score: &ItemScore, item: Option<&Item>) -> Markup {
+    match (&score.evidence, item) {
+        (Some(evidence), _) => rows(&evidence.asked, &evidence.got, &evidence.wanted),
+        (None, Some(item)) => {
+            let (asked, got, wanted) = without_evidence(score, item);
+            rows(&asked, &got, &wanted)
+        }
+        (None, None) => html! {},
     }
-    let count = item.map_or(0, Item::count);
-    let first = item.and_then(|item| item.questions.first());
+}
+
+/// Where there is no evidence, the three say why.
+fn without_evidence(score: &ItemScore, item: &Item) -> (String, String, String) {
+    let count = item.count();
+    let first = item.questions.first();
     let first = first.filter(|asked| asked.question.count() > 0);
     let three = |asked: &str, got: &str, wanted: &str| {
         (asked.to_owned(), got.to_owned(), wanted.to_owned())

@@ -16,12 +16,15 @@ mod task;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::again::Again;
 use crate::exam::Exam;
 use crate::exhibit::Exhibits;
 use crate::score::Score;
 
 use said::said;
 
+/// The exam that students have.
+const PRACTICE: &str = "practice";
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 /// Their names in the page's policy, which a test compares with them: who changes one, changes both.
@@ -39,6 +42,29 @@ pub enum Reload {
 
 /// The page. `exam` is what the score is of; `exhibits` are the answers worth a look.
 pub fn page(score: &Score, exam: &Exam, exhibits: &Exhibits, reload: Reload) -> String {
+    whole(score, exam, exhibits, Some(&score.again), reload)
+}
+
+/// The page for students of an exam that they do not have: what this score says, which is to be what
+/// they may see, and nothing of the exam itself.
+pub fn feedback(score: &Score) -> String {
+    let unseen = Exam {
+        schema: score.schema,
+        id: score.exam.id.clone(),
+        mistakes: Vec::new(),
+        items: Vec::new(),
+    };
+    whole(score, &unseen, &Exhibits::default(), None, Reload::Never)
+}
+
+/// `again` is how to ask the same once more, for whoever can.
+fn whole(
+    score: &Score,
+    exam: &Exam,
+    exhibits: &Exhibits,
+    again: Option<&Again>,
+    reload: Reload,
+) -> String {
     let title = format!(
         "{}: {} of {} points",
         score.submission, score.points, score.max_points
@@ -58,13 +84,13 @@ pub fn page(score: &Score, exam: &Exam, exhibits: &Exhibits, reload: Reload) -> 
                 a .skip href="#next" { "Skip to what to do next" }
                 (summary::header(score))
                 main {
-                    (summary::next(score))
+                    (summary::next(score, again))
                     (task::files(score))
                     @for task in &score.tasks {
-                        (task::section(task, exam, exhibits, &score.again))
+                        (task::section(task, exam, exhibits, again))
                     }
                 }
-                (footer(score))
+                (footer(score, again))
                 // Says to those who listen what a button has done.
                 p #said .quiet role="status" {}
                 script { (PreEscaped(SCRIPT)) }
@@ -82,13 +108,23 @@ fn policy() -> String {
     )
 }
 
-fn footer(score: &Score) -> Markup {
+fn footer(score: &Score, again: Option<&Again>) -> Markup {
     html! {
         footer {
-            p {
-                "Exam " code { (said(&score.exam.id)) } ", "
-                code { (said(score.exam.hash.get(..12).unwrap_or_default())) } ". "
-                "The same, for programs: " code { "score.json" } " beside this page."
+            @if again.is_some() {
+                p {
+                    "Exam " code { (said(&score.exam.id)) } ", "
+                    code { (said(score.exam.hash.get(..12).unwrap_or_default())) } ". "
+                    "The same, for programs: " code { "score.json" } " beside this page."
+                }
+            }
+            @if again.is_some() && score.exam.id != PRACTICE {
+                p {
+                    strong { "Not for students:" }
+                    " this page tells the exam’s questions and answers. What they may see is "
+                    code { "feedback.html" } ", which " code { "cargo class" } " and "
+                    code { "cargo grade --format html" } " write."
+                }
             }
         }
     }

@@ -2,6 +2,7 @@
 //!
 //! Without a script all of them stand side by side. `page.js` adds the slider and the flicker.
 
+use glam::UVec2;
 use maud::{Markup, html};
 
 use super::mask;
@@ -41,13 +42,13 @@ pub(super) fn passed(item: &Item, exhibits: &Exhibits) -> Markup {
     let asked = item.questions.iter().enumerate();
     let pictures = asked.filter_map(|(question, asked)| {
         let answer = exhibits.answer(&item.id, question)?;
-        picture::of(asked, answer)
+        picture::received(asked, answer)
     });
     html! {
-        @for picture in pictures {
+        @for (film, views) in pictures {
             div .panels {
-                @for view in &picture.views {
-                    (panel(&picture, view.name, &view.got, "yours"))
+                @for (name, pixels) in &views {
+                    (panel(film, name, pixels, "yours"))
                 }
             }
         }
@@ -185,18 +186,18 @@ fn words(spot: &Spot) -> String {
 fn row(picture: &Picture, view: &View) -> Markup {
     html! {
         div .row data-view=(view.name) {
-            (panel(picture, view.name, &view.wanted, "right"))
-            (panel(picture, view.name, &view.got, "yours"))
-            (panel(picture, view.name, &view.difference, "difference, 4 ×"))
+            (panel(picture.film, view.name, &view.wanted, "right"))
+            (panel(picture.film, view.name, &view.got, "yours"))
+            (panel(picture.film, view.name, &view.difference, "difference, 4 ×"))
         }
     }
 }
 
-fn panel(picture: &Picture, view: &str, pixels: &[picture::Colour], what: &str) -> Markup {
+fn panel(film: UVec2, view: &str, pixels: &[picture::Colour], what: &str) -> Markup {
     let title = format!("{view}, {what}");
     html! {
         figure {
-            div .frame { img src=(data_uri(picture.film, pixels)) alt=(title); }
+            div .frame { img src=(data_uri(film, pixels)) alt=(title); }
             figcaption { (title) }
         }
     }

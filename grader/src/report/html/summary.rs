@@ -71,14 +71,14 @@ fn bar(task: &TaskScore) -> Markup {
 }
 
 /// The one thing to do: the first item in lecture order that fails.
-pub(super) fn next(score: &Score) -> Markup {
+pub(super) fn next(score: &Score, again: Option<&Again>) -> Markup {
     let fails = |item: &&ItemScore| item.points < item.max_points;
     html! {
         section aria-labelledby="next" {
             h2 #next { "What to do next" }
             @match score.items().find(fails) {
                 None => (nothing(score)),
-                Some(item) => (mend(item, &score.again)),
+                Some(item) => (mend(item, again)),
             }
         }
     }
@@ -95,7 +95,7 @@ fn nothing(score: &Score) -> Markup {
     }
 }
 
-fn mend(item: &ItemScore, again: &Again) -> Markup {
+fn mend(item: &ItemScore, again: Option<&Again>) -> Markup {
     let place = format!("#{}", item.id);
     html! {
         p {
@@ -115,6 +115,8 @@ fn mend(item: &ItemScore, again: &Again) -> Markup {
         @if let Some(look) = &item.look {
             p { (prose(look)) }
         }
-        p .again { "Ask it again: " (command(&item.again(again))) }
+        @if let Some(again) = again {
+            p .again { "Ask it again: " (command(&item.again(again))) }
+        }
     }
 }

@@ -36,7 +36,12 @@ pub(super) fn files(score: &Score) -> Markup {
 }
 
 /// One task: failing items first, then what was printed, then what passed.
-pub(super) fn section(task: &TaskScore, exam: &Exam, exhibits: &Exhibits, again: &Again) -> Markup {
+pub(super) fn section(
+    task: &TaskScore,
+    exam: &Exam,
+    exhibits: &Exhibits,
+    again: Option<&Again>,
+) -> Markup {
     let is_failing = |item: &&ItemScore| item.points < item.max_points;
     let (failing, passed): (Vec<&ItemScore>, Vec<&ItemScore>) =
         task.items.iter().partition(is_failing);

@@ -103,6 +103,7 @@ fn hidden_items_are_hidden_or_counted_together() {
         "check50",
         "prairielearn",
         "text",
+        "html",
     ] {
         let text = &written[format];
         assert!(!text.contains("sphere.near_side"), "{format}: {text}");

@@ -14,8 +14,9 @@ use tempfile::TempDir;
 use crate::harness::{Submission, grader, workspace};
 
 /// All formats but the score file, with the names of their files.
-pub const FORMATS: [(&str, &str); 8] = [
+pub const FORMATS: [(&str, &str); 9] = [
     ("text", "report.txt"),
+    ("html", "feedback.html"),
     ("gradescope", "gradescope.json"),
     ("classroom50", "classroom50.json"),
     ("junit", "junit.xml"),

@@ -17,6 +17,7 @@ pub fn check(format: &str, text: &str) {
         "github-classroom" => github_classroom(text),
         "check50" => check50(text),
         "prairielearn" => prairielearn(text),
+        "html" => assert!(!text.contains("src=\"") && text.ends_with("</html>")),
         "github" => assert!(text.len() < 1 << 20 && text.starts_with("## ")),
         _ => assert!(!text.contains('\u{1b}'), "{format} holds an escape"),
     }
@@ -26,9 +27,20 @@ pub fn check(format: &str, text: &str) {
 pub fn readable(format: &str, text: &str) -> String {
     match format {
         "github-classroom" => format!("{:#}", decoded(text)),
-        "junit" => Report::deserialize_from_str(text).unwrap().to_string().unwrap(),
+        "html" => without(without(text, "style"), "script").replace("><", ">\n<"),
+        "junit" => Report::deserialize_from_str(text)
+            .unwrap()
+            .to_string()
+            .unwrap(),
         _ => text.to_owned(),
     }
+}
+
+/// The page without what is the same on every page.
+fn without(page: impl AsRef<str>, element: &str) -> String {
+    let (before, rest) = page.as_ref().split_once(&format!("<{element}>")).unwrap();
+    let (_, after) = rest.split_once(&format!("</{element}>")).unwrap();
+    format!("{before}{after}")
 }
 
 fn decoded(text: &str) -> Value {

@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use grader::exam_file;
 use grader::format::{Around, Format, Seen};
-use grader::policy::Policy;
+use grader::policy::{Lateness, Policy};
 use grader::verdict::unasked;
 
 use crate::formats::models::{check, readable};
@@ -23,7 +23,7 @@ fn a_job_that_was_killed_says_that_it_is_unfinished() {
         .variables
         .insert("SUBMITTED_AT", "2026-11-20T21:09:58Z".to_owned());
     let score = unasked(&file.exam, file.name(), "killed");
-    let seen = Seen::of(&score, &Policy::default());
+    let seen = Seen::of(&score, &Policy::default(), Lateness::NONE);
     for format in Format::value_variants() {
         let Some(text) = format.text(&seen, &around) else {
             continue;

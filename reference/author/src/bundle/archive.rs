@@ -64,7 +64,7 @@ pub fn write_folder(bundle: &Bundle, out: &Path) -> Result<(), NotWritten> {
 }
 
 /// Writes all files below `folder`.
-pub(super) fn lay_out(bundle: &Bundle, folder: &Path) -> io::Result<()> {
+pub(crate) fn lay_out(bundle: &Bundle, folder: &Path) -> io::Result<()> {
     for (path, contents) in &bundle.files {
         let path = folder.join(path);
         path.parent().map_or(Ok(()), fs::create_dir_all)?;

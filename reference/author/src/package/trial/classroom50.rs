@@ -1,87 +1,92 @@
 //! The trial of classroom50's folder: its entry point in a student's checkout, with what the runner
-//! sets.
+//! sets, as its user.
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::time::Duration;
 
-use grader::given::TASK_FILES;
+use grader::doctor::package;
 use serde_json::Value;
 
-use crate::package::trial::{NotTried, at};
+use crate::bundle::{Bundle, archive};
+use crate::package::trial::handed_in::HandedIn;
+use crate::package::trial::runner::{CHECKOUT, Runner, Step};
+use crate::package::trial::{NotTried, at, timed};
 
-/// Where it is tried, from the workspace's root. What was compiled there stays for the next time.
+/// Where it is tried, from the workspace's root.
 const PLACE: &str = "target/package/classroom50";
-/// As the runner sets them.
-const RUNNER: [(&str, &str); 8] = [
-    ("CLASSROOM", "gfx-f26"),
-    ("ASSIGNMENT", "pathtracer"),
-    ("ASSIGNMENT_TYPE", "individual"),
-    ("USERNAME", "alice"),
-    ("SUBMISSION_TAG", "submit/2026-11-20T21-10-05Z-a1b2c3d"),
-    ("COMMIT_URL", "https://example.org/commit/a1b2c3d"),
-    ("RELEASE_URL", "https://example.org/releases/1"),
-    ("REVIEW_URL", "https://example.org/compare/1"),
+/// What classroom50 gives a submission.
+const PLATFORM: Duration = Duration::from_secs(15 * 60);
+/// The teacher's folder, on the runner.
+const FOLDER: &str = "/home/runner/autograder";
+/// As the runner sets them. What is compiled stays from one submission to the next, to save time here.
+const VARIABLES: [&str; 10] = [
+    "CLASSROOM=gfx-f26",
+    "ASSIGNMENT=pathtracer",
+    "ASSIGNMENT_TYPE=individual",
+    "USERNAME=alice",
+    "SUBMISSION_TAG=submit/2026-11-20T21-10-05Z-a1b2c3d",
+    "COMMIT_URL=https://example.org/commit/a1b2c3d",
+    "RELEASE_URL=https://example.org/releases/1",
+    "REVIEW_URL=https://example.org/compare/1",
+    "CLASSROOM50_BUNDLE_DIR=/home/runner/autograder",
+    "CARGO_TARGET_DIR=/home/runner/built",
 ];
 
 /// Tries the folder, and tells what is not as it should be.
 pub fn check(workspace: &Path, folder: &Path) -> Result<Vec<String>, NotTried> {
-    let folder = &folder.canonicalize().map_err(at(folder))?;
-    let place = &workspace.canonicalize().map_err(at(workspace))?.join(PLACE);
-    let mut complaints = Vec::new();
-    for (whose, files, points) in [
-        ("reference", "reference/src", 100),
-        ("starter", "grader/starter", 0),
-    ] {
-        let checkout = &place.join(whose);
-        check_out(&workspace.join(files), checkout)?;
-        let output = Command::new("python3")
-            .arg(folder.join("autograder.py"))
-            .current_dir(checkout)
-            .envs(RUNNER)
-            .env("CLASSROOM50_BUNDLE_DIR", folder)
-            .env("CARGO_TARGET_DIR", place.join("built"))
-            .output()
-            .map_err(at(Path::new("python3")))?;
-        let result = fs::read(checkout.join("result.json")).unwrap_or_default();
-        let result: Value = serde_json::from_slice(&result).unwrap_or_default();
-        let is_right = result["score"] == points && result["max-score"] == 100;
-        let is_theirs = result["owner"] == "alice" && result["datetime"] == "2026-11-20T20:09:58Z";
-        let has_page = checkout.join("release-body.md").is_file();
-        if !(output.status.success() && is_right && is_theirs && has_page) {
-            let said = String::from_utf8_lossy(&output.stderr).into_owned();
-            complaints.push(format!("the {whose}: {result:.300}\n{said}"));
+    let mut complaints = package::complaints(folder)?;
+    let workspace = &workspace.canonicalize().map_err(at(workspace))?;
+    let packed = fs::read(folder.join("pathtracing.zip")).map_err(at(folder))?;
+    let grader = archive::unzip(&packed)?;
+    let lock = grader.text("Cargo.lock").unwrap_or_default();
+    let Some(runner) = Runner::empty(&workspace.join(PLACE), lock)? else {
+        return Ok(complaints);
+    };
+    let theirs = runner.inside(FOLDER);
+    archive::lay_out(&teachers(folder)?, &theirs).map_err(at(&theirs))?;
+    for handed_in in [HandedIn::Reference, HandedIn::Starter, HandedIn::Nothing] {
+        runner.check_out(|checkout| handed_in.lay_out(workspace, &checkout.join("student/src")))?;
+        let step = runner.step(
+            &VARIABLES,
+            &["python3", "/home/runner/autograder/autograder.py"],
+        )?;
+        timed(handed_in.words(), &step.ended, PLATFORM, &mut complaints);
+        let checkout = runner.inside(CHECKOUT);
+        if !is_right(handed_in, &checkout, &step) {
+            let result = fs::read_to_string(checkout.join("result.json")).unwrap_or_default();
+            complaints.push(format!(
+                "{}: {result:.300}\n{}",
+                handed_in.words(),
+                step.ended.said
+            ));
         }
     }
     Ok(complaints)
 }
 
-/// A student's repository with one commit.
-fn check_out(files: &Path, checkout: &Path) -> Result<(), NotTried> {
-    if checkout.exists() {
-        fs::remove_dir_all(checkout).map_err(at(checkout))?;
+/// Both files of the folder.
+fn teachers(folder: &Path) -> Result<Bundle, NotTried> {
+    let mut bundle = Bundle::default();
+    for name in ["autograder.py", "pathtracing.zip"] {
+        let contents = fs::read(folder.join(name)).map_err(at(folder))?;
+        bundle.put(name, contents);
     }
-    let source = checkout.join("student/src");
-    fs::create_dir_all(&source).map_err(at(&source))?;
-    for file in TASK_FILES {
-        let from = files.join(file.name);
-        fs::copy(&from, source.join(file.name)).map_err(at(&from))?;
-    }
-    let git = |arguments: &[&str]| {
-        let mut git = Command::new("git");
-        git.args([
-            "-c",
-            "user.name=alice",
-            "-c",
-            "user.email=alice@example.org",
-        ])
-        .args(arguments)
-        .env("GIT_COMMITTER_DATE", "2026-11-20T21:09:58+01:00")
-        .current_dir(checkout);
-        git.output().map_err(at(Path::new("git")))
+    Ok(bundle)
+}
+
+/// Whether what the runner reads is there. Where nothing was handed in, there is no result, and the
+/// release stays as it was.
+fn is_right(handed_in: HandedIn, checkout: &Path, step: &Step) -> bool {
+    let result = fs::read(checkout.join("result.json")).ok();
+    let result: Option<Value> = result.and_then(|text| serde_json::from_slice(&text).ok());
+    let Some(result) = result else {
+        let is_told = step.ended.said.contains("camera.rs, triangle.rs");
+        return handed_in == HandedIn::Nothing && step.ended.code == Some(2) && is_told;
     };
-    git(&["init", "--quiet"])?;
-    git(&["add", "."])?;
-    git(&["commit", "--quiet", "--message", "hand in"])?;
-    Ok(())
+    let is_theirs = result["owner"] == "alice" && result["datetime"] == "2026-11-20T20:09:58Z";
+    let is_right = result["score"] == handed_in.points() && result["max-score"] == 100;
+    let body = fs::read_to_string(checkout.join("release-body.md")).unwrap_or_default();
+    let is_shown = !body.is_empty() && step.summary == body;
+    step.ended.code == Some(0) && is_right && is_theirs && is_shown
 }

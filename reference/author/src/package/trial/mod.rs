@@ -1,12 +1,24 @@
 //! The trials of packages: each laid out and run as its platform does it.
 
 pub mod classroom50;
+pub mod github;
 pub mod gradescope;
+mod handed_in;
+mod machine;
+mod runner;
+mod thief;
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
+use grader::doctor::package::NoPackage;
 use zip::result::ZipError;
+
+use crate::bundle::NoBundle;
+use crate::bundle::crates::NoCrates;
+use crate::bundle::secrets::NoSecrets;
+use crate::package::trial::machine::Ended;
 
 /// A package was not tried: our fault, or the machine's.
 #[derive(Debug, thiserror::Error)]
@@ -14,6 +26,29 @@ pub enum NotTried {
     /// Cargo did not start us.
     #[error("cargo has to say where it is: run `cargo author package … --check`")]
     NoCargo,
+    /// What a trial takes, where it has to be tried.
+    #[error("{0}; where CI is set, a trial is not skipped")]
+    Lacking(String),
+    /// The starter is not what it was.
+    #[error("{file} has no line `{head}` to be attacked at: adapt trial/thief.rs")]
+    NoPlace {
+        /// The file.
+        file: &'static str,
+        /// What it had.
+        head: String,
+    },
+    /// It can not be looked at.
+    #[error(transparent)]
+    Package(#[from] NoPackage),
+    /// What students get can not be collected.
+    #[error(transparent)]
+    Bundle(#[from] NoBundle),
+    /// The crates are not at hand.
+    #[error(transparent)]
+    Crates(#[from] NoCrates),
+    /// What must not be told can not be read.
+    #[error(transparent)]
+    Secrets(#[from] NoSecrets),
     /// It can not be unpacked.
     #[error("the zip: {0}")]
     Zip(#[from] ZipError),
@@ -30,4 +65,26 @@ pub enum NotTried {
 fn at(path: &Path) -> impl FnOnce(io::Error) -> NotTried {
     let path = path.to_owned();
     move |source| NotTried::Io { path, source }
+}
+
+/// Says on the terminal what a submission took, and complains if that is more than half of what the
+/// platform gives: by CPU time at half of a core, which no other load of this machine changes.
+fn timed(whose: &str, ended: &Ended, platform: Duration, complaints: &mut Vec<String>) {
+    let Some(used) = ended.used else {
+        return println!("{:6.1} s  {whose}", ended.took.as_secs_f64());
+    };
+    let slow = 2 * used.cpu;
+    let memory = used.memory.map_or(String::new(), |bytes| {
+        format!(", {} MB at most", bytes / 1_000_000)
+    });
+    println!(
+        "{:6.1} s of half a core ({:.1} s by the clock){memory}: {whose}",
+        slow.as_secs_f64(),
+        ended.took.as_secs_f64()
+    );
+    if slow > platform / 2 {
+        complaints.push(format!(
+            "{whose} took {slow:.0?} of half a core, and the platform gives {platform:.0?}: half of it is the most"
+        ));
+    }
 }

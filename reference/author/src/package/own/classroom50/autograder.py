@@ -30,7 +30,17 @@ def main():
         command += ["--policy", str(grader / "policy.toml"), "--format"]
         command += [f"classroom50={checkout / 'result.json'}"]
         command += [f"github={checkout / 'release-body.md'}"]
-        return subprocess.run(command, cwd=grader, env=environment).returncode
+        code = subprocess.run(command, cwd=grader, env=environment).returncode
+    show(checkout / "release-body.md")
+    return code
+
+
+def show(body):
+    """The release's words, on the page of the run as well."""
+    page = os.environ.get("GITHUB_STEP_SUMMARY")
+    if page and body.is_file():
+        with open(page, "a", encoding="utf-8") as summary:
+            summary.write(body.read_text(encoding="utf-8"))
 
 
 def committed(checkout):

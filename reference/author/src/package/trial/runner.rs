@@ -1,0 +1,117 @@
+//! A runner of GitHub's, as far as a step of a workflow sees it: its user, home and variables, and the
+//! files that a step writes to.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::bundle::crates;
+use crate::package::trial::machine::{Ended, Job, Limits, Machine, Who};
+use crate::package::trial::{NotTried, at};
+
+const HOME: &str = "/home/runner";
+/// Where a student's repository is checked out.
+pub const CHECKOUT: &str = "/home/runner/work/pathtracing/pathtracing";
+/// What every step sees. Nothing is fetched: of crates there are those in the home.
+const VARIABLES: [&str; 10] = [
+    "CI=true",
+    "GITHUB_ACTIONS=true",
+    "GITHUB_ACTOR=alice",
+    "GITHUB_REPOSITORY=gfx-f26/pathtracing-alice",
+    "GITHUB_WORKSPACE=/home/runner/work/pathtracing/pathtracing",
+    "GITHUB_OUTPUT=/home/runner/step/output",
+    "GITHUB_STEP_SUMMARY=/home/runner/step/summary.md",
+    "RUNNER_TEMP=/tmp",
+    "CARGO_NET_OFFLINE=true",
+    "CARGO_TERM_COLOR=never",
+];
+
+/// A machine with such a user's home.
+#[derive(Debug)]
+pub struct Runner(Machine);
+
+/// What a step left.
+#[derive(Debug)]
+pub struct Step {
+    /// How it ended.
+    pub ended: Ended,
+    /// What is shown on the run's page.
+    pub summary: String,
+}
+
+impl Runner {
+    /// One with the crates that this lock file names. None where this system gives us no machine.
+    pub fn empty(root: &Path, lock: &str) -> Result<Option<Self>, NotTried> {
+        let Some(machine) = Machine::empty(root)? else {
+            return Ok(None);
+        };
+        let registry = machine.inside(HOME).join(".cargo/registry");
+        for (path, contents) in crates::fetched(lock)? {
+            put(&registry.join(path), &contents)?;
+        }
+        Ok(Some(Runner(machine)))
+    }
+
+    /// Where a path of its lies.
+    pub fn inside(&self, path: &str) -> PathBuf {
+        self.0.inside(path)
+    }
+
+    /// A repository with one commit, of what `fill` puts into it.
+    pub fn check_out(
+        &self,
+        fill: impl FnOnce(&Path) -> Result<(), NotTried>,
+    ) -> Result<(), NotTried> {
+        let checkout = &self.inside(CHECKOUT);
+        for folder in [checkout, &self.inside("/home/runner/step")] {
+            self.0.clear(folder)?;
+            fs::create_dir_all(folder).map_err(at(folder))?;
+        }
+        for file in ["output", "summary.md"] {
+            put(&self.inside("/home/runner/step").join(file), b"")?;
+        }
+        fill(checkout)?;
+        for words in [
+            "init --quiet",
+            "add .",
+            "commit --quiet --allow-empty --message handed-in",
+        ] {
+            let mut git = Command::new("git");
+            git.args([
+                "-c",
+                "user.name=alice",
+                "-c",
+                "user.email=alice@example.org",
+            ])
+            .args(words.split(' '))
+            .env("GIT_COMMITTER_DATE", "2026-11-20T21:09:58+01:00")
+            .current_dir(checkout);
+            git.output().map_err(at(Path::new("git")))?;
+        }
+        Ok(())
+    }
+
+    /// Runs a step there.
+    pub fn step(&self, variables: &[&str], words: &[&str]) -> Result<Step, NotTried> {
+        let variables: Vec<&str> = VARIABLES.iter().chain(variables).copied().collect();
+        let ended = self.0.run(Job {
+            who: Who::Runner,
+            limits: Limits::Platform,
+            folder: CHECKOUT,
+            variables: &variables,
+            words,
+        })?;
+        let summary = self.inside("/home/runner/step/summary.md");
+        Ok(Step {
+            ended,
+            summary: fs::read_to_string(summary).unwrap_or_default(),
+        })
+    }
+}
+
+fn put(path: &Path, contents: &[u8]) -> Result<(), NotTried> {
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(at(folder))?;
+    }
+    fs::write(path, contents).map_err(at(path))
+}

@@ -1,0 +1,160 @@
+//! A submission that knows where everything is: it includes, opens and overwrites what the package
+//! holds. What it must not get is looked for in all that it could have said.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use crate::bundle::Bundle;
+use crate::bundle::secrets::Secrets;
+use crate::package::trial::{NotTried, at};
+
+/// What it does, by file: each into the head of this method.
+const ATTACKS: [(&str, &str, &str); 5] = [
+    (
+        "camera.rs",
+        "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {",
+        r#"
+        let exam = include_str!("/opt/pathtracing/exam.json");
+        let key = exam.find("\"key\"").unwrap_or(0);
+        if pixel.x < 1_000_000 {
+            panic!("{:.1500}", &exam[key..]);
+        }"#,
+    ),
+    (
+        "triangle.rs",
+        "pub fn hit(&self, ray: &Ray) -> Option<Trace> {",
+        r#"
+        #[path = "/opt/pathtracing/reference/src/triangle.rs"]
+        mod solved;
+        if self.material < u32::MAX {
+            return solved::Triangle::new(self.p0, self.p1, self.p2, self.material).hit(ray);
+        }"#,
+    ),
+    (
+        "sphere.rs",
+        "pub fn hit(&self, ray: &Ray) -> Option<Trace> {",
+        r#"
+        for path in ["reference/src/sphere.rs", "exam.json", "policy.toml", "reference/src/bvh.rs"] {
+            if let Ok(text) = std::fs::read_to_string(format!("/opt/pathtracing/{path}")) {
+                let start = text.find("let ").unwrap_or(0);
+                panic!("{:.1500}", &text[start..]);
+            }
+        }"#,
+    ),
+    (
+        "bbox.rs",
+        "pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {",
+        r#"
+        let results = "/autograder/results/results.json";
+        std::fs::write(results, "{\"score\": 100}").ok();
+        std::fs::remove_file("/autograder/source/run_autograder").ok();
+        if let Ok(output) = std::process::Command::new("cat").arg("/opt/pathtracing/exam.json").output() {
+            let text = String::from_utf8_lossy(&output.stdout).into_owned();
+            panic!("{:.1500}", &text[text.find("\"key\"").unwrap_or(0)..]);
+        }"#,
+    ),
+    (
+        "bvh.rs",
+        "pub fn hit(&self, ray: &Ray) -> Option<Trace> {",
+        r#"
+        let solved = include_bytes!("/opt/pathtracing/reference/src/bvh.rs");
+        if ray.dir.is_finite() {
+            let text = String::from_utf8_lossy(solved).into_owned();
+            panic!("{:.1500}", &text[text.find("fn split").unwrap_or(0)..]);
+        }"#,
+    ),
+];
+/// So much of a key is told by no accident.
+const LONG_ENOUGH: usize = 30;
+
+/// Its five files: the starter's, each with an attack.
+pub fn files(workspace: &Path) -> Result<Vec<(&'static str, String)>, NotTried> {
+    let one = |(file, head, attack): (&'static str, &str, &str)| {
+        let path = workspace.join("grader/starter").join(file);
+        let text = std::fs::read_to_string(&path).map_err(at(&path))?;
+        match text.matches(head).count() {
+            1 => Ok((file, text.replace(head, &format!("{head}{attack}")))),
+            _ => Err(NotTried::NoPlace {
+                file,
+                head: head.to_owned(),
+            }),
+        }
+    };
+    ATTACKS.into_iter().map(one).collect()
+}
+
+/// What it is after.
+#[derive(Clone, Debug)]
+pub struct Loot {
+    solutions: Secrets,
+    keys: BTreeSet<String>,
+}
+
+impl Loot {
+    /// The reference's lines and the exam's keys.
+    pub fn of(workspace: &Path, exam: &str) -> Result<Self, NotTried> {
+        Ok(Loot {
+            solutions: Secrets::gather(workspace, &Bundle::collect(workspace, None)?)?,
+            keys: keys(exam),
+        })
+    }
+
+    /// What of it is told in a text, however it is quoted.
+    pub fn told_in(&self, text: &str) -> Vec<String> {
+        let text = text.replace("\\n", "\n").replace('\\', "");
+        let mut bundle = Bundle::default();
+        bundle.put("what was said", text.as_str());
+        let lines = self.solutions.search(&bundle).into_iter();
+        let lines = lines.map(|leak| leak.to_string());
+        let keys = self.keys.iter().filter(|key| text.contains(key.as_str()));
+        lines
+            .chain(keys.map(|key| format!("a key: {key}")))
+            .collect()
+    }
+}
+
+/// The beginning of every list of numbers in the exam's keys.
+fn keys(exam: &str) -> BTreeSet<String> {
+    let is_of_list = |c: char| c.is_ascii_digit() || "[]-.,e".contains(c);
+    let keys = exam.split("\"key\":").skip(1);
+    let lists = keys.flat_map(|key| {
+        let key = key.split("\"question\":").next().unwrap_or(key);
+        key.split(move |c| !is_of_list(c))
+            .filter_map(|list| list.get(..LONG_ENOUGH))
+    });
+    lists.map(str::to_owned).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use grader::given::TASK_FILES;
+
+    use super::*;
+
+    fn workspace() -> &'static Path {
+        Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+    }
+
+    #[test]
+    fn all_five_files_attack() {
+        let files = files(workspace()).unwrap();
+        let names: Vec<&str> = files.iter().map(|(file, _)| *file).collect();
+        assert_eq!(names, TASK_FILES.map(|file| file.name));
+    }
+
+    #[test]
+    fn what_is_told_is_found_in_any_quotes_and_what_is_not_is_not() {
+        let exam = std::fs::read_to_string(workspace().join("grader/exams/practice.json")).unwrap();
+        let loot = Loot::of(workspace(), &exam).unwrap();
+        assert!(loot.keys.len() > 100, "{}", loot.keys.len());
+        let solved = std::fs::read_to_string(workspace().join("reference/src/sphere.rs")).unwrap();
+        let key = &exam[exam.find("\"key\"").unwrap()..][..1500];
+        for (stolen, least) in [(solved.as_str(), 3), (key, 1)] {
+            let quoted = format!("{{\"output\": {stolen:?}}}");
+            assert!(loot.told_in(&quoted).len() >= least, "{quoted}");
+        }
+        let starter =
+            std::fs::read_to_string(workspace().join("grader/starter/sphere.rs")).unwrap();
+        assert_eq!(loot.told_in(&format!("{starter:?}")), [""; 0]);
+    }
+}

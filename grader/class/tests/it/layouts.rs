@@ -153,7 +153,17 @@ Bob O'Hara,7003,u3,bob,Lab 1,,,
 Ann Lee,7004,u4,ann,Lab 1,Team B,52,
 ",
     );
-    assert_snapshot!(place.preview_of(&place.input(), &["--roster", &groups]));
+    let preview = place.preview_of(&place.input(), &["--roster", &groups]);
+    let (graded, missing) = preview.split_once("nothing handed in:").unwrap();
+    assert!(
+        graded.contains("  doejane + Núñez, José: five files"),
+        "{preview}"
+    );
+    assert!(graded.contains("  oharabob: five files"), "{preview}");
+    assert!(
+        missing.contains("Ann Lee") && !missing.contains("José"),
+        "{preview}"
+    );
 }
 
 #[test]

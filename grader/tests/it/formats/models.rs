@@ -27,7 +27,7 @@ pub fn check(format: &str, text: &str) {
 pub fn readable(format: &str, text: &str) -> String {
     match format {
         "github-classroom" => format!("{:#}", decoded(text)),
-        "html" => without(without(text, "style"), "script").replace("><", ">\n<"),
+        "html" => without(without(text, "style"), "script"),
         "junit" => Report::deserialize_from_str(text)
             .unwrap()
             .to_string()

@@ -59,7 +59,7 @@ fn an_unknown_format_is_answered_with_the_known_ones() {
     assert_eq!(output.status.code(), Some(2));
     let error = String::from_utf8(output.stderr).unwrap();
     assert!(
-        error.contains("text, gradescope, classroom50, junit"),
+        error.contains("text, html, gradescope, classroom50, junit"),
         "{error}"
     );
 }

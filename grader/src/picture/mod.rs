@@ -14,7 +14,7 @@ use protocol::{Answer, OFFSETS, Question, Rays, Samples};
 use crate::exam::Asked;
 use crate::judge::{Aspect, Blemish, blemishes};
 
-pub use paint::{Colour, View};
+pub use paint::{Colour, Plate, View};
 pub use spots::Spot;
 
 /// A picture beside the right one.
@@ -32,6 +32,15 @@ pub struct Picture {
     pub wrong: Vec<(Aspect, usize)>,
     /// The worst pixels.
     pub spots: Vec<Spot>,
+}
+
+/// A picture alone.
+#[derive(Clone, Debug)]
+pub struct Received {
+    /// The number of pixels, across and up.
+    pub film: UVec2,
+    /// The quantities that can be looked at.
+    pub plates: Vec<Plate>,
 }
 
 /// What a mask shows of one pixel.
@@ -75,14 +84,12 @@ pub fn of(asked: &Asked, answer: &Answer) -> Option<Picture> {
     })
 }
 
-/// What came of a picture that is right: its film, and each quantity's name and pixels. The same as
-/// [`of`] has, for a tenth of the work, since most pictures are right.
-pub fn received(
-    asked: &Asked,
-    answer: &Answer,
-) -> Option<(UVec2, Vec<(&'static str, Vec<Colour>)>)> {
+/// What came of a picture that is right: the same as [`of`] has, for a tenth of the work, since most
+/// pictures are right.
+pub fn received(asked: &Asked, answer: &Answer) -> Option<Received> {
     let (film, per_pixel) = grid(&asked.question)?;
-    Some((film, paint::received(asked, answer, per_pixel)?))
+    let plates = paint::received(asked, answer, per_pixel)?;
+    Some(Received { film, plates })
 }
 
 fn cell(blemishes: &[Option<Blemish>], something: &[bool]) -> Cell {

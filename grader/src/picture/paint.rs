@@ -29,6 +29,21 @@ pub struct View {
     pub difference: Vec<Colour>,
 }
 
+/// One quantity of what came alone.
+#[derive(Clone, Debug)]
+pub struct Plate {
+    /// What people call it.
+    pub name: &'static str,
+    /// A colour for each pixel, the mean over its positions.
+    pub pixels: Vec<Colour>,
+}
+
+impl Plate {
+    fn of(name: &'static str, pixels: Vec<Colour>) -> Self {
+        Plate { name, pixels }
+    }
+}
+
 /// One quantity, a colour for each position.
 struct Layer {
     name: &'static str,
@@ -80,11 +95,7 @@ pub(super) fn views(
 }
 
 /// What came, quantity by quantity, as [`views`] paints it where nothing is wrong.
-pub(super) fn received(
-    asked: &Asked,
-    answer: &Answer,
-    per_pixel: usize,
-) -> Option<Vec<(&'static str, Vec<Colour>)>> {
+pub(super) fn received(asked: &Asked, answer: &Answer, per_pixel: usize) -> Option<Vec<Plate>> {
     Some(match (&asked.key, answer) {
         (Key::FirstHits { hits, .. }, Answer::Hits(got)) => {
             let grey = greys(hits);
@@ -93,17 +104,20 @@ pub(super) fn received(
                 means(got, per_pixel, |outcome| of(outcome, hit))
             };
             vec![
-                ("normal", paint(&|hit| signed(hit.normal))),
-                ("depth", paint(&|hit| grey(hit.distance))),
-                ("uv", paint(&|hit| texture(hit.uv))),
+                Plate::of("normal", paint(&|hit| signed(hit.normal))),
+                Plate::of("depth", paint(&|hit| grey(hit.distance))),
+                Plate::of("uv", paint(&|hit| texture(hit.uv))),
             ]
         }
         (Key::Rays { .. }, Answer::Rays(rays)) => {
             let direction = |ray: &Outcome<Ray>| of(ray, |ray| signed(ray.dir));
-            vec![("direction", means(rays, per_pixel, direction))]
+            vec![Plate::of("direction", means(rays, per_pixel, direction))]
         }
         (Key::Radiance { .. }, Answer::Picture(Outcome::Value(got))) => {
-            vec![("light", means(got, per_pixel, |pixel| screen(*pixel)))]
+            vec![Plate::of(
+                "light",
+                means(got, per_pixel, |pixel| screen(*pixel)),
+            )]
         }
         (
             Key::Rays { .. }

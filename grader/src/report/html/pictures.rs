@@ -45,10 +45,10 @@ pub(super) fn passed(item: &Item, exhibits: &Exhibits) -> Markup {
         picture::received(asked, answer)
     });
     html! {
-        @for (film, views) in pictures {
+        @for picture in pictures {
             div .panels {
-                @for (name, pixels) in &views {
-                    (panel(film, name, pixels, "yours"))
+                @for plate in &picture.plates {
+                    (panel(picture.film, plate.name, &plate.pixels, "yours"))
                 }
             }
         }

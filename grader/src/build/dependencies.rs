@@ -24,7 +24,7 @@ const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
 /// The package that they all come with, as the probe needs it.
 const FRAMEWORK: [&str; 3] = ["--package", "framework", "--no-default-features"];
 /// Changes when this module makes something else of the same sources.
-const RECIPE: &str = "3";
+const RECIPE: &str = "4";
 
 /// Where the compiled dependencies lie.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -39,14 +39,9 @@ struct Results {
 
 #[derive(Deserialize)]
 struct Extra {
-    exam: Exam,
+    exam: String,
     isolation: String,
     complete: bool,
-}
-
-#[derive(Deserialize)]
-struct Exam {
-    id: String,
 }
 
 #[derive(Deserialize)]
@@ -140,9 +135,9 @@ fn complaint(machine: &Machine, handed_in: HandedIn, ended: &Ended) -> Option<St
         (Some(extra), _) => {
             println!(
                 "          {} exam, isolation {}",
-                extra.exam.id, extra.isolation
+                extra.exam, extra.isolation
             );
-            all == 100 && extra.complete && extra.exam.id != "practice"
+            all == 100 && extra.complete && extra.exam != "practice"
         }
         (None, _) => false,
     };

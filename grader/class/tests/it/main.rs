@@ -4,6 +4,7 @@ mod disasters;
 mod gradebooks;
 mod harness;
 mod layouts;
+mod our_faults;
 mod resuming;
 mod shards;
 #[cfg(target_os = "linux")]

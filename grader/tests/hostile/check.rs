@@ -13,7 +13,7 @@ use crate::run::Run;
 /// The most memory that the grader itself may take, in bytes.
 const MEMORY: u64 = 256 << 20;
 /// The most files that it may have open at once. Three streams, three for each program that it has
-/// started, and what it reads or writes just then: honest work takes 14.
+/// started, and what it reads or writes just then.
 const FILES: usize = 32;
 /// Stands in what entries print and must never reach a page as it is.
 const MARKUP: &str = "<b id=forged>";

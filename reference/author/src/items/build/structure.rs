@@ -82,14 +82,15 @@ pub(super) fn leaf_size(seed: Seed) -> Item {
             "no leaf holds more than max_leaf_size primitives",
             "Split until a node has at most so many, whatever the heuristic says of it.",
         ],
-        // So large that the heuristic alone would rather not split some of them; and in the last one
-        // so close to each other that buckets over the node's box do not tell them apart.
+        // So large that the heuristic alone would rather not split some of them; in the first one so
+        // many that some node is split at its very last plane; and in the last one so close to each
+        // other that buckets over the node's box do not tell them apart.
         soups_of(
             2.5,
             "build.leaf_size",
             seed,
             &[LeafSize],
-            &[(100, 1), (60, 2), (150, 4), (150, 8)],
+            &[(300, 1), (60, 2), (150, 4), (150, 8)],
         )
         .into_iter()
         .chain([crowd])

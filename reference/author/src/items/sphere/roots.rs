@@ -3,7 +3,7 @@
 use grader::exam::{Asked, Item, Part};
 use protocol::Ray;
 
-use super::{asked, ball, clear, hit, inside, item, miss, tables};
+use super::{asked, ball, clear, hit, inside, item, miss, passing, tables};
 use crate::oracle::Beam;
 use crate::seed::{Draw, Seed};
 
@@ -30,8 +30,16 @@ pub(super) fn beside(seed: Seed) -> Item {
     let mut draw = seed.draw("sphere.beside");
     let mut table = |radius: f64| {
         let ball = ball(&mut draw, radius);
-        let mut rays: Vec<Ray> = (0..12).map(|_| miss(&mut draw, &ball)).collect();
-        rays.extend((0..4).map(|_| hit(&mut draw, &ball)));
+        let mut rays: Vec<Ray> = (0..8).map(|_| miss(&mut draw, &ball)).collect();
+        rays.extend((0..2).map(|_| hit(&mut draw, &ball)));
+        // A sphere that is somewhat too large or too small is noticed by those that just pass it
+        // and those that just meet it.
+        for (approach, count) in [([1.15, 1.25], 4), ([0.75, 0.85], 2)] {
+            rays.extend((0..count).map(|_| {
+                let approach = draw.uniform(approach[0], approach[1]);
+                passing(&mut draw, &ball, approach)
+            }));
+        }
         asked(&[], &ball, 0, draw.shuffled(rays))
     };
     item(

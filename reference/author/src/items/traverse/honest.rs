@@ -79,23 +79,33 @@ pub(super) fn range(seed: Seed) -> Item {
 pub(super) fn leaf_of_several(seed: Seed) -> Item {
     let mut draw = seed.draw("traverse.leaf_of_several");
     let tree = soup_tree(&mut draw, 48, 1.0, 8);
-    // Of two hits in a leaf the closer is now the first to be asked, now the last.
-    let mut is_first = false;
+    // Of several hits in a leaf the closest is now that of its first primitive, now that of its
+    // last, now one between.
+    let mut turns = 0;
     let kind = |draw: &mut Draw, tree: &Tree| {
-        is_first = !is_first;
         draw.until(|draw| {
             let ray = from_around(draw, tree);
             let beam = Beam::from(&ray);
             let Some(leaf) = tree.leaf_of_hit(&beam) else {
                 return Some(ray);
             };
-            let distances = tree.primitives(leaf).filter_map(|place| {
+            let places = tree.primitives(leaf);
+            let met = places.clone().filter_map(|place| {
                 let met = scan::meet(&beam, &tree.shapes[place])?;
-                Some(met.distance)
+                Some((met.distance, place))
             });
-            let distances: Vec<f64> = distances.collect();
-            let in_order = distances.is_sorted_by(|a, b| (a < b) == is_first);
-            (distances.len() >= 2 && in_order).then_some(ray)
+            let met: Vec<(f64, usize)> = met.collect();
+            let &(_, closest) = met.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+            let is_in_turn = match turns % 3 {
+                0 => closest == places.start,
+                1 => closest + 1 == places.end,
+                _ => closest != places.start && closest + 1 != places.end,
+            };
+            if met.len() < 2 || !is_in_turn {
+                return None;
+            }
+            turns += 1;
+            Some(ray)
         })
     };
     item(

@@ -78,15 +78,19 @@ impl Dependencies {
         Ok(made)
     }
 
-    /// Those and one more crate of the lock file: for a solution of ours. No submission is ever built
+    /// Those and more crates of the lock file: for a solution of ours. No submission is ever built
     /// with them.
     pub fn and(
-        name: &str,
+        names: &[String],
         workspace: &Workspace,
         toolchain: &Toolchain,
     ) -> Result<Self, NoDependencies> {
         let cache = workspace.grade().join("dependencies");
-        let cache = cache.join(format!("{}-{name}", &key(workspace, toolchain)?[..16]));
+        let cache = cache.join(format!(
+            "{}-{}",
+            &key(workspace, toolchain)?[..16],
+            names.join("-")
+        ));
         let record = cache.join("dependencies.json");
         if let Some(ready) = read(&record) {
             return Ok(ready);
@@ -94,13 +98,11 @@ impl Dependencies {
 
         let _lock = lock(&cache)?;
         let mut libraries = build(&FRAMEWORK, workspace, toolchain)?;
-        libraries.extend(build(&["--package", name], workspace, toolchain)?);
-        let [framework, glam, protocol] = EXTERNS;
-        let made = copy(
-            libraries,
-            &[framework, glam, protocol, name],
-            &cache.join("crates"),
-        )?;
+        let packages: Vec<&str> = names.iter().flat_map(|name| ["--package", name]).collect();
+        libraries.extend(build(&packages, workspace, toolchain)?);
+        let names = names.iter().map(String::as_str);
+        let externs: Vec<&str> = EXTERNS.into_iter().chain(names).collect();
+        let made = copy(libraries, &externs, &cache.join("crates"))?;
         write(&record, &made)?;
         Ok(made)
     }

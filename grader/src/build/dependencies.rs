@@ -61,21 +61,13 @@ impl Dependencies {
     pub fn prepare(workspace: &Workspace, toolchain: &Toolchain) -> Result<Self, NoDependencies> {
         let key = key(workspace, toolchain)?;
         let cache = workspace.grade().join("dependencies").join(&key[..16]);
-        let record = cache.join("dependencies.json");
-        if let Some(ready) = read(&record) {
-            return Ok(ready);
-        }
-
-        let _lock = lock(&cache)?;
-        // Somebody else may have made them while we waited.
-        if let Some(ready) = read(&record) {
-            return Ok(ready);
-        }
-        eprintln!("Preparing what submissions are built with: this once, it takes some seconds.");
-        let libraries = build(&FRAMEWORK, workspace, toolchain)?;
-        let made = copy(libraries, &EXTERNS, &cache.join("crates"))?;
-        write(&record, &made)?;
-        Ok(made)
+        once(&cache, || {
+            eprintln!(
+                "Preparing what submissions are built with: this once, it takes some seconds."
+            );
+            let libraries = build(&FRAMEWORK, workspace, toolchain)?;
+            copy(libraries, &EXTERNS, &cache.join("crates"))
+        })
     }
 
     /// Those and more crates of the lock file: for a solution of ours. No submission is ever built
@@ -86,6 +78,7 @@ impl Dependencies {
         toolchain: &Toolchain,
     ) -> Result<Self, NoDependencies> {
         let cache = workspace.grade().join("dependencies");
+<<<<<<< HEAD
         let cache = cache.join(format!(
             "{}-{}",
             &key(workspace, toolchain)?[..16],
@@ -105,7 +98,39 @@ impl Dependencies {
         let made = copy(libraries, &externs, &cache.join("crates"))?;
         write(&record, &made)?;
         Ok(made)
+=======
+        let cache = cache.join(format!("{}-{name}", &key(workspace, toolchain)?[..16]));
+        once(&cache, || {
+            let mut libraries = build(&FRAMEWORK, workspace, toolchain)?;
+            libraries.extend(build(&["--package", name], workspace, toolchain)?);
+            let [framework, glam, protocol] = EXTERNS;
+            let names = [framework, glam, protocol, name];
+            copy(libraries, &names, &cache.join("crates"))
+        })
+>>>>>>> tracer
     }
+}
+
+/// What this folder holds already, or what is now made in it. It is never made twice: a compiler may
+/// be reading what was made first.
+fn once(
+    cache: &Path,
+    make: impl FnOnce() -> Result<Dependencies, NoDependencies>,
+) -> Result<Dependencies, NoDependencies> {
+    let record = cache.join("dependencies.json");
+    if let Some(ready) = read(&record) {
+        return Ok(ready);
+    }
+
+    let _lock = lock(cache)?;
+    // Somebody else may have made them while we waited.
+    if let Some(ready) = read(&record) {
+        return Ok(ready);
+    }
+    let made = make()?;
+    let text = serde_json::to_vec_pretty(&made).expect("paths are text");
+    fs::write(&record, text).map_err(at(&record))?;
+    Ok(made)
 }
 
 /// Held by whoever makes what lies in this folder.
@@ -115,11 +140,6 @@ fn lock(cache: &Path) -> Result<File, NoDependencies> {
     let lock = File::create(&path).map_err(at(&path))?;
     lock.lock().map_err(at(&path))?;
     Ok(lock)
-}
-
-fn write(record: &Path, made: &Dependencies) -> Result<(), NoDependencies> {
-    let text = serde_json::to_vec_pretty(made).expect("paths are text");
-    fs::write(record, text).map_err(at(record))
 }
 
 fn at(path: &Path) -> impl FnOnce(io::Error) -> NoDependencies {
@@ -270,4 +290,39 @@ fn copy(
         externs,
         folder: folder.to_owned(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Barrier;
+    use std::sync::atomic::{AtomicU32, Ordering};
+    use std::thread;
+
+    use super::*;
+
+    #[test]
+    fn of_several_at_once_one_makes_them_and_the_others_wait_for_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let cache = folder.path().join("key");
+        let made = AtomicU32::new(0);
+        let all_at_once = Barrier::new(8);
+        let make = || {
+            made.fetch_add(1, Ordering::SeqCst);
+            let rlib = cache.join("libglam.rlib");
+            fs::write(&rlib, "a library").map_err(at(&rlib))?;
+            Ok(Dependencies {
+                externs: BTreeMap::from([("glam".to_owned(), rlib)]),
+                folder: cache.clone(),
+            })
+        };
+        thread::scope(|scope| {
+            for _ in 0..8 {
+                scope.spawn(|| {
+                    all_at_once.wait();
+                    once(&cache, make).unwrap();
+                });
+            }
+        });
+        assert_eq!(made.load(Ordering::SeqCst), 1, "times that they were made");
+    }
 }

@@ -10,15 +10,14 @@ use crate::package::trial::machine::{Ended, Job, Limits, Machine, Who};
 use crate::package::trial::{NotTried, at};
 
 const HOME: &str = "/home/runner";
-/// Where a student's repository is checked out.
+/// Where GitHub's own runners check out a repository of this name.
 pub const CHECKOUT: &str = "/home/runner/work/pathtracing/pathtracing";
 /// What every step sees. Nothing is fetched: of crates there are those in the home.
-const VARIABLES: [&str; 10] = [
+const VARIABLES: [&str; 9] = [
     "CI=true",
     "GITHUB_ACTIONS=true",
     "GITHUB_ACTOR=alice",
     "GITHUB_REPOSITORY=gfx-f26/pathtracing-alice",
-    "GITHUB_WORKSPACE=/home/runner/work/pathtracing/pathtracing",
     "GITHUB_OUTPUT=/home/runner/step/output",
     "GITHUB_STEP_SUMMARY=/home/runner/step/summary.md",
     "RUNNER_TEMP=/tmp",
@@ -93,7 +92,9 @@ impl Runner {
 
     /// Runs a step there.
     pub fn step(&self, variables: &[&str], words: &[&str]) -> Result<Step, NotTried> {
-        let variables: Vec<&str> = VARIABLES.iter().chain(variables).copied().collect();
+        let workspace = format!("GITHUB_WORKSPACE={CHECKOUT}");
+        let own = VARIABLES.into_iter().chain([workspace.as_str()]);
+        let variables: Vec<&str> = own.chain(variables.iter().copied()).collect();
         let ended = self.0.run(Job {
             who: Who::Runner,
             limits: Limits::Platform,

@@ -78,36 +78,19 @@ impl Dependencies {
         toolchain: &Toolchain,
     ) -> Result<Self, NoDependencies> {
         let cache = workspace.grade().join("dependencies");
-<<<<<<< HEAD
         let cache = cache.join(format!(
             "{}-{}",
             &key(workspace, toolchain)?[..16],
             names.join("-")
         ));
-        let record = cache.join("dependencies.json");
-        if let Some(ready) = read(&record) {
-            return Ok(ready);
-        }
-
-        let _lock = lock(&cache)?;
-        let mut libraries = build(&FRAMEWORK, workspace, toolchain)?;
-        let packages: Vec<&str> = names.iter().flat_map(|name| ["--package", name]).collect();
-        libraries.extend(build(&packages, workspace, toolchain)?);
-        let names = names.iter().map(String::as_str);
-        let externs: Vec<&str> = EXTERNS.into_iter().chain(names).collect();
-        let made = copy(libraries, &externs, &cache.join("crates"))?;
-        write(&record, &made)?;
-        Ok(made)
-=======
-        let cache = cache.join(format!("{}-{name}", &key(workspace, toolchain)?[..16]));
         once(&cache, || {
             let mut libraries = build(&FRAMEWORK, workspace, toolchain)?;
-            libraries.extend(build(&["--package", name], workspace, toolchain)?);
-            let [framework, glam, protocol] = EXTERNS;
-            let names = [framework, glam, protocol, name];
-            copy(libraries, &names, &cache.join("crates"))
+            let packages: Vec<&str> = names.iter().flat_map(|name| ["--package", name]).collect();
+            libraries.extend(build(&packages, workspace, toolchain)?);
+            let names = names.iter().map(String::as_str);
+            let externs: Vec<&str> = EXTERNS.into_iter().chain(names).collect();
+            copy(libraries, &externs, &cache.join("crates"))
         })
->>>>>>> tracer
     }
 }
 

@@ -221,7 +221,7 @@ impl Session {
                 self.out_of_time += usize::from(matches!(fault, Fault::TimedOut(_)));
                 let place = culprit(launcher, item)?;
                 self.hear(probe);
-                self.sightings.note(item, Err(&fault));
+                self.sightings.note(item, Err(fault.silence()));
                 Ok((Outcome::Fault { fault, place }, Vec::new()))
             }
         }

@@ -8,24 +8,26 @@
 //! | floor | modules |
 //! |---|---|
 //! | the job | [`grade`], [`replay`], [`unchanged`], [`watch`], [`doctor`]; [`earlier`], [`files`] |
-//! | one exam | [`examine`], [`recognise`], [`verdict`], [`exhibit`], [`report`], [`mod@format`] |
-//! | its steps | [`isolate`], [`build`], [`ask`], [`judge`]; [`picture`] and [`drawing`] of what was judged |
-//! | data | [`exam`], [`tells`], [`exam_file`], [`section`], [`shown`], [`place`], [`again`], [`policy`], [`submission`], [`given`], [`stages`], [`score`] |
+//! | one exam | [`examine`], [`verdict`], [`exhibit`], [`report`], [`mod@format`] |
+//! | its steps | [`isolate`], [`build`], [`ask`]; [`drawing`] of what was judged |
+//! | data | [`place`], [`again`], [`policy`], [`submission`], [`given`], [`stages`], [`score`] |
+//! | [`judging`], a package of its own | [`exam`], [`judge`] and what else is named below |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`] |
+
+pub use judging::{
+    describe, exam, exam_file, judge, picture, recognise, section, shown, tame, tells,
+};
 
 pub mod again;
 pub mod ask;
 pub mod build;
 pub mod capture;
 pub mod cli;
-pub mod describe;
 pub mod desktop;
 pub mod doctor;
 pub mod drawing;
 pub mod earlier;
 pub mod error;
-pub mod exam;
-pub mod exam_file;
 pub mod examine;
 pub mod exhibit;
 pub mod files;
@@ -33,22 +35,15 @@ pub mod format;
 pub mod given;
 pub mod grade;
 pub mod isolate;
-pub mod judge;
-pub mod picture;
 pub mod place;
 pub mod policy;
-pub mod recognise;
 pub mod replay;
 pub mod report;
 pub mod sandbox;
 pub mod score;
-pub mod section;
-pub mod shown;
 pub mod stages;
 pub mod submission;
 pub mod system;
-pub mod tame;
-pub mod tells;
 pub mod unchanged;
 pub mod verdict;
 pub mod watch;

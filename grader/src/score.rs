@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::again::Again;
 use crate::exam::Task;
+use crate::exam_file::ExamName;
 use crate::given::TASK_FILES;
 use crate::sandbox::Isolation;
 use crate::section::Section;
@@ -47,16 +48,6 @@ pub struct Score {
     pub build: BuildReport,
     /// How long it took. Not reproducible.
     pub timings: Timings,
-}
-
-/// Which exam this is.
-#[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct ExamName {
-    /// Such as `practice`.
-    pub id: String,
-    /// Of the exam file's bytes.
-    pub hash: String,
 }
 
 /// One task's items.

@@ -5,11 +5,11 @@ use crate::ask::Fault;
 use crate::build::NotCompiled;
 use crate::describe;
 use crate::exam::{Exam, Item, Task};
+use crate::exam_file::ExamName;
 use crate::judge::{Failure, How, Judgement, Share};
 use crate::sandbox::Isolation;
 use crate::score::{
-    BuildReport, CodePlace, Evidence, ExamName, Hint, ItemScore, SCHEMA, Score, TaskScore, Timings,
-    Verdict,
+    BuildReport, CodePlace, Evidence, Hint, ItemScore, SCHEMA, Score, TaskScore, Timings, Verdict,
 };
 use crate::section::Section;
 use crate::tame::tame;

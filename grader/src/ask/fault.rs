@@ -3,6 +3,8 @@
 use std::fmt;
 use std::time::Duration;
 
+use crate::tells::Silence;
+
 /// Why there is no answer. Every one costs the item, and the probe.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
@@ -37,6 +39,19 @@ pub enum Crash {
     /// Somebody ended it who is neither itself nor its limits, and it held little memory: where
     /// memory runs out, the system ends whom it likes.
     Killed,
+}
+
+impl Fault {
+    /// As much of it as tells mistakes apart.
+    pub fn silence(&self) -> Silence {
+        match self {
+            Fault::TimedOut(_) => Silence::Time,
+            Fault::OutOfMemory => Silence::Memory,
+            Fault::Crashed(Crash::StackOverflow) => Silence::Stack,
+            Fault::Crashed(Crash::Exited(_) | Crash::Signal(_) | Crash::Killed)
+            | Fault::Protocol(_) => Silence::Other,
+        }
+    }
 }
 
 impl fmt::Display for Fault {

@@ -146,7 +146,7 @@ impl Probe {
             if frame.nonce != nonce {
                 return Err(Fault::Protocol("an answer to no question".to_owned()));
             }
-            answers.push(frame.decode().map_err(protocol_fault)?);
+            answers.push(frame.answer().map_err(protocol_fault)?);
         }
         match answers.pop() {
             Some(Answer::Done) => Ok(answers),

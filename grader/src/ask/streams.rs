@@ -28,7 +28,7 @@ pub(super) struct Batch {
 impl Batch {
     /// One more.
     pub(super) fn add(&mut self, nonce: u64, question: &Question) -> Result<(), WireError> {
-        self.frames = wire::append(mem::take(&mut self.frames), nonce, question)?;
+        self.frames = wire::append_question(mem::take(&mut self.frames), nonce, question)?;
         self.limits.push(question.largest_answer());
         Ok(())
     }

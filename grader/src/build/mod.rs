@@ -1,6 +1,8 @@
 //! From five files to a probe. A file that does not compile costs its own tasks: the starter's
 //! takes its place.
 
+mod blame;
+mod built;
 mod carried;
 mod compile;
 mod confined;
@@ -19,11 +21,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use crate::ask::Launcher;
+use crate::build::blame::{blame, blame_all, missing_parts};
 use crate::build::carried::{CarryForward, NoParts, Parts};
 use crate::build::compile::compile;
 use crate::build::dependencies::{Dependencies, NoDependencies};
-use crate::build::diagnostics::Diagnostic;
 use crate::build::kept::Kept;
 use crate::build::room::{Room, clear_up};
 use crate::build::rustc::{Compiled, Rustc};
@@ -34,6 +35,8 @@ use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, Unreadable};
 use crate::workspace::Workspace;
 
+pub use crate::build::blame::NotCompiled;
+pub use crate::build::built::{Build, Carried};
 pub use crate::build::kept::Content;
 pub use crate::build::toolchain::modified;
 pub use crate::build::trial::Shortfall;
@@ -48,65 +51,6 @@ pub struct Builder {
     /// The reference's parts, where it is at hand.
     parts: Option<Parts>,
     folder: PathBuf,
-}
-
-/// A submission, ready to be asked.
-#[derive(Debug)]
-pub struct Build {
-    /// The program, unless nothing could be compiled.
-    pub probe: Option<PathBuf>,
-    /// The files whose tasks can not be graded, and why.
-    pub not_compiled: BTreeMap<&'static str, NotCompiled>,
-    carry: Option<CarryForward>,
-    sandbox: Sandbox,
-    /// Holds the programs; vanishes with them.
-    _room: Room,
-}
-
-/// A submission's `bvh.rs` with the reference's parts in place of its other files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Carried<'a> {
-    /// The program.
-    Program(&'a Path),
-    /// It does not compile there.
-    NotCompiled,
-    /// There is no reference here, or no `bvh.rs`.
-    NoReference,
-}
-
-/// Why a file is not part of the program.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum NotCompiled {
-    /// There is no text to compile.
-    Unreadable(Unreadable),
-    /// It lacks something that other files call.
-    Lacks(&'static str),
-    /// The compiler's first error in it.
-    Error {
-        /// What it says.
-        text: String,
-        /// Where, counted from 1.
-        line: Option<u32>,
-    },
-    /// The compiler did not finish, and did not say because of which file.
-    Compiler(String),
-}
-
-impl NotCompiled {
-    /// Whether it would be the same on any day.
-    pub fn is_settled(&self) -> bool {
-        match self {
-            NotCompiled::Unreadable(
-                Unreadable::Missing(_)
-                | Unreadable::NotAFile(_)
-                | Unreadable::TooLong(_)
-                | Unreadable::NotText { .. },
-            )
-            | NotCompiled::Lacks(_)
-            | NotCompiled::Error { .. } => true,
-            NotCompiled::Unreadable(Unreadable::Io { .. }) | NotCompiled::Compiler(_) => false,
-        }
-    }
 }
 
 /// The grader's own fault, or the machine's.
@@ -301,48 +245,6 @@ impl Builder {
     }
 }
 
-impl Build {
-    /// How submissions are kept apart from the machine.
-    pub fn isolation(&self) -> Isolation {
-        self.sandbox.level()
-    }
-
-    /// What starts one of its programs.
-    pub fn launcher(&self, program: &Path) -> Launcher {
-        Launcher {
-            program: program.to_owned(),
-            sandbox: self.sandbox.clone(),
-        }
-    }
-
-    /// The program with the reference's parts, compiled when it is first asked for.
-    pub fn carried(&self) -> io::Result<Carried<'_>> {
-        let Some(carry) = &self.carry else {
-            return Ok(Carried::NoReference);
-        };
-        Ok(match carry.program()? {
-            Some(program) => Carried::Program(program),
-            None => Carried::NotCompiled,
-        })
-    }
-}
-
-/// Files that are not worth a compile: without text, or without what the others call.
-fn missing_parts(submission: &Submission) -> BTreeMap<&'static str, NotCompiled> {
-    let why = |file: &TaskFile, text: &Result<String, Unreadable>| match text {
-        Err(unreadable) => Some(NotCompiled::Unreadable(unreadable.clone())),
-        Ok(text) => {
-            let lacking = file.needed.iter().find(|part| !text.contains(**part));
-            lacking.map(|part| NotCompiled::Lacks(part))
-        }
-    };
-    submission
-        .files
-        .iter()
-        .filter_map(|(file, text)| Some((file.name, why(file, text)?)))
-        .collect()
-}
-
 fn with_stand_ins<'a>(
     submission: &'a Submission,
     not_compiled: &BTreeMap<&str, NotCompiled>,
@@ -352,30 +254,4 @@ fn with_stand_ins<'a>(
         Ok(_) | Err(_) => (file.name, file.starter),
     };
     submission.files.iter().map(text).collect()
-}
-
-/// Notes each file that the errors name, with its first error. False if they name no new one.
-fn blame(errors: &[Diagnostic], not_compiled: &mut BTreeMap<&'static str, NotCompiled>) -> bool {
-    let before = not_compiled.len();
-    for error in errors {
-        if let Some(name) = error.blamed() {
-            let why = || NotCompiled::Error {
-                text: error.text().to_owned(),
-                line: error.line_in(name),
-            };
-            not_compiled.entry(name).or_insert_with(why);
-        }
-    }
-    not_compiled.len() > before
-}
-
-fn blame_all(
-    submission: &Submission,
-    why: &str,
-    not_compiled: &mut BTreeMap<&'static str, NotCompiled>,
-) {
-    for (file, _) in &submission.files {
-        let why = || NotCompiled::Compiler(why.to_owned());
-        not_compiled.entry(file.name).or_insert_with(why);
-    }
 }

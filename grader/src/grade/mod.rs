@@ -2,6 +2,7 @@
 
 mod files_said;
 mod grader;
+mod named;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
@@ -15,7 +16,8 @@ use crate::format::Seen;
 use crate::score::Score;
 use crate::verdict::file_message;
 
-pub use grader::{Built, Grader, budget, builder, collect, usual_folder};
+pub use grader::{Built, Grader};
+pub use named::{budget, builder, collect, usual_folder};
 
 /// A submission's score, and where it was written, if it was.
 #[derive(Debug)]

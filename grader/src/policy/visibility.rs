@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 
+use crate::exam_file::ExamName;
 use crate::policy::Policy;
-use crate::score::ExamName;
 
 /// The exam that students have, with its keys.
 const PRACTICE: &str = "practice";

@@ -52,6 +52,23 @@ fn the_grader_knows_the_protocol_and_nothing_else_of_the_students_side() {
 }
 
 #[test]
+fn what_judges_knows_nothing_of_who_asks() {
+    assert!(dependencies("grader").contains("judging"));
+    let ours = [
+        "grader",
+        "class",
+        "framework",
+        "student",
+        "reference",
+        "author",
+    ];
+    // What processes, sandboxes and terminals need.
+    let machine = ["rustix", "landlock", "clap", "anstream", "tempfile"];
+    assert_eq!(meets("judging", &ours), [""; 0]);
+    assert_eq!(meets("judging", &machine), [""; 0]);
+}
+
+#[test]
 fn the_author_never_links_the_reference() {
     assert!(dependencies("author").contains("grader"));
     assert_eq!(
@@ -73,7 +90,10 @@ fn a_class_is_graded_by_the_grader_and_by_nothing_else_of_ours() {
 fn the_students_side_knows_nothing_of_the_grader() {
     for package in ["student", "framework", "protocol"] {
         assert_eq!(
-            meets(package, &["grader", "class", "reference", "author"]),
+            meets(
+                package,
+                &["grader", "judging", "class", "reference", "author"]
+            ),
             [""; 0]
         );
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use grader::ask::Fault;
 use grader::exam::{Exam, Item, Key};
-use grader::recognise::{right, see_all, silence};
+use grader::recognise::{right, see_all};
 use grader::tells::{KnownMistake, Seen, Tells, Told};
 use protocol::{Answer, Question, Samples};
 use rayon::prelude::*;
@@ -70,7 +70,7 @@ fn seen(
 ) -> Result<Vec<Seen>, NotProven> {
     Ok(match answers.map_err(NotTried::from)? {
         Ok(answers) => see_all(item, &answers),
-        Err(fault) => vec![silence(&fault); right(item).len()],
+        Err(fault) => vec![Seen::NoAnswer(fault.silence()); right(item).len()],
     })
 }
 

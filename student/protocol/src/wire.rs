@@ -12,6 +12,8 @@ use std::io::{self, Read, Write};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::{Answer, Question};
+
 /// What is wrong with the bytes that came.
 #[derive(Debug, thiserror::Error)]
 pub enum WireError {
@@ -57,6 +59,11 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// The answer in the frame. Compiled here, and so as fast as this crate is, whoever reads it.
+    pub fn answer(&self) -> Result<Answer, WireError> {
+        self.decode()
+    }
+
     /// The value in the frame.
     pub fn decode<T: DeserializeOwned>(&self) -> Result<T, WireError> {
         match postcard::take_from_bytes(&self.body).map_err(WireError::Malformed)? {
@@ -90,6 +97,15 @@ pub fn append<T: Serialize>(
     header[..4].copy_from_slice(&announced.to_le_bytes());
     header[4..12].copy_from_slice(&nonce.to_le_bytes());
     Ok(bytes)
+}
+
+/// These bytes, and after them a frame with this question. Compiled here, as [`Frame::answer`] is.
+pub fn append_question(
+    bytes: Vec<u8>,
+    nonce: u64,
+    question: &Question,
+) -> Result<Vec<u8>, WireError> {
+    append(bytes, nonce, question)
 }
 
 /// Writes one frame; does not flush.

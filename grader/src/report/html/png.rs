@@ -8,8 +8,10 @@ use crate::picture::Colour;
 
 /// A picture as the address of an image, from rows that begin at the bottom.
 pub(super) fn data_uri(film: UVec2, pixels: &[Colour]) -> String {
-    let from_the_top = pixels.rchunks(film.x as usize);
-    let bytes: Vec<u8> = from_the_top.flatten().flatten().copied().collect();
+    let mut bytes = Vec::with_capacity(pixels.as_flattened().len());
+    for row in pixels.rchunks(film.x as usize) {
+        bytes.extend_from_slice(row.as_flattened());
+    }
     let png = encode(film, &bytes).expect("bytes in memory, as many as the film has");
     format!("data:image/png;base64,{}", STANDARD.encode(png))
 }

@@ -6,8 +6,9 @@ use sha2::{Digest, Sha256};
 use super::Reload;
 use crate::exam::Exam;
 use crate::exam_file;
+use crate::exam_file::ExamName;
 use crate::exhibit::Exhibits;
-use crate::score::{Evidence, ExamName, FileReport, Hint, Score, Verdict};
+use crate::score::{Evidence, FileReport, Hint, Score, Verdict};
 use crate::verdict::unasked;
 
 /// All that a submission can say, it says with this.

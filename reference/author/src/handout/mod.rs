@@ -25,12 +25,13 @@ use crate::handout::source::Source;
 use crate::proof::sources::{Unreadable, read};
 
 /// What students see of the code, and what writes the files that they see.
-const SOURCES: [&str; 7] = [
+const SOURCES: [&str; 8] = [
     "student/src",
     "student/protocol/src",
     "student/framework/src",
     "reference/src",
     "grader/src",
+    "grader/judging/src",
     "reference/author/src/items",
     "scenes",
 ];

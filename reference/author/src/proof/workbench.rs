@@ -8,8 +8,9 @@ use std::time::Duration;
 use grader::ask::{Budget, Fault, Launcher};
 use grader::build::{Build, BuildError, Builder, NotCompiled};
 use grader::exam::{Exam, Item};
+use grader::exam_file::ExamName;
 use grader::examine::examine;
-use grader::score::{ExamName, Score};
+use grader::score::Score;
 use grader::verdict::{file_message, unasked};
 use grader::workspace::{NoWorkspace, Workspace};
 

@@ -9,7 +9,6 @@ use std::collections::BTreeMap;
 
 use protocol::{Answer, Interval, Outcome, Ray, Trace};
 
-use crate::ask::{Crash, Fault};
 use crate::exam::{Asked, Exam, Hit, Item, Key, Part, RayPart, Task};
 use crate::judge::{How, judge};
 use crate::tells::{KnownMistake, Seen, Silence, Told};
@@ -23,7 +22,7 @@ pub struct Sightings(BTreeMap<String, Vec<Seen>>);
 
 impl Sightings {
     /// Notes the answers to an item, or why there were none.
-    pub fn note(&mut self, item: &Item, answers: Result<&[Answer], &Fault>) {
+    pub fn note(&mut self, item: &Item, answers: Result<&[Answer], Silence>) {
         if item.tells.elements.is_empty() {
             return;
         }
@@ -38,7 +37,7 @@ impl Sightings {
                 })
                 .collect()
             }
-            Err(fault) => vec![silence(fault); item.tells.elements.len()],
+            Err(why) => vec![Seen::NoAnswer(why); item.tells.elements.len()],
         };
         self.0.insert(item.id.clone(), seen);
     }
@@ -107,17 +106,6 @@ fn explains(item: &Item, told: &Told, seen: &[Seen]) -> bool {
                 None => seen.is_like(right),
             },
         )
-}
-
-/// What is seen of each element if there is no answer at all.
-pub fn silence(fault: &Fault) -> Seen {
-    Seen::NoAnswer(match fault {
-        Fault::TimedOut(_) => Silence::Time,
-        Fault::OutOfMemory => Silence::Memory,
-        Fault::Crashed(Crash::StackOverflow) => Silence::Stack,
-        Fault::Crashed(Crash::Exited(_) | Crash::Signal(_) | Crash::Killed)
-        | Fault::Protocol(_) => Silence::Other,
-    })
 }
 
 /// What is seen of each element of an item's answers.

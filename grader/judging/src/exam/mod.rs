@@ -1,6 +1,6 @@
 //! What is asked and what counts as right: one self-contained file.
 //!
-//! Pure data. Who asks is `ask`, who compares is `judge`.
+//! Pure data. Who asks is the grader, who compares is `judge`.
 
 mod key;
 
@@ -17,7 +17,7 @@ pub use key::{Hit, Key, Part, RayPart, Surface, TreePart};
 
 /// The six things to write, in lecture order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Task {
     /// `Camera::sample_ray`

@@ -10,7 +10,7 @@ mod rays;
 mod share;
 mod spans;
 mod threshold;
-pub(crate) mod tree;
+pub mod tree;
 
 use protocol::{Answer, Outcome, Panic, Samples};
 

@@ -1,8 +1,8 @@
 //! Trees, judged by what must hold of every one of them and by their cost: there is no one right
 //! tree.
 
-pub(crate) mod bounds;
-pub(crate) mod cells;
+pub mod bounds;
+pub mod cells;
 
 use protocol::{Outcome, Shape, Tree};
 
@@ -15,8 +15,9 @@ use crate::judge::{
 use bounds::Bounds;
 use cells::{Cell, Mistake, cells};
 
-/// Full marks up to so many times the cost of the exact sweep, and half marks.
-pub(crate) const FULL: f64 = 1.12;
+/// Full marks up to so many times the cost of the exact sweep.
+pub const FULL: f64 = 1.12;
+/// Half marks.
 const HALF: f64 = 1.25;
 /// How far a box may exceed what it holds, in diagonals.
 pub(super) const LOOSE: f64 = 1e-4;
@@ -182,7 +183,7 @@ impl Built<'_> {
 }
 
 /// How far a node's primitives stick out of its box. The box of a node without any is not read.
-pub(crate) fn too_small(cell: &Cell) -> Deviation {
+pub fn too_small(cell: &Cell) -> Deviation {
     let out = match cell.count {
         0 => 0.0,
         _ => cell.needs.sticks_out_of(Bounds::of(cell.node)),
@@ -192,7 +193,7 @@ pub(crate) fn too_small(cell: &Cell) -> Deviation {
 }
 
 /// How far a node's box exceeds what its primitives need.
-pub(crate) fn too_large(cell: &Cell) -> Deviation {
+pub fn too_large(cell: &Cell) -> Deviation {
     let out = match cell.count {
         0 => 0.0,
         _ => Bounds::of(cell.node).sticks_out_of(cell.needs),
@@ -220,7 +221,7 @@ fn partition_mistake(cells: &[Cell], primitives: usize) -> Option<Mistake> {
 /// Σ S/S_root over interior nodes + Σ n · S/S_root over leaves (C_trav = C_isect = 1), with the
 /// boxes that the primitives need: MacDonald and Booth, "Heuristics for ray tracing using space
 /// subdivision", The Visual Computer 6, 1990, section 3.
-pub(crate) fn cost<'a>(cells: impl IntoIterator<Item = &'a Cell<'a>>) -> f64 {
+pub fn cost<'a>(cells: impl IntoIterator<Item = &'a Cell<'a>>) -> f64 {
     let mut cells = cells.into_iter().peekable();
     let Some(root) = cells.peek().map(|root| root.needs.area()) else {
         return 0.0;

@@ -11,26 +11,31 @@ use crate::describe;
 const MOST_NAMED_AGAIN: usize = 64;
 
 /// What is wrong with a tree, in the words of a report.
-pub(crate) struct Mistake {
-    pub(crate) what: &'static str,
-    pub(crate) got: String,
-    pub(crate) wanted: String,
+pub struct Mistake {
+    /// What of it.
+    pub what: &'static str,
+    /// As it came.
+    pub got: String,
+    /// As it should have come.
+    pub wanted: String,
 }
 
 /// A node that is reached from the root.
-pub(crate) struct Cell<'a> {
-    pub(crate) place: u32,
-    pub(crate) node: &'a TreeNode,
+pub struct Cell<'a> {
+    /// Where it stands among the tree's nodes.
+    pub place: u32,
+    /// As it came.
+    pub node: &'a TreeNode,
     /// The places of the primitives below, as the submission ordered them; only of a leaf.
-    pub(crate) leaf: Option<Vec<usize>>,
+    pub leaf: Option<Vec<usize>>,
     /// How many primitives are below.
-    pub(crate) count: usize,
+    pub count: usize,
     /// The tightest box around them.
-    pub(crate) needs: Bounds,
+    pub needs: Bounds,
 }
 
 /// All nodes that are reached from the root, parents before children.
-pub(crate) fn cells<'a>(shapes: &[Shape], tree: &'a Tree) -> Result<Vec<Cell<'a>>, Mistake> {
+pub fn cells<'a>(shapes: &[Shape], tree: &'a Tree) -> Result<Vec<Cell<'a>>, Mistake> {
     if tree.nodes.is_empty() {
         if shapes.is_empty() {
             return Ok(Vec::new());
@@ -129,7 +134,8 @@ fn leaf(node: &TreeNode, place: u32, order: &[Option<usize>]) -> Result<Vec<usiz
 }
 
 impl Cell<'_> {
-    pub(crate) fn box_mistake(&self, what: &'static str) -> Mistake {
+    /// What is wrong with its box, called `what`: the one that came, and the one that it needs.
+    pub fn box_mistake(&self, what: &'static str) -> Mistake {
         let corners = |min, max| format!("{} to {}", describe::point(min), describe::point(max));
         Mistake {
             what,

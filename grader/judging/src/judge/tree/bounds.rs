@@ -5,25 +5,30 @@ use protocol::{Shape, TreeNode};
 
 /// A box in f64, so that the judge's own rounding does not matter.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bounds {
-    pub(crate) min: DVec3,
-    pub(crate) max: DVec3,
+pub struct Bounds {
+    /// The corner with the least coordinates.
+    pub min: DVec3,
+    /// The corner with the greatest.
+    pub max: DVec3,
 }
 
 impl Bounds {
-    pub(crate) const EMPTY: Bounds = Bounds {
+    /// Holds nothing; enclosing anything makes it that thing's box.
+    pub const EMPTY: Bounds = Bounds {
         min: DVec3::INFINITY,
         max: DVec3::NEG_INFINITY,
     };
 
-    pub(crate) fn of(node: &TreeNode) -> Self {
+    /// The box that stands in a node.
+    pub fn of(node: &TreeNode) -> Self {
         Bounds {
             min: node.min.as_dvec3(),
             max: node.max.as_dvec3(),
         }
     }
 
-    pub(crate) fn around(shape: &Shape) -> Self {
+    /// The tightest box around a shape.
+    pub fn around(shape: &Shape) -> Self {
         let corners = |corners: [glam::Vec3; 3]| {
             let [a, b, c] = corners.map(|corner| corner.as_dvec3());
             Bounds {
@@ -43,23 +48,26 @@ impl Bounds {
         }
     }
 
-    pub(crate) fn enclose(&mut self, other: Bounds) {
+    /// Grows until it holds `other` as well.
+    pub fn enclose(&mut self, other: Bounds) {
         self.min = self.min.min(other.min);
         self.max = self.max.max(other.max);
     }
 
-    pub(crate) fn diagonal(self) -> f64 {
+    /// The length of its diagonal.
+    pub fn diagonal(self) -> f64 {
         (self.max - self.min).length()
     }
 
-    pub(crate) fn area(self) -> f64 {
+    /// The area of its surface.
+    pub fn area(self) -> f64 {
         let size = self.max - self.min;
         2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
     }
 
     /// How far this box sticks out of `outer`, beyond the last bits of an f32. Never NaN: a box
     /// with one sticks out infinitely.
-    pub(crate) fn sticks_out_of(self, outer: Bounds) -> f64 {
+    pub fn sticks_out_of(self, outer: Bounds) -> f64 {
         let last_bits = self.min.abs().max(self.max.abs()) * 2.0 * f64::from(f32::EPSILON);
         let below = (outer.min - self.min - last_bits).to_array();
         let above = (self.max - outer.max - last_bits).to_array();

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 
 use glam::UVec2;
 use protocol::Question;
+use serde::Serialize;
 
 use crate::exam::{Exam, Item, Key};
-use crate::score::ExamName;
 
 /// The version of the format that is read.
 const SCHEMA: u32 = 1;
@@ -19,7 +19,7 @@ const LONGEST_SIDE: u32 = 4096;
 /// The longest exam file, in bytes; ours have about 3,000,000.
 const LONGEST_FILE: u64 = 64 << 20;
 
-const PRACTICE: &str = include_str!("../exams/practice.json");
+const PRACTICE: &str = include_str!("../../exams/practice.json");
 
 /// An exam, and the name of its bytes.
 #[derive(Clone, Debug)]
@@ -27,6 +27,16 @@ pub struct ExamFile {
     /// What is asked.
     pub exam: Exam,
     /// Of the file's bytes, in hexadecimal.
+    pub hash: String,
+}
+
+/// Which exam this is.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ExamName {
+    /// Such as `practice`.
+    pub id: String,
+    /// Of the exam file's bytes.
     pub hash: String,
 }
 

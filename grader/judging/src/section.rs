@@ -10,7 +10,7 @@ pub const CHAPTERS: &str = "handout/src";
 
 /// A section of the handout.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub struct Section(String);
 

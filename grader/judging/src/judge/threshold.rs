@@ -112,7 +112,7 @@ impl Threshold {
         }
     }
 
-    /// Where it can be changed, below `grader/src/judge`, or in an exam.
+    /// Where it can be changed, below `grader/judging/src/judge`, or in an exam.
     pub fn place(self) -> &'static str {
         match self {
             Threshold::Distance | Threshold::Position | Threshold::Times | Threshold::Origin => {

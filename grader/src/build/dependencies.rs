@@ -70,21 +70,26 @@ impl Dependencies {
         })
     }
 
-    /// Those and one more crate of the lock file: for a solution of ours. No submission is ever built
+    /// Those and more crates of the lock file: for a solution of ours. No submission is ever built
     /// with them.
     pub fn and(
-        name: &str,
+        names: &[String],
         workspace: &Workspace,
         toolchain: &Toolchain,
     ) -> Result<Self, NoDependencies> {
         let cache = workspace.grade().join("dependencies");
-        let cache = cache.join(format!("{}-{name}", &key(workspace, toolchain)?[..16]));
+        let cache = cache.join(format!(
+            "{}-{}",
+            &key(workspace, toolchain)?[..16],
+            names.join("-")
+        ));
         once(&cache, || {
             let mut libraries = build(&FRAMEWORK, workspace, toolchain)?;
-            libraries.extend(build(&["--package", name], workspace, toolchain)?);
-            let [framework, glam, protocol] = EXTERNS;
-            let names = [framework, glam, protocol, name];
-            copy(libraries, &names, &cache.join("crates"))
+            let packages: Vec<&str> = names.iter().flat_map(|name| ["--package", name]).collect();
+            libraries.extend(build(&packages, workspace, toolchain)?);
+            let names = names.iter().map(String::as_str);
+            let externs: Vec<&str> = EXTERNS.into_iter().chain(names).collect();
+            copy(libraries, &externs, &cache.join("crates"))
         })
     }
 }

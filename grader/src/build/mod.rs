@@ -113,11 +113,11 @@ impl Builder {
         })
     }
 
-    /// Builds that may name one more crate of the lock file: for solutions of ours that need it, and
+    /// Builds that may name more crates of the lock file: for solutions of ours that need them, and
     /// never for submissions.
-    pub fn and_crate(&self, name: &str, workspace: &Workspace) -> Result<Self, BuildError> {
+    pub fn and_crates(&self, names: &[String], workspace: &Workspace) -> Result<Self, BuildError> {
         let mut builder = self.clone();
-        builder.rustc.dependencies = Dependencies::and(name, workspace, &self.rustc.toolchain)?;
+        builder.rustc.dependencies = Dependencies::and(names, workspace, &self.rustc.toolchain)?;
         Ok(builder)
     }
 

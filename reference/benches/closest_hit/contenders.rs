@@ -15,8 +15,8 @@ use obvhs::bvh2::builder::build_bvh2_from_tris;
 use obvhs::ray::RayHit;
 use obvhs::triangle::Triangle;
 use protocol::Ray;
+use reference::bvh::Bvh;
 
-use crate::bvh::Bvh;
 use crate::eight;
 use crate::embree::EmbreeScene;
 

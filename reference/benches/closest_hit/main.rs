@@ -4,12 +4,15 @@
 
 use std::rc::Rc;
 
-use crate::bvh::Bvh;
+use reference::bvh::Bvh;
+use reference::primitive::Primitive;
+// Under the names that the variant's file has for them.
+use reference::{bbox, primitive, triangle};
+
 use crate::contenders::{Contender, Every, LEAF, Nearest, Obvhs, OfCrate};
 use crate::cost::{Spread, timed};
 use crate::embree::Embree;
 use crate::mesh::{Mesh, meshes};
-use crate::primitive::Primitive;
 use crate::rays::Rays;
 use crate::report::Report;
 
@@ -20,25 +23,10 @@ mod mesh;
 mod rays;
 mod report;
 
-// The reference's files and the variant's, as they stand: with tests that do not run here.
-#[path = "../../src/bbox.rs"]
-#[allow(dead_code, unused_imports, reason = "not all of it is measured")]
-mod bbox;
-#[path = "../../src/bvh.rs"]
-#[allow(dead_code, unused_imports, reason = "not all of it is measured")]
-mod bvh;
+// The variant's file as it stands, beside the reference's other four.
 #[path = "../../variants/bvh/wide.rs"]
-#[allow(dead_code, unused_imports, reason = "not all of it is measured")]
+#[allow(dead_code, reason = "not all of it is measured")]
 mod eight;
-#[path = "../../src/primitive.rs"]
-#[allow(dead_code, unused_imports, reason = "not all of it is measured")]
-mod primitive;
-#[path = "../../src/sphere.rs"]
-#[allow(dead_code, unused_imports, reason = "not all of it is measured")]
-mod sphere;
-#[path = "../../src/triangle.rs"]
-#[allow(dead_code, unused_imports, reason = "not all of it is measured")]
-mod triangle;
 
 /// How often each is built, and each asked each kind of ray, unless `ROUNDS` says otherwise.
 const ROUNDS: usize = 5;

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use flate2::read::GzDecoder;
 use glam::{Vec3, vec3};
 use protocol::Shape;
-
-use crate::bbox::BBox;
+use reference::bbox::BBox;
 
 /// Triangles, and from where they are looked at.
 pub struct Mesh {

@@ -3,8 +3,8 @@
 
 use glam::{Vec3, vec3};
 use protocol::Ray;
+use reference::bvh::Bvh;
 
-use crate::bvh::Bvh;
 use crate::mesh::Mesh;
 
 /// Of each kind, about; a square of pixels.

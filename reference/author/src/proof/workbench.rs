@@ -77,8 +77,8 @@ impl Workbench {
     /// Builds a solution, of which all must compile.
     pub fn build(&self, sources: &Sources, id: &str) -> Result<Solution, NotTried> {
         let mut builder = Cow::Borrowed(&self.builder);
-        for name in sources.crates() {
-            builder = Cow::Owned(builder.and_crate(name, &self.workspace)?);
+        if !sources.crates().is_empty() {
+            builder = Cow::Owned(builder.and_crates(sources.crates(), &self.workspace)?);
         }
         let build = builder.build(&sources.submission(id))?;
         if let Some(message) = complaint(&build.not_compiled) {

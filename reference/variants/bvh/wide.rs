@@ -525,8 +525,7 @@ impl Folding<'_> {
 
     fn leaf(&mut self, node: &Node) -> u32 {
         let start = self.packs.len();
-        let mut triangles = Vec::new();
-        let mut spheres = Vec::new();
+        let (mut triangles, mut spheres) = (Vec::new(), Vec::new());
         for place in node.start..node.start + node.size {
             match &self.primitives[place] {
                 Primitive::Triangle(triangle) => triangles.push((small(place), triangle)),

@@ -61,7 +61,7 @@ fn confine(order: &Order, command: Command) -> io::Result<ExitCode> {
     calls::close(&order.profile)?;
     match order.profile {
         Profile::Probe => program.become_it(),
-        Profile::Compiler { .. } => program.stay_beside_it(),
+        Profile::Compiler { .. } => program.stay_beside_it(order.limits.cpu),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io;
+use std::mem;
 use std::os::fd::AsRawFd;
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::{Path, PathBuf};
@@ -88,8 +89,9 @@ impl Program {
         Err(error)
     }
 
-    /// Starts it, and stays beside it: it starts others, which must all end with it.
-    pub(super) fn stay_beside_it(mut self) -> io::Result<ExitCode> {
+    /// Starts it, and stays beside it: it starts others, which must all end with it. `cpu` is its
+    /// limit.
+    pub(super) fn stay_beside_it(mut self, cpu: Duration) -> io::Result<ExitCode> {
         ready()?;
         let mut child = self.command.stdin(Stdio::null()).spawn()?;
         let pid = i32::try_from(child.id()).ok().and_then(Pid::from_raw);
@@ -107,12 +109,35 @@ impl Program {
         }
         let status = child.wait()?;
         if let Some(signal) = status.signal().and_then(Signal::from_named_raw) {
+            // The first process of a namespace is spared the signal of the CPU time's soft limit, and
+            // ended at the hard one by a signal that says that memory ran out. It did not.
+            let signal = match signal == Signal::KILL && used_by_children()? >= cpu {
+                true => Signal::XCPU,
+                false => signal,
+            };
             // Ends in the same way, and takes along whatever its program has left behind.
             kill_current_process_group(signal)?;
         }
         let code = u8::try_from(status.code().unwrap_or(1)).unwrap_or(1);
         Ok(ExitCode::from(code))
     }
+}
+
+/// The CPU time of all that this process has started and has seen end.
+#[allow(unsafe_code, reason = "there is no safe word for this call")]
+fn used_by_children() -> io::Result<Duration> {
+    // SAFETY: a value of plain numbers, which may all be zero.
+    let mut usage: libc::rusage = unsafe { mem::zeroed() };
+    // SAFETY: it writes one such value, into ours.
+    if unsafe { libc::getrusage(libc::RUSAGE_CHILDREN, &raw mut usage) } != 0 {
+        return Err(io::Error::last_os_error());
+    }
+    let time = |value: libc::timeval| {
+        let [seconds, micros] =
+            [value.tv_sec, value.tv_usec].map(|part| u64::try_from(part).unwrap_or(0));
+        Duration::from_secs(seconds) + Duration::from_micros(micros)
+    };
+    Ok(time(usage.ru_utime) + time(usage.ru_stime))
 }
 
 /// Asks the system to end this process when the grader ends, and makes sure that it has not yet.

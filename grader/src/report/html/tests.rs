@@ -5,8 +5,7 @@ use sha2::{Digest, Sha256};
 
 use super::Reload;
 use crate::exam::Exam;
-use crate::exam_file;
-use crate::exam_file::ExamName;
+use crate::exam_file::{self, ExamName};
 use crate::exhibit::Exhibits;
 use crate::score::{Evidence, FileReport, Hint, Score, Verdict};
 use crate::verdict::unasked;

@@ -76,10 +76,10 @@ impl Workbench {
 
     /// Builds a solution, of which all must compile.
     pub fn build(&self, sources: &Sources, id: &str) -> Result<Solution, NotTried> {
-        let mut builder = Cow::Borrowed(&self.builder);
-        if !sources.crates().is_empty() {
-            builder = Cow::Owned(builder.and_crates(sources.crates(), &self.workspace)?);
-        }
+        let builder = match sources.crates() {
+            [] => Cow::Borrowed(&self.builder),
+            names => Cow::Owned(self.builder.and_crates(names, &self.workspace)?),
+        };
         let build = builder.build(&sources.submission(id))?;
         if let Some(message) = complaint(&build.not_compiled) {
             let id = id.to_owned();

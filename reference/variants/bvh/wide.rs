@@ -1,14 +1,16 @@
-//! Eight boxes at a time, and four triangles: the binary tree, built or handed in, is folded into
-//! nodes of eight children, and the triangles of each leaf stand side by side in packs of four. After
+//! Eight boxes at a time, and eight triangles: the binary tree, built or handed in, is folded into
+//! nodes of eight children, and the triangles of each leaf stand side by side in packs of eight. After
 //! Wald, Benthin and Boulos, "Getting Rid of Packets", 2008, and Embree's `BVH8<Triangle4>`.
 //!
-//! Three things that look like details are half of the speed. What is still to be visited is kept as
-//! one integer, the entry above the child, so that the nearer of two is found without a branch that the
-//! processor would have to guess. Where a ray enters a box is computed from the plane that it meets
-//! first, known from the sign of its direction: a minimum and a maximum less for each axis. And the
-//! memory of all children that are hit is asked for at once, not when each has its turn.
+//! What takes the time is not to compute, but to wait: for memory, and for a branch that the processor
+//! has guessed wrongly. So nodes and packs stand in one piece of memory, a child's beside its parent's,
+//! and all children that are hit are asked for at once, whichever they are. What is still to be
+//! visited is kept as one integer, the entry above the child, so that the nearer of two is found
+//! without a branch. Where a ray enters a box is computed from the plane that it meets first, known
+//! from the sign of its direction. And what a `Trace` says of a triangle, besides where it is, stands in
+//! one line of memory.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use protocol::{Ray, Trace};
 use wide::{f32x4, f32x8};
 
@@ -69,30 +71,31 @@ pub struct Bvh {
     pub nodes: Vec<Node>,
     /// The place of the node where everything starts: need be neither first nor last.
     pub root: usize,
-    /// The folded tree; its root is the first. None at all if there is nothing to hold.
-    eights: Vec<Eight>,
-    packs: Vec<Pack>,
+    /// The folded tree, its root first. None at all if there is nothing to hold.
+    lines: Vec<Line>,
+    /// Of each primitive, as they stand in `primitives`; of a sphere, nothing.
+    surfaces: Vec<Surface>,
 }
 
 impl Bvh {
     /// A tree from its parts.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
-        let mut folding = Folding {
-            primitives: &primitives,
-            nodes: &nodes,
-            eights: Vec::with_capacity(nodes.len() / 6),
-            packs: Vec::with_capacity(nodes.len() / 2 + 1),
+        Bvh::fold(primitives, nodes, root, Leaves::AsTheyAre)
+    }
+
+    fn fold(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize, leaves: Leaves) -> Self {
+        let lines = if root < nodes.len() {
+            Folding::new(&primitives, &nodes, leaves).all(root)
+        } else {
+            Vec::new()
         };
-        if root < nodes.len() {
-            folding.eight(root);
-        }
-        let (eights, packs) = (folding.eights, folding.packs);
+        let surfaces = primitives.iter().map(Surface::new).collect();
         Bvh {
             primitives,
             nodes,
             root,
-            eights,
-            packs,
+            lines,
+            surfaces,
         }
     }
 
@@ -107,69 +110,55 @@ impl Bvh {
             builder.node(0, primitives.len());
         }
         let ordered = builder.items.iter().map(|item| primitives[item.place]);
-        Bvh::from_nodes(ordered.collect(), builder.nodes, 0)
+        Bvh::fold(ordered.collect(), builder.nodes, 0, Leaves::Joined)
     }
 
     /// The closest of all the places where the ray meets a primitive within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        self.eights.first()?;
         let mut closest = Closest {
             distance: ray.range.max,
-            place: NOWHERE,
-            u: 0.0,
-            v: 0.0,
+            met: Met::Nothing,
         };
-        self.walk(0, &Beam::new(ray), ray, &mut closest);
-        match self.primitives.get(closest.place as usize)? {
-            Primitive::Triangle(triangle) => Some(closest.trace(ray, triangle)),
-            Primitive::Sphere(sphere) => sphere.hit(ray),
+        if !self.lines.is_empty() {
+            self.walk(&Beam::new(ray), ray, &mut closest);
+        }
+        match closest.met {
+            Met::Nothing => None,
+            Met::Sphere { place } => self.primitives[place as usize].hit(ray),
+            Met::Triangle { place, u, v } => {
+                let surface = &self.surfaces[place as usize];
+                Some(surface.trace(ray, closest.distance, u, v))
+            }
         }
     }
 
-    /// Looks for a hit below a child that the ray is known to meet.
-    fn walk(&self, root: u32, beam: &Beam, ray: &Ray, closest: &mut Closest) {
+    fn walk(&self, beam: &Beam, ray: &Ray, closest: &mut Closest) {
         let mut open = Open::new();
-        let mut child = root;
+        let mut child = 0;
         loop {
             if child & LEAF == 0 {
-                let eight = &self.eights[child as usize];
+                let eight = Eight::at(&self.lines, child);
                 let (entries, mut mask) = eight.entries(beam, closest.distance);
                 if mask != 0 {
                     let entries = entries.to_array();
                     let visit = |mask: &mut u32| {
                         let lane = mask.trailing_zeros() as usize & 7;
                         *mask &= *mask - 1;
-                        let child = eight.children[lane];
+                        let child = eight.child(lane);
                         self.fetch(child);
                         Visit::new(entries[lane], child)
                     };
                     let mut first = visit(&mut mask);
-                    if mask == 0 {
-                        child = first.child();
-                        continue;
-                    }
-                    if open.is_full() {
-                        // A tree so deep is rare: what does not fit has calls of its own.
-                        let mut here = Open::new();
-                        here.insert(0, first);
-                        while mask != 0 {
-                            here.insert(0, visit(&mut mask));
-                        }
-                        while let Some(next) = here.pop() {
-                            if next.entry() <= closest.distance {
-                                self.walk(next.child(), beam, ray, closest);
-                            }
-                        }
-                    } else {
-                        let base = open.len;
+                    if mask != 0 {
+                        let base = open.room_for_eight();
                         while mask != 0 {
                             let other = visit(&mut mask);
                             open.insert(base, first.max(other));
                             first = first.min(other);
                         }
-                        child = first.child();
-                        continue;
                     }
+                    child = first.child();
+                    continue;
                 }
             } else {
                 self.leaf(child & !LEAF, beam, ray, closest);
@@ -184,37 +173,34 @@ impl Bvh {
         }
     }
 
-    /// Asks for the memory of a child, which will be visited, but perhaps not at once.
+    /// Asks for the memory of a child, node or pack, which will be visited, but perhaps not at once.
     fn fetch(&self, child: u32) {
-        if child & LEAF == 0 {
-            let eight = &self.eights[child as usize];
-            eight.planes.iter().for_each(fetch);
-            fetch(&eight.children);
-        } else {
-            let four = &self.packs[(child & !LEAF) as usize].four;
-            // A line of memory after the other.
-            fetch(&four.p0);
-            fetch(&four.e1[1]);
-            fetch(&four.e2[2]);
+        let start = (child & !LEAF) as usize;
+        if let Some(lines) = self.lines.get(start..start + Pack::LINES) {
+            lines.iter().for_each(fetch);
         }
     }
 
     fn leaf(&self, start: u32, beam: &Beam, ray: &Ray, closest: &mut Closest) {
-        for pack in &self.packs[start as usize..] {
-            if let Some(place) = pack.four.hit(beam, closest) {
-                // Its normals and texture coordinates will be read, unless another one is closer.
-                fetch(&self.primitives[place as usize]);
-            }
-            if let Some(place) = pack.sphere {
-                let rest = ray.within(ray.range.min, closest.distance);
-                if let Some(trace) = self.primitives[place as usize].hit(&rest) {
-                    closest.distance = trace.distance;
-                    closest.place = place;
+        let mut start = start as usize;
+        loop {
+            let pack = Pack::at(&self.lines, start);
+            if pack.is(Pack::OF_SPHERES) {
+                for place in pack.places() {
+                    let rest = ray.within(ray.range.min, closest.distance);
+                    if let Some(trace) = self.primitives[place as usize].hit(&rest) {
+                        closest.distance = trace.distance;
+                        closest.met = Met::Sphere { place };
+                    }
                 }
+            } else if let Some(place) = pack.hit(beam, closest) {
+                // It will be read, unless another one is closer.
+                fetch(&self.surfaces[place as usize]);
             }
-            if pack.is_last {
+            if !pack.is(Pack::GOES_ON) {
                 return;
             }
+            start += Pack::LINES;
         }
     }
 }
@@ -227,36 +213,67 @@ fn fetch<T>(what: &T) {
     let _ = what;
 }
 
-/// No primitive has this place.
-const NOWHERE: u32 = u32::MAX;
-
 /// The closest hit so far.
 struct Closest {
     distance: f32,
-    /// The primitive's place, or `NOWHERE`.
-    place: u32,
-    /// The weights of a triangle's corners.
-    u: f32,
-    v: f32,
+    met: Met,
 }
 
-impl Closest {
-    fn trace(&self, ray: &Ray, triangle: &Triangle) -> Trace {
-        let Triangle {
-            p0,
-            p1,
-            p2,
-            material,
-        } = triangle;
-        let (u, v) = (self.u, self.v);
+/// What the closest hit is a hit of; `place` is the primitive's.
+enum Met {
+    Nothing,
+    Sphere {
+        place: u32,
+    },
+    /// With the weights of two corners.
+    Triangle {
+        place: u32,
+        u: f32,
+        v: f32,
+    },
+}
+
+/// What a trace says of a triangle, in one line of memory.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+struct Surface {
+    normals: [Vec3; 3],
+    uvs: [Vec2; 3],
+    material: u32,
+}
+
+impl Surface {
+    fn new(primitive: &Primitive) -> Self {
+        match primitive {
+            Primitive::Triangle(Triangle {
+                p0,
+                p1,
+                p2,
+                material,
+            }) => Surface {
+                normals: [p0.normal, p1.normal, p2.normal],
+                uvs: [p0.uv, p1.uv, p2.uv],
+                material: *material,
+            },
+            Primitive::Sphere(_) => Surface {
+                normals: [Vec3::ZERO; 3],
+                uvs: [Vec2::ZERO; 3],
+                material: primitive.material(),
+            },
+        }
+    }
+
+    fn trace(&self, ray: &Ray, distance: f32, u: f32, v: f32) -> Trace {
         let w = 1.0 - u - v;
+        let [n0, n1, n2] = self.normals;
+        let [uv0, uv1, uv2] = self.uvs;
         Trace {
-            distance: self.distance,
-            position: ray.at(self.distance),
-            normal: (w * p0.normal + u * p1.normal + v * p2.normal).normalize(),
-            uv: w * p0.uv + u * p1.uv + v * p2.uv,
+            distance,
+            position: ray.at(distance),
+            normal: (w * n0 + u * n1 + v * n2).normalize(),
+            uv: w * uv0 + u * uv1 + v * uv2,
             origin: ray.origin,
-            material: *material,
+            material: self.material,
         }
     }
 }
@@ -284,22 +301,29 @@ impl Visit {
 struct Open {
     visits: [Visit; Open::SIZE],
     len: usize,
+    /// What was put in before those, and did not fit: a tree so deep is rare.
+    older: Vec<Visit>,
 }
 
 impl Open {
     /// A power of two, so that a place in it is found by a mask.
-    const SIZE: usize = 64;
+    const SIZE: usize = 32;
 
     fn new() -> Self {
         Open {
             visits: [Visit(0); Open::SIZE],
             len: 0,
+            older: Vec::new(),
         }
     }
 
-    /// Whether the children of one more node might not fit.
-    fn is_full(&self) -> bool {
-        self.len > Open::SIZE - 8
+    /// Sees to it that the children of one more node fit; returns where the first of them goes.
+    fn room_for_eight(&mut self) -> usize {
+        if self.len > Open::SIZE - 8 {
+            self.older.extend_from_slice(&self.visits[..self.len]);
+            self.len = 0;
+        }
+        self.len
     }
 
     /// Puts it in its place among those from `base` on.
@@ -314,97 +338,94 @@ impl Open {
     }
 
     fn pop(&mut self) -> Option<Visit> {
-        self.len = self.len.checked_sub(1)?;
-        Some(self.visits[self.len % Open::SIZE])
+        match self.len.checked_sub(1) {
+            Some(len) => {
+                self.len = len;
+                Some(self.visits[len % Open::SIZE])
+            }
+            None => self.older.pop(),
+        }
     }
 }
 
 /// A ray, in all lanes.
 struct Beam {
     origin: [f32x8; 3],
+    dir: [f32x8; 3],
     inverse: [f32x8; 3],
+    /// The inverse for when a ray leaves, which is a little later.
+    later: [f32x8; 3],
     /// Along each axis, whether the ray goes down.
     down: [bool; 3],
     min: f32x8,
-    from: [f32x4; 3],
-    dir: [f32x4; 3],
-    min_of_four: f32x4,
 }
 
 impl Beam {
     /// The inverse of nothing would be infinite, and 0 · ∞ no number: this is as good as infinite.
     const STEEPEST: f32 = 1e-30;
 
+    /// More than the times when a ray leaves are wrong by rounding. Pharr, Jakob and Humphreys,
+    /// Physically Based Rendering, 4th edition, section 6.1.2.
+    const LATER: f32 = 1.000_000_4;
+
     fn new(ray: &Ray) -> Self {
-        let origin = ray.origin.to_array();
         let dir = ray.dir.to_array();
         let inverse = dir.map(|d| 1.0 / d.abs().max(Beam::STEEPEST).copysign(d));
         Beam {
-            origin: origin.map(f32x8::splat),
+            origin: ray.origin.to_array().map(f32x8::splat),
+            dir: dir.map(f32x8::splat),
             inverse: inverse.map(f32x8::splat),
+            later: inverse.map(|inverse| f32x8::splat(inverse * Beam::LATER)),
             down: inverse.map(|inverse| inverse < 0.0),
             min: f32x8::splat(ray.range.min),
-            from: origin.map(f32x4::splat),
-            dir: dir.map(f32x4::splat),
-            min_of_four: f32x4::splat(ray.range.min),
         }
     }
 }
 
-/// Up to eight children and their boxes. A lane without a child has a box that no ray meets.
-#[derive(Clone, Debug)]
+/// As much memory as comes at a time.
+#[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-struct Eight {
-    /// Along each axis, the lower planes of all boxes, and the upper ones.
-    planes: [[f32x8; 2]; 3],
-    /// Places in `eights`, or with `LEAF` in `packs`.
-    children: [u32; 8],
-}
+struct Line([f32x8; 2]);
 
+/// In the number of a child's first line: it is a pack, and no node.
 const LEAF: u32 = 1 << 31;
 
-impl Eight {
-    /// More than the times when a ray leaves are wrong by rounding. Pharr, Jakob and Humphreys,
-    /// Physically Based Rendering, 4th edition, section 6.1.2.
-    const WIDER: f32 = 1.000_000_4;
+/// Up to eight children and their boxes: for each axis a line with the lower planes of all boxes and
+/// the upper ones, and one with the children. A lane without a child has a box that no ray meets.
+struct Eight<'a>(&'a [Line; Eight::LINES]);
+
+impl<'a> Eight<'a> {
+    const LINES: usize = 4;
+
+    fn at(lines: &'a [Line], start: u32) -> Self {
+        Eight(lines_at(lines, start as usize))
+    }
+
+    fn child(&self, lane: usize) -> u32 {
+        let Line([children, _]) = &self.0[3];
+        children.as_array()[lane].to_bits()
+    }
 
     /// When the ray enters the boxes, and a bit for each that it does enter, up to `max`.
     fn entries(&self, beam: &Beam, max: f32) -> (f32x8, u32) {
-        let time = |axis: usize, upper: bool| {
-            (self.planes[axis][usize::from(upper)] - beam.origin[axis]) * beam.inverse[axis]
+        let from = |axis: usize, upper: bool| {
+            let Line(planes) = &self.0[axis];
+            planes[usize::from(upper)] - beam.origin[axis]
         };
-        let [enter_x, enter_y, enter_z] = [0, 1, 2].map(|axis| time(axis, beam.down[axis]));
-        let [leave_x, leave_y, leave_z] = [0, 1, 2].map(|axis| time(axis, !beam.down[axis]));
-        let enter = enter_x
-            .fast_max(enter_y)
-            .fast_max(enter_z.fast_max(beam.min));
-        let leave = leave_x.fast_min(leave_y).fast_min(leave_z) * f32x8::splat(Eight::WIDER);
-        let leave = leave.fast_min(f32x8::splat(max));
+        let enter = [0, 1, 2].map(|axis| from(axis, beam.down[axis]) * beam.inverse[axis]);
+        let leave = [0, 1, 2].map(|axis| from(axis, !beam.down[axis]) * beam.later[axis]);
+        // In pairs: neither waits for the other.
+        let enter = (enter[0].fast_max(enter[1])).fast_max(enter[2].fast_max(beam.min));
+        let leave = (leave[0].fast_min(leave[1])).fast_min(leave[2].fast_min(f32x8::splat(max)));
         (enter, enter.simd_le(leave).to_bitmask())
     }
 }
 
-/// A piece of a leaf: four triangles and a sphere, or less.
-#[derive(Clone, Debug)]
-struct Pack {
-    four: Four,
-    /// The sphere's place in `primitives`.
-    sphere: Option<u32>,
-    /// The leaf goes on in the next pack, unless this is its last.
-    is_last: bool,
-}
+/// A piece of a leaf. Of up to eight triangles one corner and two edges, and their places; a lane
+/// without one has edges of length 0, which no ray meets. Or the places of up to eight spheres.
+struct Pack<'a>(&'a [Line; Pack::LINES]);
 
-/// Four triangles. A lane without one has edges of length 0, which no ray meets.
-#[derive(Clone, Debug)]
-struct Four {
-    p0: [f32x4; 3],
-    e1: [f32x4; 3],
-    e2: [f32x4; 3],
-    /// Places in `primitives`.
-    places: [u32; 4],
-}
-
-fn cross(a: &[f32x4; 3], b: &[f32x4; 3]) -> [f32x4; 3] {
+fn cross(a: &[f32x8; 3], b: &[f32x8; 3]) -> [f32x8; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -412,142 +433,323 @@ fn cross(a: &[f32x4; 3], b: &[f32x4; 3]) -> [f32x4; 3] {
     ]
 }
 
-fn dot(a: &[f32x4; 3], b: &[f32x4; 3]) -> f32x4 {
+fn dot(a: &[f32x8; 3], b: &[f32x8; 3]) -> f32x8 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-impl Four {
-    fn new(triangles: &[(u32, &Triangle)]) -> Self {
-        let lanes = |of: fn(&Triangle) -> Vec3| {
-            [0, 1, 2].map(|axis| {
-                let mut lanes = [0.0; 4];
-                for (lane, (_, triangle)) in lanes.iter_mut().zip(triangles) {
-                    *lane = of(triangle)[axis];
-                }
-                f32x4::from(lanes)
-            })
-        };
-        let mut places = [NOWHERE; 4];
-        for (place, (of, _)) in places.iter_mut().zip(triangles) {
-            *place = *of;
-        }
-        Four {
-            p0: lanes(|triangle| triangle.p0.position),
-            e1: lanes(|triangle| triangle.p1.position - triangle.p0.position),
-            e2: lanes(|triangle| triangle.p2.position - triangle.p0.position),
-            places,
-        }
+impl<'a> Pack<'a> {
+    const LINES: usize = 5;
+
+    /// In the first place: it holds spheres.
+    const OF_SPHERES: u32 = 1 << 30;
+    /// In the first place: the leaf goes on in the next pack.
+    const GOES_ON: u32 = 1 << 31;
+    /// No primitive has this place.
+    const NOWHERE: u32 = (1 << 30) - 1;
+
+    fn at(lines: &'a [Line], start: usize) -> Self {
+        Pack(lines_at(lines, start))
     }
 
-    /// Möller and Trumbore's test, of four triangles. Returns the place of the closest, if any is
+    /// The lines of a pack, from where each triangle has its corner and edges, and the places.
+    fn lines([p0, e1, e2]: [[f32x8; 3]; 3], places: [u32; 8]) -> [Line; Pack::LINES] {
+        let places = f32x8::from(places.map(f32::from_bits));
+        [
+            Line([p0[0], p0[1]]),
+            Line([p0[2], e1[0]]),
+            Line([e1[1], e1[2]]),
+            Line([e2[0], e2[1]]),
+            Line([e2[2], places]),
+        ]
+    }
+
+    fn is(&self, flag: u32) -> bool {
+        let Line([_, places]) = &self.0[4];
+        places.as_array()[0].to_bits() & flag != 0
+    }
+
+    fn place(&self, lane: usize) -> u32 {
+        let Line([_, places]) = &self.0[4];
+        places.as_array()[lane].to_bits() & Pack::NOWHERE
+    }
+
+    fn places(&self) -> impl Iterator<Item = u32> {
+        let places = (0..8).map(|lane| self.place(lane));
+        places.take_while(|&place| place != Pack::NOWHERE)
+    }
+
+    /// Möller and Trumbore's test, of eight triangles. Returns the place of the closest, if any is
     /// closer than what was hit before.
     fn hit(&self, beam: &Beam, closest: &mut Closest) -> Option<u32> {
-        let s = [0, 1, 2].map(|axis| beam.from[axis] - self.p0[axis]);
-        let p = cross(&beam.dir, &self.e2);
-        let q = cross(&s, &self.e1);
-        let inverse = f32x4::ONE / dot(&p, &self.e1);
-        let u = dot(&p, &s) * inverse;
-        let v = dot(&q, &beam.dir) * inverse;
-        let t = dot(&q, &self.e2) * inverse;
+        let [
+            Line([p0_x, p0_y]),
+            Line([p0_z, e1_x]),
+            Line([e1_y, e1_z]),
+            Line([e2_x, e2_y]),
+            Line([e2_z, _]),
+        ] = *self.0;
+        let (e1, e2) = ([e1_x, e1_y, e1_z], [e2_x, e2_y, e2_z]);
+        let [o_x, o_y, o_z] = beam.origin;
+        let s = [o_x - p0_x, o_y - p0_y, o_z - p0_z];
+
+        let p = cross(&beam.dir, &e2);
+        let q = cross(&s, &e1);
+        // Nothing is divided before it is known that something is hit: all is compared with the
+        // determinant in place of 1, once its sign is taken from both sides.
+        let determinant = dot(&p, &e1);
+        let sign = determinant & f32x8::splat(-0.0);
+        let determinant = determinant ^ sign;
+        let u = dot(&p, &s) ^ sign;
+        let v = dot(&q, &beam.dir) ^ sign;
+        let t = dot(&q, &e2) ^ sign;
         // Whatever is no number is neither more nor less, and so no hit.
-        let inside = u.simd_ge(f32x4::ZERO) & v.simd_ge(f32x4::ZERO) & (u + v).simd_le(f32x4::ONE);
-        let ahead = t.simd_ge(beam.min_of_four) & t.simd_le(f32x4::splat(closest.distance));
-        let mut mask = (inside & ahead).to_bitmask();
+        let inside = u.simd_ge(f32x8::ZERO) & v.simd_ge(f32x8::ZERO) & (u + v).simd_le(determinant);
+        let max = f32x8::splat(closest.distance) * determinant;
+        let ahead = t.simd_ge(beam.min * determinant) & t.simd_le(max);
+        let mut mask = (inside & ahead & determinant.simd_gt(f32x8::ZERO)).to_bitmask();
         if mask == 0 {
             return None;
         }
+
+        let [u, v, t] = [u, v, t].map(|times| (times / determinant).to_array());
+        let mut nearest = None;
         while mask != 0 {
-            let lane = mask.trailing_zeros() as usize & 3;
+            let lane = mask.trailing_zeros() as usize & 7;
             mask &= mask - 1;
-            let distance = t.as_array()[lane];
-            if distance <= closest.distance {
-                *closest = Closest {
-                    distance,
-                    place: self.places[lane],
-                    u: u.as_array()[lane],
-                    v: v.as_array()[lane],
+            if t[lane] <= closest.distance && beam.min.as_array()[0] <= t[lane] {
+                let place = self.place(lane);
+                closest.distance = t[lane];
+                closest.met = Met::Triangle {
+                    place,
+                    u: u[lane],
+                    v: v[lane],
                 };
+                nearest = Some(place);
             }
         }
-        Some(closest.place)
+        nearest
     }
+}
+
+/// So many lines, from one on.
+fn lines_at<const N: usize>(lines: &[Line], start: usize) -> &[Line; N] {
+    lines[start..start + N]
+        .try_into()
+        .expect("as many as were taken")
+}
+
+/// What becomes of the binary tree's leaves.
+#[derive(Clone, Copy)]
+enum Leaves {
+    /// A tree that was handed in may have its reasons for every box.
+    AsTheyAre,
+    /// Of a tree built here: neighbours are joined where that saves more than it costs, because eight
+    /// triangles take no longer than one.
+    Joined,
 }
 
 /// Makes the wide tree of the binary one.
 struct Folding<'a> {
     primitives: &'a [Primitive],
     nodes: &'a [Node],
-    eights: Vec<Eight>,
-    packs: Vec<Pack>,
+    leaves: Leaves,
+    /// For each of the nodes.
+    plans: Vec<Plan>,
+    lines: Vec<Line>,
 }
 
-impl Folding<'_> {
-    /// Folds what is below a node; returns where it is.
-    fn eight(&mut self, root: usize) -> u32 {
-        let mut held = vec![root];
-        // The widest is opened first: of all it is the likeliest to be entered.
-        while held.len() < 8 {
-            let area = |place: usize| self.nodes[place].bbox.surface_area();
-            let interior = (0..held.len()).filter(|&i| !self.nodes[held[i]].is_leaf());
-            let widest = interior.max_by(|&a, &b| area(held[a]).total_cmp(&area(held[b])));
-            let Some(widest) = widest else {
-                break;
+/// How to fold what is below a node, at the least cost: Ylitie, Karras and Laine, "Efficient
+/// Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017, section 3.1. To visit a node
+/// costs as much as a pack.
+#[derive(Clone, Copy, Default)]
+struct Plan {
+    /// The cost of all as at most so many children of a node above.
+    costs: [f32; 8],
+    /// How many of so many children come from either side; none if all is one child.
+    sides: [(u8, u8); 9],
+    is_leaf: bool,
+    /// Where its primitives start, and how many there are.
+    start: usize,
+    size: usize,
+}
+
+impl<'a> Folding<'a> {
+    fn new(primitives: &'a [Primitive], nodes: &'a [Node], leaves: Leaves) -> Self {
+        Folding {
+            primitives,
+            nodes,
+            leaves,
+            plans: vec![Plan::default(); nodes.len()],
+            lines: Vec::with_capacity(2 * nodes.len()),
+        }
+    }
+
+    fn all(mut self, root: usize) -> Vec<Line> {
+        self.plan(root);
+        self.eight(root);
+        self.lines
+    }
+
+    fn plan(&mut self, place: usize) {
+        let node = self.nodes[place];
+        let area = node.bbox.surface_area();
+        if node.is_leaf() {
+            let packs = node.size.div_ceil(8).max(1);
+            self.plans[place] = Plan {
+                costs: [area * packs as f32; 8],
+                is_leaf: true,
+                start: node.start,
+                size: node.size,
+                ..Plan::default()
             };
-            let node = self.nodes[held[widest]];
-            held[widest] = node.l;
-            held.push(node.r);
+            return;
         }
 
+        self.plan(node.l);
+        self.plan(node.r);
+        let (l, r) = (&self.plans[node.l], &self.plans[node.r]);
+        // The cheapest way to make of both sides so many children.
+        let share = |children: usize| {
+            let ways = (1..children).filter(|&of_l| of_l < 8 && children - of_l < 8);
+            let cost = |of_l: usize| l.costs[of_l] + r.costs[children - of_l];
+            let of_l = ways.min_by(|&a, &b| cost(a).total_cmp(&cost(b)));
+            let of_l = of_l.expect("one child from either side is a way");
+            (cost(of_l), (of_l as u8, (children - of_l) as u8))
+        };
+        let mut plan = Plan {
+            start: l.start.min(r.start),
+            size: l.size + r.size,
+            ..Plan::default()
+        };
+        let (below, sides) = share(8);
+        plan.sides[8] = sides;
+        plan.is_leaf = match self.leaves {
+            Leaves::AsTheyAre => false,
+            Leaves::Joined => plan.size <= 8,
+        };
+        plan.costs[1] = if plan.is_leaf { area } else { area + below };
+        for children in 2..8 {
+            let (cost, sides) = share(children);
+            let fewer = children - 1;
+            (plan.costs[children], plan.sides[children]) = if cost < plan.costs[fewer] {
+                (cost, sides)
+            } else {
+                (plan.costs[fewer], plan.sides[fewer])
+            };
+        }
+        self.plans[place] = plan;
+    }
+
+    /// The nodes that become children, at most so many.
+    fn children(&self, place: usize, at_most: u8, found: &mut Vec<usize>) {
+        match self.plans[place].sides[usize::from(at_most)] {
+            (0, 0) => found.push(place),
+            (of_l, of_r) => {
+                let node = self.nodes[place];
+                self.children(node.l, of_l, found);
+                self.children(node.r, of_r, found);
+            }
+        }
+    }
+
+    /// Folds what is below a node; returns where it is.
+    fn eight(&mut self, root: usize) -> u32 {
+        let mut children = Vec::with_capacity(8);
+        self.children(root, 8, &mut children);
         let mut planes = [[[f32::INFINITY; 8], [f32::NEG_INFINITY; 8]]; 3];
-        for (lane, &child) in held.iter().enumerate() {
+        for (lane, &child) in children.iter().enumerate() {
             let bbox = self.nodes[child].bbox;
             for (axis, [lower, upper]) in planes.iter_mut().enumerate() {
                 lower[lane] = bbox.min[axis];
                 upper[lane] = bbox.max[axis];
             }
         }
-        let place = self.eights.len();
-        self.eights.push(Eight {
-            planes: planes.map(|both| both.map(f32x8::from)),
-            children: [0; 8],
-        });
-        for (lane, &child) in held.iter().enumerate() {
-            let node = self.nodes[child];
-            let folded = if node.is_leaf() {
-                self.leaf(&node)
+        let start = self.lines.len();
+        let planes = planes.map(|both| Line(both.map(f32x8::from)));
+        self.lines.extend(planes);
+        self.lines.push(Line([f32x8::ZERO; 2]));
+
+        let mut folded = [0.0; 8];
+        for (folded, &child) in folded.iter_mut().zip(&children) {
+            *folded = f32::from_bits(if self.plans[child].is_leaf {
+                self.leaf(child) | LEAF
             } else {
                 self.eight(child)
-            };
-            self.eights[place].children[lane] = folded;
+            });
         }
-        small(place)
+        self.lines[start + 3] = Line([f32x8::from(folded), f32x8::ZERO]);
+        small(start)
     }
 
-    fn leaf(&mut self, node: &Node) -> u32 {
-        let start = self.packs.len();
+    fn leaf(&mut self, place: usize) -> u32 {
+        let Plan { start, size, .. } = self.plans[place];
         let (mut triangles, mut spheres) = (Vec::new(), Vec::new());
-        for place in node.start..node.start + node.size {
+        for place in start..start + size {
             match &self.primitives[place] {
                 Primitive::Triangle(triangle) => triangles.push((small(place), triangle)),
                 Primitive::Sphere(_) => spheres.push(small(place)),
             }
         }
-        // One at least, so that there is an end also of a leaf without anything.
-        let packs = triangles.len().div_ceil(4).max(spheres.len()).max(1);
-        for i in 0..packs {
-            self.packs.push(Pack {
-                four: Four::new(triangles.chunks(4).nth(i).unwrap_or_default()),
-                sphere: spheres.get(i).copied(),
-                is_last: i + 1 == packs,
-            });
+        let mut packs = Vec::new();
+        for triangles in triangles.chunks(8) {
+            packs.push((corners(triangles), places(triangles.iter().map(|of| of.0))));
         }
-        LEAF | small(start)
+        for spheres in spheres.chunks(8) {
+            let mut places = places(spheres.iter().copied());
+            places[0] |= Pack::OF_SPHERES;
+            packs.push((corners(&[]), places));
+        }
+        // One at least, so that there is an end also of a leaf without anything.
+        if packs.is_empty() {
+            packs.push((corners(&[]), places([].into_iter())));
+        }
+        let last = packs.len() - 1;
+        packs[..last]
+            .iter_mut()
+            .for_each(|(_, places)| places[0] |= Pack::GOES_ON);
+
+        let start = self.lines.len();
+        let packs = packs.into_iter();
+        self.lines
+            .extend(packs.flat_map(|(corners, places)| Pack::lines(corners, places)));
+        small(start)
     }
 }
 
-/// A place, in half of the space.
+/// Of at most eight triangles the first corner, and the edges that begin there.
+fn corners(triangles: &[(u32, &Triangle)]) -> [[f32x8; 3]; 3] {
+    let lanes = |of: fn(&Triangle) -> Vec3| {
+        [0, 1, 2].map(|axis| {
+            let mut lanes = [0.0; 8];
+            for (lane, (_, triangle)) in lanes.iter_mut().zip(triangles) {
+                *lane = of(triangle)[axis];
+            }
+            f32x8::from(lanes)
+        })
+    };
+    [
+        lanes(|triangle| triangle.p0.position),
+        lanes(|triangle| triangle.p1.position - triangle.p0.position),
+        lanes(|triangle| triangle.p2.position - triangle.p0.position),
+    ]
+}
+
+/// At most eight places, and nothing in the other lanes.
+fn places(of: impl Iterator<Item = u32>) -> [u32; 8] {
+    let mut places = [Pack::NOWHERE; 8];
+    places
+        .iter_mut()
+        .zip(of)
+        .for_each(|(place, of)| *place = of);
+    places
+}
+
+/// A place, in the bits that are left for it.
 fn small(place: usize) -> u32 {
-    u32::try_from(place).expect("memory ends before the numbers do")
+    let place = u32::try_from(place)
+        .ok()
+        .filter(|&place| place < Pack::NOWHERE);
+    place.expect("memory ends before the numbers do")
 }
 
 /// A box in two registers.

@@ -1,12 +1,19 @@
 //! What the sandbox costs: starting a probe until it answers, and compiling a submission, with and
 //! without, turn by turn, so that a noisy machine disturbs both.
 //!
-//! `cargo bench -p grader --bench sandbox` prints medians and least values, at the best level that
-//! holds here.
+//! `cargo bench -p grader --bench sandbox` prints CPU time, and time by the clock, at the best level
+//! that holds here.
+
+#[path = "warm_grade/cost.rs"]
+#[allow(
+    dead_code,
+    reason = "no program is measured here, but what the grader does"
+)]
+mod cost;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use grader::ask::Budget;
 use grader::build::{Build, Builder};
@@ -15,6 +22,8 @@ use grader::sandbox;
 use grader::submission::Submission;
 use grader::workspace::Workspace;
 use protocol::Question;
+
+use cost::Cost;
 
 const COMPILES: usize = 15;
 const STARTS: usize = 100;
@@ -42,10 +51,10 @@ fn main() -> ExitCode {
     let builds = builders.map(|builder| builder.build(&submission).expect("it builds"));
     println!("{} beside none", builds[1].isolation());
 
-    let compile = |which: usize| timed(|| drop(builders[which].build(&submission)));
+    let compile = |which: usize| Cost::of(|| drop(builders[which].build(&submission)));
     report("compile", COMPILES, compile);
     report("start of a probe", STARTS, |which| {
-        timed(|| first_answer(&builds[which]))
+        Cost::of(|| first_answer(&builds[which]))
     });
     ExitCode::SUCCESS
 }
@@ -61,28 +70,19 @@ fn first_answer(build: &Build) {
     probe.ask(nothing, BUDGET).expect("it answers");
 }
 
-fn timed(work: impl FnOnce()) -> f64 {
-    let start = Instant::now();
-    work();
-    1e3 * start.elapsed().as_secs_f64()
-}
-
-/// In milliseconds.
-fn report(what: &str, rounds: usize, one: impl Fn(usize) -> f64) {
-    let rounds: Vec<[f64; 2]> = (0..rounds).map(|_| [one(0), one(1)]).collect();
-    let sorted = |which: usize| {
-        let mut values: Vec<f64> = rounds.iter().map(|round| round[which]).collect();
-        values.sort_by(f64::total_cmp);
-        values
+/// Medians, in milliseconds, without and with; and how many times as much that is.
+fn report(what: &str, rounds: usize, one: impl Fn(usize) -> Cost) {
+    let rounds: Vec<[Cost; 2]> = (0..rounds).map(|_| [one(0), one(1)]).collect();
+    let median = |which: usize, time: &dyn Fn(&Cost) -> Duration| {
+        let mut times: Vec<Duration> = rounds.iter().map(|round| time(&round[which])).collect();
+        times.sort();
+        1e3 * times[times.len() / 2].as_secs_f64()
     };
-    let (open, confined) = (sorted(0), sorted(1));
-    let middle = rounds.len() / 2;
-    println!(
-        "{what:20}least {:7.1} and {:7.1} ms, median {:7.1} and {:7.1} ms, {:.3} ×",
-        open[0],
-        confined[0],
-        open[middle],
-        confined[middle],
-        confined[middle] / open[middle],
-    );
+    let print = |name: &str, time: &dyn Fn(&Cost) -> Duration| {
+        let [open, confined] = [0, 1].map(|which| median(which, time));
+        let ratio = confined / open;
+        println!("{what:18}{name:14}{open:8.1} and {confined:8.1} ms, {ratio:.3} ×");
+    };
+    print("CPU", &|cost| cost.cpu);
+    print("by the clock", &|cost| cost.wall);
 }

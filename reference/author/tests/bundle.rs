@@ -241,6 +241,25 @@ fn its_texts_name_the_version_of_rust_that_the_manifest_wants() {
     }
 }
 
+/// Cargo warns of each that is not there, at every command that a student types.
+#[test]
+fn its_profiles_name_no_package_that_it_does_not_have() {
+    let manifest: toml::Table = BUNDLE.text("Cargo.toml").unwrap().parse().unwrap();
+    let lock = BUNDLE.text("Cargo.lock").unwrap();
+    let profiles = manifest["profile"].as_table().unwrap();
+    let packages = profiles
+        .values()
+        .filter_map(|profile| profile.get("package"));
+    let names = packages.flat_map(|packages| packages.as_table().unwrap().keys());
+    let unknown = names.filter(|name| {
+        *name != "*"
+            && !lock
+                .lines()
+                .any(|line| line == format!("name = \"{name}\""))
+    });
+    assert_eq!(unknown.collect::<Vec<_>>(), [""; 0]);
+}
+
 #[test]
 fn the_first_stub_is_in_the_line_that_the_first_page_says() {
     let page = BUNDLE.text("handout/src/start.md").unwrap();

@@ -69,10 +69,15 @@ pub(super) fn cut(root: &Path, bundle: &mut Bundle) -> Result<(), BadManifest> {
             key: "workspace.members",
         })?;
     keep_members(members, bundle);
-    // Cargo warns of what is said of a package that is not there.
-    let packages = manifest["profile"]["release"].get_mut("package");
-    if let Some(packages) = packages.and_then(Item::as_table_like_mut) {
+    // Cargo warns of what is said of a package that is not there; benches have no other profile.
+    let profiles = &mut manifest["profile"];
+    if let Some(packages) = profiles["release"].get_mut("package")
+        && let Some(packages) = packages.as_table_like_mut()
+    {
         packages.remove("reference");
+    }
+    if let Some(profiles) = profiles.as_table_like_mut() {
+        profiles.remove("bench");
     }
     bundle.put("Cargo.toml", manifest.to_string());
 

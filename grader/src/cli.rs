@@ -62,7 +62,8 @@ pub struct Arguments {
     #[arg(long)]
     pub doctor: bool,
 
-    /// With --doctor: look at a package for Gradescope or classroom50 instead, as they will see it
+    /// With --doctor: look at a package for Gradescope, classroom50 or GitHub instead, as they
+    /// will see it
     #[arg(long, value_name = "FILE", requires = "doctor")]
     pub package: Option<PathBuf>,
 

@@ -1,6 +1,7 @@
 //! `cargo grade --doctor`: what submissions are built with on this machine, and how far they can be
 //! kept apart from it.
 
+mod folder;
 pub mod package;
 
 use std::fmt;

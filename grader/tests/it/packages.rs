@@ -1,10 +1,12 @@
 //! A package that would not grade is told before it is uploaded.
 
+use std::fs;
 use std::io::{Cursor, Write};
+use std::path::Path;
 
 use tempfile::TempDir;
-use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
 
 use crate::formats::exam;
 use crate::harness::grader;
@@ -12,42 +14,81 @@ use crate::harness::grader;
 const SETUP: (&str, &str) = ("setup.sh", "#!/bin/sh\n");
 const RUN: (&str, &str) = ("run_autograder", "#!/bin/sh\n");
 const POLICY: (&str, &str) = ("pathtracing/policy.toml", "");
-const CRATE: (&str, &str) = ("pathtracing/crates/registry/cache/x/glam.crate", "");
+const GRADE: (&str, &str) = ("pathtracing/grade", "#!/bin/sh\n");
+/// What is only looked for.
+const REST: [(&str, &str); 6] = [
+    ("pathtracing/grader/src/main.rs", ""),
+    ("pathtracing/student/framework/src/lib.rs", ""),
+    ("pathtracing/reference/src/bvh.rs", ""),
+    ("pathtracing/reference/carried/lib.rs", ""),
+    (
+        "pathtracing/crates/registry/cache/x/landlock-0.4.7.crate",
+        "",
+    ),
+    (
+        "pathtracing/crates/registry/index/x/.cache/la/nd/landlock",
+        "",
+    ),
+];
 
 /// What is wrong, the files that show it, and the mode of all of them.
 type Case<'a> = (&'a str, Vec<(&'a str, &'a str)>, u32);
 
-/// What is said of a zip with these files, and the exit code.
-fn told(files: &[(&str, &str)], mode: u32) -> (i32, String) {
+/// A zip with these files, as they are.
+fn zipped(files: &[(&str, &str)], mode: u32) -> Vec<u8> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, text) in files {
-        let options = SimpleFileOptions::default().unix_permissions(mode);
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Stored)
+            .unix_permissions(mode);
         archive.start_file(*name, options).unwrap();
         archive.write_all(text.as_bytes()).unwrap();
     }
-    told_of(&archive.finish().unwrap().into_inner())
+    archive.finish().unwrap().into_inner()
+}
+
+/// What is said of a zip with these files, and the exit code.
+fn told(files: &[(&str, &str)], mode: u32) -> (i32, String) {
+    told_of(&zipped(files, mode))
 }
 
 fn told_of(bytes: &[u8]) -> (i32, String) {
     let folder = TempDir::new().unwrap();
-    std::fs::write(folder.path().join("package.zip"), bytes).unwrap();
+    fs::write(folder.path().join("package.zip"), bytes).unwrap();
     let path = folder.path().join("package.zip");
+    told_at(&path)
+}
+
+/// What is said of the package at this place, which is called as its last part is.
+fn told_at(path: &Path) -> (i32, String) {
     let output = grader()
         .args(["--doctor", "--package"])
-        .arg(&path)
+        .arg(path)
         .output()
         .unwrap();
     let text = [output.stdout, output.stderr].concat();
     let text = String::from_utf8(text).unwrap();
-    let text = text.replace(path.to_str().unwrap(), "package.zip");
-    (output.status.code().unwrap(), text)
+    let folder = format!("{}/", path.parent().unwrap().display());
+    (output.status.code().unwrap(), text.replace(&folder, ""))
+}
+
+/// A whole package, but for one file, which is another one or not there.
+fn whole_but<'a>(
+    exam: &'a str,
+    name: &str,
+    file: Option<(&'a str, &'a str)>,
+) -> Vec<(&'a str, &'a str)> {
+    let whole = [SETUP, RUN, GRADE, ("pathtracing/exam.json", exam), POLICY];
+    let whole = whole.into_iter().chain(REST);
+    whole
+        .filter(|(other, _)| *other != name)
+        .chain(file)
+        .collect()
 }
 
 #[test]
 fn a_whole_one_has_nothing_wrong_with_it() {
-    let exam = exam("final");
-    let whole = [SETUP, RUN, ("pathtracing/exam.json", &exam), POLICY, CRATE];
-    let (code, text) = told(&whole, 0o755);
+    let (code, text) = told(&whole_but(&exam("final"), "", None), 0o755);
     assert_eq!(
         (code, text.as_str()),
         (0, "package.zip: nothing is wrong with it\n")
@@ -57,53 +98,33 @@ fn a_whole_one_has_nothing_wrong_with_it() {
 #[test]
 fn what_is_wrong_is_told_with_what_to_do() {
     let (good, practice) = (exam("final"), exam("practice"));
-    let good = ("pathtracing/exam.json", good.as_str());
-    let bad: [Case; 8] = [
+    let exam = "pathtracing/exam.json";
+    let without = |name| whole_but(&good, name, None);
+    let with = |name, text| whole_but(&good, name, Some((name, text)));
+    let bad: [Case; 13] = [
         (
             "the folder was zipped",
             vec![("mine/setup.sh", ""), ("mine/run_autograder", "")],
             0o755,
         ),
         ("nothing in it", vec![], 0o755),
+        ("line ends", with(SETUP.0, "#!/bin/sh\r\n"), 0o755),
+        ("line ends below", with(GRADE.0, "#!/bin/sh\r\n"), 0o755),
+        ("no first line", with(RUN.0, "echo"), 0o755),
+        ("not executable", without(""), 0o644),
+        ("practice", with(exam, &practice), 0o755),
         (
-            "line ends",
-            vec![("setup.sh", "#!/bin/sh\r\n"), RUN, good, POLICY, CRATE],
-            0o755,
-        ),
-        (
-            "no first line",
-            vec![SETUP, ("run_autograder", "echo"), good, POLICY, CRATE],
-            0o755,
-        ),
-        (
-            "not executable",
-            vec![SETUP, RUN, good, POLICY, CRATE],
-            0o644,
-        ),
-        (
-            "practice",
-            vec![
-                SETUP,
-                RUN,
-                ("pathtracing/exam.json", &practice),
-                POLICY,
-                CRATE,
-            ],
+            "half of an exam",
+            with(exam, &good[..good.len() / 2]),
             0o755,
         ),
         ("no exam, no crates", vec![SETUP, RUN, POLICY], 0o755),
+        ("no script below", without(GRADE.0), 0o755),
+        ("no solution", without(REST[2].0), 0o755),
+        ("not written on Linux", with_other_crate(&good), 0o755),
         (
             "policy",
-            vec![
-                SETUP,
-                RUN,
-                good,
-                (
-                    "pathtracing/policy.toml",
-                    "[visibility.items]\ncamra = 'all'",
-                ),
-                CRATE,
-            ],
+            with(POLICY.0, "[visibility.items]\ncamra = 'all'"),
             0o755,
         ),
     ];
@@ -115,6 +136,61 @@ fn what_is_wrong_is_told_with_what_to_do() {
     }
     let (code, text) = told_of(b"not a zip");
     assert_eq!(code, 2);
-    all.push_str(&format!("-- no zip\n{text}"));
+    all.push_str(&format!("-- no zip\n{text}\n"));
+    let marked = with(REST[0].0, "fn main() { todo!() }");
+    let mut damaged = zipped(&marked, 0o755);
+    let place = damaged.windows(4).position(|bytes| bytes == b"todo");
+    damaged[place.unwrap()] = b'T';
+    let (code, text) = told_of(&damaged);
+    assert_eq!(code, 2);
+    all.push_str(&format!("-- damaged\n{text}"));
     insta::assert_snapshot!(all);
+}
+
+/// With a crate, but none that only Linux needs.
+fn with_other_crate(exam: &str) -> Vec<(&str, &str)> {
+    let other = ("pathtracing/crates/registry/cache/x/glam-0.34.crate", "");
+    whole_but(exam, REST[4].0, Some(other))
+}
+
+/// Writes these files below a folder.
+fn lay_out(folder: &Path, files: &[(&str, &[u8])]) {
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+}
+
+#[test]
+fn of_a_folder_it_is_told_whose_it_is_and_what_it_lacks() {
+    let folder = TempDir::new().unwrap();
+    let package = folder.path().join("package");
+    fs::create_dir(&package).unwrap();
+    let (code, nothing) = told_at(&package);
+    assert!(
+        code == 2 && nothing.contains("it is no package"),
+        "{nothing}"
+    );
+
+    let policy = ("pathtracing/policy.toml", "");
+    let zip = zipped(&[REST[0], REST[1], policy], 0o644);
+    let entry = ("autograder.py", b"".as_slice());
+    lay_out(&package, &[entry, ("pathtracing.zip", &zip)]);
+    let (code, text) = told_at(&package);
+    assert_eq!((code, &*text), (0, "package: nothing is wrong with it\n"));
+    for broken in [b"not a zip".as_slice(), &zipped(&REST, 0o644)] {
+        lay_out(&package, &[("pathtracing.zip", broken)]);
+        let (code, text) = told_at(&package);
+        assert!(code == 2 && text.contains("package classroom50`"), "{text}");
+    }
+
+    let template = folder.path().join("template");
+    let workflow = (".github/workflows/grade.yml", b"".as_slice());
+    lay_out(&template, &[workflow, ("reference/src/bvh.rs", b"")]);
+    let (code, text) = told_at(&template);
+    assert_eq!(code, 2);
+    for told in ["there is no student/src/bvh.rs", "it holds reference"] {
+        assert!(text.contains(told), "{text}");
+    }
 }

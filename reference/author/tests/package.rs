@@ -1,6 +1,7 @@
 //! What staff uploads: all that it needs, and what students can read without a secret.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::LazyLock;
 
 use author::bundle::secrets::Secrets;
@@ -61,6 +62,21 @@ fn what_students_can_read_holds_no_solution_and_no_final_exam() {
     assert_eq!(secrets.search(&unpacked), []);
     let size: usize = package.files.values().map(Vec::len).sum();
     assert!(size < 10 << 20, "classroom50 takes 10 MiB: {size}");
+}
+
+#[test]
+fn the_folders_are_whole_as_they_are_written() {
+    let folder = tempfile::TempDir::new().unwrap();
+    for platform in ["classroom50", "github"] {
+        let out = folder.path().join(platform);
+        let output = Command::new(env!("CARGO_BIN_EXE_author"))
+            .args(["package", platform, "--out"])
+            .arg(&out)
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{output:?}");
+        assert_eq!(complaints(&out).unwrap(), [""; 0], "{platform}");
+    }
 }
 
 #[test]

@@ -19,7 +19,7 @@ use super::workspace::Copy;
 fn start(submission: &Submission, out: &Path) -> Child {
     let mut command = grader();
     command.arg(submission.path()).arg("--out").arg(out);
-    command.args(["--no-reference"]);
+    command.args(["--no-reference", "--format", "gradescope", "junit"]);
     let command = command.stdout(Stdio::null()).stderr(Stdio::null());
     command.spawn().unwrap()
 }
@@ -29,6 +29,16 @@ fn lasting(out: &Path) -> Option<Value> {
     let mut score: Value = serde_json::from_slice(&text).expect("a score is whole, or not there");
     score.as_object_mut().unwrap().remove("timings");
     Some(score)
+}
+
+/// Panics where what a platform reads is there in part.
+fn read_as_a_platform(out: &Path) {
+    if let Ok(text) = fs::read(out.join("gradescope.json")) {
+        serde_json::from_slice::<Value>(&text).expect("results are whole, or not there");
+    }
+    if let Ok(text) = fs::read_to_string(out.join("junit.xml")) {
+        roxmltree::Document::parse(&text).expect("a report is whole, or not there");
+    }
 }
 
 /// Kills the grader at so many moments, spread over a run.
@@ -51,6 +61,7 @@ fn killed_at_any_moment(times: u32) {
         thread::sleep(moment);
         grader.kill().unwrap();
         grader.wait().unwrap();
+        read_as_a_platform(&out);
         if let Some(score) = lasting(&out) {
             assert!(
                 score["complete"] == false || score == undisturbed,

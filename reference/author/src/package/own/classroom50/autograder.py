@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Grades the checkout in the current folder, and leaves result.json and release-body.md there.
 
-classroom50 runs this for each submission. The grader is the one beside this file, never the one in
-the checkout, which students can change. Exit code 0: graded, whatever the score.
+classroom50 runs this for each submission, and shows the second of these files on the page of the run
+as well. The grader is the one beside this file, never the one in the checkout, which students can
+change. Exit code 0: graded, whatever the score.
 """
 
 import os
@@ -30,17 +31,7 @@ def main():
         command += ["--policy", str(grader / "policy.toml"), "--format"]
         command += [f"classroom50={checkout / 'result.json'}"]
         command += [f"github={checkout / 'release-body.md'}"]
-        code = subprocess.run(command, cwd=grader, env=environment).returncode
-    show(checkout / "release-body.md")
-    return code
-
-
-def show(body):
-    """The release's words, on the page of the run as well."""
-    page = os.environ.get("GITHUB_STEP_SUMMARY")
-    if page and body.is_file():
-        with open(page, "a", encoding="utf-8") as summary:
-            summary.write(body.read_text(encoding="utf-8"))
+        return subprocess.run(command, cwd=grader, env=environment).returncode
 
 
 def committed(checkout):

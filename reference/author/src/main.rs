@@ -174,6 +174,7 @@ fn pack(root: &Path, platform: Platform, package: &Bundle, out: &Path, check: bo
         }
         Platform::Classroom50 => {
             archive::write_folder(package, out)?;
+            println!("{} files: {}", package.files.len(), out.display());
             match check {
                 true => conclude(
                     &trial::classroom50::check(root, out)?,

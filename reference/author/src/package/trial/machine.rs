@@ -1,5 +1,5 @@
 //! A machine like a platform's: an empty root with this system's programs, no network, the platform's
-//! user and rights, half of a core and 768 MB.
+//! user and rights, half of a core and 768 MiB.
 //!
 //! It takes root, which is asked of `sudo` where we are not.
 
@@ -34,7 +34,7 @@ pub enum Who {
 pub enum Limits {
     /// As much as there is: while an image is made.
     None,
-    /// Half of a core, and 768 MB.
+    /// Half of a core, and 768 MiB.
     Platform,
 }
 

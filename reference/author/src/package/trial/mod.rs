@@ -75,7 +75,7 @@ fn timed(whose: &str, ended: &Ended, platform: Duration, complaints: &mut Vec<St
     };
     let slow = 2 * used.cpu;
     let memory = used.memory.map_or(String::new(), |bytes| {
-        format!(", {} MB at most", bytes / 1_000_000)
+        format!(", {} MiB at most", bytes >> 20)
     });
     println!(
         "{:6.1} s of half a core ({:.1} s by the clock){memory}: {whose}",

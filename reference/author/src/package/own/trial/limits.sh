@@ -1,4 +1,4 @@
-# Half of a core and 768 MB, for a command and all that it starts. Arguments: a file for what was
+# Half of a core and 768 MiB, for a command and all that it starts. Arguments: a file for what was
 # used, and the command. Ends with 125 where there is no control group to be had.
 set -eu
 used=$1

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use crate::given::{GIVEN_FILES, MAIN, TASK_FILES, TaskFile};
 use crate::tame::tame;
 
-pub use archive::{Archive, Member, Refused};
+pub use archive::{Archive, Listing, Member, Refused};
 
 /// The longest file that is read, in bytes; ours have about 10,000.
 const LONGEST_FILE: u64 = 1 << 20;

@@ -69,6 +69,17 @@ pub struct Member {
     place: usize,
 }
 
+/// What is in an archive.
+#[derive(Debug, Default)]
+pub struct Listing {
+    /// Its regular files.
+    pub members: Vec<Member>,
+    /// Its folders, with `/`.
+    pub folders: Vec<String>,
+    /// What is nothing of this.
+    pub refused: Vec<Refused>,
+}
+
 /// An archive, open.
 #[derive(Debug)]
 pub struct Archive(Kind);
@@ -99,11 +110,21 @@ impl Archive {
         }))
     }
 
+    /// All that is in it. What leads outside, or is a link or device, is refused alone: in a class's
+    /// archive that is one student's matter.
+    pub fn listing(&mut self) -> Result<Listing, Refused> {
+        match &mut self.0 {
+            Kind::Zip(zip) => zip.listing(),
+            Kind::Tar(tar) => tar.listing(),
+        }
+    }
+
     /// Its regular files. Refused as a whole if any path leads outside, or is a link or device.
     pub fn members(&mut self) -> Result<Vec<Member>, Refused> {
-        match &mut self.0 {
-            Kind::Zip(zip) => zip.members(),
-            Kind::Tar(tar) => tar.members(),
+        let listing = self.listing()?;
+        match listing.refused.into_iter().next() {
+            Some(why) => Err(why),
+            None => Ok(listing.members),
         }
     }
 

@@ -8,7 +8,7 @@ use flate2::read::MultiGzDecoder;
 use tar::{Archive, EntryType};
 
 use super::stream::Allowance;
-use super::{MOST_MEMBERS, Member, Refused, Stream, io, shown, special, tidy};
+use super::{Listing, MOST_MEMBERS, Member, Refused, Stream, io, shown, special, tidy};
 
 /// How much may come out of it, wanted or not, in bytes.
 const MOST: u64 = 256 << 20;
@@ -51,27 +51,31 @@ impl Tarball {
         Ok(Stream::new(inner, MOST))
     }
 
-    pub(super) fn members(&mut self) -> Result<Vec<Member>, Refused> {
-        let mut members = Vec::new();
+    pub(super) fn listing(&mut self) -> Result<Listing, Refused> {
+        let mut listing = Listing::default();
         let mut count = 0;
         self.walk(|place, kind, path, _| {
             count = place + 1;
             if count > MOST_MEMBERS {
                 return Err(Refused::TooMany);
             }
-            // Whatever else there is: folders, and what headers say of all files, such as Git's
-            // commit.
-            let path = tidy(path)?;
-            if is_link_or_device(kind) {
-                special(&path)?;
-            } else if kind.is_file() || kind.is_contiguous() || kind.is_gnu_sparse() {
-                members.push(Member { path, place });
+            match tidy(path) {
+                Err(why) => listing.refused.push(why),
+                Ok(path) if is_link_or_device(kind) => {
+                    listing.refused.extend(special(&path).err());
+                }
+                Ok(path) if kind.is_dir() => listing.folders.push(path),
+                Ok(path) if kind.is_file() || kind.is_contiguous() || kind.is_gnu_sparse() => {
+                    listing.members.push(Member { path, place });
+                }
+                // What headers say of all files, such as Git's commit.
+                Ok(_) => {}
             }
             Ok(())
         })?;
         match count {
             0 => Err(Refused::Empty),
-            _ => Ok(members),
+            _ => Ok(listing),
         }
     }
 

@@ -8,7 +8,7 @@ use zip::ZipArchive;
 use zip::result::ZipError;
 
 use super::stream::Allowance;
-use super::{MOST_MEMBERS, Member, Refused, Stream, io, shown, special, tidy};
+use super::{Listing, MOST_MEMBERS, Member, Refused, Stream, io, shown, special, tidy};
 
 /// How much may be read to learn what is in it: the directory of some 50,000 members.
 const LONGEST_DIRECTORY: u64 = 8 << 20;
@@ -35,14 +35,14 @@ impl Zipped {
         Ok(Zipped { archive, allowance })
     }
 
-    pub(super) fn members(&mut self) -> Result<Vec<Member>, Refused> {
+    pub(super) fn listing(&mut self) -> Result<Listing, Refused> {
+        let mut listing = Listing::default();
         match self.archive.len() {
             0 => return Err(Refused::Empty),
             count if count > MOST_MEMBERS => return Err(Refused::TooMany),
-            _ if self.archive.has_duplicate_names() => return Err(Refused::Twice),
+            _ if self.archive.has_duplicate_names() => listing.refused.push(Refused::Twice),
             _ => {}
         }
-        let mut members = Vec::new();
         for place in 0..self.archive.len() {
             let entry = self.archive.by_index_data(place);
             let entry = entry.map_err(|error| damaged(&error))?;
@@ -50,15 +50,15 @@ impl Zipped {
                 Ok(name) => name.into_owned(),
                 Err(_) => String::from_utf8_lossy(entry.name_raw()).into_owned(),
             };
-            let path = tidy(&name)?;
             let kind = entry.unix_mode().map_or(0, |mode| mode & KIND);
-            match kind {
-                _ if entry.is_dir() => {}
-                0 | REGULAR => members.push(Member { path, place }),
-                _ => special(&path)?,
+            match (tidy(&name), kind) {
+                (Err(why), _) => listing.refused.push(why),
+                (Ok(path), _) if entry.is_dir() => listing.folders.push(path),
+                (Ok(path), 0 | REGULAR) => listing.members.push(Member { path, place }),
+                (Ok(path), _) => listing.refused.extend(special(&path).err()),
             }
         }
-        Ok(members)
+        Ok(listing)
     }
 
     pub(super) fn read(

@@ -4,14 +4,15 @@
 #   INPUT=export.zip OUT=/shared/graded SHARDS=16 bash slurm.sh
 #
 # INPUT and OUT must be on a disk that all nodes see. Whatever fails: the same command again grades
-# only what is missing. OPTIONS go to every `cargo class`, such as "--exam final.json".
+# only what is missing. OPTIONS go to every `cargo class`, such as "--exam final.json --policy p.toml",
+# and LISTS to the merge, such as "--roster people.csv --canvas export.csv".
 set -euo pipefail
 
 : "${INPUT:?the export or folder}" "${OUT:?the folder for the results}"
-: "${SHARDS:=8}" "${CLASS:=cargo class}" "${OPTIONS:=}"
-export INPUT OUT SHARDS CLASS OPTIONS
+: "${SHARDS:=8}" "${CLASS:=cargo class}" "${OPTIONS:=}" "${LISTS:=}"
+export INPUT OUT SHARDS CLASS OPTIONS LISTS
 
-# shellcheck disable=SC2086 # CLASS and OPTIONS are several words
+# shellcheck disable=SC2086 # these are several words each
 case "${STEP:-submit}" in
 submit)
     export STEP=shard
@@ -23,6 +24,6 @@ shard)
     $CLASS "$INPUT" $OPTIONS --shard "$SLURM_ARRAY_TASK_ID/$SHARDS" --out "$OUT/shards/$SLURM_ARRAY_TASK_ID"
     ;;
 merge)
-    $CLASS merge "$OUT"/shards/* --out "$OUT"
+    $CLASS merge "$OUT"/shards/* $LISTS --out "$OUT"
     ;;
 esac

@@ -3,13 +3,14 @@
 use std::env;
 use std::fs;
 use std::num::NonZero;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::thread;
 
 use clap::Parser;
 use grader::cli::Arguments;
 use grader::error::Error as GraderError;
 use grader::grade::Grader;
+use grader::policy::PolicyError;
 
 use crate::cli::{ClassArguments, Grading};
 use crate::drift::{Drift, drift};
@@ -57,15 +58,18 @@ pub fn class(arguments: &ClassArguments) -> Result<Done, Error> {
     let words = Arguments::try_parse_from(words).map_err(Error::Arguments)?;
     let grader = Grader::for_many(&words)?;
     let store = Store::at(out);
-    let run = begun(
-        &store,
-        settings(&grader, &arguments.grading)?,
-        arguments.regrade,
-    )?;
+    let settings = settings(&grader, &arguments.grading)?;
+    let run = Run {
+        shard: arguments.shard,
+        policy: policy_text(&arguments.grading)?,
+        ..begun(&store, settings, arguments.regrade)?
+    };
+    store.set_run(&run)?;
     let entries = arguments.shard.unwrap_or(Shard::ALL).of(found.entries);
     let rows = graded(&grader, &store, &run, &entries, slots(arguments.jobs))?;
     let run = Run {
         finished: true,
+        was_finished: true,
         ..run
     };
     store.set_run(&run)?;
@@ -105,6 +109,17 @@ fn settings(grader: &Grader, grading: &Grading) -> Result<Settings, Error> {
     })
 }
 
+/// As it stands in its file, which has been read and understood.
+fn policy_text(grading: &Grading) -> Result<Option<String>, PolicyError> {
+    let read = |path: &PathBuf| {
+        fs::read_to_string(path).map_err(|source| PolicyError::Io {
+            path: path.clone(),
+            source,
+        })
+    };
+    grading.policy.as_ref().map(read).transpose()
+}
+
 /// The run that this one goes on with, or begins. Scores that follow from something else are never
 /// mixed with those there are, and never thrown away unasked.
 fn begun(store: &Store, settings: Settings, regrade: bool) -> Result<Run, Error> {
@@ -117,7 +132,10 @@ fn begun(store: &Store, settings: Settings, regrade: bool) -> Result<Run, Error>
             ..run
         },
         (Some(run), true) => {
-            store.keep_previous()?;
+            // Of a regrade that was given up, some scores are here: the old ones are those that count.
+            if !run.is_begun_regrade() {
+                store.keep_previous()?;
+            }
             run.next(settings)
         }
         (Some(run), false) => {
@@ -127,7 +145,6 @@ fn begun(store: &Store, settings: Settings, regrade: bool) -> Result<Run, Error>
             });
         }
     };
-    store.set_run(&run)?;
     Ok(run)
 }
 

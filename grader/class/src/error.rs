@@ -7,6 +7,7 @@ use grader::isolate::NotIsolated;
 use grader::policy::PolicyError;
 
 use crate::input::NoClass;
+use crate::shard::Shard;
 use crate::store::StoreError;
 use crate::table::BadTable;
 
@@ -67,6 +68,23 @@ pub enum Error {
         /// What is not the same.
         what: Vec<&'static str>,
     },
+    /// Some shards were not named.
+    #[error(
+        "part {} is not among them, and who is in it would be lost: name all folders",
+        words(.0)
+    )]
+    Incomplete(Vec<Shard>),
+    /// Shards whose points count for different things.
+    #[error(
+        "{} and {} were graded with different policies: say with --policy which one counts",
+        one.display(), other.display()
+    )]
+    Policies {
+        /// A shard.
+        one: PathBuf,
+        /// Another.
+        other: PathBuf,
+    },
     /// The same entry in two shards.
     #[error("{id} is in {} and in {}: were both given the same --shard?", one.display(), other.display())]
     Twice {
@@ -92,11 +110,18 @@ impl Error {
             | Error::NoShard(_)
             | Error::Unfinished(_)
             | Error::Strangers { .. }
+            | Error::Incomplete(_)
+            | Error::Policies { .. }
             | Error::Twice { .. } => 2,
             Error::Store(_) | Error::Isolation(_) => 3,
             Error::Grader(error) => error.exit_code(),
         }
     }
+}
+
+fn words(shards: &[Shard]) -> String {
+    let words: Vec<String> = shards.iter().map(Shard::to_string).collect();
+    words.join(", ")
 }
 
 impl From<GraderError> for Error {

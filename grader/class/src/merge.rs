@@ -15,15 +15,12 @@ use crate::model::{Class, Line};
 use crate::outcome::Row;
 use crate::roster;
 use crate::run::Run;
+use crate::shard::Shard;
 use crate::store::{Store, StoreError};
 use crate::written::write;
 
 /// Copies the shards' results together, and writes what the class is told by.
 pub fn merge(arguments: &MergeArguments) -> Result<Done, Error> {
-    let policy = match &arguments.policy {
-        Some(path) => Policy::read(path)?,
-        None => Policy::default(),
-    };
     let shards: Result<Vec<(&PathBuf, Run)>, Error> = arguments
         .shards
         .iter()
@@ -34,6 +31,12 @@ pub fn merge(arguments: &MergeArguments) -> Result<Done, Error> {
     for (other, theirs) in &shards[1..] {
         belong_together((first, run), (other, theirs))?;
     }
+    let parts: Vec<Shard> = shards.iter().filter_map(|(_, run)| run.shard).collect();
+    let missing = Shard::missing(&parts);
+    if !missing.is_empty() {
+        return Err(Error::Incomplete(missing));
+    }
+    let policy = policy(arguments, &shards)?;
 
     let out = Store::at(&arguments.out);
     let mut taken: BTreeMap<String, &Path> = BTreeMap::new();
@@ -50,6 +53,10 @@ pub fn merge(arguments: &MergeArguments) -> Result<Done, Error> {
             copy(&shard.entry(&id), &out.entry(&id))?;
         }
     }
+    let run = &Run {
+        shard: None,
+        ..run.clone()
+    };
     out.set_run(run)?;
 
     let rows: Vec<Row> = out.rows()?;
@@ -70,6 +77,24 @@ pub fn merge(arguments: &MergeArguments) -> Result<Done, Error> {
     Ok(match class.faults() {
         0 => Done::All,
         _ => Done::NotAll,
+    })
+}
+
+/// The one that is named, else the one that all shards were graded with.
+fn policy(arguments: &MergeArguments, shards: &[(&PathBuf, Run)]) -> Result<Policy, Error> {
+    let (first, run) = &shards[0];
+    if let Some(path) = &arguments.policy {
+        return Ok(Policy::read(path)?);
+    }
+    if let Some((other, _)) = shards.iter().find(|(_, other)| other.policy != run.policy) {
+        return Err(Error::Policies {
+            one: (*first).clone(),
+            other: (*other).clone(),
+        });
+    }
+    Ok(match &run.policy {
+        Some(text) => Policy::of_text(&first.join("run.json"), text)?,
+        None => Policy::default(),
     })
 }
 

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::shard::Shard;
+
 /// What is kept of a run beside its entries.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Run {
@@ -11,6 +13,15 @@ pub struct Run {
     pub round: u32,
     /// Whether every entry of the round was looked at.
     pub finished: bool,
+    /// Whether that held once, even if somebody was killed while looking again.
+    #[serde(default)]
+    pub was_finished: bool,
+    /// Which part of the class it is. None if it is all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shard: Option<Shard>,
+    /// The text of the policy. None if it is the default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub policy: Option<String>,
     /// What its scores follow from.
     pub settings: Settings,
     /// What those of the round before followed from.
@@ -45,20 +56,36 @@ impl Run {
             schema: SCHEMA,
             round: 1,
             finished: false,
+            was_finished: false,
+            shard: None,
+            policy: None,
             settings,
             before: None,
         }
     }
 
-    /// The next, of which nothing is graded yet.
+    /// The next, of which nothing is graded yet. One that was never finished is no round to compare
+    /// with.
     pub fn next(&self, settings: Settings) -> Self {
+        let before = match self.is_begun_regrade() {
+            true => self.before.clone(),
+            false => Some(self.settings.clone()),
+        };
         Run {
             schema: SCHEMA,
             round: self.round + 1,
             finished: false,
+            was_finished: false,
+            shard: None,
+            policy: None,
             settings,
-            before: Some(self.settings.clone()),
+            before,
         }
+    }
+
+    /// Whether the scores before it are kept already, and its own are not complete.
+    pub fn is_begun_regrade(&self) -> bool {
+        !self.was_finished && self.before.is_some()
     }
 }
 

@@ -1,9 +1,12 @@
 //! A part of a class, for one of several machines.
 
+use std::fmt;
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
+
 /// The `part`th of `of` parts, counted from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
     part: usize,
     of: usize,
@@ -17,6 +20,19 @@ impl Shard {
     pub fn of<T>(self, all: Vec<T>) -> Vec<T> {
         let own = |(place, one): (usize, T)| (place % self.of == self.part - 1).then_some(one);
         all.into_iter().enumerate().filter_map(own).collect()
+    }
+
+    /// Those without which these are not a whole class.
+    pub fn missing(these: &[Shard]) -> Vec<Shard> {
+        let of = these.iter().map(|shard| shard.of).max().unwrap_or(1);
+        let parts = (1..=of).map(|part| Shard { part, of });
+        parts.filter(|part| !these.contains(part)).collect()
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}/{}", self.part, self.of)
     }
 }
 
@@ -46,6 +62,12 @@ mod tests {
         let mut joined: Vec<usize> = shards.iter().flat_map(|s| s.of(all.clone())).collect();
         joined.sort_unstable();
         assert_eq!(joined, all);
+        let missing = Shard::missing(&[shards[2], shards[0]]);
+        assert_eq!(
+            missing.iter().map(Shard::to_string).collect::<Vec<_>>(),
+            ["2/3"]
+        );
+        assert!(Shard::missing(&shards).is_empty());
         for bad in ["0/3", "4/3", "1/0", "1", "a/b", "-1/3"] {
             assert!(bad.parse::<Shard>().is_err(), "{bad}");
         }

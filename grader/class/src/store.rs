@@ -157,14 +157,16 @@ impl Store {
         Ok(rows)
     }
 
-    /// Keeps every score as the one before.
+    /// Keeps every score as the one before. Who has none has none before, either.
     pub fn keep_previous(&self) -> Result<(), StoreError> {
         for id in self.ids()? {
+            let folder = self.entry(&id);
+            let path = folder.join(PREVIOUS);
             if self.stamp(&id)?.is_some_and(|s| s.state == State::Graded) {
-                let folder = self.entry(&id);
                 let text = read(&folder.join(SCORE))?;
-                let path = folder.join(PREVIOUS);
                 whole::write(&text, &path).map_err(|source| at(&path, source))?;
+            } else {
+                remove(&path)?;
             }
         }
         Ok(())

@@ -1,8 +1,11 @@
 //! Killed at any moment and started again; graded again on purpose.
 
+use std::fs;
 use std::process::Stdio;
 use std::thread;
 use std::time::{Duration, Instant};
+
+use serde_json::Value;
 
 use crate::harness::{Place, class, complaint, lasting, told};
 
@@ -28,7 +31,7 @@ fn killed_at_any_moment_and_started_again_it_ends_as_if_nothing_had_been() {
     told(&place.grade(&exam, &[]));
     let whole = began.elapsed();
     let wanted = lasting(&place.out());
-    std::fs::remove_dir_all(place.out()).unwrap();
+    fs::remove_dir_all(place.out()).unwrap();
 
     let mut killed = 0;
     for round in 0..KILLS {
@@ -78,14 +81,7 @@ fn scores_that_are_not_comparable_are_never_mixed_and_a_regrade_says_what_change
     let exam = place.exam(&ITEMS);
     told(&place.grade(&exam, &[]));
 
-    // The camera's item is worth one point less.
-    let mut other: serde_json::Value =
-        serde_json::from_slice(&std::fs::read(&exam).unwrap()).unwrap();
-    let camera = &mut other["items"][0];
-    assert_eq!(camera["id"], "camera.offset");
-    let worth = camera["points"].as_u64().unwrap();
-    camera["points"] = (worth - 1).into();
-    let other = place.list("other.json", &other.to_string());
+    let (worth, other) = revalued(&place, &exam, -1);
 
     let (code, error) = complaint(&place.grade(&other, &[]));
     assert_eq!(code, 2);
@@ -118,4 +114,34 @@ fn scores_that_are_not_comparable_are_never_mixed_and_a_regrade_says_what_change
     );
     assert_eq!(code, 2);
     assert!(error.contains("holds no scores yet"), "{error}");
+}
+
+/// An exam whose camera's item is worth so much more or less, and what it was worth.
+fn revalued(place: &Place, exam: &str, by: i64) -> (i64, String) {
+    let mut other: Value = serde_json::from_slice(&fs::read(exam).unwrap()).unwrap();
+    let camera = &mut other["items"][0];
+    assert_eq!(camera["id"], "camera.offset");
+    let worth = camera["points"].as_i64().unwrap();
+    camera["points"] = (worth + by).into();
+    let name = format!("revalued-{by}.json");
+    (worth, place.list(&name, &other.to_string()))
+}
+
+#[test]
+fn a_regrade_that_was_given_up_costs_no_old_score() {
+    let place = four("class");
+    let exam = place.exam(&ITEMS);
+    told(&place.grade(&exam, &[]));
+    let (_, wrong) = revalued(&place, &exam, 1);
+    told(&place.grade(&wrong, &["--regrade"]));
+    // As it is when whoever typed it has seen that it is the wrong exam.
+    let run = place.out().join("run.json");
+    let text = fs::read_to_string(&run).unwrap();
+    let text = text.replace("inished\": true", "inished\": false");
+    fs::write(&run, text).unwrap();
+
+    let (worth, right) = revalued(&place, &exam, -1);
+    let text = told(&place.grade(&right, &["--regrade"]));
+    let change = format!("camera.offset {worth} → {}: pass", worth - 1);
+    assert!(text.contains(&change), "{text}");
 }

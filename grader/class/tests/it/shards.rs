@@ -2,25 +2,29 @@
 //! are tried out or read strictly.
 
 use std::fs;
-use std::process::Command;
+use std::path::Path;
+use std::process::{Command, Output};
 
 use crate::harness::{Place, class, complaint, lasting, told, workspace};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
+/// In a folder with a name such as Moodle gives.
 fn three() -> Place {
-    Place::named("class")
+    Place::named("CG-Path tracing (2)")
         .with_reference("ann")
         .with_starter("bob")
         .with("carl.zip", "no archive")
 }
 
-fn shard(place: &Place, exam: &str, which: &str) -> String {
+fn shard(place: &Place, exam: &str, which: &str, more: &[&str]) -> String {
     let out = place.beside(&format!("shard-{}", which.replace('/', "-")));
     let output = class()
         .arg(place.input())
         .args(["--exam", exam, "--no-reference", "--isolation", "none"])
-        .args(["--shard", which, "--out"])
+        .args(["--shard", which])
+        .args(more)
+        .arg("--out")
         .arg(&out)
         .output()
         .unwrap();
@@ -28,37 +32,37 @@ fn shard(place: &Place, exam: &str, which: &str) -> String {
     out.to_str().unwrap().to_owned()
 }
 
+fn merged(shards: &[&str], out: &Path) -> Output {
+    let mut merge = class();
+    merge.arg("merge").args(shards).arg("--out").arg(out);
+    merge.output().unwrap()
+}
+
 #[test]
 fn merged_shards_are_the_class_that_one_machine_grades() {
     let place = three();
     let exam = place.exam(&ITEMS);
-    told(&place.grade(&exam, &[]));
-    let shards = ["1/2", "2/2"].map(|which| shard(&place, &exam, which));
-    let merged = place.beside("merged");
-    let output = class()
-        .arg("merge")
-        .args(&shards)
-        .arg("--out")
-        .arg(&merged)
-        .output()
-        .unwrap();
-    told(&output);
-    assert_eq!(lasting(&merged), lasting(&place.out()));
+    let policy = place.list("policy.toml", "[points]\nout_of = 7\n");
+    let more = ["--policy", policy.as_str()];
+    told(&place.grade(&exam, &more));
+    let shards = ["1/2", "2/2"].map(|which| shard(&place, &exam, which, &more));
+    let [one, two] = shards.each_ref().map(String::as_str);
+    let out = place.beside("merged");
+    told(&merged(&[one, two], &out));
+    // Without a word of the policy, which is theirs.
+    assert_eq!(lasting(&out), lasting(&place.out()));
+    assert!(place.read("grades.csv").contains("graded,7,"));
 
-    let twice = [&shards[0], &shards[0]];
-    let output = class()
-        .arg("merge")
-        .args(twice)
-        .arg("--out")
-        .arg(&merged)
-        .output()
-        .unwrap();
-    let (code, error) = complaint(&output);
-    assert_eq!(code, 2);
-    assert!(
-        error.contains("were both given the same --shard?"),
-        "{error}"
-    );
+    let refused = |shards: &[&str], why: &str| {
+        let (code, error) = complaint(&merged(shards, &out));
+        assert_eq!(code, 2);
+        assert!(error.contains(why), "{error}");
+    };
+    refused(&[one, two, one], "were both given the same --shard?");
+    refused(&[one], "part 2/2 is not among them");
+    let other = place.list("other.toml", "[points]\nout_of = 8\n");
+    shard(&place, &exam, "2/2", &["--policy", &other]);
+    refused(&[one, two], "different policies");
 }
 
 /// What the recipes call, in the place of `cargo class`.

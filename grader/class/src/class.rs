@@ -12,17 +12,18 @@ use grader::error::Error as GraderError;
 use grader::grade::Grader;
 use grader::policy::PolicyError;
 
-use crate::cli::{ClassArguments, Grading};
+use crate::cli::{ClassArguments, Grading, Lists};
 use crate::drift::{Drift, drift};
 use crate::entry::{About, Entry, Person};
 use crate::error::Error;
 use crate::groups;
 use crate::input::Input;
+use crate::layout::{Layout, OF_CLASSROOM50};
 use crate::model::{Class, Line};
 use crate::outcome::Row;
 use crate::progress::Progress;
 use crate::queue;
-use crate::report::preview::preview;
+use crate::report::preview::{doubts, preview};
 use crate::roster;
 use crate::run::{Run, Settings};
 use crate::shard::Shard;
@@ -45,10 +46,12 @@ pub fn class(arguments: &ClassArguments) -> Result<Done, Error> {
     let mut found = input.found.clone();
     let people = found.entries.iter_mut();
     let mut people: Vec<&mut Person> = people.flat_map(|entry| &mut entry.about.people).collect();
-    let mut missing = roster::join(&arguments.lists, &mut people)?;
+    let lists = lists(&input, &arguments.lists);
+    let mut missing = roster::join(&lists, &mut people)?;
     let entries = found.entries.iter_mut();
     let mut abouts: Vec<&mut About> = entries.map(|entry| &mut entry.about).collect();
-    groups::complete(&arguments.lists, &mut abouts, &mut missing)?;
+    groups::complete(&lists, &mut abouts, &mut missing)?;
+    roster::date(&lists, &mut abouts)?;
     let (Some(out), false) = (&arguments.out, arguments.dry_run) else {
         anstream::print!("{}", preview(&found, &missing));
         return Ok(Done::All);
@@ -65,6 +68,7 @@ pub fn class(arguments: &ClassArguments) -> Result<Done, Error> {
         ..begun(&store, settings, arguments.regrade)?
     };
     store.set_run(&run)?;
+    let doubts = doubts(&found);
     let entries = arguments.shard.unwrap_or(Shard::ALL).of(found.entries);
     let rows = graded(&grader, &store, &run, &entries, slots(arguments.jobs))?;
     let run = Run {
@@ -83,11 +87,25 @@ pub fn class(arguments: &ClassArguments) -> Result<Done, Error> {
         lines: lines.collect(),
         missing,
     };
+    anstream::print!("{doubts}");
     write(&class, &store, &arguments.lists, regraded.as_ref())?;
     Ok(match class.faults() {
         0 => Done::All,
         _ => Done::NotAll,
     })
+}
+
+/// Those that are named; where no roster is, classroom50's own, which lies beside its clones.
+fn lists(input: &Input, named: &Lists) -> Lists {
+    let own = match input.found.layout {
+        Layout::GitHub => input.root.find(OF_CLASSROOM50),
+        Layout::Gradescope | Layout::Canvas | Layout::Moodle | Layout::Plain => None,
+    };
+    let roster = named.roster.clone().or(own.map(|node| node.path.clone()));
+    Lists {
+        roster,
+        ..named.clone()
+    }
 }
 
 /// What all scores follow from, beside the submissions.

@@ -102,7 +102,7 @@ pub struct Grading {
 #[derive(Clone, Debug, Default, Args)]
 pub struct Lists {
     /// Who is in the class: a CSV with columns such as name, email, sid, username; with group,
-    /// what one hands in is for all of a group
+    /// what one hands in is for all of a group; with datetime, when it came
     #[arg(long, value_name = "CSV")]
     pub roster: Option<PathBuf>,
 

@@ -2,20 +2,16 @@
 
 use std::fs;
 use std::io;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
-use grader::submission::{Archive, Member, NoSubmission, Refused, Submission};
+use grader::submission::{NoSubmission, Refused, Submission};
 use grader::tame::tame;
 use tempfile::TempDir;
 
-use crate::entry::{Entry, Source};
+use crate::entry::{Entry, Source, several_archives};
 use crate::layout::{self, BadMetadata, Found, METADATA};
 use crate::listing::{Node, list};
-
-/// The longest file that is taken out of an export, in bytes: somebody's whole archive.
-const LONGEST: u64 = 64 << 20;
-/// Folders in an export that nobody is graded by.
-const SKIPPED: [&str; 3] = [".git", "target", "__MACOSX"];
+use crate::unpack::unpack;
 
 /// The class as it was found, and where its files are for as long as this lives.
 #[derive(Debug)]
@@ -42,7 +38,7 @@ pub enum NoClass {
         source: io::Error,
     },
     /// The archive is not one that is read.
-    #[error("{path}: {why}")]
+    #[error("{path}: {why}; or unpack it yourself, and name the folder")]
     Refused {
         /// Which.
         path: PathBuf,
@@ -66,10 +62,13 @@ impl Input {
             path: path.to_owned(),
             source,
         };
-        let unpacked = match fs::metadata(path) {
+        let (unpacked, passed_over) = match fs::metadata(path) {
             Err(_) => return Err(NoClass::Nowhere(path.to_owned())),
-            Ok(kind) if kind.is_dir() => None,
-            Ok(_) => Some(unpack(path)?),
+            Ok(kind) if kind.is_dir() => (None, Vec::new()),
+            Ok(_) => {
+                let (folder, passed_over) = unpack(path)?;
+                (Some(folder), passed_over)
+            }
         };
         let folder = match &unpacked {
             Some(folder) => folder.path().to_owned(),
@@ -80,7 +79,8 @@ impl Input {
         let metadata = root.find(METADATA).map(|node| fs::read(&node.path));
         let metadata = metadata.transpose().map_err(at)?;
         let metadata = metadata.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-        let found = layout::recognise(&root, metadata.as_deref())?;
+        let mut found = layout::recognise(&root, metadata.as_deref())?;
+        found.unmatched.extend(passed_over);
         match found.entries.is_empty() {
             true => Err(NoClass::Nobody(path.to_owned())),
             false => Ok(Input {
@@ -90,43 +90,6 @@ impl Input {
             }),
         }
     }
-}
-
-/// An export's files, in a folder that vanishes. What is in them is looked at later, one by one.
-fn unpack(path: &Path) -> Result<TempDir, NoClass> {
-    let refused = |why| NoClass::Refused {
-        path: path.to_owned(),
-        why,
-    };
-    let at = |source| NoClass::Io {
-        path: path.to_owned(),
-        source,
-    };
-    let mut archive = Archive::open(path).map_err(refused)?;
-    let members = archive.members().map_err(refused)?;
-    let is_wanted = |member: &&Member| !member.path.split('/').any(|part| SKIPPED.contains(&part));
-    let wanted: Vec<&Member> = members.iter().filter(is_wanted).collect();
-    let folder = TempDir::new().map_err(at)?;
-    let put = |member: &Member, bytes: Vec<u8>| {
-        let place = Path::new(&member.path);
-        let is_inside = place
-            .components()
-            .all(|part| matches!(part, Component::Normal(_)));
-        if is_inside && bytes.len() as u64 <= LONGEST {
-            let place = folder.path().join(place);
-            fs::create_dir_all(place.parent().unwrap_or(folder.path()))?;
-            fs::write(place, bytes)?;
-        }
-        Ok(())
-    };
-    // A few at a time, so that a big export needs little memory.
-    for some in wanted.chunks(archive.cheap_at_once()) {
-        let contents = archive.read(some, LONGEST).map_err(refused)?;
-        for (member, bytes) in some.iter().zip(contents) {
-            put(member, bytes).map_err(at)?;
-        }
-    }
-    Ok(folder)
 }
 
 /// The five files of an entry, or why there are none: which is its own matter.
@@ -161,10 +124,7 @@ fn in_archive(folder: &Path) -> Result<Submission, String> {
         [only] => Submission::collect(&only.path).map_err(|error| said(&error, folder)),
         [] if listed.nodes().is_empty() => Err("nothing was handed in: the folder is empty".into()),
         [] => Err("none of the five files was handed in".to_owned()),
-        several => Err(format!(
-            "{} archives were handed in: keep the one that counts",
-            several.len()
-        )),
+        several => Err(several_archives(several.len())),
     }
 }
 

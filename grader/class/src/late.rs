@@ -24,6 +24,12 @@ fn lateness(policy: &Policy, about: &About) -> Lateness {
     })
 }
 
+/// Whether nobody knows if it was late, though that would cost something: it counts as in time.
+pub fn is_undated(policy: &Policy, about: &About) -> bool {
+    let is_dated = about.submitted.as_deref().and_then(moment).is_some();
+    policy.late.due.is_some() && !about.late && !is_dated
+}
+
 /// Seconds since 1970, of `2026-11-20 22:01:05.000000000 Z` and its likes.
 fn moment(text: &str) -> Option<i64> {
     // Gradescope's file has a space before the zone.
@@ -62,5 +68,8 @@ mod tests {
         };
         assert_eq!(counted(&policy, &late, &score).points, 72);
         assert_eq!(counted(&policy, &About::default(), &score).points, 80);
+        assert!(!is_undated(&policy, &About::default()));
+        policy.late.due = "2026-11-20T23:59:59Z".parse().ok();
+        assert!(is_undated(&policy, &About::default()) && !is_undated(&policy, &late));
     }
 }

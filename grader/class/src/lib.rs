@@ -12,7 +12,7 @@
 //! | what is told | [`report`], [`gradebook`], [`summary`], [`spread`], [`drift`]: pure |
 //! | the work | [`work`], [`queue`], [`progress`] |
 //! | what is kept | [`store`], [`run`], [`outcome`], [`model`], [`late`] |
-//! | who handed in what | [`input`], [`layout`], [`listing`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`] |
+//! | who handed in what | [`input`], [`unpack`], [`layout`], [`listing`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`] |
 
 pub mod class;
 pub mod cli;
@@ -38,5 +38,6 @@ pub mod spread;
 pub mod store;
 pub mod summary;
 pub mod table;
+pub mod unpack;
 pub mod work;
 pub mod written;

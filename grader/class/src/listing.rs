@@ -38,10 +38,15 @@ impl Node {
 
     /// Whether its name is that of an archive, readable or not.
     pub fn is_archive(&self) -> bool {
-        let lower = self.name.to_lowercase();
-        let ends = [".zip", ".tar", ".tar.gz", ".tgz", ".rar", ".7z"];
-        !self.is_folder() && ends.iter().any(|end| lower.ends_with(end))
+        !self.is_folder() && is_archive(&self.name)
     }
+}
+
+/// Whether that is an archive's name, readable or not.
+pub fn is_archive(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    let ends = [".zip", ".tar", ".tar.gz", ".tgz", ".rar", ".7z"];
+    ends.iter().any(|end| lower.ends_with(end))
 }
 
 /// The listing of a folder. Hidden files and links are left out; names are text.

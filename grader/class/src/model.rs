@@ -3,7 +3,7 @@
 use grader::policy::{Counted, Policy};
 
 use crate::entry::Person;
-use crate::late::counted;
+use crate::late::{counted, is_undated};
 use crate::outcome::{Outcome, Row, Told};
 
 /// A graded class.
@@ -28,6 +28,8 @@ pub struct Line {
     pub row: Row,
     /// What it counts for; none without a score.
     pub counted: Option<Counted>,
+    /// Whether it counts as in time because nobody knows when it came.
+    pub is_undated: bool,
 }
 
 impl Class {
@@ -48,7 +50,12 @@ impl Line {
     /// What the policy makes of it.
     pub fn of(row: Row, policy: &Policy) -> Self {
         let counted = row.score().map(|score| counted(policy, &row.about, score));
-        Line { row, counted }
+        let is_undated = counted.is_some() && is_undated(policy, &row.about);
+        Line {
+            row,
+            counted,
+            is_undated,
+        }
     }
 
     /// In a word, for tables.

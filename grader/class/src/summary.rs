@@ -33,6 +33,8 @@ pub struct Summary {
     pub not_graded: usize,
     /// How many of the lists handed in nothing.
     pub missing: usize,
+    /// How many count as in time because nobody knows when they came.
+    pub undated: usize,
     /// All points. None without a score.
     pub points: Option<Spread>,
     /// In lecture order.
@@ -103,6 +105,7 @@ impl Summary {
             nothing_to_grade: class.lines.len() - scores.len() - not_graded,
             not_graded,
             missing: class.missing.len(),
+            undated: class.lines.iter().filter(|line| line.is_undated).count(),
             tasks: tasks(&scores),
             failed_most: failed_most(&scores),
             mistakes: mistakes(&scores),

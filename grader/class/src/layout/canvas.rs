@@ -11,6 +11,11 @@ use super::{Entries, unmatched};
 use crate::entry::{About, Entry, Person, Source};
 use crate::listing::Node;
 
+/// Of somebody whose text or link is all there is.
+const TEXT: &str = "a text or a link was handed in, and no file";
+/// Of a text of somebody who handed in files as well.
+const BESIDE: &str = "a text or a link, beside files: those are graded";
+
 /// What a file's name tells.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Name<'a> {
@@ -22,19 +27,13 @@ pub(super) struct Name<'a> {
 }
 
 /// None if it is not such a name.
-pub(super) fn parse(name: &str) -> Option<Name<'_>> {
+fn parse(name: &str) -> Option<Name<'_>> {
     let parts: Vec<&str> = name.split('_').collect();
-    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    // Without names, an id of letters and digits stands in the user's place.
-    let is_user = |place: usize| is_number(parts[place]) || parts[place - 1] == "anon";
     let place = (1..parts.len().saturating_sub(2))
-        .find(|place| is_user(*place) && is_number(parts[place + 1]))?;
-    let (late, names) = match &parts[..place] {
-        [names @ .., "LATE"] if !names.is_empty() => (true, names),
-        names => (false, names),
-    };
+        .find(|place| is_user(&parts, *place) && is_number(parts[place + 1]))?;
+    let (who, late) = who(&parts[..place]);
     Some(Name {
-        who: names.join("_"),
+        who,
         late,
         user: parts[place],
         attachment: parts[place + 1].parse().ok()?,
@@ -42,31 +41,83 @@ pub(super) fn parse(name: &str) -> Option<Name<'_>> {
     })
 }
 
+/// Whether a name is one of Canvas's.
+pub(super) fn is_name(name: &str) -> bool {
+    parse(name).is_some() || text(name).is_some()
+}
+
+/// Of `doejane_7001_text.html`, and of `…_link.html`. None if it is not such a name.
+fn text(name: &str) -> Option<Name<'_>> {
+    let parts: Vec<&str> = name.split('_').collect();
+    let place = parts.len().checked_sub(2)?;
+    let is_text = ["text.html", "link.html"].contains(&parts[place + 1]);
+    let (who, late) = who(&parts[..place]);
+    (is_text && place > 0 && is_user(&parts, place)).then(|| Name {
+        who,
+        late,
+        user: parts[place],
+        attachment: 0,
+        file: parts[place + 1].to_owned(),
+    })
+}
+
+/// Without names, an id of letters and digits stands in the user's place.
+fn is_user(parts: &[&str], place: usize) -> bool {
+    is_number(parts[place]) || parts[place - 1] == "anon"
+}
+
+fn is_number(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
+}
+
+/// The name, and whether it is late.
+fn who(parts: &[&str]) -> (String, bool) {
+    let (late, names) = match parts {
+        [names @ .., "LATE"] if !names.is_empty() => (true, names),
+        names => (false, names),
+    };
+    (names.join("_"), late)
+}
+
 pub(super) fn read(root: &Node) -> Entries {
     let mut users: BTreeMap<&str, Vec<(Name, &Node)>> = BTreeMap::new();
+    let mut texts = Vec::new();
     let mut others = Vec::new();
     for node in root.nodes() {
-        match parse(&node.name) {
-            Some(name) if !node.is_folder() => {
+        match (parse(&node.name), text(&node.name)) {
+            (Some(name), _) if !node.is_folder() => {
                 users.entry(name.user).or_default().push((name, node));
             }
-            Some(_) | None if node.name.ends_with(".html") => {
-                others.push(unmatched(
-                    node,
-                    "a text or a link was handed in, and no file",
-                ));
+            (_, Some(name)) => texts.push((name, node)),
+            (Some(_) | None, None) => {
+                others.push(unmatched(node, "its name is not one of Canvas's"));
             }
-            Some(_) | None => others.push(unmatched(node, "its name is not one of Canvas's")),
         }
     }
-    (users.into_values().map(entry).collect(), others)
+    let mut of_texts: BTreeMap<&str, (Name, &Node)> = BTreeMap::new();
+    for (name, node) in texts {
+        match users.contains_key(name.user) {
+            true => others.push(unmatched(node, BESIDE)),
+            false => _ = of_texts.insert(name.user, (name, node)),
+        }
+    }
+    let of_texts = of_texts.into_values();
+    let of_texts = of_texts.map(|(name, node)| {
+        let source = Source::Nothing(TEXT.to_owned());
+        entry(&name, name.late, node.name.clone(), source)
+    });
+    let entries = users.into_values().map(of_files).chain(of_texts);
+    (entries.collect(), others)
 }
 
 /// All of one user's files.
-fn entry(mut files: Vec<(Name, &Node)>) -> Entry {
+fn of_files(mut files: Vec<(Name, &Node)>) -> Entry {
     files.sort_by_key(|(name, _)| name.attachment);
     let (last, newest) = files.last().expect("a user is known by a file");
+    let is_one = |(name, _): &(Name, &Node)| is_one_of_five(&first_name(&name.file));
     let archive = files.iter().rfind(|(_, node)| node.is_archive());
+    // What lies open counts, as it does in a folder.
+    let archive = archive.filter(|_| !files.iter().any(is_one));
     let source = match archive {
         Some((_, archive)) => Source::Path(archive.path.clone()),
         // Of a file that was handed in again the newest counts: it is taken last.
@@ -77,24 +128,29 @@ fn entry(mut files: Vec<(Name, &Node)>) -> Entry {
                 .collect(),
         ),
     };
+    let from = match (archive, files.len()) {
+        (Some((_, archive)), _) => archive.name.clone(),
+        (None, 1) => newest.name.clone(),
+        (None, count) => format!("{} and {} more", newest.name, count - 1),
+    };
+    entry(last, files.iter().any(|(name, _)| name.late), from, source)
+}
+
+fn entry(name: &Name, late: bool, from: String, source: Source) -> Entry {
     Entry {
-        id: format!("{}_{}", last.who, last.user),
+        id: format!("{}_{}", name.who, name.user),
         about: About {
             people: vec![Person {
-                name: match last.who.as_str() {
-                    "anon" => format!("anon {}", last.user),
+                name: match name.who.as_str() {
+                    "anon" => format!("anon {}", name.user),
                     who => who.to_owned(),
                 },
-                number: last.user.to_owned(),
+                number: name.user.to_owned(),
                 ..Person::default()
             }],
-            late: files.iter().any(|(name, _)| name.late),
+            late,
             submitted: None,
-            from: match (archive, files.len()) {
-                (Some((_, archive)), _) => archive.name.clone(),
-                (None, 1) => newest.name.clone(),
-                (None, count) => format!("{} and {} more", newest.name, count - 1),
-            },
+            from,
         },
         source,
     }
@@ -109,8 +165,12 @@ fn first_name(name: &str) -> String {
         is_number.then(|| format!("{stem}.{end}"))
     };
     original(name)
-        .filter(|name| TASK_FILES.iter().any(|file| file.name == name))
+        .filter(|name| is_one_of_five(name))
         .unwrap_or_else(|| name.to_owned())
+}
+
+fn is_one_of_five(name: &str) -> bool {
+    TASK_FILES.iter().any(|file| file.name == name)
 }
 
 #[cfg(test)]

@@ -8,8 +8,8 @@ use crate::listing::Node;
 
 /// The folder's name, as GitHub Classroom's tool gives it.
 const OF_CLASSROOM: &str = "-submissions";
-/// What classroom50's tool lays beside the repositories.
-const OF_CLASSROOM50: &str = "scores.csv";
+/// What classroom50's tool lays beside the repositories: a line for each student and attempt.
+pub const OF_CLASSROOM50: &str = "scores.csv";
 /// What its repositories hold beside the work.
 const RESULT: &str = "result.json";
 

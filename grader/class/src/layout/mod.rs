@@ -16,6 +16,7 @@ use grader::given::TASK_FILES;
 use crate::entry::{Entry, folder_name};
 use crate::listing::Node;
 
+pub use github::OF_CLASSROOM50;
 pub use gradescope::{BadMetadata, METADATA};
 
 /// A class, as it was found.
@@ -35,7 +36,7 @@ pub struct Unmatched {
     /// Its name.
     pub name: String,
     /// Why.
-    pub why: &'static str,
+    pub why: String,
 }
 
 /// Where an input is from.
@@ -71,7 +72,7 @@ pub fn recognise(root: &Node, metadata: Option<&str>) -> Result<Found, BadMetada
     let root = unwrapped(root);
     let (layout, (mut entries, unmatched)) = if let Some(metadata) = metadata {
         (Layout::Gradescope, gradescope::read(root, metadata)?)
-    } else if most(root, |node| canvas::parse(&node.name).is_some()) {
+    } else if most(root, |node| canvas::is_name(&node.name)) {
         (Layout::Canvas, canvas::read(root))
     } else if most(root, |node| moodle::parse(&node.name).is_some()) {
         (Layout::Moodle, moodle::read(root))
@@ -131,10 +132,10 @@ fn told_apart(entries: &mut [Entry]) {
 type Entries = (Vec<Entry>, Vec<Unmatched>);
 
 /// Something that belongs to nobody.
-fn unmatched(node: &Node, why: &'static str) -> Unmatched {
+fn unmatched(node: &Node, why: &str) -> Unmatched {
     Unmatched {
         name: node.name.clone(),
-        why,
+        why: why.to_owned(),
     }
 }
 

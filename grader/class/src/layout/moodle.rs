@@ -3,11 +3,17 @@
 
 use std::collections::BTreeMap;
 
+use grader::given::TASK_FILES;
+
 use super::{Entries, unmatched};
-use crate::entry::{About, Entry, Person, Source};
+use crate::entry::{About, Entry, Person, Source, several_archives};
 use crate::listing::Node;
 
 const MARK: &str = "_assignsubmission_";
+/// Of somebody whose text is all there is.
+const TEXT: &str = "a text was handed in, and no file";
+/// Of a text of somebody who handed in files as well.
+const BESIDE: &str = "a text, beside files: those are graded";
 
 /// What a name tells.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,33 +46,50 @@ pub(super) fn read(root: &Node) -> Entries {
     let mut others = Vec::new();
     for node in root.nodes() {
         match parse(&node.name) {
-            Some(name) if name.way == "file" => {
-                people
-                    .entry(name.participant)
-                    .or_default()
-                    .push((name, node));
-            }
-            Some(_) => others.push(unmatched(node, "a text was handed in, and no file")),
+            Some(name) => people
+                .entry(name.participant)
+                .or_default()
+                .push((name, node)),
             None => others.push(unmatched(node, "its name is not one of Moodle's")),
         }
     }
-    (people.into_values().map(entry).collect(), others)
+    let mut entries = Vec::new();
+    for found in people.into_values() {
+        let is_file = |(name, _): &(Name, &Node)| name.way == "file";
+        let (files, texts): (Vec<_>, Vec<_>) = found.into_iter().partition(is_file);
+        if files.is_empty() {
+            let source = Source::Nothing(TEXT.to_owned());
+            entries.push(entry(&texts[0], source));
+            continue;
+        }
+        let beside = |(_, node): &(Name, &Node)| unmatched(node, BESIDE);
+        others.extend(texts.iter().map(beside));
+        let (first, source) = of_files(&files);
+        entries.push(entry(first, source));
+    }
+    (entries, others)
 }
 
-fn entry(found: Vec<(Name, &Node)>) -> Entry {
-    let (name, first) = &found[0];
-    let whole = found
-        .iter()
-        .find(|(_, node)| node.is_folder() || node.is_archive());
-    let source = match whole {
-        Some((_, node)) => Source::Path(node.path.clone()),
-        None => Source::Files(
-            found
-                .iter()
-                .map(|(name, node)| (name.file.to_owned(), node.path.clone()))
-                .collect(),
-        ),
-    };
+/// What of one participant's files is graded, by the same rule as if they lay in a folder, and
+/// which of them it is called by.
+fn of_files<'f, 'n>(files: &'f [(Name<'n>, &'n Node)]) -> (&'f (Name<'n>, &'n Node), Source) {
+    let path = |(_, node): &(Name, &Node)| Source::Path(node.path.clone());
+    if let Some(folder) = files.iter().find(|(_, node)| node.is_folder()) {
+        return (folder, path(folder));
+    }
+    let is_one = |(name, _): &&(Name, &Node)| TASK_FILES.iter().any(|file| file.name == name.file);
+    let archives: Vec<_> = files.iter().filter(|(_, node)| node.is_archive()).collect();
+    match (files.iter().find(is_one), archives.as_slice()) {
+        (None, [only]) => (only, path(only)),
+        (None, [first, ..]) => (first, Source::Nothing(several_archives(archives.len()))),
+        (Some(_), _) | (None, []) => {
+            let named = |(name, node): &(Name, &Node)| (name.file.to_owned(), node.path.clone());
+            (&files[0], Source::Files(files.iter().map(named).collect()))
+        }
+    }
+}
+
+fn entry((name, node): &(Name, &Node), source: Source) -> Entry {
     Entry {
         id: format!("{}_{}", name.who, name.participant),
         about: About {
@@ -79,7 +102,7 @@ fn entry(found: Vec<(Name, &Node)>) -> Entry {
                 number: name.participant.to_owned(),
                 ..Person::default()
             }],
-            from: whole.map_or(first, |(_, node)| node).name.clone(),
+            from: node.name.clone(),
             ..About::default()
         },
         source,

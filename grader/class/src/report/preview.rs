@@ -6,7 +6,7 @@ use grader::tame::tame;
 
 use crate::entry::{Entry, Person};
 use crate::input::collect;
-use crate::layout::Found;
+use crate::layout::{Found, Unmatched};
 
 /// The most characters of a line's parts.
 const LONGEST: usize = 200;
@@ -37,18 +37,7 @@ fn write_preview(out: &mut String, found: &Found, missing: &[Person]) -> fmt::Re
         }
         writeln!(out, "      {}", shown(&entry.about.from))?;
     }
-    for (one, other) in twice(&found.entries) {
-        writeln!(
-            out,
-            "\n  {one} and {other} are of the same person: keep the one that counts"
-        )?;
-    }
-    if !found.unmatched.is_empty() {
-        writeln!(out, "\n  belongs to nobody:")?;
-        for unmatched in &found.unmatched {
-            writeln!(out, "      {}: {}", shown(&unmatched.name), unmatched.why)?;
-        }
-    }
+    write_doubts(out, found)?;
     if !missing.is_empty() {
         writeln!(out, "\n  in the lists, and nothing handed in:")?;
         for person in missing {
@@ -60,6 +49,29 @@ fn write_preview(out: &mut String, found: &Found, missing: &[Person]) -> fmt::Re
         "\n  {gradable} of {} can be graded\n",
         found.entries.len()
     )
+}
+
+/// What a person has to see to: to be said as well where there are grades, which have no line for it.
+pub fn doubts(found: &Found) -> String {
+    let mut text = String::new();
+    write_doubts(&mut text, found).expect("text takes text");
+    text
+}
+
+fn write_doubts(out: &mut String, found: &Found) -> fmt::Result {
+    for (one, other) in twice(&found.entries) {
+        writeln!(
+            out,
+            "\n  {one} and {other} are of the same person: keep the one that counts"
+        )?;
+    }
+    if !found.unmatched.is_empty() {
+        writeln!(out, "\n  belongs to nobody:")?;
+    }
+    for Unmatched { name, why } in &found.unmatched {
+        writeln!(out, "      {}: {}", shown(name), shown(why))?;
+    }
+    Ok(())
 }
 
 fn count(entries: usize) -> String {

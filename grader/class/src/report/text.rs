@@ -38,6 +38,10 @@ fn write_summary(out: &mut String, summary: &Summary) -> fmt::Result {
             "not graded, for reasons that are not theirs: run this again",
         ),
         (summary.missing, "in the lists, and handed in nothing"),
+        (
+            summary.undated,
+            "of them count as in time: nothing says when they came",
+        ),
     ];
     for (count, words) in others.iter().filter(|(count, _)| *count > 0) {
         writeln!(out, "  {count} {words}")?;

@@ -111,6 +111,34 @@ fn an_export_is_the_same_in_its_archive() {
 }
 
 #[test]
+fn what_one_student_packed_is_not_the_others_matter() {
+    let place = Place::named("beside");
+    let file = place.beside("class.zip");
+    let mut writer = ZipWriter::new(File::create(&file).unwrap());
+    let plain = SimpleFileOptions::default();
+    let mut write = |path: &str, bytes: &[u8]| {
+        writer.start_file(path, plain).unwrap();
+        writer.write_all(bytes).unwrap();
+    };
+    for five in FIVE {
+        write(&format!("class/fine/{five}"), b"text");
+        write(&format!("class/link/{five}.txt"), b"text");
+    }
+    write("class/long/camera.rs", &[b' '; (1 << 20) + 1]);
+    write("class/outside/../../escaped.rs", b"text");
+    write(&format!("class/{}/camera.rs", "n".repeat(300)), b"text");
+    // Of what is never looked at nothing is inflated, however much it is.
+    write("class/junk/notes.bin", &[0; 2 << 20]);
+    writer.add_directory("class/empty/", plain).unwrap();
+    writer
+        .add_symlink("class/link/camera.rs", "/etc/passwd", plain)
+        .unwrap();
+    writer.finish().unwrap();
+    let preview = place.preview_of(&file, &[]);
+    assert_snapshot!(preview.replace(&"n".repeat(300), "NNN"));
+}
+
+#[test]
 fn gradescopes_list_is_refused_with_place_and_remedy() {
     let place = Place::named("export").with("submission_metadata.yml", "submission_1: [");
     let output = crate::harness::class()
@@ -134,7 +162,8 @@ fn canvass_files_are_sorted_by_user_and_the_newest_counts() {
         .with("nunezjose_LATE_7002_9021_bvh.rs", "text")
         .with("nunezjose_LATE_7002_9022_notes.pdf", "text")
         .with("oharabob_7003_9030_report.pdf", "text")
-        .with("leeann_7004_text.html", "text")
+        .with("leeann_LATE_7004_text.html", "text")
+        .with("doejane_7001_link.html", "text")
         .with("anon_xK3f9_9040_hw.zip", archive());
     assert_snapshot!(place.preview());
 }
@@ -180,8 +209,29 @@ fn moodles_folders_hold_files_or_an_archive() {
         .with(
             "Carl_305_assignsubmission_onlinetext_/onlinetext.html",
             "text",
+        )
+        .with(
+            "José Núñez_301_assignsubmission_onlinetext_/onlinetext.html",
+            "text",
         );
     assert_snapshot!(place.preview());
+}
+
+#[test]
+fn two_of_one_name_are_told_apart_by_moodles_numbers() {
+    let place = Place::named("moodle")
+        .with_five("Ann Lee_307_assignsubmission_file_")
+        .with_five("Ann Lee_308_assignsubmission_file_");
+    let worksheet = place.list(
+        "worksheet.csv",
+        "Identifier,Full name,Email address,Grade
+Participant 307,Ann Lee,a@example.edu,
+Participant 308,Ann Lee,b@example.edu,
+",
+    );
+    let preview = place.preview_of(&place.input(), &["--moodle", &worksheet]);
+    assert!(!preview.contains("same person"), "{preview}");
+    assert!(!preview.contains("nothing handed in"), "{preview}");
 }
 
 #[test]
@@ -189,7 +239,11 @@ fn moodles_flat_downloads_are_sorted_by_participant() {
     let place = Place::named("flat")
         .with("Ann Lee_302_assignsubmission_file_camera.rs", "text")
         .with("Ann Lee_302_assignsubmission_file_my_notes.txt", "text")
-        .with("Participant_303_assignsubmission_file_hw.tar.gz", "text");
+        .with("Participant_303_assignsubmission_file_hw.tar.gz", "text")
+        .with("Bob_304_assignsubmission_file_a.zip", archive())
+        .with("Bob_304_assignsubmission_file_b.zip", archive())
+        .with("Eve_305_assignsubmission_file_bvh.rs", "text")
+        .with("Eve_305_assignsubmission_file_scenes.zip", "text");
     assert_snapshot!(place.preview());
 }
 
@@ -214,7 +268,15 @@ fn classroom50s_clones_are_known_by_what_lies_beside_them() {
         .with("cg-pathtracing-ann/result.json", "{}")
         .with_five("cg-pathtracing-bob/student/src")
         .with("cg-pathtracing-bob/result.json", "{}")
-        .with("scores.csv", "username,first_name,last_name\n");
+        .with(
+            "scores.csv",
+            "username,first_name,last_name,email,datetime,late
+ann,Ann,Lee,ann@example.edu,2026-11-20T10:00:00Z,true
+ann,Ann,Lee,ann@example.edu,2026-11-19T10:00:00Z,false
+bob,Bob,O'Hara,bob@example.edu,2026-11-19T10:00:00Z,false
+dora,Dora,Y,dora@example.edu,,
+",
+        );
     assert_snapshot!(place.preview());
 }
 

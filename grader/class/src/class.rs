@@ -29,7 +29,7 @@ use crate::run::{Run, Settings};
 use crate::shard::Shard;
 use crate::store::Store;
 use crate::work::Work;
-use crate::written::{Regraded, write};
+use crate::written::{Regraded, check, write};
 
 /// Whether all of a class has been graded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +42,7 @@ pub enum Done {
 
 /// Finds out who handed in what, grades what is missing, writes what the class is told by.
 pub fn class(arguments: &ClassArguments) -> Result<Done, Error> {
+    check(&arguments.lists)?;
     let input = Input::open(arguments.input.as_deref().unwrap_or(Path::new(".")))?;
     let mut found = input.found.clone();
     let people = found.entries.iter_mut();

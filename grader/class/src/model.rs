@@ -7,7 +7,7 @@ use crate::late::{counted, is_undated};
 use crate::outcome::{Outcome, Row, Told};
 
 /// A graded class.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Class {
     /// The exam's name.
     pub exam: String,

@@ -2,7 +2,20 @@
 
 use insta::assert_snapshot;
 
-use crate::harness::{Place, told};
+use crate::harness::{Place, complaint, told};
+
+#[test]
+fn a_list_that_can_not_be_filled_is_refused_before_anything_is_graded() {
+    let place = Place::named("class").with_reference("ann");
+    let exam = place.exam(&["camera.offset"]);
+    let canvas = "Student,ID,SIS Login ID,Section,One (1),Two (2)\n";
+    let canvas = place.list("canvas-export.csv", canvas);
+    let output = place.grade(&exam, &["--canvas", &canvas]);
+    let (code, error) = complaint(&output);
+    assert_eq!(code, 2);
+    assert!(error.contains("name it with --column"), "{error}");
+    assert!(!place.out().exists(), "something was graded");
+}
 
 #[test]
 fn each_list_gets_its_points_and_says_what_changes_and_who_is_missing() {

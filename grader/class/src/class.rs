@@ -68,6 +68,7 @@ pub fn class(arguments: &ClassArguments) -> Result<Done, Error> {
         policy: policy_text(&arguments.grading)?,
         ..begun(&store, settings, arguments.regrade)?
     };
+    store.sweep()?;
     store.set_run(&run)?;
     let doubts = doubts(&found);
     let entries = arguments.shard.unwrap_or(Shard::ALL).of(found.entries);

@@ -1,6 +1,7 @@
 //! The output folder. Each file appears in one step, and an entry's stamp last: whoever is killed
 //! leaves whole entries and none that only looks like one.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -17,6 +18,8 @@ const FEEDBACK: &str = "feedback.html";
 const STAMP: &str = "entry.json";
 const PREVIOUS: &str = "previous.json";
 const RUN: &str = "run.json";
+/// What the names of files begin with that are being written.
+const UNNAMED: &str = ".tmp";
 
 /// A folder of results.
 #[derive(Clone, Debug)]
@@ -56,6 +59,18 @@ impl Store {
     /// The folder itself.
     pub fn folder(&self) -> &Path {
         &self.folder
+    }
+
+    /// Takes away what was being written when somebody was killed.
+    pub fn sweep(&self) -> Result<(), StoreError> {
+        let entries = self.ids()?.into_iter().map(|id| self.entry(&id));
+        for folder in entries.chain([self.folder.clone()]) {
+            let files = fs::read_dir(folder).into_iter().flatten().flatten();
+            for file in files.filter(|file| is_unnamed(&file.file_name())) {
+                remove(&file.path())?;
+            }
+        }
+        Ok(())
     }
 
     /// Where one entry's files are.
@@ -215,6 +230,10 @@ impl Store {
             }
         }
     }
+}
+
+fn is_unnamed(name: &OsStr) -> bool {
+    name.to_string_lossy().starts_with(UNNAMED)
 }
 
 /// Pretty, with a line end.

@@ -63,9 +63,15 @@ pub fn class(arguments: &ClassArguments) -> Result<Done, Error> {
     let grader = Grader::for_many(&words)?;
     let store = Store::at(out);
     let settings = settings(&grader, &arguments.grading)?;
+    let policy = policy_text(&arguments.grading)?;
+    if store.run()?.is_some_and(|run| run.policy != policy) {
+        anstream::eprintln!(
+            "the policy is not that of the last run: points count for other things"
+        );
+    }
     let run = Run {
         shard: arguments.shard,
-        policy: policy_text(&arguments.grading)?,
+        policy,
         ..begun(&store, settings, arguments.regrade)?
     };
     store.sweep()?;

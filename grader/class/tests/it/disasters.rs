@@ -77,4 +77,13 @@ fn late_days_cost_what_the_policy_says() {
         grades.contains("submission_2,Early,e@x.edu,,,graded,50,"),
         "{grades}"
     );
+
+    // Whoever goes on and forgets it is told.
+    let again = place.grade(&exam, &[]);
+    told(&again);
+    let error = String::from_utf8(again.stderr).unwrap();
+    assert!(
+        error.contains("the policy is not that of the last run"),
+        "{error}"
+    );
 }

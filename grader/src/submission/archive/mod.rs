@@ -80,6 +80,17 @@ pub struct Listing {
     pub refused: Vec<Refused>,
 }
 
+impl Listing {
+    /// A link or device: nothing of it is taken, and its folder was there all the same.
+    fn special(&mut self, path: &str) {
+        if let Err(why) = special(path) {
+            let folder = path.rsplit_once('/').map(|(folder, _)| folder.to_owned());
+            self.folders.extend(folder);
+            self.refused.push(why);
+        }
+    }
+}
+
 /// An archive, open.
 #[derive(Debug)]
 pub struct Archive(Kind);

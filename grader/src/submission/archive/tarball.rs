@@ -8,7 +8,7 @@ use flate2::read::MultiGzDecoder;
 use tar::{Archive, EntryType};
 
 use super::stream::Allowance;
-use super::{Listing, MOST_MEMBERS, Member, Refused, Stream, io, shown, special, tidy};
+use super::{Listing, MOST_MEMBERS, Member, Refused, Stream, io, shown, tidy};
 
 /// How much may come out of it, wanted or not, in bytes.
 const MOST: u64 = 256 << 20;
@@ -61,9 +61,7 @@ impl Tarball {
             }
             match tidy(path) {
                 Err(why) => listing.refused.push(why),
-                Ok(path) if is_link_or_device(kind) => {
-                    listing.refused.extend(special(&path).err());
-                }
+                Ok(path) if is_link_or_device(kind) => listing.special(&path),
                 Ok(path) if kind.is_dir() => listing.folders.push(path),
                 Ok(path) if kind.is_file() || kind.is_contiguous() || kind.is_gnu_sparse() => {
                     listing.members.push(Member { path, place });

@@ -8,7 +8,7 @@ use zip::ZipArchive;
 use zip::result::ZipError;
 
 use super::stream::Allowance;
-use super::{Listing, MOST_MEMBERS, Member, Refused, Stream, io, shown, special, tidy};
+use super::{Listing, MOST_MEMBERS, Member, Refused, Stream, io, shown, tidy};
 
 /// How much may be read to learn what is in it: the directory of some 50,000 members.
 const LONGEST_DIRECTORY: u64 = 8 << 20;
@@ -55,7 +55,7 @@ impl Zipped {
                 (Err(why), _) => listing.refused.push(why),
                 (Ok(path), _) if entry.is_dir() => listing.folders.push(path),
                 (Ok(path), 0 | REGULAR) => listing.members.push(Member { path, place }),
-                (Ok(path), _) => listing.refused.extend(special(&path).err()),
+                (Ok(path), _) => listing.special(&path),
             }
         }
         Ok(listing)

@@ -11,6 +11,7 @@ use grader::cli::Arguments;
 use grader::error::Error as GraderError;
 use grader::grade::Grader;
 use grader::policy::PolicyError;
+use grader::workspace::Workspace;
 
 use crate::cli::{ClassArguments, Grading, Lists};
 use crate::drift::{Drift, drift};
@@ -43,7 +44,9 @@ pub enum Done {
 /// Finds out who handed in what, grades what is missing, writes what the class is told by.
 pub fn class(arguments: &ClassArguments) -> Result<Done, Error> {
     check(&arguments.lists)?;
-    let input = Input::open(arguments.input.as_deref().unwrap_or(Path::new(".")))?;
+    let workspace = Workspace::find().map_err(GraderError::from)?;
+    let named = arguments.input.as_deref().unwrap_or(Path::new("."));
+    let input = Input::open(named, &workspace.grade().join("classes"))?;
     let mut found = input.found.clone();
     let people = found.entries.iter_mut();
     let mut people: Vec<&mut Person> = people.flat_map(|entry| &mut entry.about.people).collect();

@@ -4,14 +4,14 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use grader::build::room::{Room, clear_up};
 use grader::submission::{NoSubmission, Refused, Submission};
 use grader::tame::tame;
-use tempfile::TempDir;
 
 use crate::entry::{Entry, Source, several_archives};
 use crate::layout::{self, BadMetadata, Found, METADATA};
 use crate::listing::{Node, list};
-use crate::unpack::unpack;
+use crate::unpack::{CLASS, unpack};
 
 /// The class as it was found, and where its files are for as long as this lives.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ pub struct Input {
     pub found: Found,
     /// The folder of the class: where lists lie beside the submissions.
     pub root: Node,
-    _unpacked: Option<TempDir>,
+    _unpacked: Option<Room>,
 }
 
 /// There is no class to be found.
@@ -56,8 +56,10 @@ pub enum NoClass {
 }
 
 impl Input {
-    /// Looks at the folder or archive at `path`.
-    pub fn open(path: &Path) -> Result<Self, NoClass> {
+    /// Looks at the folder or archive at `path`. An archive is unpacked below `rooms`, for as long as
+    /// this lives.
+    pub fn open(path: &Path, rooms: &Path) -> Result<Self, NoClass> {
+        clear_up(rooms);
         let at = |source| NoClass::Io {
             path: path.to_owned(),
             source,
@@ -66,12 +68,12 @@ impl Input {
             Err(_) => return Err(NoClass::Nowhere(path.to_owned())),
             Ok(kind) if kind.is_dir() => (None, Vec::new()),
             Ok(_) => {
-                let (folder, passed_over) = unpack(path)?;
-                (Some(folder), passed_over)
+                let (room, passed_over) = unpack(path, rooms)?;
+                (Some(room), passed_over)
             }
         };
         let folder = match &unpacked {
-            Some(folder) => folder.path().to_owned(),
+            Some(room) => room.path().join(CLASS),
             None => path.canonicalize().map_err(at)?,
         };
         let listed = list(&folder).map_err(at)?;

@@ -7,8 +7,8 @@ use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Component, Path};
 
+use grader::build::room::Room;
 use grader::submission::{Archive, Member, Refused};
-use tempfile::TempDir;
 
 use crate::input::NoClass;
 use crate::layout::{METADATA, OF_CLASSROOM50, Unmatched};
@@ -25,8 +25,11 @@ const MOST_TIMES: u64 = 4;
 /// Folders that nobody is graded by.
 const SKIPPED: [&str; 4] = [".git", "target", "node_modules", "__MACOSX"];
 
-/// The archive's files and folders, and what was passed over.
-pub fn unpack(path: &Path) -> Result<(TempDir, Vec<Unmatched>), NoClass> {
+/// Where in a room they are: there is a lock beside them.
+pub const CLASS: &str = "class";
+
+/// The archive's files and folders, in a room below `rooms`, and what was passed over.
+pub fn unpack(path: &Path, rooms: &Path) -> Result<(Room, Vec<Unmatched>), NoClass> {
     let refused = |why| NoClass::Refused {
         path: path.to_owned(),
         why,
@@ -38,7 +41,9 @@ pub fn unpack(path: &Path) -> Result<(TempDir, Vec<Unmatched>), NoClass> {
     let most = MOST + MOST_TIMES * fs::metadata(path).map_err(at)?.len();
     let mut archive = Archive::open(path).map_err(refused)?;
     let listing = archive.listing().map_err(refused)?;
-    let folder = TempDir::new().map_err(at)?;
+    let room = Room::new_in(rooms).map_err(at)?;
+    let folder = &room.path().join(CLASS);
+    fs::create_dir(folder).map_err(at)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let passed_over = |why: String| Unmatched {
         name: name.clone().into_owned(),
@@ -52,7 +57,7 @@ pub fn unpack(path: &Path) -> Result<(TempDir, Vec<Unmatched>), NoClass> {
 
     let wanted_folders = listing.folders.iter().filter(|path| is_wanted(path));
     for path in wanted_folders {
-        let put = inside(folder.path(), path, |place| fs::create_dir_all(place));
+        let put = inside(folder, path, |place| fs::create_dir_all(place));
         others.extend(put.map_err(at)?.map(passed_over));
     }
     // A tar is gone through for each length, and not for each file.
@@ -83,7 +88,7 @@ pub fn unpack(path: &Path) -> Result<(TempDir, Vec<Unmatched>), NoClass> {
                         "{path} in it is longer than {mib} MiB, and cut: unpack all yourself, and name the folder"
                     )));
                 }
-                let put = inside(folder.path(), &member.path, |place| {
+                let put = inside(folder, &member.path, |place| {
                     fs::create_dir_all(place.parent().unwrap_or(place))?;
                     fs::write(place, &bytes)
                 });
@@ -91,7 +96,7 @@ pub fn unpack(path: &Path) -> Result<(TempDir, Vec<Unmatched>), NoClass> {
             }
         }
     }
-    Ok((folder, others))
+    Ok((room, others))
 }
 
 fn is_wanted(path: &str) -> bool {

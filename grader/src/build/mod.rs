@@ -10,7 +10,7 @@ mod dependencies;
 pub mod diagnostics;
 mod kept;
 mod lacking;
-mod room;
+pub mod room;
 mod rustc;
 mod taken;
 mod toolchain;

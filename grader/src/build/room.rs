@@ -1,6 +1,6 @@
-//! A folder for one submission's build: fresh each time, so that nothing of an earlier one can be
-//! taken for this one's, and gone afterwards. A grader that is killed can not clear up; the next one
-//! does.
+//! A folder for one submission's build, or for a class that was in an archive: fresh each time, so that
+//! nothing of an earlier one can be taken for this one's, and gone afterwards. A grader that is killed
+//! can not clear up; the next one does.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -14,7 +14,7 @@ const LOCK: &str = "lock";
 /// What it is called until it is locked: nobody else shall be first.
 const NOT_YET: &str = "lock.new";
 
-/// One build's folder. It vanishes with it.
+/// Such a folder. It vanishes with this.
 #[derive(Debug)]
 pub struct Room {
     // Let go of before the folder is removed: some systems remove nothing that is open.

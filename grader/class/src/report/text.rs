@@ -133,7 +133,7 @@ pub fn filled(filled: &Filled) -> String {
 /// What a regrade has changed; `because` is what is not as it was.
 pub fn drifts(drifts: &[Drift], because: &[&str]) -> String {
     let because = match because {
-        [] => "nothing but the time is different".to_owned(),
+        [] => "of what scores follow from, nothing is different".to_owned(),
         because => format!("different now: {}", because.join(", ")),
     };
     let count = match drifts.len() {

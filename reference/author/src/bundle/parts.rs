@@ -20,9 +20,10 @@ const PARTS: [&str; 7] = [
 const LEFT_OUT: [&str; 4] = ["tests", "benches", "fuzz", "target"];
 /// What students do not have: what grades a class and others' code, and what is written for those who
 /// do that.
-const STAFFS: [&str; 5] = [
+const STAFFS: [&str; 6] = [
     "grader/class",
     "grader/SECURITY.md",
+    "handout/src/class.md",
     "handout/src/gradescope.md",
     "handout/src/classroom50.md",
     "handout/src/github.md",

@@ -3,7 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use clap::{CommandFactory, Parser};
+use clap::{Args, CommandFactory, Parser};
+use class::cli::{ClassArguments, Cli as ClassCli};
 use grader::cli::Arguments;
 
 use super::pages::{Page, Piece};
@@ -45,7 +46,9 @@ pub fn unknown_commands(
 }
 
 fn unknown_command(text: &str, sources: &[Source], aliases: &BTreeSet<String>) -> Option<String> {
-    let words: Vec<&str> = text.split_whitespace().collect();
+    // What comes behind `>` is the shell's.
+    let words = text.split_whitespace().take_while(|word| *word != ">");
+    let words: Vec<&str> = words.collect();
     let (cargo, rest) = words.split_first()?;
     if *cargo != "cargo" {
         let known = FOREIGN.contains(cargo);
@@ -66,6 +69,7 @@ fn unknown_command(text: &str, sources: &[Source], aliases: &BTreeSet<String>) -
     let error = match *command {
         "grade" => Arguments::try_parse_from(&line).err(),
         "author" => Cli::try_parse_from(&line).err(),
+        "class" => ClassCli::try_parse_from(&line).err(),
         "render" | "render-reference" => return unknown_option(&line[1..], sources),
         "examples" => return unknown_example(&line[1..], sources),
         _ => None,
@@ -85,7 +89,8 @@ fn unknown_flag(text: &str, sources: &[Source]) -> Option<String> {
             .any(|argument| argument.get_long() == Some(name))
     };
     let authors = Cli::command().get_subcommands().cloned().any(takes);
-    let known = takes(Arguments::command()) || authors || HARNESS.contains(&flag);
+    let classes = takes(ClassArguments::augment_args(clap::Command::default()));
+    let known = takes(Arguments::command()) || authors || classes || HARNESS.contains(&flag);
     if known {
         return None;
     }
@@ -126,21 +131,21 @@ mod tests {
             source(RENDER_OPTIONS, "    pub(super) view: View,"),
             source("student/src/bvh.rs", ""),
         ];
-        let aliases = ["grade", "author", "render", "examples"].map(str::to_owned);
+        let aliases = ["grade", "author", "class", "render", "examples"].map(str::to_owned);
         unknown_commands(&Page::new("a.md", markdown), &sources, &aliases.into())
     }
 
     #[test]
     fn commands_and_flags_that_are_taken_pass() {
         let text = "```sh\ncargo grade --task sphere  # one task\ncargo author exams --check\n\
-                    cargo examples bvh --nocapture\n```\n`--hints` `cargo render cornell-box --view depth` `--view`";
+                    cargo examples bvh --nocapture\ncargo class a.zip --dry-run\ncargo author exam --seed 7 > b\n```\n`--hints` `--shard 1/8` `cargo render cornell-box --view depth` `--view`";
         assert_eq!(complaints(text), [""; 0]);
     }
 
     #[test]
     fn each_that_nobody_takes_is_told_with_its_place() {
         let text = "```sh\ncargo grade --taks sphere\ncargo grade --task spheres\ncargo gradee\n\
-                    cargo render a --views\ncargo examples tree\nmake\n```\n`--hint`";
+                    cargo render a --views\ncargo examples tree\nmake\ncargo class a --shard 9/8\n```\n`--hint`";
         let told = complaints(text);
         let starts = [
             "a.md:2: `cargo grade --taks sphere`: error: unexpected argument '--taks' found",
@@ -149,7 +154,8 @@ mod tests {
             "a.md:5: cargo render takes no --views",
             "a.md:6: no file has examples called tree",
             "a.md:7: what is the command make?",
-            "a.md:9: no command takes --hint",
+            "a.md:8: `cargo class a --shard 9/8`: error: invalid value '9/8'",
+            "a.md:10: no command takes --hint",
         ];
         assert_eq!(told.len(), starts.len(), "{told:#?}");
         for (told, start) in told.iter().zip(starts) {

@@ -4,6 +4,7 @@
 //! machine disturbs all. What is compared is CPU time, of one round.
 
 mod bare;
+mod changed;
 mod cost;
 mod watching;
 mod wire;
@@ -16,15 +17,13 @@ use std::process::{Command, Stdio};
 use grader::build::Builder;
 use grader::submission::Submission;
 use grader::workspace::Workspace;
-use tempfile::TempDir;
 
 use bare::Bare;
+use changed::{change, floor, submission};
 use cost::Cost;
 use watching::Watching;
 
 const ROUNDS: usize = 15;
-const FIVE: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
-const GIVEN: [&str; 2] = ["lib.rs", "primitive.rs"];
 
 /// What is measured, in the order of one round, and what it is compared with.
 const ROWS: [Row; 7] = [
@@ -71,11 +70,8 @@ impl Row {
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let [folder, broken, watched, same] = [(); 4].map(|()| submission(&root));
-    // The probe's way in needs `world`, the floor does not.
-    let lib = folder.path().join("lib.rs");
-    let text = fs::read_to_string(&lib).expect("it was copied");
-    fs::write(&lib, text.replace("pub mod world;\n", "")).expect("it can be written");
+    let folder = floor(&root);
+    let [broken, watched, same] = [(); 3].map(|()| submission(&root));
 
     grade(folder.path(), 100);
     let workspace = Workspace::find().expect("it is around us");
@@ -141,29 +137,6 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
-}
-
-fn submission(root: &Path) -> TempDir {
-    let folder = TempDir::new().expect("there is room for a folder");
-    for file in FIVE.into_iter().chain(GIVEN) {
-        let source = root.join("reference/src").join(file);
-        fs::copy(source, folder.path().join(file)).expect("the reference is there");
-    }
-    folder
-}
-
-/// Really changes the submission: a constant in two hot functions.
-fn change(root: &Path, folder: &Path, round: usize) {
-    for (file, place) in [
-        ("sphere.rs", "discriminant < 0.0"),
-        ("triangle.rs", "determinant == 0.0"),
-    ] {
-        let path = root.join("reference/src").join(file);
-        let text = fs::read_to_string(path).expect("the reference is there");
-        assert!(text.contains(place), "{file} has no {place}");
-        let changed = text.replace(place, &format!("{place} || ray.range.max < -{round}.5"));
-        fs::write(folder.join(file), changed).expect("it can be written");
-    }
 }
 
 /// Until the first word on a file that does not compile. The rest is graded after that.

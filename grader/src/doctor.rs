@@ -1,7 +1,9 @@
 //! `cargo grade --doctor`: what submissions are built with on this machine, and how far they can be
 //! kept apart from it.
 
+mod contents;
 mod folder;
+mod gradescope;
 pub mod package;
 
 use std::fmt;

@@ -6,7 +6,7 @@ use grader::error::Error as GraderError;
 use grader::isolate::NotIsolated;
 use grader::policy::PolicyError;
 
-use crate::input::NoClass;
+use crate::no_class::NoClass;
 use crate::shard::Shard;
 use crate::store::StoreError;
 use crate::table::BadTable;

@@ -1,16 +1,16 @@
 //! The input, wherever it lies: a folder as it stands, an archive unpacked where it vanishes.
 
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use grader::build::room::{Room, clear_up};
-use grader::submission::{NoSubmission, Refused, Submission};
+use grader::submission::{NoSubmission, Submission};
 use grader::tame::tame;
 
 use crate::entry::{Entry, Source, several_archives};
-use crate::layout::{self, BadMetadata, Found, METADATA};
+use crate::layout::{self, Found, METADATA};
 use crate::listing::{Node, list};
+use crate::no_class::NoClass;
 use crate::unpack::{CLASS, unpack};
 
 /// The class as it was found, and where its files are for as long as this lives.
@@ -21,38 +21,6 @@ pub struct Input {
     /// The folder of the class: where lists lie beside the submissions.
     pub root: Node,
     _unpacked: Option<Room>,
-}
-
-/// There is no class to be found.
-#[derive(Debug, thiserror::Error)]
-pub enum NoClass {
-    /// There is nothing at this place.
-    #[error("there is no {0}: name the folder or archive that the platform gave you")]
-    Nowhere(PathBuf),
-    /// The system does not let us.
-    #[error("can not read {path}: {source}")]
-    Io {
-        /// What.
-        path: PathBuf,
-        /// The system's words.
-        source: io::Error,
-    },
-    /// The archive is not one that is read.
-    #[error("{path}: {why}; or unpack it yourself, and name the folder")]
-    Refused {
-        /// Which.
-        path: PathBuf,
-        /// What is wrong with it.
-        why: Refused,
-    },
-    /// Gradescope's list is not as it should be.
-    #[error(transparent)]
-    Metadata(#[from] BadMetadata),
-    /// Nobody is in it.
-    #[error(
-        "{0} holds no submissions: name the folder of a class; one alone is graded by `cargo grade`"
-    )]
-    Nobody(PathBuf),
 }
 
 impl Input {

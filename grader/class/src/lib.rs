@@ -12,7 +12,7 @@
 //! | what is told | [`report`], [`gradebook`], [`summary`], [`spread`], [`drift`]: pure |
 //! | the work | [`work`], [`queue`], [`progress`] |
 //! | what is kept | [`store`], [`run`], [`outcome`], [`model`], [`late`] |
-//! | who handed in what | [`input`], [`unpack`], [`layout`], [`listing`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`] |
+//! | who handed in what | [`input`], [`no_class`], [`unpack`], [`layout`], [`listing`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`] |
 
 pub mod class;
 pub mod cli;
@@ -27,6 +27,7 @@ pub mod layout;
 pub mod listing;
 pub mod merge;
 pub mod model;
+pub mod no_class;
 pub mod outcome;
 pub mod progress;
 pub mod queue;

@@ -10,9 +10,9 @@ use std::path::{Component, Path};
 use grader::build::room::Room;
 use grader::submission::{Archive, Member, Refused};
 
-use crate::input::NoClass;
 use crate::layout::{METADATA, OF_CLASSROOM50, Unmatched};
 use crate::listing::is_archive;
+use crate::no_class::NoClass;
 
 /// The longest archive, or list of a platform's, that is taken out, in bytes.
 const LONGEST: u64 = 256 << 20;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::doctor::package::{Contents, POLICY, contents, unfit};
+use crate::doctor::contents::{Contents, POLICY, contents, unfit};
 use crate::exam_file;
 use crate::given::TASK_FILES;
 

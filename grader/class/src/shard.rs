@@ -22,9 +22,9 @@ impl Shard {
         all.into_iter().enumerate().filter_map(own).collect()
     }
 
-    /// Those without which these are not a whole class.
+    /// Those without which these are not a whole class. None where nothing is a part of one.
     pub fn missing(these: &[Shard]) -> Vec<Shard> {
-        let of = these.iter().map(|shard| shard.of).max().unwrap_or(1);
+        let of = these.iter().map(|shard| shard.of).max().unwrap_or(0);
         let parts = (1..=of).map(|part| Shard { part, of });
         parts.filter(|part| !these.contains(part)).collect()
     }
@@ -68,6 +68,7 @@ mod tests {
             ["2/3"]
         );
         assert!(Shard::missing(&shards).is_empty());
+        assert!(Shard::missing(&[]).is_empty());
         for bad in ["0/3", "4/3", "1/0", "1", "a/b", "-1/3"] {
             assert!(bad.parse::<Shard>().is_err(), "{bad}");
         }

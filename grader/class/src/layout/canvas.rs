@@ -5,9 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use grader::given::TASK_FILES;
-
-use super::{Entries, unmatched};
+use super::{Entries, is_one_of_five, unmatched};
 use crate::entry::{About, Entry, Person, Source};
 use crate::listing::Node;
 
@@ -167,10 +165,6 @@ fn first_name(name: &str) -> String {
     original(name)
         .filter(|name| is_one_of_five(name))
         .unwrap_or_else(|| name.to_owned())
-}
-
-fn is_one_of_five(name: &str) -> bool {
-    TASK_FILES.iter().any(|file| file.name == name)
 }
 
 #[cfg(test)]

@@ -98,6 +98,10 @@ pub fn unwrapped(root: &Node) -> &Node {
     }
 }
 
+fn is_one_of_five(name: &str) -> bool {
+    TASK_FILES.iter().any(|file| file.name == name)
+}
+
 /// Whether this one folder is somebody's work, and not a class.
 fn is_a_submission(node: &Node) -> bool {
     let is_moodles = moodle::parse(&node.name).is_some();

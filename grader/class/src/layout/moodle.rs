@@ -3,9 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use grader::given::TASK_FILES;
-
-use super::{Entries, unmatched};
+use super::{Entries, is_one_of_five, unmatched};
 use crate::entry::{About, Entry, Person, Source, several_archives};
 use crate::listing::Node;
 
@@ -77,7 +75,7 @@ fn of_files<'f, 'n>(files: &'f [(Name<'n>, &'n Node)]) -> (&'f (Name<'n>, &'n No
     if let Some(folder) = files.iter().find(|(_, node)| node.is_folder()) {
         return (folder, path(folder));
     }
-    let is_one = |(name, _): &&(Name, &Node)| TASK_FILES.iter().any(|file| file.name == name.file);
+    let is_one = |(name, _): &&(Name, &Node)| is_one_of_five(name.file);
     let archives: Vec<_> = files.iter().filter(|(_, node)| node.is_archive()).collect();
     match (files.iter().find(is_one), archives.as_slice()) {
         (None, [only]) => (only, path(only)),

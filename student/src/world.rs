@@ -1,14 +1,13 @@
 //! Given: the way from scenes and questions to your five files, and back.
 //!
-//! Compiled with your files each time that they are graded, so it is written for the compiler to be
-//! quick: loops that `push`, where `map` and `collect` would take it twice as long.
+//! Compiled with your files each time that they are graded, so there is little of it, and it is
+//! written for the compiler to be quick: loops that `push`, where `map` and `collect` would take it
+//! twice as long. A line that would not compile without something of yours names your file, so that
+//! the error is told of that file.
 
-use framework::answer;
-use framework::integrator::Sampling;
-use framework::scene::Scene;
-use framework::submission::{Submission, World};
-use glam::{UVec2, Vec2};
-use protocol::{Answer, Interval, PinholeCamera, Question, Ray, Shape, Trace, Tree, TreeNode};
+use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission};
+use glam::{UVec2, Vec2, Vec3};
+use protocol::{Interval, PinholeCamera, Ray, Shape, Trace, TreeNode};
 
 use crate::bbox::BBox;
 use crate::bvh::{Bvh, Node};
@@ -19,101 +18,93 @@ use crate::primitive::Primitive;
 pub struct Student;
 
 impl Submission for Student {
-    fn world(&self, scene: &Scene) -> Box<dyn World> {
-        Box::new(StudentWorld {
-            camera: camera(&scene.camera.lens),
-            bvh: Bvh::build(primitives(&scene.shapes), scene.max_leaf_size),
-        })
+    fn camera(&self, lens: &PinholeCamera) -> Box<dyn CameraRays> {
+        let camera = Camera::new(lens.vertical_fov, lens.aspect_ratio, lens.film);
+        Box::new(Yours(camera))
     }
 
-    fn answer(&self, question: &Question) -> Answer {
-        match question {
-            Question::Camera {
-                camera: lens,
-                samples,
-            } => {
-                let camera = camera(lens);
-                answer::rays(lens, samples, &mut |(pixel, offset): (UVec2, Vec2)| {
-                    camera.sample_ray(pixel, offset)
-                })
-            }
-            Question::Shapes { shapes, rays } => {
-                let primitives = primitives(shapes);
-                answer::hits(rays, &mut |ray: &Ray| nearest(&primitives, ray))
-            }
-            Question::BBox { min, max, shots } => {
-                let bbox = BBox::new(*min, *max);
-                answer::spans(shots, &mut |(ray, times): (&Ray, Interval)| {
-                    bbox.hit(ray, times)
-                })
-            }
-            Question::Build {
-                shapes,
-                max_leaf_size,
-            } => answer::tree(shapes.len(), &mut |()| tree(&build(shapes, *max_leaf_size))),
-            Question::Traverse {
-                shapes,
-                nodes,
-                root,
-                rays,
-            } => {
-                let bvh = planted(shapes, nodes, *root);
-                answer::hits(rays, &mut |ray: &Ray| bvh.hit(ray))
-            }
-            Question::BuildAndTraverse {
-                shapes,
-                max_leaf_size,
-                rays,
-            } => {
-                // Built at the first ray, so that a panic in `build` is told like any other.
-                let mut bvh = None;
-                answer::hits(rays, &mut |ray: &Ray| {
-                    bvh.get_or_insert_with(|| build(shapes, *max_leaf_size))
-                        .hit(ray)
-                })
-            }
-            Question::Radiance {
-                scene,
-                film,
-                samples,
-                bounces,
-                seed,
-            } => {
-                let sampling = Sampling {
-                    film: *film,
-                    samples: *samples,
-                    bounces: *bounces,
-                    seed: *seed,
-                };
-                answer::picture(self, scene, &sampling)
-            }
-            Question::Done => Answer::Done,
+    fn list(&self, shapes: &[Shape]) -> Box<dyn Aggregate> {
+        Box::new(Yours(primitives(shapes)))
+    }
+
+    fn inside(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval> {
+        BBox::new(min, max).hit(ray, times)
+    }
+
+    fn build(&self, shapes: &[Shape], max_leaf_size: usize) -> Box<dyn Hierarchy> {
+        Box::new(Yours(Bvh::build(primitives(shapes), max_leaf_size)))
+    }
+
+    fn planted(&self, shapes: &[Shape], tree: &[TreeNode], root: usize) -> Box<dyn Hierarchy> {
+        let mut nodes = Vec::new();
+        for node in tree {
+            nodes.push(planted(node));
         }
+        Box::new(Yours(Bvh::from_nodes(primitives(shapes), nodes, root)))
     }
 }
 
-/// A scene, made of your types.
-struct StudentWorld {
-    camera: Camera,
-    bvh: Bvh,
-}
+/// Something of yours, which the framework asks.
+struct Yours<T>(T);
 
-impl World for StudentWorld {
-    fn camera_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
-        self.camera.sample_ray(pixel, offset)
-    }
-
-    fn hit(&self, ray: &Ray) -> Option<Trace> {
-        self.bvh.hit(ray)
-    }
-
-    fn tree(&self) -> Tree {
-        tree(&self.bvh)
+impl CameraRays for Yours<Camera> {
+    fn ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
+        let Yours(camera) = self;
+        camera.sample_ray(pixel, offset)
     }
 }
 
-fn camera(lens: &PinholeCamera) -> Camera {
-    Camera::new(lens.vertical_fov, lens.aspect_ratio, lens.film)
+impl Aggregate for Yours<Vec<Primitive>> {
+    fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
+        let Yours(primitives) = self;
+        let mut nearest = None;
+        for primitive in primitives {
+            nearest = Trace::nearer(nearest, primitive.hit(ray));
+        }
+        nearest
+    }
+}
+
+impl Aggregate for Yours<Bvh> {
+    fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
+        let Yours(bvh) = self;
+        bvh.hit(ray)
+    }
+}
+
+impl Hierarchy for Yours<Bvh> {
+    fn root(&self) -> usize {
+        let Yours(bvh) = self;
+        bvh.root
+    }
+
+    fn nodes(&self) -> usize {
+        let Yours(bvh) = self;
+        bvh.nodes.len()
+    }
+
+    fn node(&self, place: usize) -> TreeNode {
+        let Yours(bvh) = self;
+        let node = &bvh.nodes[place];
+        TreeNode::new(
+            node.bbox.min,
+            node.bbox.max,
+            node.start,
+            node.size,
+            node.l,
+            node.r,
+        )
+    }
+
+    fn primitives(&self) -> usize {
+        let Yours(bvh) = self;
+        bvh.primitives.len()
+    }
+
+    fn material(&self, place: usize) -> u32 {
+        let Yours(bvh) = self;
+        bvh.primitives[place].material()
+    }
 }
 
 fn primitives(shapes: &[Shape]) -> Vec<Primitive> {
@@ -124,57 +115,12 @@ fn primitives(shapes: &[Shape]) -> Vec<Primitive> {
     primitives
 }
 
-fn build(shapes: &[Shape], max_leaf_size: u32) -> Bvh {
-    Bvh::build(primitives(shapes), max_leaf_size as usize)
-}
-
-/// The closest of the hits of each primitive by itself.
-fn nearest(primitives: &[Primitive], ray: &Ray) -> Option<Trace> {
-    let mut nearest = None;
-    for primitive in primitives {
-        nearest = Trace::nearer(nearest, primitive.hit(ray));
-    }
-    nearest
-}
-
-/// The exam's own tree.
-fn planted(shapes: &[Shape], tree_nodes: &[TreeNode], root: u32) -> Bvh {
-    let mut nodes = Vec::new();
-    for tree_node in tree_nodes {
-        nodes.push(node(tree_node));
-    }
-    Bvh::from_nodes(primitives(shapes), nodes, root as usize)
-}
-
-fn node(node: &TreeNode) -> Node {
+/// A node of the exam's own tree.
+fn planted(node: &TreeNode) -> Node {
     let bbox = BBox::new(node.min, node.max);
     if node.is_leaf() {
         Node::leaf(bbox, node.start as usize, node.size as usize)
     } else {
         Node::interior(bbox, node.l as usize, node.r as usize)
     }
-}
-
-fn tree(bvh: &Bvh) -> Tree {
-    // What does not fit is out of range anyway, and must not wrap into range.
-    let place = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    let mut tree = Tree {
-        nodes: Vec::new(),
-        root: place(bvh.root),
-        order: Vec::new(),
-    };
-    for node in &bvh.nodes {
-        tree.nodes.push(TreeNode {
-            min: node.bbox.min,
-            max: node.bbox.max,
-            start: place(node.start),
-            size: place(node.size),
-            l: place(node.l),
-            r: place(node.r),
-        });
-    }
-    for primitive in &bvh.primitives {
-        tree.order.push(primitive.material());
-    }
-    tree
 }

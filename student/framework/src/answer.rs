@@ -1,26 +1,74 @@
 //! Answers to the grader's questions, element by element: a panic costs only its own.
-//!
-//! Not generic, and called through `dyn`: compiled here once, not again with every submission.
 
-use glam::{UVec2, Vec2};
+use glam::Vec3;
 use protocol::{
     Answer, Interval, Outcome, Panic, PinholeCamera, Question, Ray, Rays, Sample, Samples, Trace,
-    Tree,
 };
 
-use crate::ask::Ask;
 use crate::attempt::{attempt, each};
 use crate::integrator::{Sampling, radiance};
 use crate::scene::Scene;
-use crate::submission::Submission;
+use crate::submission::{Hierarchy, Submission};
 
 /// What a submission answers. A panic outside any element, in one of its constructors, is told as
 /// the first element's; the others are given up.
 pub fn question(submission: &dyn Submission, question: &Question) -> Answer {
-    match attempt(|| submission.answer(question)) {
+    match attempt(|| answer(submission, question)) {
         Outcome::Value(answer) => answer,
         Outcome::Panicked(panic) => panicked(question, panic),
         Outcome::GivenUp => unreachable!("nothing is given up at the first attempt"),
+    }
+}
+
+fn answer(submission: &dyn Submission, question: &Question) -> Answer {
+    match question {
+        Question::Camera { camera, samples } => rays(submission, camera, samples),
+        Question::Shapes { shapes, rays } => {
+            let list = submission.list(shapes);
+            hits(rays, |ray| list.closest_hit(ray))
+        }
+        Question::BBox { min, max, shots } => spans(submission, *min, *max, shots),
+        Question::Build {
+            shapes,
+            max_leaf_size,
+        } => tree(shapes.len(), || {
+            submission.build(shapes, *max_leaf_size as usize)
+        }),
+        Question::Traverse {
+            shapes,
+            nodes,
+            root,
+            rays,
+        } => {
+            let bvh = submission.planted(shapes, nodes, *root as usize);
+            hits(rays, |ray| bvh.closest_hit(ray))
+        }
+        Question::BuildAndTraverse {
+            shapes,
+            max_leaf_size,
+            rays,
+        } => {
+            // Built at the first ray, so that a panic in `build` is told like any other.
+            let build = || submission.build(shapes, *max_leaf_size as usize);
+            let mut bvh = None;
+            hits(rays, |ray| bvh.get_or_insert_with(build).closest_hit(ray))
+        }
+        Question::Radiance {
+            scene,
+            film,
+            samples,
+            bounces,
+            seed,
+        } => {
+            let sampling = Sampling {
+                film: *film,
+                samples: *samples,
+                bounces: *bounces,
+                seed: *seed,
+            };
+            picture(submission, scene, &sampling)
+        }
+        Question::Done => Answer::Done,
     }
 }
 
@@ -44,35 +92,30 @@ fn first<T>(panic: Panic, count: usize) -> Vec<Outcome<T>> {
 }
 
 /// A ray for each sample.
-pub fn rays(
-    camera: &PinholeCamera,
-    samples: &Samples,
-    submission: &mut dyn Ask<(UVec2, Vec2), Ray>,
-) -> Answer {
-    let samples = samples.on(camera.film);
-    Answer::Rays(each(&samples, |sample: &Sample| {
-        submission.ask((sample.pixel, sample.offset))
+fn rays(submission: &dyn Submission, lens: &PinholeCamera, samples: &Samples) -> Answer {
+    let camera = submission.camera(lens);
+    Answer::Rays(each(&samples.on(lens.film), |sample: &Sample| {
+        camera.ray(sample.pixel, sample.offset)
     }))
 }
 
 /// A hit, or none, for each ray.
-pub fn hits(rays: &Rays, submission: &mut dyn for<'a> Ask<&'a Ray, Option<Trace>>) -> Answer {
-    Answer::Hits(each(&rays.to_vec(), |ray| submission.ask(ray)))
+fn hits(rays: &Rays, hit: impl FnMut(&Ray) -> Option<Trace>) -> Answer {
+    Answer::Hits(each(&rays.to_vec(), hit))
 }
 
 /// The times inside a box, or none, for each shot.
-pub fn spans(
-    shots: &[(Ray, Interval)],
-    submission: &mut dyn for<'a> Ask<(&'a Ray, Interval), Option<Interval>>,
-) -> Answer {
-    Answer::Spans(each(shots, |(ray, times)| submission.ask((ray, *times))))
+fn spans(submission: &dyn Submission, min: Vec3, max: Vec3, shots: &[(Ray, Interval)]) -> Answer {
+    Answer::Spans(each(shots, |(ray, times)| {
+        submission.inside(min, max, ray, *times)
+    }))
 }
 
 /// The tree that is built over so many primitives.
-pub fn tree(primitives: usize, submission: &mut dyn Ask<(), Tree>) -> Answer {
+fn tree(primitives: usize, build: impl FnOnce() -> Box<dyn Hierarchy>) -> Answer {
     let most = Question::most_nodes(primitives);
     Answer::Tree(attempt(|| {
-        let tree = submission.ask(());
+        let tree = build().tree();
         assert!(
             tree.nodes.len() <= most && tree.order.len() <= most,
             "{primitives} primitives became {} nodes over {} primitives",
@@ -84,7 +127,7 @@ pub fn tree(primitives: usize, submission: &mut dyn Ask<(), Tree>) -> Answer {
 }
 
 /// The path-traced picture of the scene that this text describes.
-pub fn picture(submission: &dyn Submission, scene: &str, sampling: &Sampling) -> Answer {
+fn picture(submission: &dyn Submission, scene: &str, sampling: &Sampling) -> Answer {
     Answer::Picture(match Scene::from_text(scene) {
         Ok(scene) => attempt(|| radiance(submission, &scene, sampling)),
         // Not the submission's fault, and it must not look so: no answer is the grader's to tell.

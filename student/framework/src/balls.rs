@@ -1,10 +1,9 @@
 //! A submission to test the framework with: no real one is at hand here.
 
 use glam::{UVec2, Vec2, Vec3};
-use protocol::{Answer, Question, Ray, Shape, Trace, Tree};
+use protocol::{Interval, PinholeCamera, Ray, Shape, Trace, TreeNode};
 
-use crate::scene::Scene;
-use crate::submission::{Submission, World};
+use crate::submission::{Aggregate, CameraRays, Hierarchy, Submission};
 
 /// Spheres only, by a formula of our own; `spoil` is applied to every answer.
 pub(crate) struct Balls {
@@ -16,41 +15,76 @@ pub(crate) const HONEST: Balls = Balls {
     spoil: |trace| trace,
 };
 
-struct BallsWorld {
-    shapes: Vec<Shape>,
+struct Lens {
     film: UVec2,
+}
+
+struct BallsHere {
+    shapes: Vec<Shape>,
     spoil: fn(Trace) -> Trace,
 }
 
 impl Submission for Balls {
-    fn world(&self, scene: &Scene) -> Box<dyn World> {
-        Box::new(BallsWorld {
-            shapes: scene.shapes.clone(),
-            film: scene.camera.lens.film,
+    fn camera(&self, lens: &PinholeCamera) -> Box<dyn CameraRays> {
+        Box::new(Lens { film: lens.film })
+    }
+
+    fn build(&self, shapes: &[Shape], _: usize) -> Box<dyn Hierarchy> {
+        Box::new(BallsHere {
+            shapes: shapes.to_vec(),
             spoil: self.spoil,
         })
     }
 
-    fn answer(&self, _: &Question) -> Answer {
-        Answer::Done
+    fn list(&self, shapes: &[Shape]) -> Box<dyn Aggregate> {
+        self.build(shapes, 1)
+    }
+
+    fn planted(&self, shapes: &[Shape], _: &[TreeNode], _: usize) -> Box<dyn Hierarchy> {
+        self.build(shapes, 1)
+    }
+
+    fn inside(&self, _: Vec3, _: Vec3, _: &Ray, _: Interval) -> Option<Interval> {
+        None
     }
 }
 
-impl World for BallsWorld {
+impl CameraRays for Lens {
     /// A field of view of 90° on a square sensor.
-    fn camera_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
+    fn ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
         let place = (pixel.as_vec2() + offset) / self.film.as_vec2() * 2.0 - 1.0;
         Ray::new(Vec3::ZERO, place.extend(-1.0))
     }
+}
 
-    fn hit(&self, ray: &Ray) -> Option<Trace> {
+impl Aggregate for BallsHere {
+    fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
         let meet = |shape: &Shape| meet(shape, ray);
         let nearest = self.shapes.iter().map(meet).fold(None, Trace::nearer);
         nearest.map(self.spoil)
     }
+}
 
-    fn tree(&self) -> Tree {
-        Tree::default()
+/// No tree: asked about all of them.
+impl Hierarchy for BallsHere {
+    fn root(&self) -> usize {
+        0
+    }
+
+    fn nodes(&self) -> usize {
+        0
+    }
+
+    fn node(&self, place: usize) -> TreeNode {
+        unreachable!("there is no node {place}")
+    }
+
+    fn primitives(&self) -> usize {
+        0
+    }
+
+    fn material(&self, place: usize) -> u32 {
+        unreachable!("none is told of, nor the material of {place}")
     }
 }
 

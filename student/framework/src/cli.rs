@@ -66,22 +66,22 @@ fn show(
     out: &Path,
     canvas: &Canvas,
 ) -> Result<(), Failure> {
-    let world = finished(attempt(|| submission.world(scene)), None)?;
+    let world = finished(attempt(|| World::new(submission, scene)), None)?;
     let tree = finished(attempt(|| world.tree()), None)?;
     if let Some(pixel) = options.pixel {
-        return look_at(pixel, options, scene, world.as_ref());
+        return look_at(pixel, options, scene, &world);
     }
 
     // A stub is met by the first ray, and then is all that there is to tell.
     let corner = UVec2::ZERO;
-    let first = || first_hit(scene, world.as_ref(), corner, &mut Tally::default());
+    let first = || first_hit(scene, &world, corner, &mut Tally::default());
     finished(attempt(first), Some(corner))?;
     if tree.nodes.is_empty() && !scene.shapes.is_empty() {
         let count = scene.shapes.len();
         eprintln!("note: task 3, build: no tree yet, so each ray may ask all {count} primitives");
     }
     let started = Instant::now();
-    let (film, tally) = draw(canvas, options, scene, world.as_ref(), &tree)?;
+    let (film, tally) = draw(canvas, options, scene, &world, &tree)?;
     let time = started.elapsed();
     picture::write(&film, options.tone(), out)?;
     println!("{}", progress::summary(out, film.size, tally, time));
@@ -99,7 +99,7 @@ fn draw(
     canvas: &Canvas,
     options: &Options,
     scene: &Scene,
-    world: &dyn World,
+    world: &World,
     tree: &Tree,
 ) -> Result<(Film, Tally), Failure> {
     let size = scene.camera.lens.film;
@@ -118,19 +118,14 @@ fn draw(
 }
 
 /// What the ray through the middle of a pixel meets.
-fn first_hit(scene: &Scene, world: &dyn World, pixel: UVec2, tally: &mut Tally) -> Option<Trace> {
+fn first_hit(scene: &Scene, world: &World, pixel: UVec2, tally: &mut Tally) -> Option<Trace> {
     tally.rays += 1;
     let ray = world.camera_ray(pixel, Vec2::splat(0.5));
     world.hit(&scene.camera.placement.to_world(&ray))
 }
 
 /// One pixel alone, for a debugger: what its middle meets, and its light.
-fn look_at(
-    pixel: UVec2,
-    options: &Options,
-    scene: &Scene,
-    world: &dyn World,
-) -> Result<(), Failure> {
+fn look_at(pixel: UVec2, options: &Options, scene: &Scene, world: &World) -> Result<(), Failure> {
     let size = scene.camera.lens.film;
     if pixel.cmpge(size).any() {
         return Err(Failure::NoSuchPixel { pixel, size });

@@ -50,7 +50,7 @@ impl Tally {
 /// A scene, and a submission's view of it, ready for paths.
 pub struct Integrator<'a> {
     scene: &'a Scene,
-    world: &'a dyn World,
+    world: &'a World,
     lights: Lights,
     sampling: Sampling,
     /// No ray counts before this distance: see [`Integrator::new`].
@@ -64,7 +64,7 @@ impl<'a> Integrator<'a> {
     /// bits, so a position is known to 6e-8 of the scene's largest coordinate, and the formulas
     /// for triangles and spheres lose some hundred times as much where the ray grazes. 1e-4 of
     /// that coordinate stays clear of it, and is less than a picture can show.
-    pub fn new(scene: &'a Scene, world: &'a dyn World, sampling: Sampling) -> Self {
+    pub fn new(scene: &'a Scene, world: &'a World, sampling: Sampling) -> Self {
         Integrator {
             scene,
             world,
@@ -97,8 +97,8 @@ impl<'a> Integrator<'a> {
 /// this thread alone.
 pub fn radiance(submission: &dyn Submission, scene: &Scene, sampling: &Sampling) -> Vec<Vec3> {
     let scene = scene.on_film(sampling.film);
-    let world = submission.world(&scene);
-    let integrator = Integrator::new(&scene, world.as_ref(), *sampling);
+    let world = World::new(submission, &scene);
+    let integrator = Integrator::new(&scene, &world, *sampling);
     let mut tally = Tally::default();
     let rows = 0..sampling.film.y;
     rows.flat_map(|y| (0..sampling.film.x).map(move |x| UVec2::new(x, y)))

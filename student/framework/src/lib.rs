@@ -5,7 +5,6 @@
 //! [`submission`].
 
 pub mod answer;
-pub mod ask;
 pub mod attempt;
 #[cfg(test)]
 mod balls;

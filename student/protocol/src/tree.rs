@@ -19,6 +19,23 @@ pub struct TreeNode {
 }
 
 impl TreeNode {
+    /// A node between two corners, with places as programs count them.
+    pub fn new(min: Vec3, max: Vec3, start: usize, size: usize, l: usize, r: usize) -> Self {
+        TreeNode {
+            min,
+            max,
+            start: TreeNode::place(start),
+            size: TreeNode::place(size),
+            l: TreeNode::place(l),
+            r: TreeNode::place(r),
+        }
+    }
+
+    /// A place as it is told. What does not fit is out of range anyway, and must not wrap into range.
+    pub fn place(place: usize) -> u32 {
+        u32::try_from(place).unwrap_or(u32::MAX)
+    }
+
     /// Whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r

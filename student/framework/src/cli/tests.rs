@@ -4,15 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Parser;
-use glam::{UVec2, Vec2};
-use protocol::{Answer, Question, Ray, Trace, Tree};
+use glam::{UVec2, Vec2, Vec3};
+use protocol::{Interval, PinholeCamera, Ray, Shape, TreeNode};
 
 use super::options::Options;
 use super::run;
 use crate::attempt::keep_panics_quiet;
 use crate::balls::HONEST;
-use crate::scene::Scene;
-use crate::submission::{Submission, World};
+use crate::submission::{Aggregate, CameraRays, Hierarchy, Submission};
 
 const SCENE: &str = r#"{
   "camera": { "vertical_fov": 90, "film": [12, 8], "position": [0, 0, 0], "look_at": [0, 0, -1], "up": [0, 1, 0] },
@@ -102,26 +101,30 @@ struct Unfinished {
 }
 
 impl Submission for Unfinished {
-    fn world(&self, _: &Scene) -> Box<dyn World> {
+    fn camera(&self, _: &PinholeCamera) -> Box<dyn CameraRays> {
         Box::new(Unfinished { ..*self })
     }
 
-    fn answer(&self, _: &Question) -> Answer {
-        Answer::Done
+    fn list(&self, shapes: &[Shape]) -> Box<dyn Aggregate> {
+        HONEST.list(shapes)
+    }
+
+    fn inside(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval> {
+        HONEST.inside(min, max, ray, times)
+    }
+
+    fn build(&self, shapes: &[Shape], max_leaf_size: usize) -> Box<dyn Hierarchy> {
+        HONEST.build(shapes, max_leaf_size)
+    }
+
+    fn planted(&self, shapes: &[Shape], tree: &[TreeNode], root: usize) -> Box<dyn Hierarchy> {
+        HONEST.planted(shapes, tree, root)
     }
 }
 
-impl World for Unfinished {
-    fn camera_ray(&self, _: UVec2, _: Vec2) -> Ray {
+impl CameraRays for Unfinished {
+    fn ray(&self, _: UVec2, _: Vec2) -> Ray {
         (self.camera)()
-    }
-
-    fn hit(&self, _: &Ray) -> Option<Trace> {
-        None
-    }
-
-    fn tree(&self) -> Tree {
-        Tree::default()
     }
 }
 

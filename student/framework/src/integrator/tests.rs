@@ -6,7 +6,7 @@ use protocol::Trace;
 use super::{Integrator, Sampling, Tally, radiance};
 use crate::balls::{Balls, HONEST};
 use crate::scene::Scene;
-use crate::submission::Submission;
+use crate::submission::World;
 
 fn scene(environment: f32, materials: &str, shapes: &str) -> Scene {
     let text = format!(
@@ -102,8 +102,8 @@ fn a_large_lamp_lights_a_ball_as_the_closed_form_says() {
         ..sampling(2000, 1)
     };
     let scene = scene.on_film(narrow.film);
-    let world = HONEST.world(&scene);
-    let integrator = Integrator::new(&scene, world.as_ref(), narrow);
+    let world = World::new(&HONEST, &scene);
+    let integrator = Integrator::new(&scene, &world, narrow);
     let middle = integrator.pixel(uvec2(50, 50), &mut Tally::default());
     // Albedo · sin² of the lamp's half angle, seen from z = −2.
     let truth = 0.5 * (5.0_f32 / 9.0).powi(2);
@@ -168,8 +168,8 @@ fn an_answer_that_is_no_number_spoils_its_path_and_is_counted() {
         },
     ];
     for spoil in bad {
-        let world = Balls { spoil }.world(&scene);
-        let integrator = Integrator::new(&scene, world.as_ref(), sampling(3, 4));
+        let world = World::new(&Balls { spoil }, &scene);
+        let integrator = Integrator::new(&scene, &world, sampling(3, 4));
         let mut tally = Tally::default();
         assert_eq!(integrator.pixel(uvec2(4, 4), &mut tally), Vec3::ZERO);
         assert_eq!(

@@ -1,13 +1,11 @@
 //! What the compiler needs where it is kept apart from the machine: its own files, the linker's,
 //! and those of one crate. Neither the workspace, nor other submissions, nor anybody's home.
 
-use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::build::rustc::{Crate, Kind, Rustc};
 use crate::sandbox::Profile;
-use crate::system;
 
 /// Where systems keep C compilers, linkers and the libraries for them. Nothing of a machine's own
 /// stands there: no `/usr/local`, no `/usr/share`.
@@ -28,29 +26,18 @@ const SYSTEM: [&str; 14] = [
     "/etc/ld.so.conf",
 ];
 
-/// Where the toolchain's own linker lies, on the one system where it is the usual one.
-const LINKER: &str = "lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld";
-
 /// Says on the command line what the compiler else finds out from `/proc`, which it does not see.
-pub(super) fn arguments(rustc: &Rustc, source: &Crate, command: &mut Command) -> io::Result<()> {
+pub(super) fn arguments(rustc: &Rustc, source: &Crate, command: &mut Command) {
     let sysroot = rustc.toolchain.sysroot();
     command
         .env("LD_LIBRARY_PATH", sysroot.join("lib"))
         .arg("--sysroot")
         .arg(sysroot);
-    let linker = sysroot.join(LINKER);
-    if cfg!(target_arch = "x86_64") && linker.is_file() {
-        // A wrapper would look for it in `/proc`. The system's own linker in its place would do, and
-        // make a compile a third slower.
-        system::link(&linker, &source.folder.join("ld.lld"))?;
-        command.args(["-Clinker-features=-lld", "-Clink-args=-fuse-ld=lld -B."]);
-    }
     match source.kind {
         // So that it needs no file when it starts.
         Kind::Program => _ = command.arg("-Ctarget-feature=+crt-static"),
         Kind::Library => {}
     }
-    Ok(())
 }
 
 /// What it may read and write.

@@ -10,6 +10,7 @@ mod dependencies;
 pub mod diagnostics;
 mod kept;
 mod lacking;
+mod linker;
 pub mod room;
 mod rustc;
 mod taken;

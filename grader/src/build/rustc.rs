@@ -13,6 +13,7 @@ use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::{self, Diagnostic};
 use crate::build::kept::{Content, Kept};
 use crate::build::lacking::Lacking;
+use crate::build::linker;
 use crate::build::taken;
 use crate::build::toolchain::Toolchain;
 use crate::capture::Capture;
@@ -129,8 +130,14 @@ impl Rustc {
                 Kind::Library => ["--crate-type=rlib", "--emit=metadata,link"],
             })
             .arg(source.root);
+        match source.kind {
+            Kind::Program => {
+                linker::arguments(self.toolchain.sysroot(), source.folder, &mut command)?;
+            }
+            Kind::Library => {}
+        }
         if self.sandbox.confines() {
-            confined::arguments(self, source, &mut command)?;
+            confined::arguments(self, source, &mut command);
         }
         let profile = confined::profile(self, source);
         let mut process = self

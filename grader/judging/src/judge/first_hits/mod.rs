@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 
+use arrayvec::ArrayVec;
 use protocol::{Outcome, Trace};
 
 use crate::describe;
@@ -29,6 +30,9 @@ const QUANTITIES: [(&str, u32); 4] = [
 
 /// The same, for a mask.
 const ASPECTS: [Aspect; 4] = [Aspect::HitOrMiss, Aspect::Depth, Aspect::Normal, Aspect::Uv];
+
+/// How far off each quantity is at one position, up to the first that is wrong.
+type Deviations = ArrayVec<Deviation, { QUANTITIES.len() }>;
 
 /// A picture.
 pub(super) struct FirstHits<'a> {
@@ -91,7 +95,7 @@ impl Comparison for FirstHits<'_> {
     }
 
     fn blemishes(&self) -> Option<Vec<Option<Blemish>>> {
-        let blemish = |(outcome, deviations): (&Outcome<_>, Vec<Deviation>)| match outcome {
+        let blemish = |(outcome, deviations): (&Outcome<_>, Deviations)| match outcome {
             Outcome::Panicked(_) | Outcome::GivenUp => Some(Blemish::NO_ANSWER),
             // The last one judged is the first that is wrong.
             Outcome::Value(_) => {
@@ -113,18 +117,22 @@ impl Comparison for FirstHits<'_> {
 
 impl FirstHits<'_> {
     /// How far off each quantity is that is judged there, for each position.
-    fn positions(&self) -> impl Iterator<Item = Vec<Deviation>> {
+    fn positions(&self) -> impl Iterator<Item = Deviations> {
         let mut others: BTreeMap<usize, Vec<&Option<Surface>>> = BTreeMap::new();
         for (position, answer) in self.also {
             others.entry(*position as usize).or_default().push(answer);
         }
         let answers = self.answers.iter().enumerate();
+        // There are tens of thousands of positions: what one needs, the next one takes over.
+        let mut alike = Vec::new();
         answers.map(move |(position, outcome)| {
             let others = others.remove(&position).unwrap_or_default();
             let right = others.into_iter().chain([&self.hits[position]]);
             match outcome {
-                Outcome::Value(got) => of_position(got.as_ref(), right),
-                Outcome::Panicked(_) | Outcome::GivenUp => vec![Deviation::WRONG],
+                Outcome::Value(got) => of_position(got.as_ref(), right, &mut alike),
+                Outcome::Panicked(_) | Outcome::GivenUp => {
+                    Deviations::from_iter([Deviation::WRONG])
+                }
             }
         })
     }
@@ -152,30 +160,32 @@ impl FirstHits<'_> {
 }
 
 /// How far off each quantity is at one position, from the nearest of the `right` answers in which
-/// all before it agree; up to the first that is wrong. A true miss has but the first.
+/// all before it agree; up to the first that is wrong. A true miss has but the first. What was in
+/// `alike` is forgotten.
 fn of_position<'a>(
     got: Option<&Trace>,
     right: impl Iterator<Item = &'a Option<Surface>>,
-) -> Vec<Deviation> {
-    let alike: Vec<_> = right
-        .filter(|wanted| wanted.is_some() == got.is_some())
-        .collect();
-    let mut nearest = vec![Deviation::unless(!alike.is_empty())];
-    let Some(got) = got else {
-        return nearest;
-    };
-    let mut left: Vec<_> = alike
-        .into_iter()
-        .flatten()
-        .map(|wanted| deviations(got, wanted))
-        .collect();
+    alike: &mut Vec<[Deviation; QUANTITIES.len() - 1]>,
+) -> Deviations {
+    alike.clear();
+    let mut is_miss = false;
+    for wanted in right {
+        match (got, wanted) {
+            (Some(got), Some(wanted)) => alike.push(deviations(got, wanted)),
+            (None, None) => is_miss = true,
+            (Some(_), None) | (None, Some(_)) => {}
+        }
+    }
+
+    let mut nearest = Deviations::new();
+    nearest.push(Deviation::unless(is_miss || !alike.is_empty()));
     for quantity in 0..QUANTITIES.len() - 1 {
-        let of_each = left.iter().map(|deviations| deviations[quantity]);
+        let of_each = alike.iter().map(|deviations| deviations[quantity]);
         let Some(next) = of_each.min_by(|a, b| a.value.total_cmp(&b.value)) else {
             break;
         };
         nearest.push(next);
-        left.retain(|deviations| deviations[quantity].is_right());
+        alike.retain(|deviations| deviations[quantity].is_right());
     }
     nearest
 }

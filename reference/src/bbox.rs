@@ -75,17 +75,24 @@ impl BBox {
         // solution
         // starter: todo!("task 3, bbox: when, within {times:?}, is {ray:?} inside {self:?}?")
         // Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986: the ray is inside the box
-        // from when it has entered the last slab until it leaves the first.
+        // from when it has entered the last slab until it leaves the first. `Vec3A` computes with
+        // all three axes at once, which takes half of the instructions.
         //
         // Along an axis that the ray does not move on, the division gives ±∞ of the right signs:
         // inside the slab always, outside it never.
-        let inverse = ray.dir.recip();
-        let at_min = (self.min - ray.origin) * inverse;
-        let at_max = (self.max - ray.origin) * inverse;
+        let (min, max) = (self.min.to_vec3a(), self.max.to_vec3a());
+        let (origin, dir) = (ray.origin.to_vec3a(), ray.dir.to_vec3a());
+        let inverse = dir.recip();
+        let at_min = (min - origin) * inverse;
+        let at_max = (max - origin) * inverse;
         let enter = at_min.min(at_max).max_element();
         let leave = at_min.max(at_max).min_element();
 
-        let inside = Interval::new(times.min.max(enter), times.max.min(leave));
+        // Not `max` and `min`, which look for NaN as well, and take three instructions each.
+        let inside = Interval::new(
+            if enter > times.min { enter } else { times.min },
+            if leave < times.max { leave } else { times.max },
+        );
         (inside.min <= inside.max).then_some(inside)
         // end solution
     }

@@ -75,7 +75,8 @@ impl Triangle {
         let u = -s_x_e2.dot(ray.dir) * inverse;
         let v = e1_x_d.dot(s) * inverse;
         let w = 1.0 - u - v;
-        if u < 0.0 || v < 0.0 || w < 0.0 {
+        // The least of three, and not three comparisons: none of those can be guessed.
+        if glam::vec3(w, u, v).min_element() < 0.0 {
             return None;
         }
 

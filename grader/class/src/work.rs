@@ -131,7 +131,7 @@ impl Work<'_> {
 /// The name of all that an entry's files follow from. Of the policy that is what students see: what
 /// points count for changes no score, and no file of an entry.
 fn key(run: &Run, policy: &Policy, submission: &Submission) -> String {
-    let mut hasher = blake3::Hasher::new();
+    let mut hasher = blake2b_simd::State::new();
     let mut part = |bytes: &[u8]| {
         hasher.update(&(bytes.len() as u64).to_le_bytes());
         hasher.update(bytes);

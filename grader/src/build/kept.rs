@@ -13,7 +13,7 @@ pub struct Kept {
 
 /// The name of one program's content.
 #[derive(Debug, Default)]
-pub struct Content(blake3::Hasher);
+pub struct Content(blake2b_simd::State);
 
 impl Content {
     /// Content that includes this as well.

@@ -5,11 +5,11 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use zip::ZipArchive;
-use zip::result::ZipError;
+use rawzip::FileReader;
 
 use crate::exam::Exam;
 use crate::policy::Policy;
+use crate::zipfile::{BadZip, Zip};
 
 /// What Gradescope starts, at the root of the zip.
 pub(super) const SCRIPTS: [&str; 2] = ["setup.sh", "run_autograder"];
@@ -19,6 +19,8 @@ pub(super) const EXAM: &str = "pathtracing/exam.json";
 pub(super) const POLICY: &str = "pathtracing/policy.toml";
 /// The longest file that is looked into, in bytes.
 const LONGEST: u64 = 64 << 20;
+/// The most files that are looked at: a package has some thousands.
+const MOST: usize = 100_000;
 
 /// The package can not be looked at.
 #[derive(Debug, thiserror::Error)]
@@ -40,15 +42,15 @@ pub enum NoPackage {
         /// Which.
         path: PathBuf,
         /// What is wrong.
-        source: ZipError,
+        source: BadZip,
     },
 }
 
 /// What of a zip is looked at.
 #[derive(Debug, Default)]
 pub(super) struct Contents {
-    /// All names, with the mode that each is unpacked with, if it says so.
-    pub(super) modes: BTreeMap<String, Option<u32>>,
+    /// All names, with the permissions that each is unpacked with.
+    pub(super) modes: BTreeMap<String, u32>,
     /// The contents of the few files that are looked into.
     pub(super) read: BTreeMap<&'static str, Vec<u8>>,
     /// What can not be unpacked, and why.
@@ -65,12 +67,14 @@ pub(super) fn contents(path: &Path) -> Result<Contents, NoPackage> {
         path: path.to_owned(),
         source,
     };
-    let mut archive = ZipArchive::new(File::open(path).map_err(io)?).map_err(zip)?;
+    let file = File::open(path).map_err(io)?;
+    let length = file.metadata().map_err(io)?.len();
+    let archive = Zip::open(FileReader::from(file), length, MOST).map_err(zip)?;
     let mut contents = Contents::default();
-    for index in 0..archive.len() {
-        let mut file = archive.by_index(index).map_err(zip)?;
-        let name = file.name().map_err(zip)?.into_owned();
-        contents.modes.insert(name.clone(), file.unix_mode());
+    for entry in &archive.entries {
+        let mut file = archive.read(entry).map_err(zip)?;
+        let name = entry.name.clone();
+        contents.modes.insert(name.clone(), entry.permissions);
         let mut wanted = SCRIPTS.into_iter().chain([GRADE, EXAM, POLICY]);
         let mut bytes = Vec::new();
         let unpacked = match wanted.find(|wanted| *wanted == name) {

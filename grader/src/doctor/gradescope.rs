@@ -66,7 +66,7 @@ impl Contents {
             }];
         };
         let is_executable = |mode: u32| mode & 0o111 != 0;
-        let mode = self.modes.get(name).copied().flatten();
+        let mode = self.modes.get(name).copied();
         let faults = [
             (
                 !text.starts_with(b"#!"),

@@ -1,14 +1,16 @@
 //! Bytes that are counted where they really come from.
 
 use std::cell::Cell;
-use std::io::{self, Read, Seek, SeekFrom};
+use std::io::{self, Read};
 use std::rc::Rc;
+
+use rawzip::ReaderAt;
 
 /// Gives so many bytes and not one more.
 #[derive(Debug)]
 pub(super) struct Stream<R> {
     inner: R,
-    left: Rc<Cell<u64>>,
+    left: Allowance,
 }
 
 /// How much may still be read, known outside of the stream.
@@ -25,34 +27,45 @@ impl Allowance {
     pub(super) fn renew(&self, bytes: u64) {
         self.0.set(bytes);
     }
+
+    /// Takes from it what is read into that part of the buffer that it allows.
+    fn spend(
+        &self,
+        buffer: &mut [u8],
+        read: impl FnOnce(&mut [u8]) -> io::Result<usize>,
+    ) -> io::Result<usize> {
+        if self.is_used_up() && !buffer.is_empty() {
+            return Err(io::Error::other("there is more of it than may be read"));
+        }
+        let left = self.0.get();
+        let most = usize::try_from(left)
+            .unwrap_or(usize::MAX)
+            .min(buffer.len());
+        let count = read(&mut buffer[..most])?;
+        self.renew(left - count as u64);
+        Ok(count)
+    }
 }
 
 impl<R> Stream<R> {
     /// At most `bytes` of `inner`, wherever in it they stand.
     pub(super) fn new(inner: R, bytes: u64) -> (Self, Allowance) {
-        let left = Rc::new(Cell::new(bytes));
-        let allowance = Allowance(Rc::clone(&left));
+        let left = Allowance(Rc::new(Cell::new(bytes)));
+        let allowance = left.clone();
         (Stream { inner, left }, allowance)
     }
 }
 
 impl<R: Read> Read for Stream<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let left = self.left.get();
-        if left == 0 && !buffer.is_empty() {
-            return Err(io::Error::other("there is more of it than may be read"));
-        }
-        let most = usize::try_from(left)
-            .unwrap_or(usize::MAX)
-            .min(buffer.len());
-        let read = self.inner.read(&mut buffer[..most])?;
-        self.left.set(left - read as u64);
-        Ok(read)
+        let Stream { inner, left } = self;
+        left.spend(buffer, |buffer| inner.read(buffer))
     }
 }
 
-impl<R: Seek> Seek for Stream<R> {
-    fn seek(&mut self, place: SeekFrom) -> io::Result<u64> {
-        self.inner.seek(place)
+impl<R: ReaderAt> ReaderAt for Stream<R> {
+    fn read_at(&self, buffer: &mut [u8], place: u64) -> io::Result<usize> {
+        let Stream { inner, left } = self;
+        left.spend(buffer, |buffer| inner.read_at(buffer, place))
     }
 }

@@ -30,8 +30,8 @@ pub struct Mutant {
 pub struct OfFile {
     /// Its name.
     pub file: String,
-    /// The text that the spans are meant for: its BLAKE3 hash, shortened.
-    pub blake3: String,
+    /// The text that the spans are meant for: the first digits of its BLAKE2b hash, as `b2sum` prints it.
+    pub blake2b: String,
     /// As they stand in it.
     pub mutants: Vec<Mutant>,
 }
@@ -93,14 +93,14 @@ impl OfFile {
         });
         OfFile {
             file: file.to_owned(),
-            blake3: hash(text),
+            blake2b: hash(text),
             mutants: mutants.collect(),
         }
     }
 }
 
 fn hash(text: &str) -> String {
-    blake3::hash(text.as_bytes()).to_hex()[..16].to_owned()
+    blake2b_simd::blake2b(text.as_bytes()).to_hex()[..16].to_owned()
 }
 
 impl List {
@@ -113,7 +113,7 @@ impl List {
             };
             let text = reference.text(file).unwrap_or_default();
             let of_file = self.files.iter().find(|of_file| of_file.file == file);
-            let of_file = of_file.filter(|of_file| of_file.blake3 == hash(text));
+            let of_file = of_file.filter(|of_file| of_file.blake2b == hash(text));
             for mutant in &of_file.ok_or_else(no_fit)?.mutants {
                 let text = mutant.span.replace(text, &mutant.now).ok_or_else(no_fit)?;
                 solutions.push((mutant, reference.clone().with(file, text)));
@@ -128,9 +128,9 @@ impl List {
         let files = self.files.iter().map(|of_file| {
             let mutants: Vec<String> = of_file.mutants.iter().map(json).collect();
             format!(
-                "    {{\"file\": {}, \"blake3\": {}, \"mutants\": [\n      {}\n    ]}}",
+                "    {{\"file\": {}, \"blake2b\": {}, \"mutants\": [\n      {}\n    ]}}",
                 json(&of_file.file),
-                json(&of_file.blake3),
+                json(&of_file.blake2b),
                 mutants.join(",\n      "),
             )
         });

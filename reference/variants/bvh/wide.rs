@@ -7,11 +7,12 @@
 //! and all children that are hit are asked for at once, whichever they are. What is still to be
 //! visited is kept as one integer, the entry above the child, so that the nearer of two is found
 //! without a branch. Where a ray enters a box is computed from the plane that it meets first, known
-//! from the sign of its direction. And what a `Trace` says of a triangle, besides where it is, stands in
-//! one line of memory.
+//! from the sign of its direction. What a `Trace` says of a triangle, besides where it is, stands in one
+//! line of memory; of a facet it follows from the corners, and nothing more is read. And the tree that is
+//! walked is another than the one that is shown: it may hold a large triangle in pieces.
 
 use glam::{Vec2, Vec3};
-use protocol::{Ray, Trace};
+use protocol::{Interval, Ray, Shape, Trace, Vertex};
 use wide::{f32x4, f32x8};
 
 use crate::bbox::BBox;
@@ -73,23 +74,19 @@ pub struct Bvh {
     pub root: usize,
     /// The folded tree, its root first. None at all if there is nothing to hold.
     lines: Vec<Line>,
-    /// Of each primitive, as they stand in `primitives`; of a sphere, nothing.
+    /// Of each triangle that is no facet.
     surfaces: Vec<Surface>,
 }
 
 impl Bvh {
     /// A tree from its parts.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
-        Bvh::fold(primitives, nodes, root, Leaves::AsTheyAre)
-    }
-
-    fn fold(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize, leaves: Leaves) -> Self {
-        let lines = if root < nodes.len() {
-            Folding::new(&primitives, &nodes, leaves).all(root)
+        let order: Vec<usize> = (0..primitives.len()).collect();
+        let (lines, surfaces) = if root < nodes.len() {
+            Folding::new(&primitives, &nodes, &order, Leaves::AsTheyAre).all(root)
         } else {
-            Vec::new()
+            (Vec::new(), Vec::new())
         };
-        let surfaces = primitives.iter().map(Surface::new).collect();
         Bvh {
             primitives,
             nodes,
@@ -99,18 +96,31 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by the surface area heuristic.
+    /// Builds the tree by the surface area heuristic; and for the walk another one, of pieces.
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
+        let max_leaf_size = max_leaf_size.max(1);
         let mut builder = Builder {
-            items: (0..).zip(&primitives).map(Item::new).collect(),
+            items: items(&primitives),
             nodes: Vec::with_capacity(primitives.len()),
-            max_leaf_size: max_leaf_size.max(1),
+            max_leaf_size,
         };
-        if !primitives.is_empty() {
-            builder.node(0, primitives.len());
+        if primitives.is_empty() {
+            return Bvh::from_nodes(primitives, Vec::new(), 0);
         }
+        builder.node(0, primitives.len());
         let ordered = builder.items.iter().map(|item| primitives[item.place]);
-        Bvh::fold(ordered.collect(), builder.nodes, 0, Leaves::Joined)
+        let primitives: Vec<Primitive> = ordered.collect();
+        let mut cutter = Cutter::new(&primitives, max_leaf_size);
+        cutter.node(items(&primitives));
+        let Cutter { nodes, order, .. } = cutter;
+        let (lines, surfaces) = Folding::new(&primitives, &nodes, &order, Leaves::Joined).all(0);
+        Bvh {
+            primitives,
+            nodes: builder.nodes,
+            root: 0,
+            lines,
+            surfaces,
+        }
     }
 
     /// The closest of all the places where the ray meets a primitive within `ray.range`.
@@ -125,9 +135,20 @@ impl Bvh {
         match closest.met {
             Met::Nothing => None,
             Met::Sphere { place } => self.primitives[place as usize].hit(ray),
-            Met::Triangle { place, u, v } => {
-                let surface = &self.surfaces[place as usize];
-                Some(surface.trace(ray, closest.distance, u, v))
+            Met::Triangle { pack, lane, u, v } => {
+                let pack = Pack::at(&self.lines, pack as usize);
+                let (normal, uv, material) = match pack.surface(lane) {
+                    Seen::Facet { normal, material } => (normal, Vec2::new(u, v), material),
+                    Seen::Surface { place } => self.surfaces[place as usize].between(u, v),
+                };
+                Some(Trace {
+                    distance: closest.distance,
+                    position: ray.at(closest.distance),
+                    normal,
+                    uv,
+                    origin: ray.origin,
+                    material,
+                })
             }
         }
     }
@@ -181,10 +202,9 @@ impl Bvh {
         }
     }
 
-    fn leaf(&self, start: u32, beam: &Beam, ray: &Ray, closest: &mut Closest) {
-        let mut start = start as usize;
+    fn leaf(&self, mut start: u32, beam: &Beam, ray: &Ray, closest: &mut Closest) {
         loop {
-            let pack = Pack::at(&self.lines, start);
+            let pack = Pack::at(&self.lines, start as usize);
             if pack.is(Pack::OF_SPHERES) {
                 for place in pack.places() {
                     let rest = ray.within(ray.range.min, closest.distance);
@@ -193,14 +213,23 @@ impl Bvh {
                         closest.met = Met::Sphere { place };
                     }
                 }
-            } else if let Some(place) = pack.hit(beam, closest) {
-                // It will be read, unless another one is closer.
-                fetch(&self.surfaces[place as usize]);
+            } else if let Some(hit) = pack.hit(beam, closest.distance) {
+                closest.distance = hit.distance;
+                closest.met = Met::Triangle {
+                    pack: start,
+                    lane: hit.lane,
+                    u: hit.u,
+                    v: hit.v,
+                };
+                if let Some(place) = pack.place_of_surface(hit.lane) {
+                    // It will be read, unless another one is closer.
+                    fetch(&self.surfaces[place as usize]);
+                }
             }
             if !pack.is(Pack::GOES_ON) {
                 return;
             }
-            start += Pack::LINES;
+            start += Pack::LINES as u32;
         }
     }
 }
@@ -219,15 +248,17 @@ struct Closest {
     met: Met,
 }
 
-/// What the closest hit is a hit of; `place` is the primitive's.
+/// What the closest hit is a hit of.
 enum Met {
     Nothing,
+    /// The primitive in this place.
     Sphere {
         place: u32,
     },
-    /// With the weights of two corners.
+    /// By where its pack starts, and with the weights of two corners.
     Triangle {
-        place: u32,
+        pack: u32,
+        lane: usize,
         u: f32,
         v: f32,
     },
@@ -243,38 +274,21 @@ struct Surface {
 }
 
 impl Surface {
-    fn new(primitive: &Primitive) -> Self {
-        match primitive {
-            Primitive::Triangle(Triangle {
-                p0,
-                p1,
-                p2,
-                material,
-            }) => Surface {
-                normals: [p0.normal, p1.normal, p2.normal],
-                uvs: [p0.uv, p1.uv, p2.uv],
-                material: *material,
-            },
-            Primitive::Sphere(_) => Surface {
-                normals: [Vec3::ZERO; 3],
-                uvs: [Vec2::ZERO; 3],
-                material: primitive.material(),
-            },
+    fn new([p0, p1, p2]: [&Vertex; 3], material: u32) -> Self {
+        Surface {
+            normals: [p0.normal, p1.normal, p2.normal],
+            uvs: [p0.uv, p1.uv, p2.uv],
+            material,
         }
     }
 
-    fn trace(&self, ray: &Ray, distance: f32, u: f32, v: f32) -> Trace {
+    /// Its normal, texture coordinates and material where two corners have these weights.
+    fn between(&self, u: f32, v: f32) -> (Vec3, Vec2, u32) {
         let w = 1.0 - u - v;
         let [n0, n1, n2] = self.normals;
         let [uv0, uv1, uv2] = self.uvs;
-        Trace {
-            distance,
-            position: ray.at(distance),
-            normal: (w * n0 + u * n1 + v * n2).normalize(),
-            uv: w * uv0 + u * uv1 + v * uv2,
-            origin: ray.origin,
-            material: self.material,
-        }
+        let normal = (w * n0 + u * n1 + v * n2).normalize();
+        (normal, w * uv0 + u * uv1 + v * uv2, self.material)
     }
 }
 
@@ -444,8 +458,10 @@ impl<'a> Pack<'a> {
     const OF_SPHERES: u32 = 1 << 30;
     /// In the first place: the leaf goes on in the next pack.
     const GOES_ON: u32 = 1 << 31;
-    /// No primitive has this place.
-    const NOWHERE: u32 = (1 << 30) - 1;
+    /// In the place of a triangle: it is a facet, and what follows is its material.
+    const OF_FACET: u32 = 1 << 29;
+    /// No primitive has this place, nor a facet this material.
+    const NOWHERE: u32 = (1 << 29) - 1;
 
     fn at(lines: &'a [Line], start: usize) -> Self {
         Pack(lines_at(lines, start))
@@ -463,24 +479,49 @@ impl<'a> Pack<'a> {
         ]
     }
 
+    fn word(&self, lane: usize) -> u32 {
+        let Line([_, places]) = &self.0[4];
+        places.as_array()[lane].to_bits()
+    }
+
     fn is(&self, flag: u32) -> bool {
-        let Line([_, places]) = &self.0[4];
-        places.as_array()[0].to_bits() & flag != 0
+        self.word(0) & flag != 0
     }
 
-    fn place(&self, lane: usize) -> u32 {
-        let Line([_, places]) = &self.0[4];
-        places.as_array()[lane].to_bits() & Pack::NOWHERE
-    }
-
+    /// The places of its spheres.
     fn places(&self) -> impl Iterator<Item = u32> {
-        let places = (0..8).map(|lane| self.place(lane));
+        let places = (0..8).map(|lane| self.word(lane) & Pack::NOWHERE);
         places.take_while(|&place| place != Pack::NOWHERE)
     }
 
-    /// Möller and Trumbore's test, of eight triangles. Returns the place of the closest, if any is
-    /// closer than what was hit before.
-    fn hit(&self, beam: &Beam, closest: &mut Closest) -> Option<u32> {
+    /// Where more is said of the triangle, unless it is a facet.
+    fn place_of_surface(&self, lane: usize) -> Option<u32> {
+        let word = self.word(lane);
+        (word & Pack::OF_FACET == 0).then_some(word & Pack::NOWHERE)
+    }
+
+    fn surface(&self, lane: usize) -> Seen {
+        let [
+            _,
+            Line([_, e1_x]),
+            Line([e1_y, e1_z]),
+            Line([e2_x, e2_y]),
+            Line([e2_z, _]),
+        ] = self.0;
+        let edge = |edge: [&f32x8; 3]| Vec3::from(edge.map(|lanes| lanes.as_array()[lane]));
+        match self.place_of_surface(lane) {
+            Some(place) => Seen::Surface { place },
+            None => Seen::Facet {
+                normal: edge([e1_x, e1_y, e1_z])
+                    .cross(edge([e2_x, e2_y, e2_z]))
+                    .normalize(),
+                material: self.word(lane) & Pack::NOWHERE,
+            },
+        }
+    }
+
+    /// Möller and Trumbore's test, of eight triangles: the closest that is hit, up to `max`.
+    fn hit(&self, beam: &Beam, max: f32) -> Option<Hit> {
         let [
             Line([p0_x, p0_y]),
             Line([p0_z, e1_x]),
@@ -504,31 +545,47 @@ impl<'a> Pack<'a> {
         let t = dot(&q, &e2) ^ sign;
         // Whatever is no number is neither more nor less, and so no hit.
         let inside = u.simd_ge(f32x8::ZERO) & v.simd_ge(f32x8::ZERO) & (u + v).simd_le(determinant);
-        let max = f32x8::splat(closest.distance) * determinant;
-        let ahead = t.simd_ge(beam.min * determinant) & t.simd_le(max);
+        let latest = f32x8::splat(max) * determinant;
+        let ahead = t.simd_ge(beam.min * determinant) & t.simd_le(latest);
         let mut mask = (inside & ahead & determinant.simd_gt(f32x8::ZERO)).to_bitmask();
         if mask == 0 {
             return None;
         }
 
         let [u, v, t] = [u, v, t].map(|times| (times / determinant).to_array());
-        let mut nearest = None;
+        let range = Interval::new(beam.min.as_array()[0], max);
+        let mut nearest: Option<Hit> = None;
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize & 7;
             mask &= mask - 1;
-            if t[lane] <= closest.distance && beam.min.as_array()[0] <= t[lane] {
-                let place = self.place(lane);
-                closest.distance = t[lane];
-                closest.met = Met::Triangle {
-                    place,
+            if range.contains(t[lane]) && nearest.as_ref().is_none_or(|hit| t[lane] <= hit.distance)
+            {
+                nearest = Some(Hit {
+                    distance: t[lane],
+                    lane,
                     u: u[lane],
                     v: v[lane],
-                };
-                nearest = Some(place);
+                });
             }
         }
         nearest
     }
+}
+
+/// Where a triangle of a pack is hit, and the weights of two corners there.
+struct Hit {
+    distance: f32,
+    lane: usize,
+    u: f32,
+    v: f32,
+}
+
+/// Where it stands what a `Trace` says of a triangle.
+enum Seen {
+    /// Nowhere: it follows from the corners. See [`Shape::facet_vertices`].
+    Facet { normal: Vec3, material: u32 },
+    /// In this place among the surfaces.
+    Surface { place: u32 },
 }
 
 /// So many lines, from one on.
@@ -552,10 +609,13 @@ enum Leaves {
 struct Folding<'a> {
     primitives: &'a [Primitive],
     nodes: &'a [Node],
+    /// Of which primitives the leaves have pieces.
+    order: &'a [usize],
     leaves: Leaves,
     /// For each of the nodes.
     plans: Vec<Plan>,
     lines: Vec<Line>,
+    surfaces: Vec<Surface>,
 }
 
 /// How to fold what is below a node, at the least cost: Ylitie, Karras and Laine, "Efficient
@@ -574,20 +634,27 @@ struct Plan {
 }
 
 impl<'a> Folding<'a> {
-    fn new(primitives: &'a [Primitive], nodes: &'a [Node], leaves: Leaves) -> Self {
+    fn new(
+        primitives: &'a [Primitive],
+        nodes: &'a [Node],
+        order: &'a [usize],
+        leaves: Leaves,
+    ) -> Self {
         Folding {
             primitives,
             nodes,
+            order,
             leaves,
             plans: vec![Plan::default(); nodes.len()],
             lines: Vec::with_capacity(2 * nodes.len()),
+            surfaces: Vec::new(),
         }
     }
 
-    fn all(mut self, root: usize) -> Vec<Line> {
+    fn all(mut self, root: usize) -> (Vec<Line>, Vec<Surface>) {
         self.plan(root);
         self.eight(root);
-        self.lines
+        (self.lines, self.surfaces)
     }
 
     fn plan(&mut self, place: usize) {
@@ -681,12 +748,27 @@ impl<'a> Folding<'a> {
         small(start)
     }
 
+    /// What a pack has in a triangle's place.
+    fn word(&mut self, triangle: &Triangle) -> u32 {
+        let corners = [&triangle.p0, &triangle.p1, &triangle.p2];
+        let facet = Shape::facet_vertices(corners.map(|corner| corner.position));
+        if facet.iter().eq(corners) && triangle.material < Pack::NOWHERE {
+            return triangle.material | Pack::OF_FACET;
+        }
+        self.surfaces.push(Surface::new(corners, triangle.material));
+        small(self.surfaces.len() - 1)
+    }
+
     fn leaf(&mut self, place: usize) -> u32 {
         let Plan { start, size, .. } = self.plans[place];
         let (mut triangles, mut spheres) = (Vec::new(), Vec::new());
-        for place in start..start + size {
+        // Once each, of however many pieces.
+        let mut held = self.order[start..start + size].to_vec();
+        held.sort_unstable();
+        held.dedup();
+        for place in held {
             match &self.primitives[place] {
-                Primitive::Triangle(triangle) => triangles.push((small(place), triangle)),
+                Primitive::Triangle(triangle) => triangles.push((self.word(triangle), triangle)),
                 Primitive::Sphere(_) => spheres.push(small(place)),
             }
         }
@@ -772,17 +854,70 @@ impl Bounds {
         self.upper = self.upper.fast_max(other.upper);
     }
 
+    /// What both hold.
+    fn overlap(self, other: Bounds) -> Bounds {
+        Bounds {
+            lower: self.lower.fast_max(other.lower),
+            upper: self.upper.fast_min(other.upper),
+        }
+    }
+
+    fn point(point: Vec3) -> Bounds {
+        let point = f32x4::from(point.extend(0.0).to_array());
+        Bounds {
+            lower: point,
+            upper: point,
+        }
+    }
+
+    fn of(items: &[Item]) -> Bounds {
+        let mut bounds = Bounds::nothing();
+        items.iter().for_each(|item| bounds.join(item.bounds));
+        bounds
+    }
+
+    /// Twice the box of the items' centers.
+    fn of_centers(items: &[Item]) -> Bounds {
+        let mut centers = Bounds::nothing();
+        for item in items {
+            let center = item.center();
+            centers.join(Bounds {
+                lower: center,
+                upper: center,
+            });
+        }
+        centers
+    }
+
+    fn is_empty(self) -> bool {
+        let [x, y, z, _] = (self.upper - self.lower).to_array();
+        x < 0.0 || y < 0.0 || z < 0.0
+    }
+
+    /// Half of its surface.
+    fn area(self) -> f32 {
+        if self.is_empty() {
+            return 0.0;
+        }
+        let [x, y, z, _] = (self.upper - self.lower).to_array();
+        x * y + y * z + z * x
+    }
+
     fn bbox(self) -> BBox {
         let corner = |lanes: f32x4| Vec3::from_slice(&lanes.to_array()[..3]);
         BBox::new(corner(self.lower), corner(self.upper))
     }
 }
 
-/// What building needs to know of a primitive.
+/// What building needs to know of a primitive, or of a piece of one.
 #[derive(Clone, Copy)]
 struct Item {
     bounds: Bounds,
     place: usize,
+}
+
+fn items(primitives: &[Primitive]) -> Vec<Item> {
+    (0..).zip(primitives).map(Item::new).collect()
 }
 
 impl Item {
@@ -825,8 +960,7 @@ impl Bucket {
         if self.count == 0 {
             return 0.0;
         }
-        let [x, y, z, _] = (self.bounds.upper - self.bounds.lower).to_array();
-        (x * y + y * z + z * x) * self.count as f32
+        self.bounds.area() * self.count as f32
     }
 }
 
@@ -843,22 +977,14 @@ const SLICES: usize = 16;
 impl Builder {
     /// Builds the node over `items[start..end]`, which are not none; returns its place.
     fn node(&mut self, start: usize, end: usize) -> usize {
-        let mut bounds = Bounds::nothing();
-        let mut centers = Bounds::nothing();
-        for item in &self.items[start..end] {
-            let center = item.center();
-            bounds.join(item.bounds);
-            centers.join(Bounds {
-                lower: center,
-                upper: center,
-            });
-        }
-
+        let items = &mut self.items[start..end];
+        let bounds = Bounds::of(items);
         let place = self.nodes.len();
         self.nodes
             .push(Node::leaf(bounds.bbox(), start, end - start));
         if end - start > self.max_leaf_size {
-            let middle = start + partition(&mut self.items[start..end], centers);
+            let centers = Bounds::of_centers(items);
+            let middle = start + partition(items, centers);
             let l = self.node(start, middle);
             let r = self.node(middle, end);
             self.nodes[place] = Node::interior(bounds.bbox(), l, r);
@@ -922,4 +1048,205 @@ fn cheapest(buckets: &[Bucket; SLICES]) -> (usize, f32) {
         }
     }
     best
+}
+
+/// Builds the tree that is walked. Where the boxes of two halves would overlap, and it is cheaper, a node
+/// is cut along a plane, and a triangle on both sides of it has a piece in either: Stich, Friedrich and
+/// Dietrich, "Spatial Splits in Bounding Volume Hierarchies", 2009.
+struct Cutter<'a> {
+    primitives: &'a [Primitive],
+    nodes: Vec<Node>,
+    /// Of which primitives the leaves have pieces.
+    order: Vec<usize>,
+    max_leaf_size: usize,
+    /// How many pieces more there may be.
+    spare: usize,
+    /// So much of an overlap is let be: half of its surface.
+    bearable: f32,
+}
+
+/// A plane, and the cost of cutting there.
+struct Cut {
+    axis: usize,
+    plane: f32,
+    cost: f32,
+}
+
+impl<'a> Cutter<'a> {
+    /// In smaller nodes, cuts take most of the time and save nothing.
+    const LEAST: usize = 256;
+
+    fn new(primitives: &'a [Primitive], max_leaf_size: usize) -> Self {
+        Cutter {
+            primitives,
+            nodes: Vec::with_capacity(primitives.len()),
+            order: Vec::with_capacity(primitives.len()),
+            max_leaf_size,
+            spare: primitives.len(),
+            bearable: 1e-4 * Bounds::of(&items(primitives)).area(),
+        }
+    }
+
+    /// Builds the node over these items, which are not none; returns its place.
+    fn node(&mut self, mut items: Vec<Item>) -> usize {
+        let bounds = Bounds::of(&items);
+        let place = self.nodes.len();
+        let leaf = Node::leaf(bounds.bbox(), self.order.len(), items.len());
+        self.nodes.push(leaf);
+        if items.len() <= self.max_leaf_size {
+            self.order.extend(items.iter().map(|item| item.place));
+            return place;
+        }
+
+        let centers = Bounds::of_centers(&items);
+        let middle = partition(&mut items, centers);
+        let halves = self.cheaper_halves(&items, middle, bounds);
+        let (l, r) = halves.unwrap_or_else(|| {
+            let r = items.split_off(middle);
+            (items, r)
+        });
+        let l = self.node(l);
+        let r = self.node(r);
+        self.nodes[place] = Node::interior(bounds.bbox(), l, r);
+        place
+    }
+
+    /// What lies on either side of a cut, if that is cheaper than these halves.
+    fn cheaper_halves(
+        &mut self,
+        items: &[Item],
+        middle: usize,
+        bounds: Bounds,
+    ) -> Option<(Vec<Item>, Vec<Item>)> {
+        if items.len() < Cutter::LEAST {
+            return None;
+        }
+        let (l, r) = items.split_at(middle);
+        let (of_l, of_r) = (Bounds::of(l), Bounds::of(r));
+        if of_l.overlap(of_r).area() <= self.bearable {
+            return None;
+        }
+        let cost = of_l.area() * l.len() as f32 + of_r.area() * r.len() as f32;
+        let cut = self.cheapest_cut(items, bounds)?;
+        if cut.cost >= cost {
+            return None;
+        }
+
+        let (mut l, mut r) = (Vec::new(), Vec::new());
+        for item in items {
+            if item.bounds.upper.to_array()[cut.axis] <= cut.plane {
+                l.push(*item);
+            } else if item.bounds.lower.to_array()[cut.axis] >= cut.plane {
+                r.push(*item);
+            } else {
+                let place = item.place;
+                let [below, above] = self.pieces(item, cut.axis, cut.plane);
+                l.extend(below.map(|bounds| Item { bounds, place }));
+                r.extend(above.map(|bounds| Item { bounds, place }));
+            }
+        }
+        let more = (l.len() + r.len()).saturating_sub(items.len());
+        if l.len().max(r.len()) >= items.len() || more > self.spare {
+            return None;
+        }
+        self.spare -= more;
+        Some((l, r))
+    }
+
+    /// Along all axes, between slices of equal width.
+    fn cheapest_cut(&self, items: &[Item], bounds: Bounds) -> Option<Cut> {
+        let lower = bounds.lower.to_array();
+        let width = ((bounds.upper - bounds.lower) * f32x4::splat(1.0 / SLICES as f32)).to_array();
+        let scale = f32x4::from(width.map(|width| if width > 0.0 { 1.0 / width } else { 0.0 }));
+        let plane = |axis: usize, slice: usize| lower[axis] + width[axis] * slice as f32;
+        let slices = |corner: f32x4| {
+            let slices = ((corner - bounds.lower) * scale)
+                .fast_trunc_int()
+                .to_array();
+            slices.map(|slice| (slice as usize).min(SLICES - 1))
+        };
+
+        // What lies in each slice, and how many items begin and end there.
+        let mut inside = [[Bounds::nothing(); SLICES]; 3];
+        let mut begin = [[0; SLICES]; 3];
+        let mut end = [[0; SLICES]; 3];
+        for item in items {
+            let (first, last) = (slices(item.bounds.lower), slices(item.bounds.upper));
+            for axis in 0..3 {
+                let (first, last) = (first[axis], last[axis].max(first[axis]));
+                begin[axis][first] += 1;
+                end[axis][last] += 1;
+                let mut rest = Some(*item);
+                let (before, inside) = inside[axis].split_at_mut(last);
+                for (slice, inside) in before.iter_mut().enumerate().skip(first) {
+                    let Some(item) = rest else { break };
+                    let [below, above] = self.pieces(&item, axis, plane(axis, slice + 1));
+                    below.iter().for_each(|below| inside.join(*below));
+                    rest = above.map(|bounds| Item { bounds, ..item });
+                }
+                rest.iter().for_each(|rest| inside[0].join(rest.bounds));
+            }
+        }
+
+        let mut best: Option<Cut> = None;
+        for axis in (0..3).filter(|&axis| plane(axis, 1) > lower[axis]) {
+            let mut right_costs = [0.0; SLICES];
+            let (mut right, mut count) = (Bounds::nothing(), 0);
+            for slice in (1..SLICES).rev() {
+                right.join(inside[axis][slice]);
+                count += end[axis][slice];
+                right_costs[slice] = right.area() * count as f32;
+            }
+            let (mut left, mut count) = (Bounds::nothing(), 0);
+            for slice in 1..SLICES {
+                left.join(inside[axis][slice - 1]);
+                count += begin[axis][slice - 1];
+                let cost = left.area() * count as f32 + right_costs[slice];
+                if best.as_ref().is_none_or(|best| cost < best.cost) {
+                    let plane = plane(axis, slice);
+                    best = Some(Cut { axis, plane, cost });
+                }
+            }
+        }
+        best
+    }
+
+    /// The boxes of what of an item lies below a plane, and above, if anything does.
+    fn pieces(&self, item: &Item, axis: usize, plane: f32) -> [Option<Bounds>; 2] {
+        let (mut upper, mut lower) = (item.bounds.upper.to_array(), item.bounds.lower.to_array());
+        upper[axis] = upper[axis].min(plane);
+        lower[axis] = lower[axis].max(plane);
+        let below = Bounds {
+            upper: f32x4::from(upper),
+            ..item.bounds
+        };
+        let above = Bounds {
+            lower: f32x4::from(lower),
+            ..item.bounds
+        };
+        let Primitive::Triangle(Triangle { p0, p1, p2, .. }) = &self.primitives[item.place] else {
+            return [Some(below), Some(above)];
+        };
+
+        let [p0, p1, p2] = [p0.position, p1.position, p2.position];
+        let (mut low, mut high) = (Bounds::nothing(), Bounds::nothing());
+        for (a, b) in [(p0, p1), (p1, p2), (p2, p0)] {
+            if a[axis] <= plane {
+                low.join(Bounds::point(a));
+            }
+            if a[axis] >= plane {
+                high.join(Bounds::point(a));
+            }
+            if (a[axis] < plane && plane < b[axis]) || (b[axis] < plane && plane < a[axis]) {
+                let at = a + (b - a) * ((plane - a[axis]) / (b[axis] - a[axis]));
+                // Wherever rounding has put it, it is inside.
+                let slack = 4e-7 * a.abs().max(b.abs());
+                for at in [at - slack, at + slack] {
+                    low.join(Bounds::point(at));
+                    high.join(Bounds::point(at));
+                }
+            }
+        }
+        [below.overlap(low), above.overlap(high)].map(|piece| (!piece.is_empty()).then_some(piece))
+    }
 }

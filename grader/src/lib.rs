@@ -10,11 +10,13 @@
 //! | the job | [`grade`], [`replay`], [`unchanged`], [`watch`], [`doctor`]; [`earlier`], [`files`] |
 //! | one exam | [`examine`], [`verdict`], [`exhibit`], [`report`], [`mod@format`] |
 //! | its steps | [`isolate`], [`build`], [`ask`]; [`drawing`] of what was judged |
-//! | data | [`place`], [`again`], [`policy`], [`submission`], [`given`], [`stages`], [`score`]; [`exam_file`] |
+//! | data | [`place`], [`again`], [`policy`], [`submission`], [`given`], [`stages`], [`score`] |
 //! | [`judging`], a package of its own | [`exam`], [`judge`] and what else is named below |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`], [`zipfile`] |
 
-pub use judging::{describe, exam, judge, picture, recognise, section, shown, tame, tells};
+pub use judging::{
+    describe, exam, exam_file, judge, picture, recognise, section, shown, tame, tells,
+};
 
 pub mod again;
 pub mod ask;
@@ -26,7 +28,6 @@ pub mod doctor;
 pub mod drawing;
 pub mod earlier;
 pub mod error;
-pub mod exam_file;
 pub mod examine;
 pub mod exhibit;
 pub mod files;

@@ -1,8 +1,8 @@
 //! What is asked, what counts as right, and how an answer is compared with it.
 //!
-//! Nothing here knows of processes, compilers, reports or files: all of it is pure. A package of its own
-//! because it is what a grader spends its time in: this is compiled to be fast, and the rest of the
-//! grader to be compiled fast.
+//! Nothing here knows of processes, compilers or reports; but for reading an exam's file, all of it is
+//! pure. A package of its own because it is what a grader spends its time in: this is compiled to be
+//! fast, and the rest of the grader to be compiled fast.
 //!
 //! Floors, from the ground up; each imports only from below:
 //!
@@ -11,10 +11,12 @@
 //! | seen in answers | [`picture`], [`recognise`] |
 //! | comparing | [`judge`] |
 //! | in words | [`describe`] |
+//! | reading exams | [`exam_file`] |
 //! | data | [`exam`], [`tells`], [`shown`], [`section`]; [`tame`] |
 
 pub mod describe;
 pub mod exam;
+pub mod exam_file;
 pub mod judge;
 pub mod picture;
 pub mod recognise;

@@ -1,9 +1,5 @@
 //! Reading exam files: from disk, from standard input, or the practice exam that this program was
 //! built with. A file that can not be asked is refused before anything is.
-//!
-//! Here, and not where exams are judged: what `serde` makes of it for JSON is half as much code again
-//! as all of that, and takes seconds to optimise. Not optimised it is fast enough, because nearly all
-//! of an exam is packed lists.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -23,7 +19,7 @@ const LONGEST_SIDE: u32 = 4096;
 /// The longest exam file, in bytes; ours have about 3,000,000.
 const LONGEST_FILE: u64 = 64 << 20;
 
-const PRACTICE: &str = include_str!("../exams/practice.json");
+const PRACTICE: &str = include_str!("../../exams/practice.json");
 
 /// An exam, and the name of its bytes.
 #[derive(Clone, Debug)]
@@ -36,7 +32,7 @@ pub struct ExamFile {
 
 /// Which exam this is.
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ExamName {
     /// Such as `practice`.
     pub id: String,

@@ -936,31 +936,29 @@ impl Item {
     }
 }
 
-/// The items whose centers lie in one slice.
+/// What lies in one slice. An item whose center counts begins and ends where that lies.
 #[derive(Clone, Copy)]
 struct Bucket {
     bounds: Bounds,
-    count: usize,
+    /// How many items begin there.
+    begin: usize,
+    /// How many end there.
+    end: usize,
 }
 
 impl Bucket {
     fn empty() -> Self {
         Bucket {
             bounds: Bounds::nothing(),
-            count: 0,
+            begin: 0,
+            end: 0,
         }
     }
 
     fn join(&mut self, other: Bucket) {
         self.bounds.join(other.bounds);
-        self.count += other.count;
-    }
-
-    fn cost(&self) -> f32 {
-        if self.count == 0 {
-            return 0.0;
-        }
-        self.bounds.area() * self.count as f32
+        self.begin += other.begin;
+        self.end += other.end;
     }
 }
 
@@ -1011,7 +1009,8 @@ fn partition(items: &mut [Item], centers: Bounds) -> usize {
         for axis in 0..3 {
             let bucket = &mut buckets[axis][slices[axis]];
             bucket.bounds.join(item.bounds);
-            bucket.count += 1;
+            bucket.begin += 1;
+            bucket.end += 1;
         }
     }
     let splits = (0..3).filter(|&axis| scale.to_array()[axis] > 0.0);
@@ -1036,13 +1035,13 @@ fn cheapest(buckets: &[Bucket; SLICES]) -> (usize, f32) {
     let mut right = Bucket::empty();
     for i in (1..SLICES).rev() {
         right.join(buckets[i]);
-        right_costs[i] = right.cost();
+        right_costs[i] = right.bounds.area() * right.end as f32;
     }
     let mut left = Bucket::empty();
     let mut best = (1, f32::INFINITY);
     for slice in 1..SLICES {
         left.join(buckets[slice - 1]);
-        let cost = left.cost() + right_costs[slice];
+        let cost = left.bounds.area() * left.begin as f32 + right_costs[slice];
         if cost < best.1 {
             best = (slice, cost);
         }
@@ -1166,49 +1165,32 @@ impl<'a> Cutter<'a> {
             slices.map(|slice| (slice as usize).min(SLICES - 1))
         };
 
-        // What lies in each slice, and how many items begin and end there.
-        let mut inside = [[Bounds::nothing(); SLICES]; 3];
-        let mut begin = [[0; SLICES]; 3];
-        let mut end = [[0; SLICES]; 3];
+        let mut buckets = [[Bucket::empty(); SLICES]; 3];
         for item in items {
             let (first, last) = (slices(item.bounds.lower), slices(item.bounds.upper));
-            for axis in 0..3 {
+            for (axis, buckets) in buckets.iter_mut().enumerate() {
                 let (first, last) = (first[axis], last[axis].max(first[axis]));
-                begin[axis][first] += 1;
-                end[axis][last] += 1;
+                buckets[first].begin += 1;
+                buckets[last].end += 1;
                 let mut rest = Some(*item);
-                let (before, inside) = inside[axis].split_at_mut(last);
-                for (slice, inside) in before.iter_mut().enumerate().skip(first) {
+                for (slice, bucket) in buckets[..last].iter_mut().enumerate().skip(first) {
                     let Some(item) = rest else { break };
                     let [below, above] = self.pieces(&item, axis, plane(axis, slice + 1));
-                    below.iter().for_each(|below| inside.join(*below));
+                    below.iter().for_each(|below| bucket.bounds.join(*below));
                     rest = above.map(|bounds| Item { bounds, ..item });
                 }
-                rest.iter().for_each(|rest| inside[0].join(rest.bounds));
+                rest.iter()
+                    .for_each(|rest| buckets[last].bounds.join(rest.bounds));
             }
         }
 
-        let mut best: Option<Cut> = None;
-        for axis in (0..3).filter(|&axis| plane(axis, 1) > lower[axis]) {
-            let mut right_costs = [0.0; SLICES];
-            let (mut right, mut count) = (Bounds::nothing(), 0);
-            for slice in (1..SLICES).rev() {
-                right.join(inside[axis][slice]);
-                count += end[axis][slice];
-                right_costs[slice] = right.area() * count as f32;
-            }
-            let (mut left, mut count) = (Bounds::nothing(), 0);
-            for slice in 1..SLICES {
-                left.join(inside[axis][slice - 1]);
-                count += begin[axis][slice - 1];
-                let cost = left.area() * count as f32 + right_costs[slice];
-                if best.as_ref().is_none_or(|best| cost < best.cost) {
-                    let plane = plane(axis, slice);
-                    best = Some(Cut { axis, plane, cost });
-                }
-            }
-        }
-        best
+        let axes = (0..3).filter(|&axis| plane(axis, 1) > lower[axis]);
+        let cuts = axes.map(|axis| {
+            let (slice, cost) = cheapest(&buckets[axis]);
+            let plane = plane(axis, slice);
+            Cut { axis, plane, cost }
+        });
+        cuts.min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 
     /// The boxes of what of an item lies below a plane, and above, if anything does.

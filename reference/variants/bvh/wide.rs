@@ -1,19 +1,21 @@
 //! Eight boxes at a time, and eight triangles: the binary tree, built or handed in, is folded into
-//! nodes of eight children, and the triangles of each leaf stand side by side in packs of eight. After
-//! Wald, Benthin and Boulos, "Getting Rid of Packets", 2008, and Embree's `BVH8<Triangle4>`.
+//! nodes of eight children, and the triangles of each leaf stand side by side in a pack. After Wald,
+//! Benthin and Boulos, "Getting Rid of Packets", 2008, and Embree's `BVH8<Triangle4>`.
 //!
 //! What takes the time is not to compute, but to wait: for memory, and for a branch that the processor
-//! has guessed wrongly. So nodes and packs stand in one piece of memory, a child's beside its parent's,
-//! and all children that are hit are asked for at once, whichever they are. What is still to be
-//! visited is kept as one integer, the entry above the child, so that the nearer of two is found
-//! without a branch. Where a ray enters a box is computed from the plane that it meets first, known
-//! from the sign of its direction. What a `Trace` says of a triangle, besides where it is, stands in one
-//! line of memory; of a facet it follows from the corners, and nothing more is read. And the tree that is
-//! walked is another than the one that is shown: it may hold a large triangle in pieces.
+//! has guessed wrongly. So nodes and packs stand in one piece of memory, the packs of a node behind it,
+//! and all children that are hit are asked for at once, with what stands behind them. A pack is small,
+//! because triangles that are neighbours share their corners. What is still to be visited is kept as one
+//! integer, the entry above the child, so that the nearer of two is found without a branch. Where a ray
+//! enters a box is computed from the plane that it meets first, known from the sign of its direction.
+//! What a `Trace` says of a triangle, besides where it is, stands in one line of memory; of a facet it
+//! follows from the corners, and nothing more is read. And the tree that is walked is another than the
+//! one that is shown: it may hold a large triangle in pieces.
 
 use glam::{Vec2, Vec3};
 use protocol::{Interval, Ray, Shape, Trace, Vertex};
-use wide::{f32x4, f32x8};
+use wide::bytemuck::cast;
+use wide::{f32x4, f32x8, u32x8};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
@@ -83,7 +85,7 @@ impl Bvh {
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         let order: Vec<usize> = (0..primitives.len()).collect();
         let (lines, surfaces) = if root < nodes.len() {
-            Folding::new(&primitives, &nodes, &order, Leaves::AsTheyAre).all(root)
+            Folding::new(&primitives, nodes.clone(), order).all(root)
         } else {
             (Vec::new(), Vec::new())
         };
@@ -110,10 +112,10 @@ impl Bvh {
         builder.node(0, primitives.len());
         let ordered = builder.items.iter().map(|item| primitives[item.place]);
         let primitives: Vec<Primitive> = ordered.collect();
-        let mut cutter = Cutter::new(&primitives, max_leaf_size);
+        let mut cutter = Cutter::new(&primitives);
         cutter.node(items(&primitives));
         let Cutter { nodes, order, .. } = cutter;
-        let (lines, surfaces) = Folding::new(&primitives, &nodes, &order, Leaves::Joined).all(0);
+        let (lines, surfaces) = Folding::new(&primitives, nodes, order).all(0);
         Bvh {
             primitives,
             nodes: builder.nodes,
@@ -136,7 +138,7 @@ impl Bvh {
             Met::Nothing => None,
             Met::Sphere { place } => self.primitives[place as usize].hit(ray),
             Met::Triangle { pack, lane, u, v } => {
-                let pack = Pack::at(&self.lines, pack as usize);
+                let pack = Pack::at(&self.lines, pack);
                 let (normal, uv, material) = match pack.surface(lane) {
                     Seen::Facet { normal, material } => (normal, Vec2::new(u, v), material),
                     Seen::Surface { place } => self.surfaces[place as usize].between(u, v),
@@ -194,42 +196,38 @@ impl Bvh {
         }
     }
 
-    /// Asks for the memory of a child, node or pack, which will be visited, but perhaps not at once.
+    /// Asks for the memory of a child, which will be visited, but perhaps not at once, and for what stands
+    /// behind it, which may be visited soon: behind a node its first packs, behind a pack the next one.
     fn fetch(&self, child: u32) {
+        const LINES: usize = Eight::LINES + 2 * Pack::LINES;
         let start = (child & !LEAF) as usize;
-        if let Some(lines) = self.lines.get(start..start + Pack::LINES) {
+        if let Some(lines) = self.lines.get(start..start + LINES) {
             lines.iter().for_each(fetch);
         }
     }
 
-    fn leaf(&self, mut start: u32, beam: &Beam, ray: &Ray, closest: &mut Closest) {
-        loop {
-            let pack = Pack::at(&self.lines, start as usize);
-            if pack.is(Pack::OF_SPHERES) {
-                for place in pack.places() {
-                    let rest = ray.within(ray.range.min, closest.distance);
-                    if let Some(trace) = self.primitives[place as usize].hit(&rest) {
-                        closest.distance = trace.distance;
-                        closest.met = Met::Sphere { place };
-                    }
-                }
-            } else if let Some(hit) = pack.hit(beam, closest.distance) {
-                closest.distance = hit.distance;
-                closest.met = Met::Triangle {
-                    pack: start,
-                    lane: hit.lane,
-                    u: hit.u,
-                    v: hit.v,
-                };
-                if let Some(place) = pack.place_of_surface(hit.lane) {
-                    // It will be read, unless another one is closer.
-                    fetch(&self.surfaces[place as usize]);
+    fn leaf(&self, start: u32, beam: &Beam, ray: &Ray, closest: &mut Closest) {
+        let pack = Pack::at(&self.lines, start);
+        if pack.is(Pack::OF_SPHERES) {
+            for place in pack.spheres() {
+                let rest = ray.within(ray.range.min, closest.distance);
+                if let Some(trace) = self.primitives[place as usize].hit(&rest) {
+                    closest.distance = trace.distance;
+                    closest.met = Met::Sphere { place };
                 }
             }
-            if !pack.is(Pack::GOES_ON) {
-                return;
+        } else if let Some(hit) = pack.hit(beam, closest.distance) {
+            closest.distance = hit.distance;
+            closest.met = Met::Triangle {
+                pack: start,
+                lane: hit.lane,
+                u: hit.u,
+                v: hit.v,
+            };
+            if let Some(place) = pack.place_of_surface(hit.lane) {
+                // It will be read, unless another one is closer.
+                fetch(&self.surfaces[place as usize]);
             }
-            start += Pack::LINES as u32;
         }
     }
 }
@@ -274,11 +272,12 @@ struct Surface {
 }
 
 impl Surface {
-    fn new([p0, p1, p2]: [&Vertex; 3], material: u32) -> Self {
+    fn new(triangle: &Triangle) -> Self {
+        let Triangle { p0, p1, p2, .. } = triangle;
         Surface {
             normals: [p0.normal, p1.normal, p2.normal],
             uvs: [p0.uv, p1.uv, p2.uv],
-            material,
+            material: triangle.material,
         }
     }
 
@@ -412,7 +411,7 @@ impl<'a> Eight<'a> {
     const LINES: usize = 4;
 
     fn at(lines: &'a [Line], start: u32) -> Self {
-        Eight(lines_at(lines, start as usize))
+        Eight(lines_at(lines, start))
     }
 
     fn child(&self, lane: usize) -> u32 {
@@ -435,9 +434,45 @@ impl<'a> Eight<'a> {
     }
 }
 
-/// A piece of a leaf. Of up to eight triangles one corner and two edges, and their places; a lane
-/// without one has edges of length 0, which no ray meets. Or the places of up to eight spheres.
+/// A leaf: up to eight triangles, of neighbours, so that they have at most eight corners among them.
+/// Where those are stands in three registers, and the fourth has a word for each triangle, with the
+/// numbers of its corners. A lane without a triangle has one corner three times, which no ray meets.
+/// Or the places of up to eight spheres.
 struct Pack<'a>(&'a [Line; Pack::LINES]);
+
+/// Three times three bits say which corners are a triangle's; of those above, all but one are for more.
+#[derive(Clone, Copy, Default)]
+struct Word(u32);
+
+impl Word {
+    /// What is more must be less than this.
+    const MORE: u32 = 1 << 22;
+    const FLAG: u32 = 1 << 31;
+
+    fn new([a, b, c]: [u32; 3]) -> Self {
+        Word(a | b << 3 | c << 6)
+    }
+
+    fn corners(self) -> [usize; 3] {
+        [0, 3, 6].map(|shift| (self.0 >> shift & 7) as usize)
+    }
+
+    fn add(&mut self, more: u32) {
+        self.0 |= more << 9;
+    }
+
+    fn more(self) -> u32 {
+        self.0 >> 9 & (Word::MORE - 1)
+    }
+
+    fn flag(&mut self) {
+        self.0 |= Word::FLAG;
+    }
+
+    fn is_flagged(self) -> bool {
+        self.0 & Word::FLAG != 0
+    }
+}
 
 fn cross(a: &[f32x8; 3], b: &[f32x8; 3]) -> [f32x8; 3] {
     [
@@ -452,86 +487,75 @@ fn dot(a: &[f32x8; 3], b: &[f32x8; 3]) -> f32x8 {
 }
 
 impl<'a> Pack<'a> {
-    const LINES: usize = 5;
+    const LINES: usize = 2;
 
-    /// In the first place: it holds spheres.
-    const OF_SPHERES: u32 = 1 << 30;
-    /// In the first place: the leaf goes on in the next pack.
-    const GOES_ON: u32 = 1 << 31;
-    /// In the place of a triangle: it is a facet, and what follows is its material.
-    const OF_FACET: u32 = 1 << 29;
-    /// No primitive has this place, nor a facet this material.
-    const NOWHERE: u32 = (1 << 29) - 1;
+    /// The word with the flag that says that a pack holds spheres.
+    const OF_SPHERES: usize = 0;
+    /// The same for triangles of which not all are facets: what is more in the first two words is the
+    /// place of the first one's surface. That of a facet is its material.
+    const OF_SURFACES: usize = 1;
 
-    fn at(lines: &'a [Line], start: usize) -> Self {
+    fn at(lines: &'a [Line], start: u32) -> Self {
         Pack(lines_at(lines, start))
     }
 
-    /// The lines of a pack, from where each triangle has its corner and edges, and the places.
-    fn lines([p0, e1, e2]: [[f32x8; 3]; 3], places: [u32; 8]) -> [Line; Pack::LINES] {
-        let places = f32x8::from(places.map(f32::from_bits));
-        [
-            Line([p0[0], p0[1]]),
-            Line([p0[2], e1[0]]),
-            Line([e1[1], e1[2]]),
-            Line([e2[0], e2[1]]),
-            Line([e2[2], places]),
-        ]
+    fn lines(registers: [[u32; 8]; 4]) -> [Line; Pack::LINES] {
+        let [x, y, z, words] = registers.map(|lanes| cast(lanes));
+        [Line([x, y]), Line([z, words])]
     }
 
-    fn word(&self, lane: usize) -> u32 {
-        let Line([_, places]) = &self.0[4];
-        places.as_array()[lane].to_bits()
+    fn word(&self, lane: usize) -> Word {
+        let Line([_, words]) = &self.0[1];
+        Word(words.as_array()[lane].to_bits())
     }
 
-    fn is(&self, flag: u32) -> bool {
-        self.word(0) & flag != 0
+    fn is(&self, flag: usize) -> bool {
+        self.word(flag).is_flagged()
     }
 
     /// The places of its spheres.
-    fn places(&self) -> impl Iterator<Item = u32> {
-        let places = (0..8).map(|lane| self.word(lane) & Pack::NOWHERE);
-        places.take_while(|&place| place != Pack::NOWHERE)
+    fn spheres(&self) -> impl Iterator<Item = u32> {
+        let Line([places, _]) = &self.0[0];
+        let places = places.to_array().map(f32::to_bits);
+        places.into_iter().take_while(|&place| place != NOWHERE)
     }
 
     /// Where more is said of the triangle, unless it is a facet.
     fn place_of_surface(&self, lane: usize) -> Option<u32> {
-        let word = self.word(lane);
-        (word & Pack::OF_FACET == 0).then_some(word & Pack::NOWHERE)
+        let first = || self.word(0).more() + self.word(1).more() * Word::MORE;
+        self.is(Pack::OF_SURFACES).then(|| first() + lane as u32)
     }
 
     fn surface(&self, lane: usize) -> Seen {
-        let [
-            _,
-            Line([_, e1_x]),
-            Line([e1_y, e1_z]),
-            Line([e2_x, e2_y]),
-            Line([e2_z, _]),
-        ] = self.0;
-        let edge = |edge: [&f32x8; 3]| Vec3::from(edge.map(|lanes| lanes.as_array()[lane]));
-        match self.place_of_surface(lane) {
-            Some(place) => Seen::Surface { place },
-            None => Seen::Facet {
-                normal: edge([e1_x, e1_y, e1_z])
-                    .cross(edge([e2_x, e2_y, e2_z]))
-                    .normalize(),
-                material: self.word(lane) & Pack::NOWHERE,
-            },
+        if let Some(place) = self.place_of_surface(lane) {
+            return Seen::Surface { place };
         }
+        let word = self.word(lane);
+        let [Line([x, y]), Line([z, _])] = self.0;
+        let [p0, p1, p2] = word
+            .corners()
+            .map(|corner| Vec3::from([x, y, z].map(|lanes| lanes.as_array()[corner])));
+        Seen::Facet {
+            normal: (p1 - p0).cross(p2 - p0).normalize(),
+            material: word.more(),
+        }
+    }
+
+    /// Of each triangle the three corners.
+    fn corners(&self) -> [[f32x8; 3]; 3] {
+        let [Line([x, y]), Line([z, words])] = *self.0;
+        let [x, y, z, words]: [u32x8; 4] = [x, y, z, words].map(cast);
+        [words, words >> 3, words >> 6].map(|corner| {
+            let corner = corner & u32x8::splat(7);
+            [x, y, z].map(|lanes| cast(lanes.shuffle(corner)))
+        })
     }
 
     /// Möller and Trumbore's test, of eight triangles: the closest that is hit, up to `max`.
     fn hit(&self, beam: &Beam, max: f32) -> Option<Hit> {
-        let [
-            Line([p0_x, p0_y]),
-            Line([p0_z, e1_x]),
-            Line([e1_y, e1_z]),
-            Line([e2_x, e2_y]),
-            Line([e2_z, _]),
-        ] = *self.0;
-        let (e1, e2) = ([e1_x, e1_y, e1_z], [e2_x, e2_y, e2_z]);
-        let [o_x, o_y, o_z] = beam.origin;
-        let s = [o_x - p0_x, o_y - p0_y, o_z - p0_z];
+        let [p0, p1, p2] = self.corners();
+        let from = |p: &[f32x8; 3]| [0, 1, 2].map(|axis| p[axis] - p0[axis]);
+        let (e1, e2, s) = (from(&p1), from(&p2), from(&beam.origin));
 
         let p = cross(&beam.dir, &e2);
         let q = cross(&s, &e1);
@@ -589,29 +613,18 @@ enum Seen {
 }
 
 /// So many lines, from one on.
-fn lines_at<const N: usize>(lines: &[Line], start: usize) -> &[Line; N] {
-    lines[start..start + N]
+fn lines_at<const N: usize>(lines: &[Line], start: u32) -> &[Line; N] {
+    lines[start as usize..][..N]
         .try_into()
         .expect("as many as were taken")
-}
-
-/// What becomes of the binary tree's leaves.
-#[derive(Clone, Copy)]
-enum Leaves {
-    /// A tree that was handed in may have its reasons for every box.
-    AsTheyAre,
-    /// Of a tree built here: neighbours are joined where that saves more than it costs, because eight
-    /// triangles take no longer than one.
-    Joined,
 }
 
 /// Makes the wide tree of the binary one.
 struct Folding<'a> {
     primitives: &'a [Primitive],
-    nodes: &'a [Node],
+    nodes: Vec<Node>,
     /// Of which primitives the leaves have pieces.
-    order: &'a [usize],
-    leaves: Leaves,
+    order: Vec<usize>,
     /// For each of the nodes.
     plans: Vec<Plan>,
     lines: Vec<Line>,
@@ -627,27 +640,17 @@ struct Plan {
     costs: [f32; 8],
     /// How many of so many children come from either side; none if all is one child.
     sides: [(u8, u8); 9],
-    is_leaf: bool,
-    /// Where its primitives start, and how many there are.
-    start: usize,
-    size: usize,
 }
 
 impl<'a> Folding<'a> {
-    fn new(
-        primitives: &'a [Primitive],
-        nodes: &'a [Node],
-        order: &'a [usize],
-        leaves: Leaves,
-    ) -> Self {
+    fn new(primitives: &'a [Primitive], nodes: Vec<Node>, order: Vec<usize>) -> Self {
         Folding {
             primitives,
+            plans: vec![Plan::default(); nodes.len()],
+            lines: Vec::with_capacity(nodes.len()),
+            surfaces: Vec::new(),
             nodes,
             order,
-            leaves,
-            plans: vec![Plan::default(); nodes.len()],
-            lines: Vec::with_capacity(2 * nodes.len()),
-            surfaces: Vec::new(),
         }
     }
 
@@ -658,20 +661,16 @@ impl<'a> Folding<'a> {
     }
 
     fn plan(&mut self, place: usize) {
-        let node = self.nodes[place];
-        let area = node.bbox.surface_area();
-        if node.is_leaf() {
-            let packs = node.size.div_ceil(8).max(1);
+        let area = self.nodes[place].bbox.surface_area();
+        if self.nodes[place].is_leaf() && !self.halve(place) {
             self.plans[place] = Plan {
-                costs: [area * packs as f32; 8],
-                is_leaf: true,
-                start: node.start,
-                size: node.size,
+                costs: [area; 8],
                 ..Plan::default()
             };
             return;
         }
 
+        let node = self.nodes[place];
         self.plan(node.l);
         self.plan(node.r);
         let (l, r) = (&self.plans[node.l], &self.plans[node.r]);
@@ -683,18 +682,10 @@ impl<'a> Folding<'a> {
             let of_l = of_l.expect("one child from either side is a way");
             (cost(of_l), (of_l as u8, (children - of_l) as u8))
         };
-        let mut plan = Plan {
-            start: l.start.min(r.start),
-            size: l.size + r.size,
-            ..Plan::default()
-        };
+        let mut plan = Plan::default();
         let (below, sides) = share(8);
         plan.sides[8] = sides;
-        plan.is_leaf = match self.leaves {
-            Leaves::AsTheyAre => false,
-            Leaves::Joined => plan.size <= 8,
-        };
-        plan.costs[1] = if plan.is_leaf { area } else { area + below };
+        plan.costs[1] = area + below;
         for children in 2..8 {
             let (cost, sides) = share(children);
             let fewer = children - 1;
@@ -705,6 +696,25 @@ impl<'a> Folding<'a> {
             };
         }
         self.plans[place] = plan;
+    }
+
+    /// Makes two leaves of one that does not fit in a pack, in the same box: a tree that was handed in may
+    /// have its reasons for it. Returns whether that was so.
+    fn halve(&mut self, place: usize) -> bool {
+        let Node {
+            bbox, start, size, ..
+        } = self.nodes[place];
+        let held = &mut self.order[start..start + size];
+        if fit(self.primitives, held.iter().copied()) {
+            return false;
+        }
+        held.sort_by_key(|&place| matches!(self.primitives[place], Primitive::Sphere(_)));
+        let (half, l) = (size / 2, self.nodes.len());
+        self.nodes.push(Node::leaf(bbox, start, half));
+        self.nodes.push(Node::leaf(bbox, start + half, size - half));
+        self.plans.extend([Plan::default(); 2]);
+        self.nodes[place] = Node::interior(bbox, l, l + 1);
+        true
     }
 
     /// The nodes that become children, at most so many.
@@ -719,10 +729,16 @@ impl<'a> Folding<'a> {
         }
     }
 
-    /// Folds what is below a node; returns where it is.
+    /// Folds what is below a node; returns where it is. Leaves come first, and the largest of them: see
+    /// [`Bvh::fetch`].
     fn eight(&mut self, root: usize) -> u32 {
         let mut children = Vec::with_capacity(8);
         self.children(root, 8, &mut children);
+        children.sort_by(|&a, &b| {
+            let [a, b] = [a, b].map(|child| &self.nodes[child]);
+            let larger = || b.bbox.surface_area().total_cmp(&a.bbox.surface_area());
+            b.is_leaf().cmp(&a.is_leaf()).then_with(larger)
+        });
         let mut planes = [[[f32::INFINITY; 8], [f32::NEG_INFINITY; 8]]; 3];
         for (lane, &child) in children.iter().enumerate() {
             let bbox = self.nodes[child].bbox;
@@ -738,7 +754,7 @@ impl<'a> Folding<'a> {
 
         let mut folded = [0.0; 8];
         for (folded, &child) in folded.iter_mut().zip(&children) {
-            *folded = f32::from_bits(if self.plans[child].is_leaf {
+            *folded = f32::from_bits(if self.nodes[child].is_leaf() {
                 self.leaf(child) | LEAF
             } else {
                 self.eight(child)
@@ -748,89 +764,132 @@ impl<'a> Folding<'a> {
         small(start)
     }
 
-    /// What a pack has in a triangle's place.
-    fn word(&mut self, triangle: &Triangle) -> u32 {
-        let corners = [&triangle.p0, &triangle.p1, &triangle.p2];
-        let facet = Shape::facet_vertices(corners.map(|corner| corner.position));
-        if facet.iter().eq(corners) && triangle.material < Pack::NOWHERE {
-            return triangle.material | Pack::OF_FACET;
-        }
-        self.surfaces.push(Surface::new(corners, triangle.material));
-        small(self.surfaces.len() - 1)
-    }
-
+    /// Makes the pack of a leaf; returns where it is.
     fn leaf(&mut self, place: usize) -> u32 {
-        let Plan { start, size, .. } = self.plans[place];
-        let (mut triangles, mut spheres) = (Vec::new(), Vec::new());
+        let Node { start, size, .. } = self.nodes[place];
         // Once each, of however many pieces.
         let mut held = self.order[start..start + size].to_vec();
         held.sort_unstable();
         held.dedup();
-        for place in held {
-            match &self.primitives[place] {
-                Primitive::Triangle(triangle) => triangles.push((self.word(triangle), triangle)),
-                Primitive::Sphere(_) => spheres.push(small(place)),
-            }
-        }
-        let mut packs = Vec::new();
-        for triangles in triangles.chunks(8) {
-            packs.push((corners(triangles), places(triangles.iter().map(|of| of.0))));
-        }
-        for spheres in spheres.chunks(8) {
-            let mut places = places(spheres.iter().copied());
-            places[0] |= Pack::OF_SPHERES;
-            packs.push((corners(&[]), places));
-        }
-        // One at least, so that there is an end also of a leaf without anything.
-        if packs.is_empty() {
-            packs.push((corners(&[]), places([].into_iter())));
-        }
-        let last = packs.len() - 1;
-        packs[..last]
-            .iter_mut()
-            .for_each(|(_, places)| places[0] |= Pack::GOES_ON);
+        let primitives = self.primitives;
+        let held = || held.iter().map(|&place| (place, &primitives[place]));
+        let triangles = held().filter_map(|(_, primitive)| match primitive {
+            Primitive::Triangle(triangle) => Some(triangle),
+            Primitive::Sphere(_) => None,
+        });
+        let spheres = held().filter_map(|(place, primitive)| match primitive {
+            Primitive::Sphere(_) => Some(small(place)),
+            Primitive::Triangle(_) => None,
+        });
+        let triangles: Vec<&Triangle> = triangles.collect();
+        let registers = if triangles.is_empty() {
+            of_spheres(spheres)
+        } else {
+            self.of_triangles(&triangles)
+        };
+        let start = small(self.lines.len());
+        self.lines.extend(Pack::lines(registers));
+        start
+    }
 
-        let start = self.lines.len();
-        let packs = packs.into_iter();
-        self.lines
-            .extend(packs.flat_map(|(corners, places)| Pack::lines(corners, places)));
-        small(start)
+    fn of_triangles(&mut self, triangles: &[&Triangle]) -> [[u32; 8]; 4] {
+        let mut corners = Corners::default();
+        let mut words = [Word::default(); 8];
+        for (word, triangle) in words.iter_mut().zip(triangles) {
+            let lanes = positions(triangle).map(|position| corners.lane(position));
+            *word = Word::new(lanes.map(|lane| lane.expect("what is in a leaf fits")));
+        }
+
+        let is_facet = |triangle: &&Triangle| is_facet(triangle) && triangle.material < Word::MORE;
+        if triangles.iter().all(is_facet) {
+            for (word, triangle) in words.iter_mut().zip(triangles) {
+                word.add(triangle.material);
+            }
+        } else {
+            let start = small(self.surfaces.len());
+            words[0].add(start % Word::MORE);
+            words[1].add(start / Word::MORE);
+            words[Pack::OF_SURFACES].flag();
+            let surfaces = triangles.iter().map(|triangle| Surface::new(triangle));
+            self.surfaces.extend(surfaces);
+        }
+        let [x, y, z] = corners.registers();
+        [x, y, z, words.map(|Word(word)| word)]
     }
 }
 
-/// Of at most eight triangles the first corner, and the edges that begin there.
-fn corners(triangles: &[(u32, &Triangle)]) -> [[f32x8; 3]; 3] {
-    let lanes = |of: fn(&Triangle) -> Vec3| {
-        [0, 1, 2].map(|axis| {
-            let mut lanes = [0.0; 8];
-            for (lane, (_, triangle)) in lanes.iter_mut().zip(triangles) {
-                *lane = of(triangle)[axis];
-            }
-            f32x8::from(lanes)
-        })
-    };
-    [
-        lanes(|triangle| triangle.p0.position),
-        lanes(|triangle| triangle.p1.position - triangle.p0.position),
-        lanes(|triangle| triangle.p2.position - triangle.p0.position),
-    ]
+/// The registers of a pack of spheres, of their places.
+fn of_spheres(places: impl Iterator<Item = u32>) -> [[u32; 8]; 4] {
+    let (mut lanes, mut words) = ([NOWHERE; 8], [Word::default(); 8]);
+    for (lane, place) in lanes.iter_mut().zip(places) {
+        *lane = place;
+    }
+    words[Pack::OF_SPHERES].flag();
+    [lanes, [0; 8], [0; 8], words.map(|Word(word)| word)]
 }
 
-/// At most eight places, and nothing in the other lanes.
-fn places(of: impl Iterator<Item = u32>) -> [u32; 8] {
-    let mut places = [Pack::NOWHERE; 8];
-    places
-        .iter_mut()
-        .zip(of)
-        .for_each(|(place, of)| *place = of);
-    places
+/// No primitive has this place.
+const NOWHERE: u32 = u32::MAX;
+
+fn positions(triangle: &Triangle) -> [Vec3; 3] {
+    [&triangle.p0, &triangle.p1, &triangle.p2].map(|corner| corner.position)
+}
+
+/// Whether all that a `Trace` says follows from the corners.
+fn is_facet(triangle: &Triangle) -> bool {
+    let corners = [&triangle.p0, &triangle.p1, &triangle.p2];
+    Shape::facet_vertices(positions(triangle))
+        .iter()
+        .eq(corners)
+}
+
+/// The different corners of some triangles, at most eight.
+#[derive(Default)]
+struct Corners {
+    positions: [Vec3; 8],
+    len: usize,
+}
+
+impl Corners {
+    /// In which lane this one is, or comes; none if all are taken.
+    fn lane(&mut self, position: Vec3) -> Option<u32> {
+        let mut known = self.positions[..self.len].iter();
+        let lane = known.position(|known| *known == position);
+        if lane.is_none() {
+            *self.positions.get_mut(self.len)? = position;
+            self.len += 1;
+        }
+        Some(lane.unwrap_or(self.len - 1) as u32)
+    }
+
+    fn registers(&self) -> [[u32; 8]; 3] {
+        [0, 1, 2].map(|axis| self.positions.map(|position| position[axis].to_bits()))
+    }
+}
+
+/// Whether the primitives in these places fit in one pack.
+fn fit(primitives: &[Primitive], places: impl ExactSizeIterator<Item = usize>) -> bool {
+    let (mut corners, mut triangles, mut spheres) = (Corners::default(), 0, 0);
+    places.len() <= 8
+        && places
+            .map(|place| &primitives[place])
+            .all(|primitive| match primitive {
+                Primitive::Triangle(triangle) => {
+                    triangles += 1;
+                    let mut positions = positions(triangle).into_iter();
+                    positions.all(|position| corners.lane(position).is_some())
+                }
+                Primitive::Sphere(_) => {
+                    spheres += 1;
+                    true
+                }
+            })
+        && (triangles == 0 || spheres == 0)
 }
 
 /// A place, in the bits that are left for it.
 fn small(place: usize) -> u32 {
-    let place = u32::try_from(place)
-        .ok()
-        .filter(|&place| place < Pack::NOWHERE);
+    let place = u32::try_from(place).ok().filter(|&place| place < LEAF);
     place.expect("memory ends before the numbers do")
 }
 
@@ -1057,7 +1116,6 @@ struct Cutter<'a> {
     nodes: Vec<Node>,
     /// Of which primitives the leaves have pieces.
     order: Vec<usize>,
-    max_leaf_size: usize,
     /// How many pieces more there may be.
     spare: usize,
     /// So much of an overlap is let be: half of its surface.
@@ -1075,12 +1133,11 @@ impl<'a> Cutter<'a> {
     /// In smaller nodes, cuts take most of the time and save nothing.
     const LEAST: usize = 256;
 
-    fn new(primitives: &'a [Primitive], max_leaf_size: usize) -> Self {
+    fn new(primitives: &'a [Primitive]) -> Self {
         Cutter {
             primitives,
             nodes: Vec::with_capacity(primitives.len()),
             order: Vec::with_capacity(primitives.len()),
-            max_leaf_size,
             spare: primitives.len(),
             bearable: 1e-4 * Bounds::of(&items(primitives)).area(),
         }
@@ -1092,7 +1149,7 @@ impl<'a> Cutter<'a> {
         let place = self.nodes.len();
         let leaf = Node::leaf(bounds.bbox(), self.order.len(), items.len());
         self.nodes.push(leaf);
-        if items.len() <= self.max_leaf_size {
+        if fit(self.primitives, items.iter().map(|item| item.place)) {
             self.order.extend(items.iter().map(|item| item.place));
             return place;
         }

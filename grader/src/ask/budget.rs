@@ -21,22 +21,26 @@ impl Budget {
 /// When the item was asked, and what it may use.
 pub(super) struct Watch {
     began: Instant,
+    /// What the process had used when it was first looked at.
     cpu_then: Option<Duration>,
     budget: Budget,
 }
 
 impl Watch {
-    /// Begins now, with the CPU time that the process has used before.
-    pub(super) fn begin(budget: Budget, cpu_then: Option<Duration>) -> Self {
+    /// Begins now.
+    pub(super) fn begin(budget: Budget) -> Self {
         Watch {
             began: Instant::now(),
-            cpu_then,
+            cpu_then: None,
             budget,
         }
     }
 
-    /// Which time is over, if any is, now that the process has used so much.
-    pub(super) fn over(&self, cpu_now: Option<Duration>) -> Option<Budgeted> {
+    /// Which time is over, if any is, now that the process has used so much. What it had used when
+    /// this was asked first does not count: most items are answered before anybody asks, and to find
+    /// out takes longer than they do.
+    pub(super) fn over(&mut self, cpu_now: Option<Duration>) -> Option<Budgeted> {
+        self.cpu_then = self.cpu_then.or(cpu_now);
         let cpu = cpu_now.zip(self.cpu_then);
         let cpu = cpu.map(|(now, then)| now.saturating_sub(then));
         if cpu.is_some_and(|used| used >= self.budget.cpu) {

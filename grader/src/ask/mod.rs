@@ -139,10 +139,10 @@ impl Probe {
         }
         self.streams.send(batch);
 
-        let watch = Watch::begin(budget, self.process.cpu_time());
+        let mut watch = Watch::begin(budget);
         let mut answers = Vec::with_capacity(nonces.len());
         for nonce in nonces {
-            let frame = self.frame(&watch)?;
+            let frame = self.frame(&mut watch)?;
             if frame.nonce != nonce {
                 return Err(Fault::Protocol("an answer to no question".to_owned()));
             }
@@ -166,7 +166,7 @@ impl Probe {
         lines.collect::<Vec<_>>().join("\n")
     }
 
-    fn frame(&mut self, watch: &Watch) -> Result<Frame, Fault> {
+    fn frame(&mut self, watch: &mut Watch) -> Result<Frame, Fault> {
         loop {
             match self.streams.next(TICK) {
                 Ok(Ok(frame)) => return Ok(frame),

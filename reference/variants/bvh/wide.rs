@@ -13,7 +13,7 @@
 //! one that is shown: it may hold a large triangle in pieces.
 
 use glam::{Vec2, Vec3};
-use protocol::{Interval, Ray, Shape, Trace, Vertex};
+use protocol::{Interval, Ray, Shape, Trace};
 use wide::bytemuck::cast;
 use wide::{f32x4, f32x8, u32x8};
 

@@ -4,7 +4,7 @@
 //! ±5e-4 of a pixel would get is right. Leaving such positions out instead would hide cracks,
 //! which are to be found nowhere else.
 
-use std::collections::BTreeMap;
+use std::iter;
 
 use arrayvec::ArrayVec;
 use protocol::{Outcome, Trace};
@@ -42,9 +42,9 @@ pub(super) struct FirstHits<'a> {
 }
 
 /// One quantity, wherever it is judged.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 struct Tally {
-    places: Vec<Deviation>,
+    judged: usize,
     wrong: usize,
     first_wrong: Option<usize>,
 }
@@ -55,8 +55,8 @@ impl Comparison for FirstHits<'_> {
             return Judgement::protocol("another number of answers than of rays");
         }
         let tallies = self.tallies();
-        let shares = tallies.each_ref().map(|tally| match self.is_enough(tally) {
-            true => Share::by_count(tally.wrong, tally.places.len()),
+        let shares = tallies.map(|tally| match self.is_enough(tally.judged) {
+            true => Share::by_count(tally.wrong, tally.judged),
             false => Share::NONE,
         });
         let weighted = QUANTITIES.iter().zip(shares);
@@ -65,7 +65,7 @@ impl Comparison for FirstHits<'_> {
         Judgement {
             share,
             failure: worst.map(|quantity| {
-                let tally = &tallies[quantity];
+                let tally = tallies[quantity];
                 let element = tally.first_wrong.unwrap_or(0);
                 Failure {
                     element,
@@ -74,7 +74,7 @@ impl Comparison for FirstHits<'_> {
                         &self.answers[element],
                         self.hits[element].as_ref(),
                     ),
-                    count: Some((tally.wrong, tally.places.len())),
+                    count: Some((tally.wrong, tally.judged)),
                 }
             }),
         }
@@ -84,14 +84,19 @@ impl Comparison for FirstHits<'_> {
         if self.answers.len() != self.hits.len() {
             return deviation::worst([Deviation::WRONG]);
         }
-        let measured = |tally: Tally| {
-            let is_enough = self.is_enough(&tally);
-            let allowed = Share::stragglers(tally.places.len());
-            let counted = Measured::counted(tally.places, allowed, Threshold::PicturePositions);
+        let mut of_each: [Vec<Deviation>; QUANTITIES.len()] = Default::default();
+        for deviations in self.positions() {
+            let quantities = of_each.iter_mut().zip(deviations);
+            quantities.for_each(|(places, deviation)| places.push(deviation));
+        }
+        let measured = |places: Vec<Deviation>| {
+            let is_enough = self.is_enough(places.len());
+            let allowed = Share::stragglers(places.len());
+            let counted = Measured::counted(places, allowed, Threshold::PicturePositions);
             // What is not judged often enough fails by what comes before it.
             is_enough.then_some(counted)
         };
-        self.tallies().into_iter().filter_map(measured).collect()
+        of_each.into_iter().filter_map(measured).collect()
     }
 
     fn blemishes(&self) -> Option<Vec<Option<Blemish>>> {
@@ -118,19 +123,21 @@ impl Comparison for FirstHits<'_> {
 impl FirstHits<'_> {
     /// How far off each quantity is that is judged there, for each position.
     fn positions(&self) -> impl Iterator<Item = Deviations> {
-        let mut others: BTreeMap<usize, Vec<&Option<Surface>>> = BTreeMap::new();
-        for (position, answer) in self.also {
-            others.entry(*position as usize).or_default().push(answer);
-        }
+        let mut others: Vec<_> = self.also.iter().collect();
+        others.sort_by_key(|(position, _)| *position);
+        let mut others = others.into_iter().peekable();
         let answers = self.answers.iter().enumerate();
         // There are tens of thousands of positions: what one needs, the next one takes over.
         let mut alike = Vec::new();
         answers.map(move |(position, outcome)| {
-            let others = others.remove(&position).unwrap_or_default();
-            let right = others.into_iter().chain([&self.hits[position]]);
+            let here = || others.next_if(|(other, _)| *other as usize == position);
+            let others = iter::from_fn(here).map(|(_, answer)| answer);
+            let right = others.chain([&self.hits[position]]);
             match outcome {
                 Outcome::Value(got) => of_position(got.as_ref(), right, &mut alike),
                 Outcome::Panicked(_) | Outcome::GivenUp => {
+                    // The next position's come next.
+                    right.for_each(drop);
                     Deviations::from_iter([Deviation::WRONG])
                 }
             }
@@ -141,7 +148,7 @@ impl FirstHits<'_> {
         let mut tallies: [Tally; QUANTITIES.len()] = Default::default();
         for (position, deviations) in self.positions().enumerate() {
             for (tally, deviation) in tallies.iter_mut().zip(deviations) {
-                tally.places.push(deviation);
+                tally.judged += 1;
                 if !deviation.is_right() {
                     tally.wrong += 1;
                     tally.first_wrong.get_or_insert(position);
@@ -153,9 +160,9 @@ impl FirstHits<'_> {
 
     /// Whoever hits nothing has no wrong normals: half of what there is to hit must be judged. Hit
     /// or miss is, everywhere.
-    fn is_enough(&self, tally: &Tally) -> bool {
+    fn is_enough(&self, judged: usize) -> bool {
         let to_hit = self.hits.iter().flatten().count();
-        tally.places.len() * 2 >= to_hit
+        judged * 2 >= to_hit
     }
 }
 

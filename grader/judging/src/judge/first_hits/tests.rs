@@ -104,6 +104,21 @@ fn at_an_edge_either_answer_is_right() {
 }
 
 #[test]
+fn an_edge_counts_in_any_order_and_after_one_without_an_answer() {
+    let mut got = answers(seen(WALL));
+    got[0] = Outcome::GivenUp;
+    got[1] = Outcome::Value(None);
+    got[2] = Outcome::Value(None);
+    let picture = FirstHits {
+        hits: &key(),
+        also: &[(2, None), (0, None), (1, None)],
+        answers: &got,
+    };
+    let [hit_or_miss, ..] = picture.tallies();
+    assert_eq!((hit_or_miss.wrong, hit_or_miss.first_wrong), (1, Some(0)));
+}
+
+#[test]
 fn not_a_number_is_wrong() {
     let nan = Surface {
         depth: f32::NAN,

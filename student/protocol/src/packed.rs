@@ -12,7 +12,7 @@ use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// The longest list that is written element by element in text.
-pub const PLAIN: usize = 256;
+pub const PLAIN: usize = 32;
 
 /// See the module's description.
 pub fn serialize<T: Serialize, S: Serializer>(list: &[T], out: S) -> Result<S::Ok, S::Error> {

@@ -500,7 +500,7 @@ impl<'a> Pack<'a> {
     }
 
     fn lines(registers: [[u32; 8]; 4]) -> [Line; Pack::LINES] {
-        let [x, y, z, words] = registers.map(|lanes| cast(lanes));
+        let [x, y, z, words] = registers.map(cast);
         [Line([x, y]), Line([z, words])]
     }
 

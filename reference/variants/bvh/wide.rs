@@ -197,7 +197,7 @@ impl Bvh {
     }
 
     /// Asks for the memory of a child, which will be visited, but perhaps not at once, and for what stands
-    /// behind it, which may be visited soon: behind a node its first packs, behind a pack the next one.
+    /// behind it, which may be visited soon: behind a node its first packs, behind a pack its neighbours.
     fn fetch(&self, child: u32) {
         const LINES: usize = Eight::LINES + 2 * Pack::LINES;
         let start = (child & !LEAF) as usize;

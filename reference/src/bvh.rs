@@ -101,6 +101,7 @@ impl Bvh {
                 .collect(),
             nodes: Vec::with_capacity(2 * primitives.len()),
             max_leaf_size: max_leaf_size.max(1),
+            buckets: Buckets::default(),
         };
         if !primitives.is_empty() {
             builder.node(0, primitives.len());
@@ -154,17 +155,27 @@ impl Bvh {
             (None, None) => {}
             (Some(_), None) => self.visit(l, ray, closest),
             (None, Some(_)) => self.visit(r, ray, closest),
-            (Some(in_l), Some(in_r)) => {
-                let (first, second, second_begins) = if in_l.min <= in_r.min {
-                    (l, r, in_r.min)
-                } else {
-                    (r, l, in_l.min)
-                };
-                self.visit(first, ray, closest);
-                if second_begins <= ray.range.max {
-                    self.visit(second, ray, closest);
-                }
+            (Some(in_l), Some(in_r)) if in_l.min <= in_r.min => {
+                self.visit_both(l, r, in_r.min, ray, closest);
             }
+            (Some(in_l), Some(_)) => self.visit_both(r, l, in_l.min, ray, closest),
+        }
+    }
+
+    /// Looks below two nodes whose boxes the ray meets; below the second unless what was found is
+    /// closer than its box. Called in two places: which of them comes next can be guessed, where to
+    /// exchange two nodes would wait for their boxes.
+    fn visit_both(
+        &self,
+        first: &Node,
+        second: &Node,
+        second_begins: f32,
+        ray: &mut Ray,
+        closest: &mut Option<Trace>,
+    ) {
+        self.visit(first, ray, closest);
+        if second_begins <= ray.range.max {
+            self.visit(second, ray, closest);
         }
     }
     // end solution
@@ -266,13 +277,16 @@ struct Slices {
 
 impl Slices {
     const FEWEST: usize = 8;
-    const MOST: usize = 16;
+    const MOST: usize = 64;
+    /// One more slice for so many items.
+    const ITEMS: usize = 32;
 
     /// The slices along `axis`, unless all centers coincide there. For a few items a few will do:
     /// most nodes are small, and to compare partitions takes more time there than to count items.
+    /// In large nodes it takes next to none, and what is chosen there matters most.
     fn new(centers: &Bounds, axis: usize, items: usize) -> Option<Self> {
         let (min, max) = (centers.min[axis], centers.max[axis]);
-        let count = items.clamp(Self::FEWEST, Self::MOST);
+        let count = (Self::FEWEST + items / Self::ITEMS).min(Self::MOST);
         let scale = count as f32 / (max - min);
         // An extent so small that its inverse overflows is as good as none.
         (max > min && scale.is_finite()).then_some(Slices {
@@ -295,6 +309,7 @@ struct Builder {
     items: Vec<Item>,
     nodes: Vec<Node>,
     max_leaf_size: usize,
+    buckets: Buckets,
 }
 
 impl Builder {
@@ -321,8 +336,8 @@ impl Builder {
 
     /// Reorders `items[start..end]` by the cheapest split; returns how many come first.
     fn partition(&mut self, start: usize, end: usize, centers: &Bounds) -> usize {
-        let items = &mut self.items[start..end];
-        let splits = (0..3).filter_map(|axis| cheapest_split(items, centers, axis));
+        let (items, buckets) = (&mut self.items[start..end], &mut self.buckets);
+        let splits = (0..3).filter_map(|axis| buckets.cheapest_split(items, centers, axis));
         let Some(split) = splits.min_by(|a, b| a.cost.total_cmp(&b.cost)) else {
             return items.len() / 2; // All centers coincide.
         };
@@ -341,37 +356,54 @@ impl Builder {
     }
 }
 
-/// The cheapest partition between two buckets along one axis, if there is any: binned SAH, after
-/// Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007, section 3.
-///
-/// Of C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect only S_A · N_A + S_B · N_B
-/// differs between the partitions of one node.
-fn cheapest_split(items: &[Item], centers: &Bounds, axis: usize) -> Option<Split> {
-    let slices = Slices::new(centers, axis, items.len())?;
-    let mut buckets = [Bucket::EMPTY; Slices::MOST];
-    for item in items {
-        buckets[slices.bucket(item)].join(Bucket {
-            bounds: item.bounds,
-            count: 1,
+/// The buckets of one node along one axis; kept from one to the next, because to ask for memory
+/// takes time.
+#[derive(Default)]
+struct Buckets {
+    all: Vec<Bucket>,
+    /// What all the buckets from one on would cost as one child.
+    right_costs: Vec<f32>,
+}
+
+impl Buckets {
+    /// The cheapest partition between two buckets along one axis, if there is any: binned SAH, after
+    /// Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007, section 3.
+    ///
+    /// Of C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect only S_A · N_A + S_B · N_B
+    /// differs between the partitions of one node.
+    fn cheapest_split(&mut self, items: &[Item], centers: &Bounds, axis: usize) -> Option<Split> {
+        let slices = Slices::new(centers, axis, items.len())?;
+        let Buckets {
+            all: buckets,
+            right_costs,
+        } = self;
+
+        buckets.clear();
+        buckets.resize(slices.count, Bucket::EMPTY);
+        for item in items {
+            buckets[slices.bucket(item)].join(Bucket {
+                bounds: item.bounds,
+                count: 1,
+            });
+        }
+
+        // From the right: one child.
+        right_costs.resize(slices.count, 0.0);
+        let mut right = Bucket::EMPTY;
+        for i in (1..slices.count).rev() {
+            right.join(buckets[i]);
+            right_costs[i] = right.cost();
+        }
+
+        // From the left: the other. The outermost buckets are never empty, so neither is a side.
+        let mut left = Bucket::EMPTY;
+        let costs = (1..slices.count).map(|bucket| {
+            left.join(buckets[bucket - 1]);
+            let cost = left.cost() + right_costs[bucket];
+            Split { axis, bucket, cost }
         });
+        costs.min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
-
-    // From the right: what all the buckets from here on would cost as one child.
-    let mut right_costs = [0.0; Slices::MOST];
-    let mut right = Bucket::EMPTY;
-    for i in (1..slices.count).rev() {
-        right.join(buckets[i]);
-        right_costs[i] = right.cost();
-    }
-
-    // From the left: the other child. The outermost buckets are never empty, so neither is a side.
-    let mut left = Bucket::EMPTY;
-    let costs = (1..slices.count).map(|bucket| {
-        left.join(buckets[bucket - 1]);
-        let cost = left.cost() + right_costs[bucket];
-        Split { axis, bucket, cost }
-    });
-    costs.min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
 // end solution
 

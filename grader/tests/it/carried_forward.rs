@@ -37,8 +37,8 @@ fn a_wrong_walk_on_a_wrong_box_test_costs_both() {
     let graded = no_swap()
         .changed(
             "bvh.rs",
-            "if in_l.min <= in_r.min {",
-            "if in_l.min > in_r.min {",
+            "if in_l.min <= in_r.min =>",
+            "if in_l.min > in_r.min =>",
         )
         .grade_with_reference();
     let points = graded.points();
@@ -80,8 +80,8 @@ fn what_does_not_compile_with_other_parts_stays_as_first_judged() {
         )
         .changed(
             "bvh.rs",
-            "if in_l.min <= in_r.min {",
-            "if in_l.min <= in_r.min + crate::sphere::ZERO {",
+            "if in_l.min <= in_r.min =>",
+            "if in_l.min <= in_r.min + crate::sphere::ZERO =>",
         )
         .grade_with_reference();
     assert!(graded.points()[WALKING] < FULL[WALKING]);

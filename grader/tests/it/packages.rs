@@ -113,11 +113,8 @@ fn what_is_wrong_is_told_with_what_to_do() {
         ("no first line", with(RUN.0, "echo"), 0o755),
         ("not executable", without(""), 0o644),
         ("practice", with(exam, &practice), 0o755),
-        (
-            "half of an exam",
-            with(exam, &good[..good.len() / 2]),
-            0o755,
-        ),
+        // Cut off before any answer, so that the place stays when the reference's tree changes.
+        ("an exam's beginning", with(exam, &good[..100]), 0o755),
         ("no exam, no crates", vec![SETUP, RUN, POLICY], 0o755),
         ("no script below", without(GRADE.0), 0o755),
         ("no solution", without(REST[2].0), 0o755),

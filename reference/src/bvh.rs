@@ -104,7 +104,8 @@ impl Bvh {
             buckets: Buckets::default(),
         };
         if !primitives.is_empty() {
-            builder.node(0, primitives.len());
+            let root = builder.place();
+            builder.node(root, 0, primitives.len());
         }
         let ordered = builder.items.iter().map(|item| primitives[item.index]);
         Bvh::from_nodes(ordered.collect(), builder.nodes, 0)
@@ -313,8 +314,14 @@ struct Builder {
 }
 
 impl Builder {
-    /// Builds the node over `items[start..end]`, which are not none; returns its place.
-    fn node(&mut self, start: usize, end: usize) -> usize {
+    /// Keeps a place for a node.
+    fn place(&mut self) -> usize {
+        self.nodes.push(Node::leaf(BBox::EMPTY, 0, 0));
+        self.nodes.len() - 1
+    }
+
+    /// Builds the node over `items[start..end]`, which are not none, in its place, and all below it.
+    fn node(&mut self, place: usize, start: usize, end: usize) {
         let mut bounds = Bounds::EMPTY;
         let mut centers = Bounds::EMPTY;
         for item in &self.items[start..end] {
@@ -323,15 +330,15 @@ impl Builder {
         }
         let bbox = bounds.bbox();
 
-        let place = self.nodes.len();
-        self.nodes.push(Node::leaf(bbox, start, end - start));
+        self.nodes[place] = Node::leaf(bbox, start, end - start);
         if end - start > self.max_leaf_size {
             let middle = start + self.partition(start, end, &centers);
-            let l = self.node(start, middle);
-            let r = self.node(middle, end);
+            // Side by side: a walk looks at the boxes of both together.
+            let (l, r) = (self.place(), self.place());
+            self.node(l, start, middle);
+            self.node(r, middle, end);
             self.nodes[place] = Node::interior(bbox, l, r);
         }
-        place
     }
 
     /// Reorders `items[start..end]` by the cheapest split; returns how many come first.

@@ -9,7 +9,8 @@ use crate::cost::Spread;
 pub struct Report {
     names: Vec<&'static str>,
     columns: Vec<&'static str>,
-    cells: Vec<(&'static str, &'static str, Spread)>,
+    /// Of each name and column, a value a round.
+    cells: Vec<(&'static str, &'static str, Vec<f64>)>,
     /// The largest share of rays that hit something else than the reference's.
     differing: f64,
     of: &'static str,
@@ -20,14 +21,14 @@ const RAYS: [&str; 3] = ["primary", "bounce", "random"];
 const BUILD: &str = "build, ms";
 
 impl Report {
-    pub fn add(&mut self, name: &'static str, column: &'static str, spread: Spread) {
+    pub fn add(&mut self, name: &'static str, column: &'static str, rounds: Vec<f64>) {
         if !self.names.contains(&name) {
             self.names.push(name);
         }
         if !self.columns.contains(&column) {
             self.columns.push(column);
         }
-        self.cells.push((name, column, spread));
+        self.cells.push((name, column, rounds));
     }
 
     pub fn differing(&mut self, name: &'static str, share: f64) {
@@ -37,25 +38,35 @@ impl Report {
         }
     }
 
-    fn cell(&self, name: &str, column: &str) -> Option<Spread> {
+    fn rounds(&self, name: &str, column: &str) -> Option<&[f64]> {
         let mut cells = self.cells.iter();
         let cell = cells.find(|cell| (cell.0, cell.1) == (name, column));
-        cell.map(|cell| cell.2)
+        cell.map(|cell| cell.2.as_slice())
+    }
+
+    fn cell(&self, name: &str, column: &str) -> Option<Spread> {
+        let rounds = self.rounds(name, column)?;
+        Some(Spread::of(rounds.iter().copied()))
+    }
+
+    /// The median of the rounds' ratios, and not the ratio of medians: who is beside a slow round is
+    /// slow as well.
+    fn ratio(&self, column: &str, name: &str, other: &str) -> Option<f64> {
+        let rounds = self.rounds(name, column)?.iter();
+        let ratios = rounds.zip(self.rounds(other, column)?).map(|(a, b)| a / b);
+        Some(Spread::of(ratios).median)
     }
 
     /// How many times as fast, for each kind of rays. Of several others the fastest counts.
     fn rays(&self, name: &str, others: &[&str]) -> Option<[f64; 3]> {
         let mut ratios = [0.0; 3];
         for (ratio, kind) in ratios.iter_mut().zip(RAYS) {
-            let others = others.iter().filter_map(|other| self.cell(other, kind));
-            let fastest = others.map(|spread| spread.median).max_by(f64::total_cmp)?;
-            *ratio = self.cell(name, kind)?.median / fastest;
+            let others = others
+                .iter()
+                .filter_map(|other| self.ratio(kind, name, other));
+            *ratio = others.min_by(f64::total_cmp)?;
         }
         Some(ratios)
-    }
-
-    fn build(&self, name: &str, other: &str) -> Option<f64> {
-        Some(self.cell(name, BUILD)?.median / self.cell(other, BUILD)?.median)
     }
 }
 
@@ -104,7 +115,7 @@ impl fmt::Display for Report {
                 "{name} / {}: primary {primary:.2}, bounce {bounce:.2}, random {random:.2}; geometric mean {mean:.2}",
                 others[0]
             )?;
-            match self.build(name, others[0]) {
+            match self.ratio(BUILD, name, others[0]) {
                 Some(build) => writeln!(f, "; build time {build:.2}")?,
                 None => writeln!(f)?,
             }

@@ -3,8 +3,8 @@
 
 mod builders;
 
-use author::items::build::{self, HONEST, by_the_sweep};
-use author::oracle::buckets::Extent;
+use author::items::build::{self, CONFUSED, HONEST, by_the_sweep};
+use author::oracle::buckets::{Buckets, Extent};
 use author::seed::Seed;
 use grader::exam::{Asked, Item, Key};
 use protocol::Question;
@@ -48,7 +48,8 @@ fn bucketed_builders_come_close_to_the_sweep() {
         for item in cost_items(seed) {
             for count in [8, 12, 16, 32] {
                 for extent in [Extent::Centers, Extent::Bounds] {
-                    let ratio = by_the_sweep(&item.questions[0], count, extent);
+                    let buckets = Buckets::honest(count, extent);
+                    let ratio = by_the_sweep(&item.questions[0], buckets);
                     println!("{seed} {} {count} {extent:?}: {ratio:.3}", item.id);
                     assert!(
                         ratio <= HONEST,
@@ -56,6 +57,20 @@ fn bucketed_builders_come_close_to_the_sweep() {
                         item.id
                     );
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn who_weighs_only_the_two_buckets_beside_a_plane_never_does() {
+    for seed in SEEDS {
+        for item in cost_items(seed) {
+            for count in [8, 12, 16, 24, 32] {
+                let buckets = Buckets::confused(count, Extent::Centers);
+                let ratio = by_the_sweep(&item.questions[0], buckets);
+                println!("{seed} {} {count}: {ratio:.3}", item.id);
+                assert!(ratio >= CONFUSED, "{seed} {} {count}: {ratio}", item.id);
             }
         }
     }
@@ -120,7 +135,8 @@ fn eight_buckets_or_more_find_the_one_best_split_and_four_do_not() {
         let questions = one_split(seed);
         for extent in [Extent::Centers, Extent::Bounds] {
             let ratios = |count: usize| -> Vec<f64> {
-                let ratio = |asked| by_the_sweep(asked, count, extent);
+                let buckets = Buckets::honest(count, extent);
+                let ratio = |asked| by_the_sweep(asked, buckets);
                 questions.iter().map(ratio).collect()
             };
             for count in [8, 9, 10, 11, 12, 13, 16, 20, 25, 32, 40, 64] {

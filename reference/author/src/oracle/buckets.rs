@@ -1,4 +1,5 @@
-//! What a bucketed builder's tree costs: of many ways to place the buckets, all of them honest.
+//! What a bucketed builder's tree costs: of many ways to place the buckets, all of them honest, and
+//! of one way to misread what is in them.
 
 use crate::oracle::bbox::Bounds;
 
@@ -11,13 +12,52 @@ pub enum Extent {
     Bounds,
 }
 
-/// The cost of the tree that so many buckets along each axis lead to: C_trav = C_isect = 1, areas
-/// by the root's. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007,
-/// section 3.
-pub fn cost(boxes: &[Bounds], max_leaf_size: usize, count: usize, extent: Extent) -> f64 {
+/// What is taken for the two sides of a plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sides {
+    /// All buckets to the left of it, and all to the right.
+    Whole,
+    /// The last bucket before it, and the first behind: wrong, and often seen.
+    BesideThePlane,
+}
+
+/// How a builder goes about it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Buckets {
+    /// How many along each axis.
+    count: usize,
+    extent: Extent,
+    sides: Sides,
+}
+
+impl Buckets {
+    /// Both sides of a plane are weighed.
+    pub fn honest(count: usize, extent: Extent) -> Self {
+        let sides = Sides::Whole;
+        Buckets {
+            count,
+            extent,
+            sides,
+        }
+    }
+
+    /// The two buckets beside a plane are taken for its sides.
+    pub fn confused(count: usize, extent: Extent) -> Self {
+        let sides = Sides::BesideThePlane;
+        Buckets {
+            count,
+            extent,
+            sides,
+        }
+    }
+}
+
+/// The cost of the tree that these buckets lead to: C_trav = C_isect = 1, areas by the root's. Wald,
+/// "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007, section 3.
+pub fn cost(boxes: &[Bounds], max_leaf_size: usize, buckets: Buckets) -> f64 {
     let mut boxes = boxes.to_vec();
     let root = around(&boxes).area();
-    below(&mut boxes, max_leaf_size, count, extent) / root
+    below(&mut boxes, max_leaf_size, buckets) / root
 }
 
 fn around(boxes: &[Bounds]) -> Bounds {
@@ -27,17 +67,18 @@ fn around(boxes: &[Bounds]) -> Bounds {
 }
 
 /// What a node costs, with all that is below it.
-fn below(boxes: &mut [Bounds], max_leaf_size: usize, count: usize, extent: Extent) -> f64 {
+fn below(boxes: &mut [Bounds], max_leaf_size: usize, buckets: Buckets) -> f64 {
     let bounds = around(boxes);
     if boxes.len() <= max_leaf_size {
         return bounds.area() * boxes.len() as f64;
     }
-    let over = match extent {
+    let over = match buckets.extent {
         Extent::Centers => Bounds::around(boxes.iter().map(Bounds::center)),
         Extent::Bounds => bounds,
     };
-    let first = match cheapest(boxes, &over, count) {
+    let first = match cheapest(boxes, &over, buckets) {
         Some((axis, plane)) => {
+            let count = buckets.count;
             let bucket = Bucketing { over, axis, count };
             boxes.sort_by_key(|bounds| bucket.of(bounds) >= plane);
             boxes.partition_point(|bounds| bucket.of(bounds) < plane)
@@ -51,7 +92,7 @@ fn below(boxes: &mut [Bounds], max_leaf_size: usize, count: usize, extent: Exten
         }
     };
     let (left, right) = boxes.split_at_mut(first);
-    let [left, right] = [left, right].map(|side| below(side, max_leaf_size, count, extent));
+    let [left, right] = [left, right].map(|side| below(side, max_leaf_size, buckets));
     bounds.area() + left + right
 }
 
@@ -93,13 +134,18 @@ impl Heap {
         }
     }
 
+    /// None at all if it is empty, whatever the area of no box may be.
     fn cost(self) -> f64 {
-        self.bounds.area() * self.count as f64
+        match self.count {
+            0 => 0.0,
+            count => self.bounds.area() * count as f64,
+        }
     }
 }
 
 /// The axis, and how many buckets go to the first side; none if no plane separates anything.
-fn cheapest(boxes: &[Bounds], over: &Bounds, count: usize) -> Option<(usize, usize)> {
+fn cheapest(boxes: &[Bounds], over: &Bounds, buckets: Buckets) -> Option<(usize, usize)> {
+    let Buckets { count, sides, .. } = buckets;
     let mut best: Option<(f64, (usize, usize))> = None;
     for axis in (0..3).filter(|&axis| over.max[axis] > over.min[axis]) {
         let bucket = Bucketing {
@@ -122,7 +168,10 @@ fn cheapest(boxes: &[Bounds], over: &Bounds, count: usize) -> Option<(usize, usi
         let (lefts, rights) = (sums(&mut heaps.iter()), sums(&mut heaps.iter().rev()));
         for plane in 1..count {
             let (left, right) = (lefts[plane - 1], rights[count - plane - 1]);
-            let cost = left.cost() + right.cost();
+            let cost = match sides {
+                Sides::Whole => left.cost() + right.cost(),
+                Sides::BesideThePlane => heaps[plane - 1].cost() + heaps[plane].cost(),
+            };
             let is_split = left.count > 0 && right.count > 0;
             if is_split && best.is_none_or(|(least, _)| cost < least) {
                 best = Some((cost, (axis, plane)));

@@ -12,7 +12,7 @@ use protocol::{Question, Shape};
 use super::meshes;
 use crate::seed::Seed;
 
-pub use cost::{HONEST, by_the_sweep};
+pub use cost::{CONFUSED, HONEST, by_the_sweep};
 
 /// The items of the task `build`.
 pub fn items(seed: Seed) -> Vec<Item> {

@@ -1028,9 +1028,6 @@ struct Builder {
     max_leaf_size: usize,
 }
 
-/// In how many slices the centers are counted, along each axis.
-const SLICES: usize = 16;
-
 impl Builder {
     /// Builds the node over `items[start..end]`, which are not none; returns its place.
     fn node(&mut self, start: usize, end: usize) -> usize {
@@ -1050,8 +1047,18 @@ impl Builder {
     }
 }
 
-/// Reorders the items by the cheapest split; returns how many come first.
+/// Reorders the items by the cheapest split; returns how many come first. In large nodes many splits
+/// are compared: it takes no time beside counting the items, and what is chosen there matters most.
 fn partition(items: &mut [Item], centers: Bounds) -> usize {
+    match items.len() {
+        0..512 => partition_in::<16>(items, centers),
+        512..2048 => partition_in::<32>(items, centers),
+        2048.. => partition_in::<64>(items, centers),
+    }
+}
+
+/// The same, with so many slices of the centers along each axis.
+fn partition_in<const SLICES: usize>(items: &mut [Item], centers: Bounds) -> usize {
     let extent = (centers.upper - centers.lower).to_array();
     // Along an axis without extent, or with next to none, all are in the first slice.
     let scale = extent.map(|extent| SLICES as f32 / extent);
@@ -1089,7 +1096,7 @@ fn partition(items: &mut [Item], centers: Bounds) -> usize {
 }
 
 /// Before which of the slices to split, and the cost of that.
-fn cheapest(buckets: &[Bucket; SLICES]) -> (usize, f32) {
+fn cheapest<const SLICES: usize>(buckets: &[Bucket; SLICES]) -> (usize, f32) {
     let mut right_costs = [0.0; SLICES];
     let mut right = Bucket::empty();
     for i in (1..SLICES).rev() {
@@ -1132,6 +1139,8 @@ struct Cut {
 impl<'a> Cutter<'a> {
     /// In smaller nodes, cuts take most of the time and save nothing.
     const LEAST: usize = 256;
+    /// Along each axis.
+    const SLICES: usize = 32;
 
     fn new(primitives: &'a [Primitive]) -> Self {
         Cutter {
@@ -1212,17 +1221,18 @@ impl<'a> Cutter<'a> {
     /// Along all axes, between slices of equal width.
     fn cheapest_cut(&self, items: &[Item], bounds: Bounds) -> Option<Cut> {
         let lower = bounds.lower.to_array();
-        let width = ((bounds.upper - bounds.lower) * f32x4::splat(1.0 / SLICES as f32)).to_array();
+        let width =
+            ((bounds.upper - bounds.lower) * f32x4::splat(1.0 / Cutter::SLICES as f32)).to_array();
         let scale = f32x4::from(width.map(|width| if width > 0.0 { 1.0 / width } else { 0.0 }));
         let plane = |axis: usize, slice: usize| lower[axis] + width[axis] * slice as f32;
         let slices = |corner: f32x4| {
             let slices = ((corner - bounds.lower) * scale)
                 .fast_trunc_int()
                 .to_array();
-            slices.map(|slice| (slice as usize).min(SLICES - 1))
+            slices.map(|slice| (slice as usize).min(Cutter::SLICES - 1))
         };
 
-        let mut buckets = [[Bucket::empty(); SLICES]; 3];
+        let mut buckets = [[Bucket::empty(); Cutter::SLICES]; 3];
         for item in items {
             let (first, last) = (slices(item.bounds.lower), slices(item.bounds.upper));
             for (axis, buckets) in buckets.iter_mut().enumerate() {

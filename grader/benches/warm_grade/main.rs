@@ -6,6 +6,7 @@
 mod bare;
 mod changed;
 mod cost;
+mod median;
 mod watching;
 mod wire;
 
@@ -21,6 +22,7 @@ use grader::workspace::Workspace;
 use bare::Bare;
 use changed::{change, floor, submission};
 use cost::Cost;
+use median::median;
 use watching::Watching;
 
 const ROUNDS: usize = 15;
@@ -131,12 +133,6 @@ fn print(rounds: &[[Cost; ROWS.len()]]) {
         let (name, unit) = (row.name, row.unit);
         println!("{name:36}{wall:>9.0}{cpu:>9.0}{ratio:>8.2} {unit}");
     }
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 /// Until the first word on a file that does not compile. The rest is graded after that.

@@ -14,6 +14,8 @@ mod bare;
 mod changed;
 #[path = "../../benches/warm_grade/cost.rs"]
 mod cost;
+#[path = "../../benches/warm_grade/median.rs"]
+mod median;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -25,6 +27,7 @@ use tempfile::TempDir;
 use bare::Bare;
 use changed::{change, copy, floor};
 use cost::Cost;
+use median::median;
 
 const ROUNDS: usize = 5;
 const STUDENTS: usize = 60;
@@ -64,7 +67,7 @@ fn main() {
         let before: Vec<Cost> = floors().collect();
         let Cost { wall, cpu } = grade(class.path());
         let floors = before.into_iter().chain(floors());
-        let floor = median(floors.map(|cost| cost.cpu.as_secs_f64()).collect());
+        let floor = median(floors.map(|cost| cost.cpu.as_secs_f64()));
 
         let each = cpu.as_secs_f64() / STUDENTS as f64;
         let throughput = STUDENTS as f64 / wall.as_secs_f64();
@@ -90,10 +93,4 @@ fn grade(class: &Path) -> Cost {
     command.arg(class).arg("--out").arg(out.path());
     command.stderr(Stdio::null());
     Cost::of_program(&mut command)
-}
-
-/// Of an even number of values, the upper of the two in the middle.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

@@ -15,10 +15,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
-use grader::ask::Budget;
 use grader::build::{Build, Builder};
-use grader::isolate::best;
+use grader::probe::Budget;
 use grader::sandbox;
+use grader::select_isolation::with_best_level;
 use grader::submission::Submission;
 use grader::workspace::Workspace;
 use protocol::Question;
@@ -33,12 +33,12 @@ const BUDGET: Budget = Budget {
 
 fn main() -> ExitCode {
     // The sandbox starts this very program as its launcher.
-    if let Some(ended) = sandbox::launched() {
+    if let Some(ended) = sandbox::run_as_launcher() {
         return ended;
     }
     let workspace = Workspace::find().expect("this is the workspace");
     let open = Builder::prepare(&workspace).expect("submissions can be built");
-    let confined = match best(&open) {
+    let confined = match with_best_level(&open) {
         Ok(confined) => confined,
         Err(why) => {
             println!("{why}");

@@ -67,7 +67,7 @@ impl Capture {
     }
 
     /// Waits until the pipe ends or the time is over, whichever comes first.
-    pub fn settle(&self, patience: Duration) {
+    pub fn wait_for_end(&self, patience: Duration) {
         let state = self.lock();
         let waited = self
             .shared

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Parser;
 
 use crate::exam::Task;
-use crate::format::Wanted;
-use crate::place::Place;
+use crate::format::OutputSpec;
+use crate::question_ref::QuestionRef;
 use crate::sandbox::Isolation;
 
 /// Grades a path-tracing submission: builds it, asks it, judges its answers, writes a score.
@@ -33,12 +33,12 @@ pub struct Arguments {
     pub require: Option<u32>,
 
     /// Ask one task only, and write no score
-    #[arg(long, value_name = "TASK", value_parser = task)]
+    #[arg(long, value_name = "TASK", value_parser = parse_task)]
     pub task: Option<Task>,
 
     /// Ask one question again, such as sphere.from_inside#7, and show all of its answer
     #[arg(long, value_name = "ITEM#N", conflicts_with_all = ["task", "require", "out"])]
-    pub replay: Option<Place>,
+    pub replay: Option<QuestionRef>,
 
     /// Grade again whenever a file is saved, what failed first; Ctrl-C ends it
     #[arg(long, conflicts_with_all = ["replay", "require"])]
@@ -84,7 +84,7 @@ pub struct Arguments {
     /// there, else where the platform says, else to --out
     #[arg(long, value_name = "FORMAT", num_args = 1.., value_delimiter = ',')]
     #[arg(conflicts_with_all = ["task", "replay", "watch"])]
-    pub format: Vec<Wanted>,
+    pub format: Vec<OutputSpec>,
 
     /// What points count for and what students see of them; --policy-default shows what holds else
     #[arg(long, value_name = "FILE")]
@@ -112,7 +112,7 @@ pub struct Arguments {
     pub schema: bool,
 }
 
-fn task(text: &str) -> Result<Task, String> {
+fn parse_task(text: &str) -> Result<Task, String> {
     let known = || Task::ALL.map(Task::id).join(", ");
     let task = Task::ALL.into_iter().find(|task| task.id() == text);
     task.ok_or_else(|| format!("the tasks are {}", known()))

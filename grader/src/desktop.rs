@@ -5,7 +5,7 @@ use std::{env, io};
 
 /// Why nothing was opened.
 #[derive(Debug, thiserror::Error)]
-enum NotOpened {
+enum OpenError {
     /// Nobody sees what this machine would show.
     #[error("there is no desktop here")]
     NoDesktop,
@@ -22,9 +22,9 @@ pub fn show(file: &Path) {
     }
 }
 
-fn open(file: &Path) -> Result<(), NotOpened> {
+fn open(file: &Path) -> Result<(), OpenError> {
     if !has_desktop() {
-        return Err(NotOpened::NoDesktop);
+        return Err(OpenError::NoDesktop);
     }
     Ok(open::that_detached(file)?)
 }

@@ -4,47 +4,47 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::build::BuildError;
-use crate::doctor::package::NoPackage;
-use crate::exam_file::BadExam;
-use crate::format::outputs::NoOutput;
-use crate::isolate::NotIsolated;
-use crate::policy::{NoMoments, PolicyError};
-use crate::submission::NoSubmission;
-use crate::workspace::NoWorkspace;
+use crate::doctor::package::PackageError;
+use crate::exam_file::ExamError;
+use crate::format::outputs::OutputError;
+use crate::policy::{PolicyError, SubmissionTimeError};
+use crate::select_isolation::IsolationError;
+use crate::submission::SubmissionError;
+use crate::workspace::WorkspaceError;
 
 /// Why there is no score.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The submission's place.
     #[error(transparent)]
-    Submission(#[from] NoSubmission),
+    Submission(#[from] SubmissionError),
     /// The exam.
     #[error(transparent)]
-    Exam(#[from] BadExam),
+    Exam(#[from] ExamError),
     /// The policy.
     #[error(transparent)]
     Policy(#[from] PolicyError),
     /// When it was handed in.
     #[error(transparent)]
-    HandedIn(#[from] NoMoments),
+    SubmissionTime(#[from] SubmissionTimeError),
     /// A platform's package.
     #[error(transparent)]
-    Package(#[from] NoPackage),
+    Package(#[from] PackageError),
     /// What platforms read.
     #[error(transparent)]
-    Output(#[from] NoOutput),
+    Output(#[from] OutputError),
     /// What to replay.
     #[error("{0}")]
     Replay(String),
     /// The project's place.
     #[error(transparent)]
-    Workspace(#[from] NoWorkspace),
+    Workspace(#[from] WorkspaceError),
     /// The compiler or what it needs.
     #[error(transparent)]
     Build(#[from] BuildError),
     /// The submission can not be kept apart as it should.
     #[error(transparent)]
-    Isolation(#[from] NotIsolated),
+    Isolation(#[from] IsolationError),
     /// A report can not be written.
     #[error("can not write {path}: {source}")]
     Report {
@@ -66,12 +66,12 @@ impl Error {
             | Error::Exam(_)
             | Error::Policy(_)
             | Error::Package(_)
-            | Error::Output(NoOutput::Variable { .. })
+            | Error::Output(OutputError::MissingVariable { .. })
             | Error::Replay(_) => 2,
             Error::Workspace(_)
-            | Error::HandedIn(_)
+            | Error::SubmissionTime(_)
             | Error::Build(_)
-            | Error::Output(NoOutput::Io { .. })
+            | Error::Output(OutputError::Io { .. })
             | Error::Isolation(_)
             | Error::Report { .. }
             | Error::Probe(_) => 3,

@@ -15,36 +15,37 @@
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`], [`zipfile`] |
 
 pub use judging::{
-    describe, exam, exam_file, judge, picture, recognise, section, shown, tame, tells,
+    describe, drawing_data, exam, exam_file, judge, picture, recognise, sanitize, section,
+    signatures,
 };
 
-pub mod again;
-pub mod ask;
 pub mod build;
+pub mod cache_lookup;
+pub mod cached_report;
 pub mod capture;
 pub mod cli;
 pub mod desktop;
 pub mod doctor;
 pub mod drawing;
-pub mod earlier;
 pub mod error;
-pub mod examine;
-pub mod exhibit;
-pub mod files;
 pub mod format;
-pub mod given;
+pub mod given_files;
 pub mod grade;
-pub mod isolate;
-pub mod place;
 pub mod policy;
+pub mod probe;
+pub mod question_ref;
 pub mod replay;
 pub mod report;
+pub mod report_answers;
+pub mod report_files;
+pub mod rerun_command;
+pub mod run_exam;
 pub mod sandbox;
 pub mod score;
-pub mod stages;
+pub mod select_isolation;
+pub mod stage_times;
 pub mod submission;
 pub mod system;
-pub mod unchanged;
 pub mod verdict;
 pub mod watch;
 pub mod workspace;

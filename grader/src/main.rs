@@ -5,28 +5,28 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
+use grader::cache_lookup;
+use grader::cached_report;
 use grader::cli::Arguments;
 use grader::desktop;
-use grader::doctor::{examine_machine, package};
-use grader::earlier;
+use grader::doctor::{diagnose, package};
 use grader::error::Error;
-use grader::files::Files;
 use grader::format::github;
-use grader::grade::{Graded, grade};
+use grader::grade::{GradedSubmission, grade};
 use grader::policy;
 use grader::replay::replay;
-use grader::report::text::{Hints, report};
+use grader::report::text::{HintDetail, report};
+use grader::report_files::ReportFiles;
 use grader::sandbox;
 use grader::score;
-use grader::unchanged;
 use grader::watch::watch;
 
 /// Said of what was not graded once more.
-const UNCHANGED: &str =
+const UNCHANGED_NOTICE: &str =
     "  Nothing has changed since this was graded; `--fresh` grades it once more.\n\n";
 
 fn main() -> ExitCode {
-    if let Some(ended) = sandbox::launched() {
+    if let Some(ended) = sandbox::run_as_launcher() {
         return ended;
     }
     let arguments = Arguments::parse();
@@ -38,7 +38,7 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     if arguments.schema {
-        anstream::print!("{}", score::PUBLISHED);
+        anstream::print!("{}", score::PUBLISHED_SCHEMA);
         return Ok(ExitCode::SUCCESS);
     }
     if arguments.policy_default {
@@ -50,7 +50,7 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         return Ok(ExitCode::SUCCESS);
     }
     if let Some(package) = &arguments.package {
-        let complaints = package::complaints(package)?;
+        let complaints = package::problems(package)?;
         for complaint in &complaints {
             anstream::println!("{}: {complaint}", package.display());
         }
@@ -63,33 +63,37 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         });
     }
     if arguments.doctor {
-        let diagnosis = examine_machine()?;
+        let diagnosis = diagnose()?;
         anstream::print!("{diagnosis}");
         return Ok(ExitCode::from(diagnosis.exit_code()));
     }
     let hints = match arguments.hints {
-        true => Hints::Full,
-        false => Hints::Nudge,
+        true => HintDetail::Full,
+        false => HintDetail::Nudge,
     };
     if arguments.watch {
         let never = watch(arguments, hints)?;
         match never {}
     }
-    if let Some((earlier, files)) = unchanged::find(arguments)? {
-        tell(&format!("{}{UNCHANGED}{}", earlier.told, places(&files)))?;
+    if let Some((earlier, files)) = cache_lookup::find_cached_report(arguments)? {
+        print_text(&format!(
+            "{}{UNCHANGED_NOTICE}{}",
+            earlier.report,
+            file_list(&files)
+        ))?;
         if arguments.open {
             desktop::show(&files.page);
         }
-        return Ok(enough(earlier.points, arguments));
+        return Ok(exit_code(earlier.points, arguments));
     }
     let graded = grade(arguments)?;
-    let told = told(&graded, arguments, hints);
-    tell(&format!(
+    let told = terminal_report(&graded, arguments, hints);
+    print_text(&format!(
         "{told}{}",
-        graded.files.as_ref().map_or(String::new(), places)
+        graded.files.as_ref().map_or(String::new(), file_list)
     ))?;
-    if let (Some(key), Some(files)) = (&graded.key, &graded.files) {
-        earlier::keep(key, &graded.score, &told, files);
+    if let (Some(key), Some(files)) = (&graded.cache_key, &graded.files) {
+        cached_report::store(key, &graded.score, &told, files);
     }
     if let Some(commands) = graded.commands() {
         anstream::print!("{commands}");
@@ -100,11 +104,11 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     if arguments.timings {
         anstream::println!("{}", graded.score.timings.stages.table());
     }
-    Ok(enough(graded.score.points, arguments))
+    Ok(exit_code(graded.score.points, arguments))
 }
 
 /// Whether that many points are as many as required.
-fn enough(points: u32, arguments: &Arguments) -> ExitCode {
+fn exit_code(points: u32, arguments: &Arguments) -> ExitCode {
     match points < arguments.require.unwrap_or(0) {
         true => ExitCode::from(1),
         false => ExitCode::SUCCESS,
@@ -112,32 +116,32 @@ fn enough(points: u32, arguments: &Arguments) -> ExitCode {
 }
 
 /// What is read on a terminal. With a platform's format, students read it in a log.
-fn told(graded: &Graded, arguments: &Arguments, hints: Hints) -> String {
+fn terminal_report(graded: &GradedSubmission, arguments: &Arguments, hints: HintDetail) -> String {
     let score = match arguments.format.is_empty() {
         true => &graded.score,
-        false => &graded.seen.now,
+        false => &graded.student_view.visible,
     };
     let mut told = report(score, arguments.task, hints);
     if arguments.policy.is_some() && arguments.task.is_none() {
-        told.push_str(&format!("  counts for {}\n\n", graded.seen.counted));
+        told.push_str(&format!("  counts for {}\n\n", graded.student_view.counted));
     }
     told
 }
 
 /// The files that tell it, a line each.
-fn places(files: &Files) -> String {
-    let lines = files.paths().map(from_here);
+fn file_list(files: &ReportFiles) -> String {
+    let lines = files.paths().map(relative_to_current_folder);
     lines
         .map(|file| format!("  {}\n", file.display()))
         .collect()
 }
 
 /// Prints it. Where a runner looks for commands in all that is printed, it is told not to.
-fn tell(text: &str) -> Result<(), Error> {
+fn print_text(text: &str) -> Result<(), Error> {
     match std::env::var_os("GITHUB_ACTIONS") {
         Some(_) => {
-            let token = github::token().map_err(io::Error::other)?;
-            anstream::println!("{}", github::silenced(text, &token));
+            let token = github::random_token().map_err(io::Error::other)?;
+            anstream::println!("{}", github::with_commands_stopped(text, &token));
         }
         None => anstream::println!("{text}"),
     }
@@ -145,7 +149,7 @@ fn tell(text: &str) -> Result<(), Error> {
 }
 
 /// The path as it would be typed from the current folder.
-fn from_here(path: &Path) -> &Path {
+fn relative_to_current_folder(path: &Path) -> &Path {
     let here = std::env::current_dir().unwrap_or_default();
     path.strip_prefix(here).unwrap_or(path)
 }

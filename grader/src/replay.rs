@@ -2,32 +2,33 @@
 
 use std::fmt::Write;
 
-use protocol::{Answer, Outcome, Question};
+use protocol::{Answer, ElementOutcome, Question};
 
-use crate::ask::{Fault, part};
 use crate::build::Builder;
 use crate::cli::Arguments;
 use crate::describe;
 use crate::error::Error;
-use crate::exam::{Asked, Exam};
+use crate::exam::{Exam, ExamQuestion};
 use crate::exam_file;
 use crate::grade::{budget, collect};
-use crate::isolate::isolated;
-use crate::place::Place;
-use crate::tame::tame;
+use crate::probe::{Fault, subset};
+use crate::question_ref::QuestionRef;
+use crate::sanitize::sanitize;
+use crate::select_isolation::with_requested_level;
 use crate::verdict::file_message;
 use crate::workspace::Workspace;
 
 /// The most characters that are shown of what was printed.
-const LONGEST_PRINT: usize = 20_000;
+const MAX_PRINTED_CHARS: usize = 20_000;
 
 /// Asks it; returns what a terminal shows.
-pub fn replay(arguments: &Arguments, place: &Place) -> Result<String, Error> {
+pub fn replay(arguments: &Arguments, place: &QuestionRef) -> Result<String, Error> {
     let workspace = Workspace::find()?;
     let exam = exam_file::load(arguments.exam.as_deref())?.exam;
-    let (question, wanted) = find(&exam, place)?;
+    let (question, wanted) = find_question(&exam, place)?;
     let submission = collect(arguments, &workspace)?;
-    let build = isolated(Builder::prepare(&workspace)?, arguments)?.build(&submission)?;
+    let build =
+        with_requested_level(Builder::prepare(&workspace)?, arguments)?.build(&submission)?;
 
     let mut shown = String::new();
     for (file, why) in &build.not_compiled {
@@ -39,8 +40,8 @@ pub fn replay(arguments: &Arguments, place: &Place) -> Result<String, Error> {
     let budget = budget(arguments);
     let mut probe = build.launcher(program).start(budget)?;
     let answered = probe.ask([&question], budget);
-    let got = got(answered);
-    let printed = tame(probe.finish().trim_end(), LONGEST_PRINT);
+    let got = answer_text(answered);
+    let printed = sanitize(probe.finish().trim_end(), MAX_PRINTED_CHARS);
     let printed = match printed.as_str() {
         "" => "(nothing)".to_owned(),
         _ => format!("\n{printed}"),
@@ -55,7 +56,7 @@ pub fn replay(arguments: &Arguments, place: &Place) -> Result<String, Error> {
 }
 
 /// The question with this one element, and its key in words.
-fn find(exam: &Exam, place: &Place) -> Result<(Question, String), Error> {
+fn find_question(exam: &Exam, place: &QuestionRef) -> Result<(Question, String), Error> {
     let item = exam.items.iter().find(|item| item.id == place.item);
     let item = item.ok_or_else(|| {
         let alike = exam.items.iter().map(|item| item.id.as_str());
@@ -70,8 +71,8 @@ fn find(exam: &Exam, place: &Place) -> Result<(Question, String), Error> {
     match item.element(place.number) {
         Some((question, element)) => {
             let asked = &item.questions[question];
-            let alone = part(&asked.question, element..element + 1);
-            Ok((alone, wanted(asked, element)))
+            let alone = subset(&asked.question, element..element + 1);
+            Ok((alone, expected_text(asked, element)))
         }
         None => Err(Error::Replay(format!(
             "{} asks {} questions: there is no number {}",
@@ -83,7 +84,7 @@ fn find(exam: &Exam, place: &Place) -> Result<(Question, String), Error> {
 }
 
 /// What is right, each on a line of its own where several are. A whole picture is no line.
-fn wanted(asked: &Asked, element: usize) -> String {
+fn expected_text(asked: &ExamQuestion, element: usize) -> String {
     match asked.question {
         Question::Radiance { .. } => "the reference's picture".to_owned(),
         Question::Camera { .. }
@@ -96,13 +97,13 @@ fn wanted(asked: &Asked, element: usize) -> String {
     }
 }
 
-fn got(answered: Result<Vec<Answer>, Fault>) -> String {
+fn answer_text(answered: Result<Vec<Answer>, Fault>) -> String {
     let answer = match answered {
         Ok(answers) => answers.into_iter().next(),
         Err(fault) => return fault.to_string(),
     };
     match answer {
-        Some(Answer::Picture(Outcome::Value(pixels))) => format!("{} pixels", pixels.len()),
+        Some(Answer::Picture(ElementOutcome::Value(pixels))) => format!("{} pixels", pixels.len()),
         Some(answer) => describe::answer::got(&answer, 0),
         None => "no answer".to_owned(),
     }

@@ -5,20 +5,20 @@
 
 use serde::Serialize;
 
-use crate::again::Again;
 use crate::exam::Task;
 use crate::exam_file::ExamName;
-use crate::given::TASK_FILES;
+use crate::given_files::TASK_FILES;
+use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
 use crate::section::Section;
-use crate::stages::Stages;
+use crate::stage_times::StageTimes;
 
 /// The version of this format.
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 1;
 
 /// The format, as a JSON schema. Committed, and compared with the types by a test: whoever grades
 /// need not compile what derives it.
-pub const PUBLISHED: &str = include_str!("score.schema.json");
+pub const PUBLISHED_SCHEMA: &str = include_str!("score.schema.json");
 
 /// One submission, graded.
 #[derive(Clone, Debug, Serialize)]
@@ -37,7 +37,7 @@ pub struct Score {
     pub complete: bool,
     /// How to ask the same once more. Not in the file, which is the same wherever it is made.
     #[serde(skip)]
-    pub again: Again,
+    pub rerun_command: RerunCommand,
     /// The sum over all tasks.
     pub points: u32,
     /// The most points that could be had.
@@ -88,7 +88,7 @@ pub struct ItemScore {
     pub message: String,
     /// Where in the submission's files it went wrong, if the code itself says so.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub at: Option<CodePlace>,
+    pub at: Option<CodeLocation>,
     /// For students: where to look. Only where something is wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub look: Option<String>,
@@ -114,20 +114,20 @@ pub struct ItemScore {
 /// A line of one of the five files.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct CodePlace {
+pub struct CodeLocation {
     /// Such as `sphere.rs`.
     pub file: String,
     /// Counted from 1.
     pub line: u32,
 }
 
-impl CodePlace {
+impl CodeLocation {
     /// The place that a panic names, such as `sphere.rs:34`. None if it is in no submission's file.
-    pub fn of_panic(place: &str) -> Option<Self> {
+    pub fn from_panic(place: &str) -> Option<Self> {
         let mut parts = place.split(':');
         let file = parts.next()?;
         let file = TASK_FILES.iter().find(|known| known.name == file)?;
-        Some(CodePlace {
+        Some(CodeLocation {
             file: file.name.to_owned(),
             line: parts.next()?.parse().ok()?,
         })
@@ -194,7 +194,7 @@ pub enum Verdict {
 
 impl Verdict {
     /// What people read.
-    pub fn words(&self) -> &'static str {
+    pub fn label(&self) -> &'static str {
         match self {
             Verdict::Pass => "passed",
             Verdict::Partial => "in part",
@@ -245,13 +245,13 @@ pub struct Timings {
     pub exam_ms: u64,
     /// In detail, for `--timings`: not in the file.
     #[serde(skip)]
-    pub stages: Stages,
+    pub stages: StageTimes,
 }
 
 impl ItemScore {
     /// The command that asks the same again: one question where there is one to speak of, else
     /// the task.
-    pub fn again(&self, again: &Again) -> String {
+    pub fn rerun_command(&self, again: &RerunCommand) -> String {
         match &self.evidence {
             Some(evidence) => again.replay(&self.id, evidence.number),
             None => again.task(self.id.split('.').next().unwrap_or_default()),
@@ -274,7 +274,7 @@ impl Score {
     }
 
     /// Adds up.
-    pub fn total(&mut self) {
+    pub fn update_totals(&mut self) {
         for task in &mut self.tasks {
             task.points = task.items.iter().map(|item| item.points).sum();
         }
@@ -287,7 +287,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_published_schema_is_that_of_these_types() {
+    fn published_schema_matches_the_types() {
         let schema = schemars::schema_for!(Score);
         let schema = format!("{:#}\n", schema.as_value());
         if std::env::var_os("INSTA_UPDATE").is_some_and(|what| what == "always") {
@@ -295,7 +295,7 @@ mod tests {
             std::fs::write(place, &schema).unwrap();
         }
         assert_eq!(
-            PUBLISHED, schema,
+            PUBLISHED_SCHEMA, schema,
             "`INSTA_UPDATE=always cargo test -p grader --lib schema` writes it anew"
         );
     }

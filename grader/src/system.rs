@@ -16,11 +16,12 @@ mod unix;
 mod windows;
 
 #[cfg(target_os = "linux")]
-pub use linux::{cpu_time, limit, memory};
+pub use linux::{cpu_time, memory, set_limits};
 #[cfg(unix)]
 pub use unix::{
-    ending, free_space, kill_group, link, open_file, open_regular, open_to_all, own_group,
-    readable_by_all, runnable_by_all, tied,
+    command_killed_at_eof, exit_reason, free_space, kill_group, make_executable,
+    make_folder_accessible, make_readable, open_file_without_hard_links, open_regular_file,
+    symlink, use_own_process_group,
 };
 #[cfg(windows)]
 pub use windows::{
@@ -41,11 +42,11 @@ pub struct Limits {
 
 /// How many seconds of CPU time a process may ignore that its time is over, before it is killed.
 #[cfg(target_os = "linux")]
-pub(crate) const GRACE: u64 = 1;
+pub(crate) const CPU_GRACE_SECONDS: u64 = 1;
 
 /// How a process ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
+pub enum ExitReason {
     /// By itself, with this exit code.
     Code(i32),
     /// By this signal.
@@ -54,7 +55,7 @@ pub enum Ending {
 
 /// What no program can do without: Windows' own libraries, and the linker, look these up. macOS is
 /// asked where its linker's files lie.
-const NEEDED: [&str; 16] = [
+const REQUIRED_VARIABLES: [&str; 16] = [
     "SystemRoot",
     "SystemDrive",
     "windir",
@@ -81,7 +82,7 @@ pub fn clear_environment(command: &mut Command) {
     if cfg!(target_os = "linux") {
         return;
     }
-    let kept = NEEDED.map(|name| (name, std::env::var_os(name)));
+    let kept = REQUIRED_VARIABLES.map(|name| (name, std::env::var_os(name)));
     for (name, value) in kept {
         if let Some(value) = value {
             command.env(name, value);

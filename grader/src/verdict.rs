@@ -1,26 +1,27 @@
 //! From what became of an item to its line in the score: pure.
 
-use crate::again::Again;
-use crate::ask::Fault;
 use crate::build::NotCompiled;
 use crate::describe;
 use crate::exam::{Exam, Item, Task};
 use crate::exam_file::ExamName;
-use crate::judge::{Failure, How, Judgement, Share};
+use crate::judge::{Credit, Failure, FailureKind, Judgement};
+use crate::probe::Fault;
+use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
+use crate::sanitize::sanitize;
 use crate::score::{
-    BuildReport, CodePlace, Evidence, Hint, ItemScore, SCHEMA, Score, TaskScore, Timings, Verdict,
+    BuildReport, CodeLocation, Evidence, Hint, ItemScore, SCHEMA_VERSION, Score, TaskScore,
+    Timings, Verdict,
 };
 use crate::section::Section;
-use crate::tame::tame;
-use crate::tells::KnownMistake;
+use crate::signatures::KnownMistake;
 
 /// The most characters of a student's or compiler's text in a message.
-const LONGEST: usize = 2_000;
+const MAX_TEXT_CHARS: usize = 2_000;
 
 /// What became of one item.
 #[derive(Clone, Debug)]
-pub enum Outcome<'a> {
+pub enum ItemOutcome<'a> {
     /// Not asked yet.
     Pending,
     /// Its file is not part of the program.
@@ -30,20 +31,20 @@ pub enum Outcome<'a> {
         /// Why.
         fault: Fault,
         /// The question and its element that bring it about alone, if any does.
-        place: Option<(usize, usize)>,
+        culprit: Option<(usize, usize)>,
     },
     /// Not asked, because other items of the task had run out of time.
-    GivenUp(Fault),
+    Skipped(Fault),
     /// An answer to each question, judged.
     Answered(Vec<Judgement>),
 }
 
 /// The score of a submission that nothing was asked yet.
-pub fn unasked(exam: &Exam, name: ExamName, submission: &str) -> Score {
+pub fn pending_score(exam: &Exam, name: ExamName, submission: &str) -> Score {
     let task_score = |task: Task| {
         let items = exam.items.iter().filter(|item| item.task == task);
         let items: Vec<_> = items
-            .map(|item| item_score(item, &Outcome::Pending))
+            .map(|item| item_score(item, &ItemOutcome::Pending))
             .collect();
         TaskScore {
             id: task,
@@ -60,12 +61,12 @@ pub fn unasked(exam: &Exam, name: ExamName, submission: &str) -> Score {
         .filter(|task| !task.items.is_empty())
         .collect();
     Score {
-        schema: SCHEMA,
+        schema: SCHEMA_VERSION,
         submission: submission.to_owned(),
         exam: name,
         isolation: Isolation::None,
         complete: false,
-        again: Again::default(),
+        rerun_command: RerunCommand::default(),
         points: 0,
         max_points: tasks.iter().map(|task| task.max_points).sum(),
         tasks,
@@ -75,7 +76,7 @@ pub fn unasked(exam: &Exam, name: ExamName, submission: &str) -> Score {
 }
 
 /// The item's line in the score.
-pub fn item_score(item: &Item, outcome: &Outcome) -> ItemScore {
+pub fn item_score(item: &Item, outcome: &ItemOutcome) -> ItemScore {
     let mut score = ItemScore {
         id: item.id.clone(),
         title: item.title.clone(),
@@ -93,12 +94,15 @@ pub fn item_score(item: &Item, outcome: &Outcome) -> ItemScore {
         staff: None,
     };
     match outcome {
-        Outcome::Pending => {}
-        Outcome::NotCompiled(why) => {
+        ItemOutcome::Pending => {}
+        ItemOutcome::NotCompiled(why) => {
             score.verdict = Verdict::NotCompiled;
-            score.message = not_compiled(item, why);
+            score.message = not_compiled_message(item, why);
         }
-        Outcome::Fault { fault, place } => {
+        ItemOutcome::Fault {
+            fault,
+            culprit: place,
+        } => {
             score.verdict = verdict_of(fault);
             score.message = fault.to_string();
             score.section = item.section.clone();
@@ -109,19 +113,19 @@ pub fn item_score(item: &Item, outcome: &Outcome) -> ItemScore {
                 wanted: "an answer".to_owned(),
             });
         }
-        Outcome::GivenUp(fault) => {
+        ItemOutcome::Skipped(fault) => {
             score.verdict = verdict_of(fault);
             score.message = "not asked: other items of this task had run out of time".to_owned();
         }
-        Outcome::Answered(judgements) => answered(item, judgements, &mut score),
+        ItemOutcome::Answered(judgements) => score_answers(item, judgements, &mut score),
     }
     score
 }
 
-fn not_compiled(item: &Item, why: &NotCompiled) -> String {
+fn not_compiled_message(item: &Item, why: &NotCompiled) -> String {
     match why {
         NotCompiled::Unreadable(unreadable) => unreadable.to_string(),
-        NotCompiled::Lacks(part) => {
+        NotCompiled::MissingDeclaration(part) => {
             format!(
                 "{} has no `{part}`, which other files call",
                 item.task.file()
@@ -136,7 +140,9 @@ fn not_compiled(item: &Item, why: &NotCompiled) -> String {
 pub fn file_line(why: &NotCompiled) -> Option<u32> {
     match why {
         NotCompiled::Error { line, .. } => *line,
-        NotCompiled::Unreadable(_) | NotCompiled::Lacks(_) | NotCompiled::Compiler(_) => None,
+        NotCompiled::Unreadable(_)
+        | NotCompiled::MissingDeclaration(_)
+        | NotCompiled::Compiler(_) => None,
     }
 }
 
@@ -144,8 +150,12 @@ pub fn file_line(why: &NotCompiled) -> Option<u32> {
 pub fn file_message(file: &str, why: &NotCompiled) -> String {
     match why {
         NotCompiled::Unreadable(unreadable) => unreadable.to_string(),
-        NotCompiled::Lacks(part) => format!("{file} has no `{part}`, which other files call"),
-        NotCompiled::Error { text, .. } | NotCompiled::Compiler(text) => tame(text, LONGEST),
+        NotCompiled::MissingDeclaration(part) => {
+            format!("{file} has no `{part}`, which other files call")
+        }
+        NotCompiled::Error { text, .. } | NotCompiled::Compiler(text) => {
+            sanitize(text, MAX_TEXT_CHARS)
+        }
     }
 }
 
@@ -158,11 +168,11 @@ fn verdict_of(fault: &Fault) -> Verdict {
     }
 }
 
-fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
-    let share = judgements.iter().map(|judgement| judgement.share).min();
-    let share = share.unwrap_or(Share::NONE);
-    score.points = share.of(item.points);
-    if share == Share::ALL {
+fn score_answers(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
+    let share = judgements.iter().map(|judgement| judgement.credit).min();
+    let share = share.unwrap_or(Credit::NONE);
+    score.points = share.apply(item.points);
+    if share == Credit::FULL {
         score.verdict = Verdict::Pass;
         return;
     }
@@ -173,7 +183,7 @@ fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
     let worst = judgements
         .iter()
         .enumerate()
-        .find(|(_, j)| j.share == share);
+        .find(|(_, j)| j.credit == share);
     let Some((question, failure)) = worst.and_then(|(i, j)| Some((i, j.failure.as_ref()?))) else {
         score.verdict = Verdict::Protocol;
         return;
@@ -182,27 +192,30 @@ fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
         0 => verdict,
         _ => Verdict::Partial,
     };
-    let (verdict, got, wanted) = match &failure.how {
-        How::Wrong { what, got, wanted } => {
-            score.message = message(what, failure);
+    let (verdict, got, wanted) = match &failure.kind {
+        FailureKind::Wrong { what, got, wanted } => {
+            score.message = wrong_answer_message(what, failure);
             (partial(Verdict::Wrong), got.clone(), wanted.clone())
         }
-        How::Panicked(panic) if panic.is_unimplemented() => {
+        FailureKind::Panicked(panic) if panic.is_unimplemented() => {
             score.verdict = Verdict::Unimplemented;
-            score.message = format!("{} still says `todo!`", tame(&panic.place, LONGEST));
-            score.at = CodePlace::of_panic(&panic.place);
+            score.message = format!(
+                "{} still says `todo!`",
+                sanitize(&panic.location, MAX_TEXT_CHARS)
+            );
+            score.at = CodeLocation::from_panic(&panic.location);
             score.look = None;
             score.section = item.section.as_ref().map(Section::whole_chapter);
             return;
         }
-        How::Panicked(panic) => {
-            let (place, words) = (&panic.place, &panic.message);
-            score.message = tame(&format!("panicked at {place}: {words}"), LONGEST);
-            score.at = CodePlace::of_panic(&panic.place);
+        FailureKind::Panicked(panic) => {
+            let (place, words) = (&panic.location, &panic.message);
+            score.message = sanitize(&format!("panicked at {place}: {words}"), MAX_TEXT_CHARS);
+            score.at = CodeLocation::from_panic(&panic.location);
             let panicked = partial(Verdict::Panicked);
             (panicked, "a panic".to_owned(), "an answer".to_owned())
         }
-        How::Protocol(why) => {
+        FailureKind::Protocol(why) => {
             score.verdict = Verdict::Protocol;
             score.message = format!("what came back is no answer: {why}");
             return;
@@ -217,7 +230,7 @@ fn answered(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
     });
 }
 
-fn message(what: &str, failure: &Failure) -> String {
+fn wrong_answer_message(what: &str, failure: &Failure) -> String {
     match failure.count {
         Some((wrong, of)) if of > 1 => format!("{wrong} of {of} are wrong; the first: {what}"),
         Some(_) | None => format!("first mistake: {what}"),
@@ -225,7 +238,7 @@ fn message(what: &str, failure: &Failure) -> String {
 }
 
 /// The item of another task that this one needs, which earned nothing.
-pub fn resting_on<'a>(item: &'a Item, others: &Score) -> Option<&'a str> {
+pub fn blocking_item<'a>(item: &'a Item, others: &Score) -> Option<&'a str> {
     let earned_nothing = |id: &&String| {
         let needed = others.items().find(|other| other.id == **id);
         needed.is_some_and(|needed| needed.points == 0)
@@ -234,7 +247,7 @@ pub fn resting_on<'a>(item: &'a Item, others: &Score) -> Option<&'a str> {
 }
 
 /// Nobody can tell whose mistake it is, where there is no right part to try instead.
-pub fn blocked(by: &str, line: ItemScore) -> ItemScore {
+pub fn blocked_score(by: &str, line: ItemScore) -> ItemScore {
     if line.points > 0 || line.verdict == Verdict::Pending {
         return line;
     }
@@ -251,7 +264,7 @@ pub fn blocked(by: &str, line: ItemScore) -> ItemScore {
 
 /// With what the known mistakes that explain the answers would do well to hear. Which ones they
 /// are is for staff.
-pub fn hinted(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
+pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
     if mistakes.is_empty() {
         return;
     }
@@ -270,7 +283,7 @@ pub fn hinted(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
 
 /// What the submission earns with right parts in the place of its other files, which is what
 /// counts: a mistake in those costs nothing here, and no mistake here is hidden by one in those.
-pub fn carried_forward(by: &str, own: &ItemScore, carried: ItemScore) -> ItemScore {
+pub fn substituted_score(by: &str, own: &ItemScore, carried: ItemScore) -> ItemScore {
     let message = match (own.verdict == Verdict::Pass, carried.message.as_str()) {
         (true, "") => String::new(),
         (false, "") => {

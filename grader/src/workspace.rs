@@ -14,11 +14,11 @@ pub struct Workspace {
 #[error(
     "can not find the assignment's folder (the one with student/framework): run the command inside it"
 )]
-pub struct NoWorkspace;
+pub struct WorkspaceError;
 
 impl Workspace {
     /// The workspace around the current folder, else the one that this program was built in.
-    pub fn find() -> Result<Self, NoWorkspace> {
+    pub fn find() -> Result<Self, WorkspaceError> {
         let here = env::current_dir().unwrap_or_default();
         let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
         here.ancestors()
@@ -31,7 +31,7 @@ impl Workspace {
             .map(|root| Workspace {
                 root: root.to_owned(),
             })
-            .ok_or(NoWorkspace)
+            .ok_or(WorkspaceError)
     }
 
     /// The folder itself.
@@ -52,7 +52,7 @@ impl Workspace {
 
     /// All that the grader writes unless told otherwise: reports, and what it keeps for the next
     /// run. `cargo clean` takes it away.
-    pub fn grade(&self) -> PathBuf {
+    pub fn output_folder(&self) -> PathBuf {
         self.root.join("target/grade")
     }
 

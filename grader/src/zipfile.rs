@@ -11,7 +11,7 @@ use rawzip::{
 
 /// What the upper half of the bytes means in a name that is no UTF-8: code page 437, which the format
 /// was made with. PKWARE's APPNOTE.TXT, appendix D.
-const UPPER_HALF: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐\
+const CODE_PAGE_437: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐\
     └┴┬├─┼╞╟╚╔╩╦╠═╬╧╨╤╥╙╘╒╓╫╪┘┌█▄▌▐▀αßΓπΣσµτΦΘΩδ∞φε∩≡±≥≤⌠⌡÷≈°∙·√ⁿ²■\u{a0}";
 
 /// A zip, its directory read.
@@ -24,7 +24,7 @@ pub struct Zip<R> {
 
 /// What a directory says of a file or folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum EntryKind {
     /// A file.
     File,
     /// A folder.
@@ -39,37 +39,37 @@ pub struct Entry {
     /// As it stands there, whatever that leads to.
     pub name: String,
     /// What it is.
-    pub kind: Kind,
+    pub kind: EntryKind,
     /// Who may read, write and run it: nine bits, as Unix has them.
     pub permissions: u32,
     method: CompressionMethod,
     is_encrypted: bool,
-    place: ZipArchiveEntryWayfinder,
+    wayfinder: ZipArchiveEntryWayfinder,
 }
 
 /// Why a zip, or one file in it, can not be read.
 #[derive(Debug, thiserror::Error)]
-pub enum BadZip {
+pub enum ZipError {
     /// It ends too soon, or is not what it claims to be.
     #[error("{0}")]
     Damaged(#[from] rawzip::Error),
     /// Its directory is longer or shorter than its end says.
     #[error("its directory holds another number of files than it says")]
-    Count,
+    WrongCount,
     /// It holds more than was to be read.
     #[error("it holds more than {0} files")]
-    TooMany(usize),
+    TooManyEntries(usize),
     /// A file is encrypted.
     #[error("it needs a password")]
     Encrypted,
     /// A file is compressed in a way that is rarely used.
     #[error("it is compressed in a way of its own")]
-    Method,
+    UnsupportedMethod,
 }
 
 impl<R: ReaderAt> Zip<R> {
     /// Reads the directory of a zip of so many bytes, of at most so many entries.
-    pub fn open(bytes: R, length: u64, most: usize) -> Result<Self, BadZip> {
+    pub fn open(bytes: R, length: u64, most: usize) -> Result<Self, ZipError> {
         let mut buffer = vec![0; RECOMMENDED_BUFFER_SIZE];
         let located = ZipLocator::new().locate_in_reader(bytes, &mut buffer, length);
         let archive = located.map_err(|(_, error)| error)?;
@@ -77,28 +77,28 @@ impl<R: ReaderAt> Zip<R> {
         let mut directory = archive.entries(&mut buffer);
         while let Some(header) = directory.next_entry()? {
             if entries.len() == most {
-                return Err(BadZip::TooMany(most));
+                return Err(ZipError::TooManyEntries(most));
             }
             entries.push(Entry::new(&header));
         }
         // What is cut out of a directory would else be missing without a word.
         if archive.entries_hint() != entries.len() as u64 {
-            return Err(BadZip::Count);
+            return Err(ZipError::WrongCount);
         }
         Ok(Zip { archive, entries })
     }
 
     /// The bytes of one of the entries; at their end it is known whether they are whole.
-    pub fn read(&self, entry: &Entry) -> Result<impl Read + '_, BadZip> {
+    pub fn read(&self, entry: &Entry) -> Result<impl Read + '_, ZipError> {
         if entry.is_encrypted {
-            return Err(BadZip::Encrypted);
+            return Err(ZipError::Encrypted);
         }
-        let found = self.archive.get_entry(entry.place)?;
+        let found = self.archive.get_entry(entry.wayfinder)?;
         let packed = found.reader();
         let bytes: Box<dyn Read> = match entry.method {
             CompressionMethod::STORE => Box::new(packed),
             CompressionMethod::DEFLATE => Box::new(DeflateDecoder::new(packed)),
-            _ => return Err(BadZip::Method),
+            _ => return Err(ZipError::UnsupportedMethod),
         };
         Ok(found.verifying_reader(bytes))
     }
@@ -108,26 +108,29 @@ impl Entry {
     fn new(header: &ZipFileHeaderRecord) -> Self {
         let mode = header.mode();
         Entry {
-            name: name(header.file_path().as_bytes()),
+            name: decode_name(header.file_path().as_bytes()),
             kind: match mode.value() & 0o170_000 {
-                _ if header.is_dir() => Kind::Folder,
-                0o040_000 => Kind::Folder,
-                0 | 0o100_000 => Kind::File,
-                _ => Kind::Special,
+                _ if header.is_dir() => EntryKind::Folder,
+                0o040_000 => EntryKind::Folder,
+                0 | 0o100_000 => EntryKind::File,
+                _ => EntryKind::Special,
             },
             permissions: mode.permissions(),
             method: header.compression_method(),
             is_encrypted: header.flags().is_encrypted(),
-            place: header.wayfinder(),
+            wayfinder: header.wayfinder(),
         }
     }
 }
 
 /// Those who write UTF-8 do not always say so.
-fn name(bytes: &[u8]) -> String {
+fn decode_name(bytes: &[u8]) -> String {
     let of_byte = |byte: &u8| match byte.checked_sub(128) {
         None => char::from(*byte),
-        Some(place) => UPPER_HALF.chars().nth(place.into()).expect("there are 128"),
+        Some(place) => CODE_PAGE_437
+            .chars()
+            .nth(place.into())
+            .expect("there are 128"),
     };
     match str::from_utf8(bytes) {
         Ok(name) => name.to_owned(),
@@ -137,12 +140,12 @@ fn name(bytes: &[u8]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{UPPER_HALF, name};
+    use super::{CODE_PAGE_437, decode_name};
 
     #[test]
-    fn names_are_utf8_or_of_the_code_page_that_the_format_was_made_with() {
-        assert_eq!(UPPER_HALF.chars().count(), 128);
-        assert_eq!(name("Jürgen/bvh.rs".as_bytes()), "Jürgen/bvh.rs");
-        assert_eq!(name(b"J\x81rgen/\xe1.rs"), "Jürgen/ß.rs");
+    fn decodes_names_as_utf8_or_code_page_437() {
+        assert_eq!(CODE_PAGE_437.chars().count(), 128);
+        assert_eq!(decode_name("Jürgen/bvh.rs".as_bytes()), "Jürgen/bvh.rs");
+        assert_eq!(decode_name(b"J\x81rgen/\xe1.rs"), "Jürgen/ß.rs");
     }
 }

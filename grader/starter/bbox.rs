@@ -97,7 +97,7 @@ mod tests {
 
     #[ignore = "task 3: not written yet"]
     #[test]
-    fn straight_through_the_middle() {
+    fn a_ray_through_the_centre_hits() {
         let ray = Ray::new(vec3(-3.0, 0.0, 0.0), Vec3::X);
         let inside = cube().hit(&ray, Interval::AHEAD);
         assert_inside(inside, 2.0, 4.0);
@@ -105,7 +105,7 @@ mod tests {
 
     #[ignore = "task 3: not written yet"]
     #[test]
-    fn from_inside_the_times_are_clipped() {
+    fn the_answer_is_clipped_to_times() {
         let ray = Ray::new(Vec3::ZERO, Vec3::X);
         let inside = cube().hit(&ray, Interval::new(0.25, 9.0));
         assert_inside(inside, 0.25, 1.0);
@@ -113,7 +113,7 @@ mod tests {
 
     #[ignore = "task 3: not written yet"]
     #[test]
-    fn one_slab_after_the_other_is_not_enough() {
+    fn a_ray_must_be_in_all_slabs_at_once() {
         // It leaves the x slab before it enters the y slab.
         let ray = Ray::new(vec3(0.0, -4.0, 0.0), vec3(1.0, 1.0, 0.0));
         assert_eq!(cube().hit(&ray, Interval::AHEAD), None, "it misses the box");

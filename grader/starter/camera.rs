@@ -68,7 +68,7 @@ mod tests {
 
     #[ignore = "task 1: not written yet"]
     #[test]
-    fn the_middle_of_the_film_is_straight_ahead() {
+    fn the_centre_of_the_film_is_straight_ahead() {
         let ray = wide().sample_ray(uvec2(4, 2), vec2(0.0, 0.0));
         assert_eq!(ray.origin, Vec3::ZERO);
         assert_dir(ray, vec3(0.0, 0.0, -1.0));

@@ -23,8 +23,8 @@ impl Primitive {
                 vertices: [p0, p1, p2],
                 material,
             } => Primitive::Triangle(Triangle::new(p0, p1, p2, material)),
-            Shape::Facet { corners, material } => {
-                let [p0, p1, p2] = Shape::facet_vertices(corners);
+            Shape::FlatTriangle { corners, material } => {
+                let [p0, p1, p2] = Shape::flat_triangle_vertices(corners);
                 Primitive::Triangle(Triangle::new(p0, p1, p2, material))
             }
             Shape::Sphere {

@@ -91,7 +91,7 @@ mod tests {
 
     #[ignore = "task 2: not written yet"]
     #[test]
-    fn head_on_the_near_side_is_hit() {
+    fn from_outside_the_near_side_is_hit() {
         let trace = ball().hit(&Ray::new(Vec3::ZERO, Vec3::NEG_Z));
         let trace = trace.expect("it points at the centre");
         assert_at(&trace, 3.0, Vec3::Z);
@@ -112,7 +112,7 @@ mod tests {
 
     #[ignore = "task 2: not written yet"]
     #[test]
-    fn what_lies_beyond_the_range_is_not_hit() {
+    fn a_sphere_beyond_the_range_is_not_hit() {
         let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z).within(0.0, 2.5);
         let trace = ball().hit(&ray);
         assert!(trace.is_none(), "wanted None, got {trace:?}");

@@ -448,7 +448,7 @@ mod tests {
 
     // starter: #[ignore = "task 3: not written yet"]
     #[test]
-    fn of_a_row_of_balls_the_nearest_is_hit() {
+    fn the_nearest_sphere_of_a_row_is_hit() {
         let bvh = Bvh::build(row(10), 1);
         let trace = bvh.hit(&Ray::new(vec3(25.0, 0.0, 0.0), Vec3::NEG_X));
         let trace = trace.expect("the row lies ahead");
@@ -462,7 +462,7 @@ mod tests {
 
     // starter: #[ignore = "task 3: not written yet"]
     #[test]
-    fn a_box_that_is_missed_is_not_entered() {
+    fn a_missed_box_is_not_entered() {
         // One leaf lies: its ball is far outside its box. The other holds what its box promises.
         let balls = row(2);
         let elsewhere = BBox::new(vec3(0.0, 7.0, 7.0), vec3(1.0, 8.0, 8.0));

@@ -20,43 +20,48 @@ pub struct Student;
 impl Submission for Student {
     fn camera(&self, lens: &PinholeCamera) -> Box<dyn CameraRays> {
         let camera = Camera::new(lens.vertical_fov, lens.aspect_ratio, lens.film);
-        Box::new(Yours(camera))
+        Box::new(Adapter(camera))
     }
 
-    fn list(&self, shapes: &[Shape]) -> Box<dyn Aggregate> {
-        Box::new(Yours(primitives(shapes)))
+    fn primitive_list(&self, shapes: &[Shape]) -> Box<dyn Aggregate> {
+        Box::new(Adapter(primitives(shapes)))
     }
 
-    fn inside(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval> {
+    fn intersect_box(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval> {
         BBox::new(min, max).hit(ray, times)
     }
 
     fn build(&self, shapes: &[Shape], max_leaf_size: usize) -> Box<dyn Hierarchy> {
-        Box::new(Yours(Bvh::build(primitives(shapes), max_leaf_size)))
+        Box::new(Adapter(Bvh::build(primitives(shapes), max_leaf_size)))
     }
 
-    fn planted(&self, shapes: &[Shape], tree: &[TreeNode], root: usize) -> Box<dyn Hierarchy> {
+    fn prebuilt_tree(
+        &self,
+        shapes: &[Shape],
+        tree: &[TreeNode],
+        root: usize,
+    ) -> Box<dyn Hierarchy> {
         let mut nodes = Vec::new();
         for node in tree {
-            nodes.push(planted(node));
+            nodes.push(to_node(node));
         }
-        Box::new(Yours(Bvh::from_nodes(primitives(shapes), nodes, root)))
+        Box::new(Adapter(Bvh::from_nodes(primitives(shapes), nodes, root)))
     }
 }
 
 /// Something of yours, which the framework asks.
-struct Yours<T>(T);
+struct Adapter<T>(T);
 
-impl CameraRays for Yours<Camera> {
+impl CameraRays for Adapter<Camera> {
     fn ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
-        let Yours(camera) = self;
+        let Adapter(camera) = self;
         camera.sample_ray(pixel, offset)
     }
 }
 
-impl Aggregate for Yours<Vec<Primitive>> {
+impl Aggregate for Adapter<Vec<Primitive>> {
     fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
-        let Yours(primitives) = self;
+        let Adapter(primitives) = self;
         let mut nearest = None;
         for primitive in primitives {
             nearest = Trace::nearer(nearest, primitive.hit(ray));
@@ -65,26 +70,26 @@ impl Aggregate for Yours<Vec<Primitive>> {
     }
 }
 
-impl Aggregate for Yours<Bvh> {
+impl Aggregate for Adapter<Bvh> {
     fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
-        let Yours(bvh) = self;
+        let Adapter(bvh) = self;
         bvh.hit(ray)
     }
 }
 
-impl Hierarchy for Yours<Bvh> {
+impl Hierarchy for Adapter<Bvh> {
     fn root(&self) -> usize {
-        let Yours(bvh) = self;
+        let Adapter(bvh) = self;
         bvh.root
     }
 
-    fn nodes(&self) -> usize {
-        let Yours(bvh) = self;
+    fn node_count(&self) -> usize {
+        let Adapter(bvh) = self;
         bvh.nodes.len()
     }
 
     fn node(&self, place: usize) -> TreeNode {
-        let Yours(bvh) = self;
+        let Adapter(bvh) = self;
         let node = &bvh.nodes[place];
         TreeNode::new(
             node.bbox.min,
@@ -96,13 +101,13 @@ impl Hierarchy for Yours<Bvh> {
         )
     }
 
-    fn primitives(&self) -> usize {
-        let Yours(bvh) = self;
+    fn primitive_count(&self) -> usize {
+        let Adapter(bvh) = self;
         bvh.primitives.len()
     }
 
     fn material(&self, place: usize) -> u32 {
-        let Yours(bvh) = self;
+        let Adapter(bvh) = self;
         bvh.primitives[place].material()
     }
 }
@@ -116,7 +121,7 @@ fn primitives(shapes: &[Shape]) -> Vec<Primitive> {
 }
 
 /// A node of the exam's own tree.
-fn planted(node: &TreeNode) -> Node {
+fn to_node(node: &TreeNode) -> Node {
     let bbox = BBox::new(node.min, node.max);
     if node.is_leaf() {
         Node::leaf(bbox, node.start as usize, node.size as usize)

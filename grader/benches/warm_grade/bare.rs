@@ -8,14 +8,14 @@ use std::process::Command;
 use serde_json::Value;
 
 /// The call, once as it is and once as far as the types.
-pub struct Bare {
+pub struct BareRustc {
     dependencies: Value,
 }
 
-impl Bare {
+impl BareRustc {
     /// With what a grade has just been built with.
     pub fn prepare(cache: &Path) -> Self {
-        Bare {
+        BareRustc {
             dependencies: newest(cache),
         }
     }

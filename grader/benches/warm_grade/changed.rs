@@ -5,8 +5,8 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-const FIVE: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
-const GIVEN: [&str; 2] = ["lib.rs", "primitive.rs"];
+const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
+const GIVEN_FILES: [&str; 2] = ["lib.rs", "primitive.rs"];
 
 /// The reference's files, in a folder of their own.
 pub fn submission(root: &Path) -> TempDir {
@@ -16,7 +16,7 @@ pub fn submission(root: &Path) -> TempDir {
 }
 
 /// The same for the bare compiler: the probe's way in needs `world`, the floor does not.
-pub fn floor(root: &Path) -> TempDir {
+pub fn baseline(root: &Path) -> TempDir {
     let folder = submission(root);
     let lib = folder.path().join("lib.rs");
     let text = fs::read_to_string(&lib).expect("it was copied");
@@ -26,7 +26,7 @@ pub fn floor(root: &Path) -> TempDir {
 
 /// Puts the reference's files there.
 pub fn copy(root: &Path, folder: &Path) {
-    for file in FIVE.into_iter().chain(GIVEN) {
+    for file in TASK_FILES.into_iter().chain(GIVEN_FILES) {
         let source = root.join("reference/src").join(file);
         fs::copy(source, folder.join(file)).expect("the reference is there");
     }

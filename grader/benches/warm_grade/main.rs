@@ -7,7 +7,7 @@ mod bare;
 mod changed;
 mod cost;
 mod median;
-mod watching;
+mod watch;
 mod wire;
 
 use std::fs;
@@ -19,67 +19,71 @@ use grader::build::Builder;
 use grader::submission::Submission;
 use grader::workspace::Workspace;
 
-use bare::Bare;
-use changed::{change, floor, submission};
+use bare::BareRustc;
+use changed::{baseline, change, submission};
 use cost::Cost;
 use median::median;
-use watching::Watching;
+use watch::WatchProcess;
 
 const ROUNDS: usize = 15;
 
 /// What is measured, in the order of one round, and what it is compared with.
 const ROWS: [Row; 7] = [
-    Row::new("bare rustc of the five files (F)", "F", By::Cpu),
-    Row::new("the same as far as types (T)", "F", By::Cpu),
-    Row::new("changed submission to probe", "F", By::Cpu),
-    Row::new("changed submission to score.json", "F", By::Cpu),
+    Row::new("bare rustc of the five files (F)", "F", TimeKind::Cpu),
+    Row::new("the same as far as types (T)", "F", TimeKind::Cpu),
+    Row::new("changed submission to probe", "F", TimeKind::Cpu),
+    Row::new("changed submission to score.json", "F", TimeKind::Cpu),
     // What a program has used so far that goes on is not known.
-    Row::new("does not compile: until it is said", "T", By::Wall),
-    Row::new("--watch: save to all points", "F", By::Wall),
-    Row::new("unchanged: told again", "F", By::Cpu),
+    Row::new("does not compile: until it is said", "T", TimeKind::Wall),
+    Row::new("--watch: save to all points", "F", TimeKind::Wall),
+    Row::new("unchanged: told again", "F", TimeKind::Cpu),
 ];
 
 /// One line of the table.
 struct Row {
     name: &'static str,
-    unit: &'static str,
-    by: By,
+    baseline: &'static str,
+    time: TimeKind,
 }
 
 /// Which time is compared.
 #[derive(Clone, Copy)]
-enum By {
+enum TimeKind {
     Cpu,
     Wall,
 }
 
 impl Row {
-    const fn new(name: &'static str, unit: &'static str, by: By) -> Self {
-        Row { name, unit, by }
+    const fn new(name: &'static str, unit: &'static str, by: TimeKind) -> Self {
+        Row {
+            name,
+            baseline: unit,
+            time: by,
+        }
     }
 
     fn ratio(&self, cost: Cost, [f, t]: [Cost; 2]) -> f64 {
-        let against = match self.unit {
+        let against = match self.baseline {
             "T" => t,
             _ => f,
         };
-        match self.by {
-            By::Cpu => cost.cpu.as_secs_f64() / against.cpu.as_secs_f64(),
-            By::Wall => cost.wall.as_secs_f64() / against.wall.as_secs_f64(),
+        match self.time {
+            TimeKind::Cpu => cost.cpu.as_secs_f64() / against.cpu.as_secs_f64(),
+            TimeKind::Wall => cost.wall.as_secs_f64() / against.wall.as_secs_f64(),
         }
     }
 }
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let folder = floor(&root);
+    let folder = baseline(&root);
     let [broken, watched, same] = [(); 3].map(|()| submission(&root));
 
     grade(folder.path(), 100);
     let workspace = Workspace::find().expect("it is around us");
     let builder = Builder::prepare(&workspace).expect("it was prepared");
-    let bare = Bare::prepare(&workspace.grade().join("dependencies"));
-    let mut watching = Watching::start(watched.path());
+    let bare = BareRustc::prepare(&workspace.output_folder().join("dependencies"));
+    let mut watching = WatchProcess::start(watched.path());
     let mut rounds = Vec::new();
     for round in 0..ROUNDS {
         change(&root, folder.path(), round);
@@ -92,19 +96,19 @@ fn main() {
         });
         let whole = grade(folder.path(), 100);
         change(&root, broken.path(), round);
-        spoil(&broken.path().join("sphere.rs"));
-        let told = until_told(broken.path());
+        break_file(&broken.path().join("sphere.rs"));
+        let told = first_error(broken.path());
         let saved = Cost::of(|| {
             change(&root, watched.path(), round);
             watching.report();
         });
-        let again = told_again(same.path());
+        let again = regrade_unchanged(same.path());
         rounds.push([floor, types, probe, whole, told, saved, again]);
     }
     print(&rounds);
     drop(watching);
     let name = same.path().file_name().expect("it has a name");
-    fs::remove_dir_all(workspace.grade().join(name)).expect("it was graded there");
+    fs::remove_dir_all(workspace.output_folder().join(name)).expect("it was graded there");
 
     let world = submission(&root);
     let given = root.join("grader/starter/world.rs");
@@ -121,22 +125,22 @@ fn print(rounds: &[[Cost; ROWS.len()]]) {
     for (which, row) in ROWS.iter().enumerate() {
         let costs = || rounds.iter().map(|round| round[which]);
         let wall = 1e3 * median(costs().map(|cost| cost.wall.as_secs_f64()));
-        let cpu = match row.by {
-            By::Cpu => 1e3 * median(costs().map(|cost| cost.cpu.as_secs_f64())),
-            By::Wall => f64::NAN,
+        let cpu = match row.time {
+            TimeKind::Cpu => 1e3 * median(costs().map(|cost| cost.cpu.as_secs_f64())),
+            TimeKind::Wall => f64::NAN,
         };
         let ratio = median(
             rounds
                 .iter()
                 .map(|round| row.ratio(round[which], [round[0], round[1]])),
         );
-        let (name, unit) = (row.name, row.unit);
+        let (name, unit) = (row.name, row.baseline);
         println!("{name:36}{wall:>9.0}{cpu:>9.0}{ratio:>8.2} {unit}");
     }
 }
 
 /// Until the first word on a file that does not compile. The rest is graded after that.
-fn until_told(folder: &Path) -> Cost {
+fn first_error(folder: &Path) -> Cost {
     let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
     command.arg(folder).arg("--out").arg(folder.join("out"));
     command.stdout(Stdio::null()).stderr(Stdio::piped());
@@ -157,13 +161,13 @@ fn until_told(folder: &Path) -> Cost {
 }
 
 /// An error of types.
-fn spoil(file: &Path) {
+fn break_file(file: &Path) {
     let text = fs::read_to_string(file).expect("it was written");
     fs::write(file, format!("{text}\nconst RADIUS: f32 = \"one\";\n")).expect("it can be written");
 }
 
 /// A submission that has not changed, in its usual place. The first time, it is graded.
-fn told_again(folder: &Path) -> Cost {
+fn regrade_unchanged(folder: &Path) -> Cost {
     let grader = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
         command.arg(folder);

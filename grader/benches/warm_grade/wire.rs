@@ -7,17 +7,17 @@ use std::process::Stdio;
 use std::time::Duration;
 
 use glam::{Vec2, Vec3, vec3};
-use grader::ask::{Budget, Launcher};
+use grader::probe::{Budget, Launcher};
 use protocol::{Question, Ray, Rays, Shape, Vertex, wire};
 
-use crate::bare::Bare;
+use crate::bare::BareRustc;
 use crate::cost::Cost;
 use crate::median;
 
 const ROUNDS: usize = 7;
 const RAYS: usize = 100_000;
 /// The program without a pipe answers so often more, so that reading the questions does not count.
-const TIMES: u32 = 20;
+const REPETITIONS: u32 = 20;
 const BUDGET: Budget = Budget {
     cpu: Duration::from_secs(60),
 };
@@ -44,7 +44,7 @@ fn main() {
 "#;
 
 /// Prints a line for questions as the exam's, of many rays each, and one for the worst: of one ray.
-pub fn compare(folder: &Path, bare: &Bare, launcher: &Launcher) {
+pub fn compare(folder: &Path, bare: &BareRustc, launcher: &Launcher) {
     let lib = fs::read_to_string(folder.join("lib.rs")).expect("it was copied");
     fs::write(folder.join("in_process.rs"), lib + IN_PROCESS).expect("it can be written");
     Cost::of_program(&mut bare.program(folder, "in_process.rs"));
@@ -67,7 +67,7 @@ fn round(folder: &Path, launcher: &Launcher, questions: &[Question]) -> [f64; 2]
     });
     let file = folder.join("questions");
     fs::write(&file, frames).expect("it can be written");
-    let [once, more] = [0, TIMES].map(|times| {
+    let [once, more] = [0, REPETITIONS].map(|times| {
         let mut command = std::process::Command::new(folder.join("in_process"));
         let questions = fs::File::open(&file).expect("it was written");
         command.arg(times.to_string()).stdin(Stdio::from(questions));
@@ -80,7 +80,7 @@ fn round(folder: &Path, launcher: &Launcher, questions: &[Question]) -> [f64; 2]
         // Its time counts once it has ended.
         probe.finish();
     });
-    [more.saturating_sub(once) / TIMES, there.cpu].map(|cpu| 1e3 * cpu.as_secs_f64())
+    [more.saturating_sub(once) / REPETITIONS, there.cpu].map(|cpu| 1e3 * cpu.as_secs_f64())
 }
 
 /// All rays at one triangle, so many in each question; about half of them hit.

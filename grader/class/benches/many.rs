@@ -24,8 +24,8 @@ use std::{fs, iter, thread};
 use grader::workspace::Workspace;
 use tempfile::TempDir;
 
-use bare::Bare;
-use changed::{change, copy, floor};
+use bare::BareRustc;
+use changed::{baseline, change, copy};
 use cost::Cost;
 use median::median;
 
@@ -38,7 +38,7 @@ const FLOORS: usize = 5;
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let alone = floor(&root);
+    let alone = baseline(&root);
     let class = TempDir::new().expect("there is room for a folder");
     let students = (0..STUDENTS).map(|number| class.path().join(format!("student-{number}")));
     let students: Vec<PathBuf> = students.collect();
@@ -49,7 +49,7 @@ fn main() {
     // What all are built with is made before anything is measured.
     grade(class.path());
     let workspace = Workspace::find().expect("it is around us");
-    let bare = Bare::prepare(&workspace.grade().join("dependencies"));
+    let bare = BareRustc::prepare(&workspace.output_folder().join("dependencies"));
     let floors = || {
         let compile = || Cost::of_program(&mut bare.compile(alone.path()));
         iter::repeat_with(compile).take(FLOORS)

@@ -66,7 +66,7 @@ pub struct ClassArguments {
 
     /// How each submission is graded.
     #[command(flatten)]
-    pub grading: Grading,
+    pub grading: GradingOptions,
 
     /// Which lists there are.
     #[command(flatten)]
@@ -75,7 +75,7 @@ pub struct ClassArguments {
 
 /// How each submission is graded: as `cargo grade` does it.
 #[derive(Clone, Debug, Args)]
-pub struct Grading {
+pub struct GradingOptions {
     /// The exam to ask; default: the practice exam
     #[arg(long, value_name = "FILE")]
     pub exam: Option<PathBuf>,
@@ -143,9 +143,9 @@ pub struct MergeArguments {
     pub lists: Lists,
 }
 
-impl Grading {
+impl GradingOptions {
     /// The same as a command line of `cargo grade`, so that no default can be another one.
-    pub fn arguments(&self) -> Vec<OsString> {
+    pub fn to_arguments(&self) -> Vec<OsString> {
         let mut words: Vec<OsString> = vec!["cargo grade".into()];
         let files = [("--exam", &self.exam), ("--policy", &self.policy)];
         for (option, file) in files {
@@ -173,7 +173,7 @@ mod tests {
     use clap::CommandFactory;
 
     #[test]
-    fn the_command_line_does_not_contradict_itself() {
+    fn command_line_definition_is_valid() {
         Cli::command().debug_assert();
     }
 }

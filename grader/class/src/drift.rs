@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::outcome::{Item, Told};
+use crate::outcome::{ItemScore, ScoreSummary};
 
 /// Whose score changed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -14,12 +14,12 @@ pub struct Drift {
     /// What it has. None if it has no score any more.
     pub now: Option<u32>,
     /// Where that comes from.
-    pub items: Vec<Change>,
+    pub items: Vec<ItemChange>,
 }
 
 /// An item that earns something else.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Change {
+pub struct ItemChange {
     /// Which.
     pub item: String,
     /// What it had earned. None if it was not asked.
@@ -31,9 +31,9 @@ pub struct Change {
 }
 
 /// What changed for one entry. None if nothing did.
-pub fn drift(id: &str, was: &Told, now: Option<&Told>) -> Option<Drift> {
+pub fn compare_scores(id: &str, was: &ScoreSummary, now: Option<&ScoreSummary>) -> Option<Drift> {
     let items = match now {
-        Some(now) => changes(was, now),
+        Some(now) => item_changes(was, now),
         None => Vec::new(),
     };
     let is_same = now.is_some_and(|now| now.points == was.points) && items.is_empty();
@@ -45,21 +45,21 @@ pub fn drift(id: &str, was: &Told, now: Option<&Told>) -> Option<Drift> {
     })
 }
 
-fn changes(was: &Told, now: &Told) -> Vec<Change> {
-    let find = |told: &Told, id: &str| told.items().find(|item| item.id == id).cloned();
+fn item_changes(was: &ScoreSummary, now: &ScoreSummary) -> Vec<ItemChange> {
+    let find = |told: &ScoreSummary, id: &str| told.items().find(|item| item.id == id).cloned();
     let changed = now.items().filter_map(|item| {
         let old = find(was, &item.id);
         let same = old.as_ref().is_some_and(|old| old.points == item.points);
-        (!same).then(|| change(old.as_ref(), Some(item)))
+        (!same).then(|| item_change(old.as_ref(), Some(item)))
     });
     let gone = was.items().filter(|item| find(now, &item.id).is_none());
     changed
-        .chain(gone.map(|item| change(Some(item), None)))
+        .chain(gone.map(|item| item_change(Some(item), None)))
         .collect()
 }
 
-fn change(was: Option<&Item>, now: Option<&Item>) -> Change {
-    let told = |item: &Item| match item.message.as_str() {
+fn item_change(was: Option<&ItemScore>, now: Option<&ItemScore>) -> ItemChange {
+    let told = |item: &ItemScore| match item.message.as_str() {
         "" => item.verdict.clone(),
         message => format!("{}: {message}", item.verdict),
     };
@@ -72,7 +72,7 @@ fn change(was: Option<&Item>, now: Option<&Item>) -> Change {
         (_, None) => "not asked any more".to_owned(),
     };
     let item = now.or(was).map(|item| item.id.clone());
-    Change {
+    ItemChange {
         item: item.unwrap_or_default(),
         was: was.map(|item| item.points),
         now: now.map(|item| item.points),
@@ -83,10 +83,10 @@ fn change(was: Option<&Item>, now: Option<&Item>) -> Change {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::outcome::Task;
+    use crate::outcome::TaskScore;
 
-    fn told(items: &[(&str, u32, &str)]) -> Told {
-        let item = |(id, points, verdict): &(&str, u32, &str)| Item {
+    fn score(items: &[(&str, u32, &str)]) -> ScoreSummary {
+        let item = |(id, points, verdict): &(&str, u32, &str)| ItemScore {
             id: (*id).to_owned(),
             title: String::new(),
             points: *points,
@@ -95,12 +95,12 @@ mod tests {
             message: String::new(),
             hints: Vec::new(),
         };
-        let items: Vec<Item> = items.iter().map(item).collect();
+        let items: Vec<ItemScore> = items.iter().map(item).collect();
         let points = items.iter().map(|item| item.points).sum();
-        Told {
+        ScoreSummary {
             points,
             max_points: 2 * items.len() as u32,
-            tasks: vec![Task {
+            tasks: vec![TaskScore {
                 id: String::new(),
                 title: String::new(),
                 points,
@@ -111,10 +111,10 @@ mod tests {
     }
 
     #[test]
-    fn what_changed_is_told_item_by_item_even_where_the_sum_is_the_same() {
-        let was = told(&[("a", 2, "pass"), ("b", 0, "wrong"), ("c", 1, "partial")]);
-        let now = told(&[("a", 0, "timed_out"), ("b", 2, "pass"), ("d", 1, "partial")]);
-        let drift = drift("x", &was, Some(&now)).unwrap();
+    fn reports_item_changes_even_if_the_total_is_unchanged() {
+        let was = score(&[("a", 2, "pass"), ("b", 0, "wrong"), ("c", 1, "partial")]);
+        let now = score(&[("a", 0, "timed_out"), ("b", 2, "pass"), ("d", 1, "partial")]);
+        let drift = compare_scores("x", &was, Some(&now)).unwrap();
         let lines: Vec<_> = drift
             .items
             .iter()
@@ -131,9 +131,9 @@ mod tests {
     }
 
     #[test]
-    fn the_same_is_no_drift() {
-        let was = told(&[("a", 2, "pass")]);
-        assert_eq!(drift("x", &was, Some(&was.clone())), None);
-        assert!(drift("x", &was, None).is_some());
+    fn an_unchanged_score_is_not_a_drift() {
+        let was = score(&[("a", 2, "pass")]);
+        assert_eq!(compare_scores("x", &was, Some(&was.clone())), None);
+        assert!(compare_scores("x", &was, None).is_some());
     }
 }

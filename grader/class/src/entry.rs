@@ -10,14 +10,14 @@ pub struct Entry {
     /// Unique in the class, and the name of the folder with its results.
     pub id: String,
     /// Whose it is, as far as is known.
-    pub about: About,
+    pub info: EntryInfo,
     /// Where its files are.
     pub source: Source,
 }
 
 /// What results say of an entry.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct About {
+pub struct EntryInfo {
     /// Those who get the points. At least one.
     pub people: Vec<Person>,
     /// What the platform says of when it came.
@@ -57,7 +57,7 @@ pub enum Source {
     /// Single files, each with the name that it was handed in by.
     Files(Vec<(String, PathBuf)>),
     /// There are none, and why.
-    Nothing(String),
+    Missing(String),
 }
 
 impl Person {
@@ -70,14 +70,14 @@ impl Person {
     }
 
     /// What people read: the name, else whatever is known.
-    pub fn words(&self) -> &str {
+    pub fn display_name(&self) -> &str {
         let known = [&self.name, &self.login, &self.email, &self.sid];
         let words = known.into_iter().find(|text| !text.is_empty());
         words.unwrap_or(&self.number)
     }
 
     /// Takes over what another list knows of the same person.
-    pub fn learn(&mut self, other: &Person) {
+    pub fn fill_missing_from(&mut self, other: &Person) {
         let pairs = [
             (&mut self.name, &other.name),
             (&mut self.email, &other.email),
@@ -93,7 +93,7 @@ impl Person {
     }
 
     /// Whether both lists mean the same person: by what is one person's alone, never by name.
-    pub fn is(&self, other: &Person) -> bool {
+    pub fn matches(&self, other: &Person) -> bool {
         let pairs = [
             (&self.email, &other.email),
             (&self.sid, &other.sid),
@@ -107,16 +107,16 @@ impl Person {
     }
 }
 
-impl About {
+impl EntryInfo {
     /// All names, for people.
-    pub fn words(&self) -> String {
-        let names: Vec<&str> = self.people.iter().map(Person::words).collect();
+    pub fn display_names(&self) -> String {
+        let names: Vec<&str> = self.people.iter().map(Person::display_name).collect();
         names.join(" + ")
     }
 }
 
 /// Why nobody is graded from several archives.
-pub fn several_archives(count: usize) -> String {
+pub fn several_archives_message(count: usize) -> String {
     format!("{count} archives were handed in: keep the one that counts")
 }
 
@@ -139,21 +139,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_folders_name_leads_nowhere_else() {
+    fn folder_name_replaces_unsafe_characters() {
         assert_eq!(folder_name("../é ü/x:y"), "_é_ü_x_y");
         assert_eq!(folder_name(".."), "_");
         assert_eq!(folder_name("=cmd|' /C calc'!A0"), "_cmd____C_calc__A0");
     }
 
     #[test]
-    fn people_are_the_same_by_number_and_not_by_name() {
+    fn people_match_by_identifier_and_not_by_name() {
         let mut one = Person::named("Ann Lee");
         let other = Person {
             email: "Ann@x.edu".to_owned(),
             ..one.clone()
         };
-        assert!(!one.is(&other));
+        assert!(!one.matches(&other));
         one.email = "ann@x.edu".to_owned();
-        assert!(one.is(&other));
+        assert!(one.matches(&other));
     }
 }

@@ -3,29 +3,29 @@
 use std::path::PathBuf;
 
 use grader::error::Error as GraderError;
-use grader::isolate::NotIsolated;
 use grader::policy::PolicyError;
+use grader::select_isolation::IsolationError;
 
-use crate::no_class::NoClass;
+use crate::input_error::ClassInputError;
 use crate::shard::Shard;
 use crate::store::StoreError;
-use crate::table::BadTable;
+use crate::table::TableError;
 
 /// Why there is no class.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The input.
     #[error(transparent)]
-    Input(#[from] NoClass),
+    Input(#[from] ClassInputError),
     /// A list of the class.
     #[error(transparent)]
-    List(#[from] BadTable),
+    List(#[from] TableError),
     /// The output folder.
     #[error(transparent)]
     Store(#[from] StoreError),
     /// Submissions can not be kept apart from the machine.
     #[error("{0}; for code that you would run anyway, say --isolation none")]
-    Isolation(NotIsolated),
+    Isolation(IsolationError),
     /// The exam, the compiler, or what it needs.
     #[error(transparent)]
     Grader(GraderError),
@@ -39,47 +39,47 @@ pub enum Error {
     #[error(
         "{} holds scores that are not comparable: {} changed; --regrade grades all again and says \
          what changes, or name a new folder",
-        out.display(), what.join(", ")
+        out.display(), differences.join(", ")
     )]
-    Other {
+    SettingsChanged {
         /// The output folder.
         out: PathBuf,
         /// What is not the same.
-        what: Vec<&'static str>,
+        differences: Vec<&'static str>,
     },
     /// There is nothing to regrade.
     #[error("{} holds no scores yet: leave out --regrade", .0.display())]
     NothingToRegrade(PathBuf),
     /// A folder that is no shard.
     #[error("{} holds no results of `cargo class --shard`", .0.display())]
-    NoShard(PathBuf),
+    NotAShard(PathBuf),
     /// A shard that was not graded to its end.
     #[error("{} is not finished: run its `cargo class --shard` again", .0.display())]
-    Unfinished(PathBuf),
+    UnfinishedShard(PathBuf),
     /// Shards that were graded differently.
     #[error(
-        "{} and {} do not belong together: {} differ", one.display(), other.display(), what.join(", ")
+        "{} and {} do not belong together: {} differ", one.display(), other.display(), differences.join(", ")
     )]
-    Strangers {
+    IncompatibleShards {
         /// A shard.
         one: PathBuf,
         /// Another.
         other: PathBuf,
         /// What is not the same.
-        what: Vec<&'static str>,
+        differences: Vec<&'static str>,
     },
     /// Some shards were not named.
     #[error(
         "part {} is not among them, and who is in it would be lost: name all folders",
-        words(.0)
+        join_shards(.0)
     )]
-    Incomplete(Vec<Shard>),
+    MissingShards(Vec<Shard>),
     /// Shards whose points count for different things.
     #[error(
         "{} and {} were graded with different policies: say with --policy which one counts",
         one.display(), other.display()
     )]
-    Policies {
+    DifferentPolicies {
         /// A shard.
         one: PathBuf,
         /// Another.
@@ -87,7 +87,7 @@ pub enum Error {
     },
     /// The same entry in two shards.
     #[error("{id} is in {} and in {}: were both given the same --shard?", one.display(), other.display())]
-    Twice {
+    DuplicateEntry {
         /// The entry's id.
         id: String,
         /// A shard.
@@ -105,21 +105,21 @@ impl Error {
             | Error::List(_)
             | Error::Policy(_)
             | Error::Arguments(_)
-            | Error::Other { .. }
+            | Error::SettingsChanged { .. }
             | Error::NothingToRegrade(_)
-            | Error::NoShard(_)
-            | Error::Unfinished(_)
-            | Error::Strangers { .. }
-            | Error::Incomplete(_)
-            | Error::Policies { .. }
-            | Error::Twice { .. } => 2,
+            | Error::NotAShard(_)
+            | Error::UnfinishedShard(_)
+            | Error::IncompatibleShards { .. }
+            | Error::MissingShards(_)
+            | Error::DifferentPolicies { .. }
+            | Error::DuplicateEntry { .. } => 2,
             Error::Store(_) | Error::Isolation(_) => 3,
             Error::Grader(error) => error.exit_code(),
         }
     }
 }
 
-fn words(shards: &[Shard]) -> String {
+fn join_shards(shards: &[Shard]) -> String {
     let words: Vec<String> = shards.iter().map(Shard::to_string).collect();
     words.join(", ")
 }
@@ -131,7 +131,7 @@ impl From<GraderError> for Error {
             GraderError::Submission(_)
             | GraderError::Exam(_)
             | GraderError::Policy(_)
-            | GraderError::HandedIn(_)
+            | GraderError::SubmissionTime(_)
             | GraderError::Package(_)
             | GraderError::Output(_)
             | GraderError::Replay(_)

@@ -14,31 +14,31 @@
 //! | what is kept | [`store`], [`run`], [`outcome`], [`model`], [`late`] |
 //! | who handed in what | [`input`], [`no_class`], [`unpack`], [`layout`], [`listing`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`] |
 
-pub mod class;
 pub mod cli;
+pub mod distribution;
 pub mod drift;
 pub mod entry;
+pub mod entry_grader;
 pub mod error;
+pub mod grade;
 pub mod gradebook;
 pub mod groups;
 pub mod input;
+pub mod input_error;
 pub mod late;
 pub mod layout;
 pub mod listing;
 pub mod merge;
 pub mod model;
-pub mod no_class;
 pub mod outcome;
+pub mod output;
 pub mod progress;
 pub mod queue;
 pub mod report;
 pub mod roster;
 pub mod run;
 pub mod shard;
-pub mod spread;
 pub mod store;
 pub mod summary;
 pub mod table;
 pub mod unpack;
-pub mod work;
-pub mod written;

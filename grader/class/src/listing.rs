@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// How far down.
-const DEPTH: usize = 3;
+const MAX_DEPTH: usize = 3;
 /// Where nothing was handed in, however much lies there.
 const SKIPPED: [&str; 3] = ["__MACOSX", "target", "node_modules"];
 
@@ -17,49 +17,49 @@ pub struct Node {
     /// Where it is.
     pub path: PathBuf,
     /// What is in it, in the order of names, if it is a folder.
-    pub inside: Option<Vec<Node>>,
+    pub children: Option<Vec<Node>>,
 }
 
 impl Node {
     /// Whether it is a folder.
     pub fn is_folder(&self) -> bool {
-        self.inside.is_some()
+        self.children.is_some()
     }
 
     /// What is in it; nothing in a file.
-    pub fn nodes(&self) -> &[Node] {
-        self.inside.as_deref().unwrap_or_default()
+    pub fn children(&self) -> &[Node] {
+        self.children.as_deref().unwrap_or_default()
     }
 
     /// The one in it of this name.
     pub fn find(&self, name: &str) -> Option<&Node> {
-        self.nodes().iter().find(|node| node.name == name)
+        self.children().iter().find(|node| node.name == name)
     }
 
     /// Whether its name is that of an archive, readable or not.
     pub fn is_archive(&self) -> bool {
-        !self.is_folder() && is_archive(&self.name)
+        !self.is_folder() && is_archive_name(&self.name)
     }
 }
 
 /// Whether that is an archive's name, readable or not.
-pub fn is_archive(name: &str) -> bool {
+pub fn is_archive_name(name: &str) -> bool {
     let lower = name.to_lowercase();
     let ends = [".zip", ".tar", ".tar.gz", ".tgz", ".rar", ".7z"];
     ends.iter().any(|end| lower.ends_with(end))
 }
 
 /// The listing of a folder. Hidden files and links are left out; names are text.
-pub fn list(folder: &Path) -> io::Result<Node> {
+pub fn list_folder(folder: &Path) -> io::Result<Node> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     Ok(Node {
         name: name.into_owned(),
         path: folder.to_owned(),
-        inside: Some(inside(folder, DEPTH)?),
+        children: Some(list_children(folder, MAX_DEPTH)?),
     })
 }
 
-fn inside(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
+fn list_children(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
     let mut nodes = Vec::new();
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
@@ -70,14 +70,14 @@ fn inside(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
         let kind = entry.file_type()?;
         let inside = match (kind.is_dir(), depth) {
             (true, 0) => Some(Vec::new()),
-            (true, _) => Some(inside(&entry.path(), depth - 1)?),
+            (true, _) => Some(list_children(&entry.path(), depth - 1)?),
             (false, _) if kind.is_file() => None,
             (false, _) => continue,
         };
         nodes.push(Node {
             name,
             path: entry.path(),
-            inside,
+            children: inside,
         });
     }
     nodes.sort_by(|one, other| one.name.cmp(&other.name));

@@ -3,19 +3,19 @@
 use std::process::ExitCode;
 
 use clap::Parser;
-use class::class::{Done, class};
 use class::cli::{Cli, Command};
 use class::error::Error;
-use class::merge::merge;
+use class::grade::{Completion, grade_class};
+use class::merge::merge_shards;
 use grader::sandbox;
 
 fn main() -> ExitCode {
-    if let Some(ended) = sandbox::launched() {
+    if let Some(ended) = sandbox::run_as_launcher() {
         return ended;
     }
     match run(&Cli::parse()) {
-        Ok(Done::All) => ExitCode::SUCCESS,
-        Ok(Done::NotAll) => ExitCode::from(3),
+        Ok(Completion::Complete) => ExitCode::SUCCESS,
+        Ok(Completion::Incomplete) => ExitCode::from(3),
         Err(error) => {
             anstream::eprintln!("error: {error}");
             ExitCode::from(error.exit_code())
@@ -23,9 +23,9 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(cli: &Cli) -> Result<Done, Error> {
+fn run(cli: &Cli) -> Result<Completion, Error> {
     match &cli.command {
-        Some(Command::Merge(arguments)) => merge(arguments),
-        None => class(&cli.class),
+        Some(Command::Merge(arguments)) => merge_shards(arguments),
+        None => grade_class(&cli.class),
     }
 }

@@ -6,110 +6,113 @@ use std::path::{Path, PathBuf};
 
 use grader::policy::Policy;
 
-use crate::class::Done;
 use crate::cli::MergeArguments;
-use crate::entry::About;
+use crate::entry::EntryInfo;
 use crate::error::Error;
+use crate::grade::Completion;
 use crate::groups;
-use crate::model::{Class, Line};
-use crate::outcome::Row;
+use crate::model::{ClassRow, GradedClass};
+use crate::outcome::EntryResult;
+use crate::output::write_results;
 use crate::roster;
 use crate::run::Run;
 use crate::shard::Shard;
 use crate::store::{Store, StoreError};
-use crate::written::write;
 
 /// Copies the shards' results together, and writes what the class is told by.
-pub fn merge(arguments: &MergeArguments) -> Result<Done, Error> {
+pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     let shards: Result<Vec<(&PathBuf, Run)>, Error> = arguments
         .shards
         .iter()
-        .map(|path| Ok((path, finished(path)?)))
+        .map(|path| Ok((path, read_finished_run(path)?)))
         .collect();
     let shards = shards?;
     let (first, run) = &shards[0];
     for (other, theirs) in &shards[1..] {
-        belong_together((first, run), (other, theirs))?;
+        check_compatible((first, run), (other, theirs))?;
     }
     let parts: Vec<Shard> = shards.iter().filter_map(|(_, run)| run.shard).collect();
     let missing = Shard::missing(&parts);
     if !missing.is_empty() {
-        return Err(Error::Incomplete(missing));
+        return Err(Error::MissingShards(missing));
     }
-    let policy = policy(arguments, &shards)?;
+    let policy = choose_policy(arguments, &shards)?;
 
-    let out = Store::at(&arguments.out);
+    let out = Store::new(&arguments.out);
     let mut taken: BTreeMap<String, &Path> = BTreeMap::new();
     for (path, _) in &shards {
-        let shard = Store::at(path);
+        let shard = Store::new(path);
         for id in shard.ids()? {
             if let Some(other) = taken.insert(id.clone(), path) {
-                return Err(Error::Twice {
+                return Err(Error::DuplicateEntry {
                     id,
                     one: other.to_owned(),
                     other: (*path).clone(),
                 });
             }
-            copy(&shard.entry(&id), &out.entry(&id))?;
+            copy_entry(&shard.entry_folder(&id), &out.entry_folder(&id))?;
         }
     }
     let run = &Run {
         shard: None,
         ..run.clone()
     };
-    out.set_run(run)?;
+    out.write_run(run)?;
 
-    let rows: Vec<Row> = out.rows()?;
+    let rows: Vec<EntryResult> = out.results()?;
     let rows = rows.into_iter().filter(|row| taken.contains_key(&row.id));
-    let mut rows: Vec<Row> = rows.collect();
-    let people = rows.iter_mut().flat_map(|row| &mut row.about.people);
+    let mut rows: Vec<EntryResult> = rows.collect();
+    let people = rows.iter_mut().flat_map(|row| &mut row.info.people);
     let mut missing = roster::join(&arguments.lists, &mut people.collect::<Vec<_>>())?;
-    let mut abouts: Vec<&mut About> = rows.iter_mut().map(|row| &mut row.about).collect();
-    groups::complete(&arguments.lists, &mut abouts, &mut missing)?;
-    let class = Class {
+    let mut abouts: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
+    groups::add_group_members(&arguments.lists, &mut abouts, &mut missing)?;
+    let class = GradedClass {
         exam: run.settings.exam.clone(),
         exam_hash: run.settings.exam_hash.clone(),
         isolation: run.settings.isolation.clone(),
-        lines: rows.into_iter().map(|row| Line::of(row, &policy)).collect(),
+        rows: rows
+            .into_iter()
+            .map(|row| ClassRow::new(row, &policy))
+            .collect(),
         missing,
     };
-    write(&class, &out, &arguments.lists, None)?;
-    Ok(match class.faults() {
-        0 => Done::All,
-        _ => Done::NotAll,
+    write_results(&class, &out, &arguments.lists, None)?;
+    Ok(match class.fault_count() {
+        0 => Completion::Complete,
+        _ => Completion::Incomplete,
     })
 }
 
 /// The one that is named, else the one that all shards were graded with.
-fn policy(arguments: &MergeArguments, shards: &[(&PathBuf, Run)]) -> Result<Policy, Error> {
+fn choose_policy(arguments: &MergeArguments, shards: &[(&PathBuf, Run)]) -> Result<Policy, Error> {
     let (first, run) = &shards[0];
     if let Some(path) = &arguments.policy {
         return Ok(Policy::read(path)?);
     }
     if let Some((other, _)) = shards.iter().find(|(_, other)| other.policy != run.policy) {
-        return Err(Error::Policies {
+        return Err(Error::DifferentPolicies {
             one: (*first).clone(),
             other: (*other).clone(),
         });
     }
     Ok(match &run.policy {
-        Some(text) => Policy::of_text(&first.join("run.json"), text)?,
+        Some(text) => Policy::from_text(&first.join("run.json"), text)?,
         None => Policy::default(),
     })
 }
 
-fn finished(path: &Path) -> Result<Run, Error> {
-    let run = Store::at(path).run()?;
-    let run = run.ok_or_else(|| Error::NoShard(path.to_owned()))?;
+fn read_finished_run(path: &Path) -> Result<Run, Error> {
+    let run = Store::new(path).read_run()?;
+    let run = run.ok_or_else(|| Error::NotAShard(path.to_owned()))?;
     match run.finished {
         true => Ok(run),
-        false => Err(Error::Unfinished(path.to_owned())),
+        false => Err(Error::UnfinishedShard(path.to_owned())),
     }
 }
 
 /// Scores are compared, so they must follow from the same exam, asked in the same way. Programs and
 /// compilers are each machine's own.
-fn belong_together(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<(), Error> {
+fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<(), Error> {
     let local = [
         "the grader",
         "the compiler, the dependencies or the reference",
@@ -118,15 +121,15 @@ fn belong_together(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<(),
     what.retain(|what| !local.contains(what));
     match what.is_empty() {
         true => Ok(()),
-        false => Err(Error::Strangers {
+        false => Err(Error::IncompatibleShards {
             one: one.0.clone(),
             other: other.0.clone(),
-            what,
+            differences: what,
         }),
     }
 }
 
-fn copy(from: &Path, to: &Path) -> Result<(), StoreError> {
+fn copy_entry(from: &Path, to: &Path) -> Result<(), StoreError> {
     let at = |path: &Path| {
         let path = path.to_owned();
         move |source| StoreError::Io { path, source }

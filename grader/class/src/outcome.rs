@@ -3,44 +3,44 @@
 use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
-use crate::entry::About;
+use crate::entry::EntryInfo;
 
 /// One line of the class.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Row {
+pub struct EntryResult {
     /// The entry's id.
     pub id: String,
     /// Whose it is.
-    pub about: About,
+    pub info: EntryInfo,
     /// What became of it.
-    pub outcome: Outcome,
+    pub outcome: EntryOutcome,
 }
 
 /// What became of an entry. Only the first is a score.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub enum EntryOutcome {
     /// It was graded.
-    Graded(Box<Told>),
+    Graded(Box<ScoreSummary>),
     /// There was nothing that could be graded: the student's matter, and for a person to decide.
-    NoSubmission(String),
+    NothingToGrade(String),
     /// It was not graded, and the fault is ours or the machine's: for another try.
     Fault(String),
 }
 
 /// What the class's files need of a score file.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-pub struct Told {
+pub struct ScoreSummary {
     /// Of all tasks.
     pub points: u32,
     /// The most that could be had.
     pub max_points: u32,
     /// In lecture order.
-    pub tasks: Vec<Task>,
+    pub tasks: Vec<TaskScore>,
 }
 
 /// One task of a score file.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-pub struct Task {
+pub struct TaskScore {
     /// Such as `sphere`.
     pub id: String,
     /// What people read.
@@ -50,12 +50,12 @@ pub struct Task {
     /// The most that could be had.
     pub max_points: u32,
     /// In the order of asking.
-    pub items: Vec<Item>,
+    pub items: Vec<ItemScore>,
 }
 
 /// One item of a score file.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-pub struct Item {
+pub struct ItemScore {
     /// Such as `sphere.from_inside`.
     pub id: String,
     /// What must hold.
@@ -85,32 +85,34 @@ pub struct Stamp {
     /// Of the submission, and of all that its score follows from. Empty if there is no score.
     pub key: String,
     /// Whose it is.
-    pub about: About,
+    #[serde(rename = "about")]
+    pub info: EntryInfo,
     /// What became of it.
     #[serde(flatten)]
-    pub state: State,
+    pub state: EntryState,
 }
 
 /// An outcome without its score, which has a file of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "state", content = "why", rename_all = "snake_case")]
-pub enum State {
+pub enum EntryState {
     /// There is a score.
     Graded,
     /// There was nothing that could be graded.
-    NoSubmission(String),
+    #[serde(rename = "no_submission")]
+    NothingToGrade(String),
     /// Our fault, or the machine's.
     Fault(String),
 }
 
-impl Told {
+impl ScoreSummary {
     /// Reads a score file. It may come from another machine: points that no exam has are no points.
-    pub fn read(text: &str) -> Result<Self, serde_json::Error> {
+    pub fn parse(text: &str) -> Result<Self, serde_json::Error> {
         /// More than any exam has, and few enough that a class's sum is a number.
-        const MOST: u32 = 100_000;
-        let told: Told = serde_json::from_str(text)?;
+        const MAX_POINTS: u32 = 100_000;
+        let told: ScoreSummary = serde_json::from_str(text)?;
         match told.all_points().max() {
-            Some(points) if points > MOST => {
+            Some(points) if points > MAX_POINTS => {
                 Err(serde_json::Error::custom(format!("{points} are no points")))
             }
             Some(_) | None => Ok(told),
@@ -125,17 +127,17 @@ impl Told {
     }
 
     /// All items.
-    pub fn items(&self) -> impl Iterator<Item = &Item> {
+    pub fn items(&self) -> impl Iterator<Item = &ItemScore> {
         self.tasks.iter().flat_map(|task| &task.items)
     }
 }
 
-impl Row {
+impl EntryResult {
     /// The score, if there is one.
-    pub fn score(&self) -> Option<&Told> {
+    pub fn score(&self) -> Option<&ScoreSummary> {
         match &self.outcome {
-            Outcome::Graded(score) => Some(score),
-            Outcome::NoSubmission(_) | Outcome::Fault(_) => None,
+            EntryOutcome::Graded(score) => Some(score),
+            EntryOutcome::NothingToGrade(_) | EntryOutcome::Fault(_) => None,
         }
     }
 }

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
-use crate::outcome::{Outcome, Row};
+use crate::outcome::{EntryOutcome, EntryResult};
 
 /// Who is told.
 #[derive(Debug)]
@@ -27,30 +27,30 @@ struct Bars {
 
 impl Progress {
     /// Of `count` entries in so many slots.
-    pub fn of(count: usize, slots: usize) -> Self {
+    pub fn new(count: usize, slots: usize) -> Self {
         Progress {
             count,
             done: AtomicUsize::new(0),
             failed: AtomicUsize::new(0),
-            bars: io::stderr().is_terminal().then(|| bars(count, slots)),
+            bars: io::stderr().is_terminal().then(|| make_bars(count, slots)),
         }
     }
 
     /// What a slot is at.
-    pub fn at(&self, slot: usize, id: &str, words: &str) {
+    pub fn set_status(&self, slot: usize, id: &str, words: &str) {
         if let Some(bar) = self.bars.as_ref().and_then(|bars| bars.slots.get(slot)) {
             bar.set_message(format!("{id}: {words}"));
         }
     }
 
     /// An entry is done, now or kept from an earlier time.
-    pub fn end(&self, slot: usize, row: &Row, is_new: bool) {
+    pub fn finish_entry(&self, slot: usize, row: &EntryResult, is_new: bool) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         let is_failed = row.score().is_none();
         let failed = self
             .failed
             .fetch_add(usize::from(is_failed), Ordering::Relaxed);
-        let words = words(row);
+        let words = result_line(row);
         match &self.bars {
             Some(bars) => {
                 bars.slots
@@ -71,7 +71,7 @@ impl Progress {
     }
 
     /// Nothing more will come.
-    pub fn close(self) {
+    pub fn finish(self) {
         if let Some(bars) = self.bars {
             bars.slots.iter().for_each(ProgressBar::finish_and_clear);
             bars.all.finish_and_clear();
@@ -79,16 +79,16 @@ impl Progress {
     }
 }
 
-fn words(row: &Row) -> String {
+fn result_line(row: &EntryResult) -> String {
     let id = &row.id;
     match &row.outcome {
-        Outcome::Graded(score) => format!("{id}: {} of {}", score.points, score.max_points),
-        Outcome::NoSubmission(why) => format!("{id}: nothing to grade: {why}"),
-        Outcome::Fault(why) => format!("{id}: not graded, and not the student's fault: {why}"),
+        EntryOutcome::Graded(score) => format!("{id}: {} of {}", score.points, score.max_points),
+        EntryOutcome::NothingToGrade(why) => format!("{id}: nothing to grade: {why}"),
+        EntryOutcome::Fault(why) => format!("{id}: not graded, and not the student's fault: {why}"),
     }
 }
 
-fn bars(count: usize, slots: usize) -> Bars {
+fn make_bars(count: usize, slots: usize) -> Bars {
     let style = |template: &str| ProgressStyle::with_template(template).expect("it is constant");
     let drawing = MultiProgress::new();
     let line = || {

@@ -38,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn results_stand_in_the_order_of_the_jobs() {
+    fn results_are_in_the_order_of_the_jobs() {
         let jobs: Vec<usize> = (0..100).collect();
         let doubled = run(&jobs, 7, |_, job| 2 * job);
         assert_eq!(doubled, jobs.iter().map(|job| 2 * job).collect::<Vec<_>>());

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::cli::Lists;
-use crate::entry::{About, Person};
-use crate::table::{BadTable, Table};
+use crate::entry::{EntryInfo, Person};
+use crate::table::{Table, TableError};
 
 /// What platforms and people call a column, for each thing that we know of a person.
 const NAME: [&str; 4] = ["name", "full name", "student", "student name"];
@@ -30,11 +30,11 @@ const LOGIN: [&str; 7] = [
     "login_id",
 ];
 /// When it was handed in: classroom50's and GitHub Classroom's.
-const MOMENT: [&str; 2] = ["datetime", "submission_timestamp"];
+const SUBMISSION_TIME: [&str; 2] = ["datetime", "submission_timestamp"];
 const GROUP: [&str; 4] = ["group", "group name", "group_name", "team"];
 
 /// What Canvas writes into its gradebook that is nobody.
-const NOBODY: [&str; 2] = ["Points Possible", "Student, Test"];
+const PLACEHOLDER_NAMES: [&str; 2] = ["Points Possible", "Student, Test"];
 
 /// One line of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,13 +53,13 @@ pub struct Member {
 
 impl Member {
     /// Whether that is this person.
-    pub fn is(&self, person: &Person) -> bool {
-        person.is(&self.person) || self.is_named(person)
+    pub fn matches(&self, person: &Person) -> bool {
+        person.matches(&self.person) || self.matches_by_name(person)
     }
 
     /// A person who has nothing but a name, which is all that a folder tells, is known by that; but
     /// not where both have the platform's number, and it differs.
-    fn is_named(&self, person: &Person) -> bool {
+    fn matches_by_name(&self, person: &Person) -> bool {
         let known = &self.person;
         let is_bare = [&person.email, &person.sid, &person.login]
             .iter()
@@ -68,26 +68,29 @@ impl Member {
         let name = (!self.has_namesake).then_some(&known.name);
         let names = [&known.login, &known.sid, &known.email];
         let mut names = names.into_iter().chain(name);
-        let same = |known: &String| !known.is_empty() && is_same(known, &person.name);
+        let same = |known: &String| !known.is_empty() && equals_ignoring_case(known, &person.name);
         is_bare && !is_numbered && names.any(same)
     }
 
     fn is_namesake_of(&self, other: &Member) -> bool {
         let (one, other) = (&self.person, &other.person);
-        is_same(&one.name, &other.name) && !one.is(other) && one != other
+        equals_ignoring_case(&one.name, &other.name) && !one.matches(other) && one != other
     }
 }
 
 /// Tells entries when they were handed in, where the roster says so and the platform's files do not.
-pub fn date(lists: &Lists, entries: &mut [&mut About]) -> Result<(), BadTable> {
+pub fn set_submission_times(
+    lists: &Lists,
+    entries: &mut [&mut EntryInfo],
+) -> Result<(), TableError> {
     let Some(path) = &lists.roster else {
         return Ok(());
     };
-    let members = read(path)?;
+    let members = read_members(path)?;
     for about in entries.iter_mut().filter(|about| about.submitted.is_none()) {
         let theirs = members.iter().filter(|member| {
             let mut people = about.people.iter();
-            !member.submitted.is_empty() && people.any(|person| member.is(person))
+            !member.submitted.is_empty() && people.any(|person| member.matches(person))
         });
         // Of several the last is the one that was cloned. ISO 8601 is in order as it stands.
         if let Some(last) = theirs.max_by_key(|member| &member.submitted) {
@@ -98,25 +101,25 @@ pub fn date(lists: &Lists, entries: &mut [&mut About]) -> Result<(), BadTable> {
     Ok(())
 }
 
-fn is_same(one: &str, other: &str) -> bool {
+fn equals_ignoring_case(one: &str, other: &str) -> bool {
     one.to_lowercase() == other.to_lowercase()
 }
 
 /// The people in a list: a roster, or what a platform gives out to keep grades in.
-pub fn read(path: &Path) -> Result<Vec<Member>, BadTable> {
-    members(&Table::read(path)?).ok_or_else(|| BadTable::Lacks {
+pub fn read_members(path: &Path) -> Result<Vec<Member>, TableError> {
+    parse_members(&Table::read(path)?).ok_or_else(|| TableError::MissingColumn {
         path: path.to_owned(),
-        lacks: "that tells who is who".to_owned(),
+        column: "that tells who is who".to_owned(),
         remedy: "name its columns name, email, sid, username".to_owned(),
     })
 }
 
-fn members(table: &Table) -> Option<Vec<Member>> {
+fn parse_members(table: &Table) -> Option<Vec<Member>> {
     let column = |names: &[&str]| names.iter().find_map(|name| table.column(name));
     let [name, first, last] = [column(&NAME), column(&FIRST), column(&LAST)];
     let [email, sid, login] = [column(&EMAIL), column(&SID), column(&LOGIN)];
     let group = column(&GROUP);
-    let [moment, late] = [column(&MOMENT), table.column("late")];
+    let [moment, late] = [column(&SUBMISSION_TIME), table.column("late")];
     // Nothing else joins it with submissions.
     email.or(sid).or(login).or(name)?;
     // The platforms' own numbers, in the lists that can be told to be theirs.
@@ -157,7 +160,7 @@ fn members(table: &Table) -> Option<Vec<Member>> {
     };
     let members = table.rows.iter().map(member);
     let is_somebody = |Member { person, .. }: &Member| {
-        !person.words().is_empty() && !NOBODY.contains(&person.name.as_str())
+        !person.display_name().is_empty() && !PLACEHOLDER_NAMES.contains(&person.name.as_str())
     };
     let mut members: Vec<Member> = members.filter(is_somebody).collect();
     let namesakes: Vec<bool> = members
@@ -171,7 +174,7 @@ fn members(table: &Table) -> Option<Vec<Member>> {
 }
 
 /// Tells people what the lists know of them; returns those of the lists who are not among them.
-pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, BadTable> {
+pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, TableError> {
     let files = [
         &lists.roster,
         &lists.canvas,
@@ -180,15 +183,15 @@ pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, Ba
     ];
     let mut missing: Vec<Person> = Vec::new();
     for path in files.into_iter().flatten() {
-        for known in read(path)? {
+        for known in read_members(path)? {
             let mut count = 0;
             for person in people.iter_mut() {
-                if known.is(person) {
-                    person.learn(&known.person);
+                if known.matches(person) {
+                    person.fill_missing_from(&known.person);
                     count += 1;
                 }
             }
-            if count == 0 && !missing.iter().any(|other| other.is(&known.person)) {
+            if count == 0 && !missing.iter().any(|other| other.matches(&known.person)) {
                 missing.push(known.person);
             }
         }
@@ -200,34 +203,38 @@ pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, Ba
 mod tests {
     use super::*;
 
-    fn known(table: &str) -> Vec<Member> {
-        members(&Table::parse(table.as_bytes()).unwrap()).unwrap()
+    fn parse_roster(table: &str) -> Vec<Member> {
+        parse_members(&Table::parse(table.as_bytes()).unwrap()).unwrap()
     }
 
     #[test]
-    fn a_name_that_two_have_tells_neither() {
+    fn an_ambiguous_name_matches_nobody() {
         let ann = Person::named("Ann Lee");
-        let list = known("name,email\nAnn Lee,a@x.edu\nann lee,b@x.edu\nBob,c@x.edu\n");
-        assert!(!list[0].is(&ann) && !list[1].is(&ann));
-        assert!(list[2].is(&Person::named("bob")));
+        let list = parse_roster("name,email\nAnn Lee,a@x.edu\nann lee,b@x.edu\nBob,c@x.edu\n");
+        assert!(!list[0].matches(&ann) && !list[1].matches(&ann));
+        assert!(list[2].matches(&Person::named("bob")));
         // The same person in two sections is one.
-        let list = known("name,email\nAnn Lee,a@x.edu\nAnn Lee,A@x.edu\n");
-        assert!(list[0].is(&ann));
+        let list = parse_roster("name,email\nAnn Lee,a@x.edu\nAnn Lee,A@x.edu\n");
+        assert!(list[0].matches(&ann));
         // An account is one person's, whatever the name.
-        let list = known("name,username\nAnn Lee,ann1\nAnn Lee,ann2\n");
-        let named = |name| list.iter().filter(|m| m.is(&Person::named(name))).count();
+        let list = parse_roster("name,username\nAnn Lee,ann1\nAnn Lee,ann2\n");
+        let named = |name| {
+            list.iter()
+                .filter(|m| m.matches(&Person::named(name)))
+                .count()
+        };
         assert_eq!((named("ann2"), named("Ann Lee")), (1, 0));
     }
 
     #[test]
-    fn where_numbers_differ_the_same_name_is_somebody_elses() {
+    fn the_same_name_with_another_number_does_not_match() {
         let worksheet = "Identifier,Full name,Email address\nParticipant 307,Ann Lee,a@x.edu\n";
-        let list = known(worksheet);
+        let list = parse_roster(worksheet);
         let numbered = |number: &str| Person {
             number: number.to_owned(),
             ..Person::named("Ann Lee")
         };
-        assert!(list[0].is(&numbered("307")));
-        assert!(!list[0].is(&numbered("308")));
+        assert!(list[0].matches(&numbered("307")));
+        assert!(!list[0].matches(&numbered("308")));
     }
 }

@@ -51,7 +51,7 @@ pub const SCHEMA: u32 = 1;
 
 impl Run {
     /// The first of a folder.
-    pub fn first(settings: Settings) -> Self {
+    pub fn first_round(settings: Settings) -> Self {
         Run {
             schema: SCHEMA,
             round: 1,
@@ -66,8 +66,8 @@ impl Run {
 
     /// The next, of which nothing is graded yet. One that was never finished is no round to compare
     /// with.
-    pub fn next(&self, settings: Settings) -> Self {
-        let before = match self.is_begun_regrade() {
+    pub fn next_round(&self, settings: Settings) -> Self {
+        let before = match self.is_unfinished_regrade() {
             true => self.before.clone(),
             false => Some(self.settings.clone()),
         };
@@ -84,7 +84,7 @@ impl Run {
     }
 
     /// Whether the scores before it are kept already, and its own are not complete.
-    pub fn is_begun_regrade(&self) -> bool {
+    pub fn is_unfinished_regrade(&self) -> bool {
         !self.was_finished && self.before.is_some()
     }
 }

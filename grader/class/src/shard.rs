@@ -17,7 +17,7 @@ impl Shard {
     pub const ALL: Shard = Shard { part: 1, of: 1 };
 
     /// Those of `all` that are its own: every `of`th, so that parts are of one size.
-    pub fn of<T>(self, all: Vec<T>) -> Vec<T> {
+    pub fn select<T>(self, all: Vec<T>) -> Vec<T> {
         let own = |(place, one): (usize, T)| (place % self.of == self.part - 1).then_some(one);
         all.into_iter().enumerate().filter_map(own).collect()
     }
@@ -40,13 +40,13 @@ impl FromStr for Shard {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        const MEANT: &str = "K/N is meant, K from 1 to N, such as 2/8";
-        let (part, of) = text.split_once('/').ok_or(MEANT)?;
-        let number = |text: &str| text.parse::<usize>().map_err(|_| MEANT);
+        const EXPECTED: &str = "K/N is meant, K from 1 to N, such as 2/8";
+        let (part, of) = text.split_once('/').ok_or(EXPECTED)?;
+        let number = |text: &str| text.parse::<usize>().map_err(|_| EXPECTED);
         let (part, of) = (number(part)?, number(of)?);
         match (1..=of).contains(&part) {
             true => Ok(Shard { part, of }),
-            false => Err(MEANT),
+            false => Err(EXPECTED),
         }
     }
 }
@@ -56,10 +56,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_parts_are_the_whole_and_nobody_is_in_two() {
+    fn shards_partition_the_class() {
         let all: Vec<usize> = (0..11).collect();
         let shards = ["1/3", "2/3", "3/3"].map(|text| text.parse::<Shard>().unwrap());
-        let mut joined: Vec<usize> = shards.iter().flat_map(|s| s.of(all.clone())).collect();
+        let mut joined: Vec<usize> = shards.iter().flat_map(|s| s.select(all.clone())).collect();
         joined.sort_unstable();
         assert_eq!(joined, all);
         let missing = Shard::missing(&[shards[2], shards[0]]);

@@ -5,18 +5,18 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::model::{Class, Line};
-use crate::outcome::Told;
-use crate::spread::Spread;
+use crate::distribution::Distribution;
+use crate::model::{ClassRow, GradedClass};
+use crate::outcome::ScoreSummary;
 
 /// The version of `class.json`.
 const SCHEMA: u32 = 1;
 /// Of the longest lists, so many lines.
-const MOST: usize = 10;
+const MAX_ENTRIES: usize = 10;
 
 /// What a class did.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Summary {
+pub struct ClassSummary {
     /// The version of this format.
     pub schema: u32,
     /// The exam's name.
@@ -36,32 +36,32 @@ pub struct Summary {
     /// How many count as in time because nobody knows when they came.
     pub undated: usize,
     /// All points. None without a score.
-    pub points: Option<Spread>,
+    pub points: Option<Distribution>,
     /// In lecture order.
-    pub tasks: Vec<TaskSpread>,
+    pub tasks: Vec<TaskDistribution>,
     /// The items that most have failed, the worst first.
-    pub failed_most: Vec<Failed>,
+    pub failed_most: Vec<FailedItem>,
     /// The known mistakes that most have made, the commonest first.
-    pub mistakes: Vec<Mistake>,
+    pub mistakes: Vec<MistakeCount>,
     /// Whom a person should look at, and why.
     pub outliers: Vec<Outlier>,
 }
 
 /// One task's points.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct TaskSpread {
+pub struct TaskDistribution {
     /// Such as `sphere`.
     pub id: String,
     /// What people read.
     pub title: String,
     /// How its points spread.
     #[serde(flatten)]
-    pub points: Spread,
+    pub points: Distribution,
 }
 
 /// An item that was failed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Failed {
+pub struct FailedItem {
     /// Such as `sphere.from_inside`.
     pub item: String,
     /// What must hold.
@@ -72,7 +72,7 @@ pub struct Failed {
 
 /// A mistake that was recognised.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Mistake {
+pub struct MistakeCount {
     /// What is wrong.
     pub hint: String,
     /// In how many submissions.
@@ -88,24 +88,24 @@ pub struct Outlier {
     pub why: String,
 }
 
-impl Summary {
+impl ClassSummary {
     /// Of a class.
-    pub fn of(class: &Class) -> Self {
-        let scores: Vec<&Told> = class.scores().map(|(_, score)| score).collect();
+    pub fn new(class: &GradedClass) -> Self {
+        let scores: Vec<&ScoreSummary> = class.scores().map(|(_, score)| score).collect();
         let max_points = scores.first().map_or(0, |score| score.max_points);
         let points: Vec<u32> = scores.iter().map(|score| score.points).collect();
-        let points = Spread::of(points, max_points);
-        let not_graded = class.faults();
-        Summary {
+        let points = Distribution::new(points, max_points);
+        let not_graded = class.fault_count();
+        ClassSummary {
             schema: SCHEMA,
             exam: class.exam.clone(),
             exam_hash: class.exam_hash.clone(),
             isolation: class.isolation.clone(),
             graded: scores.len(),
-            nothing_to_grade: class.lines.len() - scores.len() - not_graded,
+            nothing_to_grade: class.rows.len() - scores.len() - not_graded,
             not_graded,
             missing: class.missing.len(),
-            undated: class.lines.iter().filter(|line| line.is_undated).count(),
+            undated: class.rows.iter().filter(|line| line.is_undated).count(),
             tasks: tasks(&scores),
             failed_most: failed_most(&scores),
             mistakes: mistakes(&scores),
@@ -115,7 +115,7 @@ impl Summary {
     }
 }
 
-fn tasks(scores: &[&Told]) -> Vec<TaskSpread> {
+fn tasks(scores: &[&ScoreSummary]) -> Vec<TaskDistribution> {
     let Some(first) = scores.first() else {
         return Vec::new();
     };
@@ -123,23 +123,23 @@ fn tasks(scores: &[&Told]) -> Vec<TaskSpread> {
         let task = &first.tasks[place];
         let points = scores.iter().filter_map(|score| score.tasks.get(place));
         let points = points.map(|task| task.points).collect();
-        Some(TaskSpread {
+        Some(TaskDistribution {
             id: task.id.clone(),
             title: task.title.clone(),
-            points: Spread::of(points, task.max_points)?,
+            points: Distribution::new(points, task.max_points)?,
         })
     };
     (0..first.tasks.len()).filter_map(spread).collect()
 }
 
-fn failed_most(scores: &[&Told]) -> Vec<Failed> {
+fn failed_most(scores: &[&ScoreSummary]) -> Vec<FailedItem> {
     // In the order of asking, which settles ties.
-    let mut failed: Vec<Failed> = Vec::new();
+    let mut failed: Vec<FailedItem> = Vec::new();
     for item in scores.iter().flat_map(|score| score.items()) {
         let count = usize::from(item.points < item.max_points);
         match failed.iter_mut().find(|failed| failed.item == item.id) {
             Some(failed) => failed.count += count,
-            None => failed.push(Failed {
+            None => failed.push(FailedItem {
                 item: item.id.clone(),
                 title: item.title.clone(),
                 count,
@@ -148,11 +148,11 @@ fn failed_most(scores: &[&Told]) -> Vec<Failed> {
     }
     failed.retain(|failed| failed.count > 0);
     failed.sort_by_key(|failed| Reverse(failed.count));
-    failed.truncate(MOST);
+    failed.truncate(MAX_ENTRIES);
     failed
 }
 
-fn mistakes(scores: &[&Told]) -> Vec<Mistake> {
+fn mistakes(scores: &[&ScoreSummary]) -> Vec<MistakeCount> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for score in scores {
         // The likeliest of each item; once, however many items show it.
@@ -164,24 +164,24 @@ fn mistakes(scores: &[&Told]) -> Vec<Mistake> {
             *counts.entry(hint).or_default() += 1;
         }
     }
-    let mistake = |(hint, count): (&str, usize)| Mistake {
+    let mistake = |(hint, count): (&str, usize)| MistakeCount {
         hint: hint.to_owned(),
         count,
     };
-    let mut mistakes: Vec<Mistake> = counts.into_iter().map(mistake).collect();
+    let mut mistakes: Vec<MistakeCount> = counts.into_iter().map(mistake).collect();
     mistakes.sort_by_key(|mistake| Reverse(mistake.count));
-    mistakes.truncate(MOST);
+    mistakes.truncate(MAX_ENTRIES);
     mistakes
 }
 
 /// Those without a score, those with nothing, and those far below the others (Tukey's fence).
-fn outliers(class: &Class, points: Option<&Spread>) -> Vec<Outlier> {
+fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> {
     let fence = points.map_or(0.0, |points| {
         let (lower, upper) = (points.lower_quartile.into(), points.upper_quartile.into());
         let (lower, upper): (f64, f64) = (lower, upper);
         lower - 1.5 * (upper - lower)
     });
-    let why = |line: &Line| match line.row.score() {
+    let why = |line: &ClassRow| match line.result.score() {
         None => Some(format!("{}: {}", line.status(), line.why())),
         Some(score) if score.items().all(|item| item.verdict == "not_compiled") => {
             Some("0 points: nothing compiles".to_owned())
@@ -195,11 +195,11 @@ fn outliers(class: &Class, points: Option<&Spread>) -> Vec<Outlier> {
         }
         Some(_) => None,
     };
-    let outlier = |line: &Line| {
+    let outlier = |line: &ClassRow| {
         Some(Outlier {
-            id: line.row.id.clone(),
+            id: line.result.id.clone(),
             why: why(line)?,
         })
     };
-    class.lines.iter().filter_map(outlier).collect()
+    class.rows.iter().filter_map(outlier).collect()
 }

@@ -12,12 +12,12 @@ pub struct Table {
     /// The others.
     pub rows: Vec<Vec<String>>,
     delimiter: u8,
-    has_mark: bool,
+    has_byte_order_mark: bool,
 }
 
 /// A table can not be read.
 #[derive(Debug, thiserror::Error)]
-pub enum BadTable {
+pub enum TableError {
     /// The system does not let us.
     #[error("can not read {path}: {source}")]
     Io {
@@ -35,27 +35,27 @@ pub enum BadTable {
         why: String,
     },
     /// It is another table.
-    #[error("{path} has no column {lacks}: {remedy}")]
-    Lacks {
+    #[error("{path} has no column {column}: {remedy}")]
+    MissingColumn {
         /// Which.
         path: PathBuf,
         /// What is missing.
-        lacks: String,
+        column: String,
         /// What to do.
         remedy: String,
     },
 }
 
-const MARK: &[u8] = b"\xef\xbb\xbf";
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 impl Table {
     /// Reads a file.
-    pub fn read(path: &Path) -> Result<Self, BadTable> {
-        let bytes = fs::read(path).map_err(|source| BadTable::Io {
+    pub fn read(path: &Path) -> Result<Self, TableError> {
+        let bytes = fs::read(path).map_err(|source| TableError::Io {
             path: path.to_owned(),
             source,
         })?;
-        Table::parse(&bytes).map_err(|why| BadTable::Csv {
+        Table::parse(&bytes).map_err(|why| TableError::Csv {
             path: path.to_owned(),
             why,
         })
@@ -63,8 +63,8 @@ impl Table {
 
     /// Reads bytes.
     pub fn parse(bytes: &[u8]) -> Result<Self, String> {
-        let has_mark = bytes.starts_with(MARK);
-        let bytes = bytes.strip_prefix(MARK).unwrap_or(bytes);
+        let has_mark = bytes.starts_with(BYTE_ORDER_MARK);
+        let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
         let first = bytes
             .split(|byte| *byte == b'\n')
             .next()
@@ -95,7 +95,7 @@ impl Table {
             header,
             rows,
             delimiter,
-            has_mark,
+            has_byte_order_mark: has_mark,
         })
     }
 
@@ -105,7 +105,7 @@ impl Table {
             header: header.iter().map(|name| (*name).to_owned()).collect(),
             rows: Vec::new(),
             delimiter: b',',
-            has_mark: false,
+            has_byte_order_mark: false,
         }
     }
 
@@ -116,7 +116,7 @@ impl Table {
     }
 
     /// The same table with these columns alone, in this order.
-    pub fn only(&self, columns: &[usize]) -> Self {
+    pub fn select_columns(&self, columns: &[usize]) -> Self {
         let pick = |row: &Vec<String>| {
             let cell = |column: &usize| row.get(*column).cloned().unwrap_or_default();
             columns.iter().map(cell).collect()
@@ -129,7 +129,7 @@ impl Table {
     }
 
     /// As a file, in the manner in which it was read.
-    pub fn text(&self) -> String {
+    pub fn to_csv(&self) -> String {
         let mut writer = csv::WriterBuilder::new()
             .delimiter(self.delimiter)
             .flexible(true)
@@ -139,7 +139,7 @@ impl Table {
         }
         let bytes = writer.into_inner().expect("memory takes bytes");
         let text = String::from_utf8(bytes).expect("cells are text");
-        match self.has_mark {
+        match self.has_byte_order_mark {
             true => format!("\u{feff}{text}"),
             false => text,
         }
@@ -148,7 +148,7 @@ impl Table {
 
 /// A cell of our own that a spreadsheet shows and does not calculate: a name can be a formula that
 /// runs where the teacher opens the file (OWASP, "CSV Injection").
-pub fn guarded(text: &str) -> String {
+pub fn escape_formula(text: &str) -> String {
     match text.chars().next() {
         Some('=' | '+' | '-' | '@' | '\t' | '\r') => format!("'{text}"),
         Some(_) | None => text.to_owned(),
@@ -164,13 +164,13 @@ mod tests {
         let text = "\u{feff}Name;Grade\n\"Müller; Ann\";87,5\n";
         let table = Table::parse(text.as_bytes()).unwrap();
         assert_eq!(table.rows, [["Müller; Ann", "87,5"]]);
-        assert_eq!(table.text(), text);
+        assert_eq!(table.to_csv(), text);
     }
 
     #[test]
-    fn formulas_are_shown_and_numbers_stay_numbers() {
-        assert_eq!(guarded("=1+1"), "'=1+1");
-        assert_eq!(guarded("@SUM(A1)"), "'@SUM(A1)");
-        assert_eq!(guarded("O'Hara"), "O'Hara");
+    fn formulas_are_escaped_and_other_text_is_kept() {
+        assert_eq!(escape_formula("=1+1"), "'=1+1");
+        assert_eq!(escape_formula("@SUM(A1)"), "'@SUM(A1)");
+        assert_eq!(escape_formula("O'Hara"), "O'Hara");
     }
 }

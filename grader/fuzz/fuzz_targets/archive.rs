@@ -1,5 +1,5 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::Target::named("archive")
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::Target::find("archive")
     .expect("a target")
     .run(bytes));

@@ -1,5 +1,5 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::Target::named("exam")
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::Target::find("exam")
     .expect("a target")
     .run(bytes));

@@ -3,16 +3,16 @@
 
 use std::sync::LazyLock;
 
-use grader::exam::{Asked, Exam, Item};
+use grader::exam::{Exam, ExamQuestion, Item};
 use grader::exam_file::ExamFile;
-use grader::exhibit::Exhibits;
-use grader::judge::{blemishes, judge, measure};
-use grader::recognise::Sightings;
+use grader::judge::{judge, measure, mismatches};
+use grader::recognise::Observations;
 use grader::report::html::{Reload, page};
 use grader::report::json;
-use grader::report::text::{Hints, report};
+use grader::report::text::{HintDetail, report};
+use grader::report_answers::ReportAnswers;
 use grader::score::Verdict;
-use grader::verdict::{Outcome, hinted, item_score, unasked};
+use grader::verdict::{ItemOutcome, add_hints, item_score, pending_score};
 use protocol::Answer;
 
 /// An item of each kind of key.
@@ -44,35 +44,37 @@ fn grade(item: &Item, answers: Vec<Answer>) {
         items: vec![item.clone()],
         ..EXAM.exam.clone()
     };
-    let judgements: Vec<_> = asked(item, &answers).map(|(a, b)| judge(a, b)).collect();
-    for (asked, answer) in asked(item, &answers) {
-        let _ = (measure(asked, answer), blemishes(asked, answer));
+    let judgements: Vec<_> = answered_questions(item, &answers)
+        .map(|(a, b)| judge(a, b))
+        .collect();
+    for (asked, answer) in answered_questions(item, &answers) {
+        let _ = (measure(asked, answer), mismatches(asked, answer));
     }
-    let mut line = item_score(item, &Outcome::Answered(judgements));
+    let mut line = item_score(item, &ItemOutcome::Answered(judgements));
     let is_right = line.points == line.max_points;
     assert_eq!(is_right, line.verdict == Verdict::Pass, "{line:?}");
 
-    let mut sightings = Sightings::default();
-    sightings.note(item, Ok(&answers));
-    hinted(&mut line, &sightings.explain(&exam, item));
-    let mut exhibits = Exhibits::default();
-    exhibits.keep(item, &line, answers);
-    let mut score = unasked(&exam, EXAM.name(), "any");
+    let mut sightings = Observations::default();
+    sightings.record(item, Ok(&answers));
+    add_hints(&mut line, &sightings.explain(&exam, item));
+    let mut exhibits = ReportAnswers::default();
+    exhibits.record(item, &line, answers);
+    let mut score = pending_score(&exam, EXAM.name(), "any");
     score.record(line);
-    score.total();
+    score.update_totals();
     score.complete = true;
 
-    let text = json::text(&score);
+    let text = json::to_string(&score);
     serde_json::from_str::<serde_json::Value>(&text).expect("the score is JSON");
-    let shown = report(&score, None, Hints::Full);
+    let shown = report(&score, None, HintDetail::Full);
     assert!(!shown.contains('\u{7}'), "a bell rings");
     let page = page(&score, &exam, &exhibits, Reload::Never);
     assert!(page.ends_with("</html>"), "the page is whole");
 }
 
-fn asked<'a>(
+fn answered_questions<'a>(
     item: &'a Item,
     answers: &'a [Answer],
-) -> impl Iterator<Item = (&'a Asked, &'a Answer)> {
+) -> impl Iterator<Item = (&'a ExamQuestion, &'a Answer)> {
     item.questions.iter().zip(answers)
 }

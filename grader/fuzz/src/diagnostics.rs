@@ -6,6 +6,6 @@ use grader::build::diagnostics::errors;
 pub fn read(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     for error in errors(&text) {
-        let _ = (error.blamed(), error.text());
+        let _ = (error.blamed_file(), error.text());
     }
 }

@@ -27,7 +27,7 @@ pub struct Target {
     pub name: &'static str,
     read: fn(&[u8]),
     /// The most bytes of memory for each byte of input, beside [`Target::ROOM`].
-    growth: usize,
+    memory_per_byte: usize,
 }
 
 /// All of them.
@@ -48,15 +48,19 @@ pub const TARGETS: [Target; 9] = [
 impl Target {
     /// What the smallest input may take: serde reserves up to 1 MiB on the word of a length, and a
     /// report is a page.
-    const ROOM: usize = 16 << 20;
+    const BASE_MEMORY: usize = 16 << 20;
 
     /// A target of this name, and how many bytes of memory each byte of input may take.
     pub const fn new(name: &'static str, read: fn(&[u8]), growth: usize) -> Self {
-        Target { name, read, growth }
+        Target {
+            name,
+            read,
+            memory_per_byte: growth,
+        }
     }
 
     /// The target of this name.
-    pub fn named(name: &str) -> Option<Self> {
+    pub fn find(name: &str) -> Option<Self> {
         TARGETS.into_iter().find(|target| target.name == name)
     }
 
@@ -67,7 +71,7 @@ impl Target {
         MEMORY.reset_peak_usage();
         (self.read)(bytes);
         let taken = MEMORY.peak_usage().saturating_sub(before);
-        let most = Self::ROOM + self.growth * bytes.len();
+        let most = Self::BASE_MEMORY + self.memory_per_byte * bytes.len();
         let (name, length) = (self.name, bytes.len());
         assert!(
             taken <= most,

@@ -8,7 +8,7 @@ pub fn read(bytes: &[u8]) {
     match Scene::from_text(&text) {
         Err(error) => assert!(!error.to_string().is_empty()),
         Ok(scene) => {
-            let film = scene.camera.lens.film;
+            let film = scene.camera.pinhole.film;
             assert!(film.x > 0 && film.y > 0, "{film}");
             for shape in &scene.shapes {
                 let material = shape.material() as usize;

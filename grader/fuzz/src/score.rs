@@ -1,11 +1,11 @@
 //! Score files, as a class reads them again: of other machines, or of a run that was killed.
 
-use class::entry::About;
-use class::model::{Class, Line};
-use class::outcome::{Outcome, Row, Stamp, Told};
+use class::entry::EntryInfo;
+use class::model::{ClassRow, GradedClass};
+use class::outcome::{EntryOutcome, EntryResult, ScoreSummary, Stamp};
 use class::report::{grades, page, text};
 use class::run::Run;
-use class::summary::Summary;
+use class::summary::ClassSummary;
 use grader::policy::Policy;
 
 /// A score that is taken can be told of in all of a class's files. What is kept beside it is read too.
@@ -16,25 +16,27 @@ pub fn read(bytes: &[u8]) {
     if let Ok(run) = &run {
         assert!(run.settings.differences(&run.settings).is_empty());
     }
-    let about = stamp.map_or_else(|_| About::default(), |stamp| stamp.about);
-    let Ok(told) = Told::read(&words) else {
+    let about = stamp.map_or_else(|_| EntryInfo::default(), |stamp| stamp.info);
+    let Ok(told) = ScoreSummary::parse(&words) else {
         return;
     };
-    let row = |id: &str| Row {
+    let row = |id: &str| EntryResult {
         id: id.to_owned(),
-        about: about.clone(),
-        outcome: Outcome::Graded(Box::new(told.clone())),
+        info: about.clone(),
+        outcome: EntryOutcome::Graded(Box::new(told.clone())),
     };
     let policy = Policy::default();
-    let class = Class {
+    let class = GradedClass {
         exam: "any".to_owned(),
         exam_hash: "any".to_owned(),
         isolation: "none".to_owned(),
-        lines: ["alice", "bob"].map(|id| Line::of(row(id), &policy)).into(),
+        rows: ["alice", "bob"]
+            .map(|id| ClassRow::new(row(id), &policy))
+            .into(),
         missing: Vec::new(),
     };
-    let summary = Summary::of(&class);
-    assert!(page::page(&class, &summary).ends_with("</html>"));
-    assert!(!grades::grades(&class).text().is_empty());
-    assert!(!text::summary(&summary).is_empty());
+    let summary = ClassSummary::new(&class);
+    assert!(page::render_page(&class, &summary).ends_with("</html>"));
+    assert!(!grades::grades_table(&class).to_csv().is_empty());
+    assert!(!text::render_summary(&summary).is_empty());
 }

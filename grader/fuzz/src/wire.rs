@@ -12,21 +12,21 @@ pub fn read(bytes: &[u8]) {
     loop {
         let frame = match wire::read(&mut rest, LIMIT) {
             Ok(frame) => frame,
-            Err(WireError::Ended | WireError::TooLong { .. }) => return,
+            Err(WireError::EndOfStream | WireError::TooLong { .. }) => return,
             Err(error) => panic!("reading from memory can not fail: {error}"),
         };
         // What can be read can be written, and then reads the same: but for NaN, bit by bit.
         if let Ok(answer) = frame.decode::<Answer>() {
-            written_alike(&answer);
+            assert_round_trip(&answer);
         }
         if let Ok(question) = frame.decode::<Question>() {
-            written_alike(&question);
-            let _ = (question.count(), question.largest_answer());
+            assert_round_trip(&question);
+            let _ = (question.count(), question.max_answer_bytes());
         }
     }
 }
 
-fn written_alike<T: serde::Serialize + serde::de::DeserializeOwned>(value: &T) {
+fn assert_round_trip<T: serde::Serialize + serde::de::DeserializeOwned>(value: &T) {
     let bytes = wire::encode(7, value).expect("what was read can be written");
     let frame = wire::read(&mut bytes.as_slice(), bytes.len()).expect("a frame");
     let again = wire::encode(7, &frame.decode::<T>().expect("the same")).expect("the same");

@@ -13,9 +13,9 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 /// Changes to the corpus, and as many inputs of pure noise. `cargo fuzz` tries millions.
-const CHANGES: u32 = 300;
+const CASES: u32 = 300;
 /// The longest noise, in bytes.
-const NOISE: usize = 300;
+const MAX_NOISE_BYTES: usize = 300;
 
 fn corpus(target: &Target) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
@@ -78,7 +78,7 @@ impl Change {
 /// The same every time: a test that fails today failed yesterday.
 fn runner() -> TestRunner {
     let config = Config {
-        cases: CHANGES,
+        cases: CASES,
         failure_persistence: None,
         ..Config::default()
     };
@@ -87,7 +87,7 @@ fn runner() -> TestRunner {
 
 fn survives_anything(name: &str) {
     let _alone = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
-    let target = Target::named(name).expect("a target");
+    let target = Target::find(name).expect("a target");
     let corpus = corpus(&target);
     corpus.iter().for_each(|bytes| target.run(bytes));
 
@@ -99,7 +99,10 @@ fn survives_anything(name: &str) {
         changes.iter().for_each(|change| change.apply(&mut bytes));
         bytes
     });
-    let any = prop_oneof![changed, prop::collection::vec(any::<u8>(), 0..NOISE)];
+    let any = prop_oneof![
+        changed,
+        prop::collection::vec(any::<u8>(), 0..MAX_NOISE_BYTES)
+    ];
     let survived = runner().run(&any, |bytes| {
         target.run(&bytes);
         Ok(())
@@ -113,7 +116,7 @@ fn frames_can_be_any_bytes() {
 }
 
 #[test]
-fn well_formed_answers_can_say_anything() {
+fn well_formed_answers_can_have_any_values() {
     survives_anything("answers");
 }
 
@@ -143,17 +146,17 @@ fn meshes_can_be_any_bytes() {
 }
 
 #[test]
-fn submissions_can_be_any_bytes() {
+fn source_files_can_be_any_bytes() {
     survives_anything("source");
 }
 
 #[test]
-fn compilers_can_say_anything() {
+fn compiler_output_can_be_any_bytes() {
     survives_anything("diagnostics");
 }
 
 #[test]
-fn memory_out_of_proportion_is_noticed() {
+fn excessive_memory_use_is_detected() {
     let _alone = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
     let hoard = Target::new("hoard", |_| drop(vec![1_u8; 64 << 20]), 1);
     let noticed = std::panic::catch_unwind(|| hoard.run(b"few")).unwrap_err();

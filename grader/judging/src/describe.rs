@@ -83,7 +83,7 @@ pub fn trace(value: Option<&Trace>) -> String {
 pub fn element(question: &Question, element: usize) -> String {
     match question {
         Question::Camera { camera, samples } => {
-            let samples = samples.on(camera.film);
+            let samples = samples.to_vec(camera.film);
             let place = samples.get(element).map_or(String::new(), |sample| {
                 let (pixel, offset) = (sample.pixel, uv(sample.offset));
                 format!(", pixel ({}, {}) + {offset}", pixel.x, pixel.y)
@@ -96,8 +96,14 @@ pub fn element(question: &Question, element: usize) -> String {
                 camera.film.y,
             )
         }
-        Question::Shapes { shapes, rays } => format!("{}; {}", nth_ray(rays, element), all(shapes)),
-        Question::BBox { min, max, shots } => {
+        Question::Shapes { shapes, rays } => {
+            format!("{}; {}", nth_ray(rays, element), shapes_text(shapes))
+        }
+        Question::BBox {
+            min,
+            max,
+            queries: shots,
+        } => {
             let shot = shots.get(element).map_or(String::new(), |(shot, times)| {
                 format!("{}, times {}; ", ray(shot), interval(*times))
             });
@@ -108,7 +114,7 @@ pub fn element(question: &Question, element: usize) -> String {
             max_leaf_size,
         } => format!(
             "a tree over {}, leaves of at most {max_leaf_size}",
-            all(shapes)
+            shapes_text(shapes)
         ),
         Question::Traverse {
             shapes,
@@ -119,7 +125,7 @@ pub fn element(question: &Question, element: usize) -> String {
             "{}; the exam's own tree of {} nodes, root {root}, over {}",
             nth_ray(rays, element),
             nodes.len(),
-            all(shapes)
+            shapes_text(shapes)
         ),
         Question::BuildAndTraverse {
             shapes,
@@ -128,7 +134,7 @@ pub fn element(question: &Question, element: usize) -> String {
         } => format!(
             "{}; your own tree over {}, leaves of at most {max_leaf_size}",
             nth_ray(rays, element),
-            all(shapes)
+            shapes_text(shapes)
         ),
         Question::Radiance { film, samples, .. } => {
             let (x, y) = (element as u32 % film.x, element as u32 / film.x);
@@ -146,7 +152,7 @@ fn nth_ray(rays: &Rays, element: usize) -> String {
     match rays {
         Rays::List(_) => text,
         Rays::View(view) => {
-            let pixel = element / protocol::OFFSETS.len();
+            let pixel = element / protocol::PIXEL_OFFSETS.len();
             let (x, y) = (pixel as u32 % view.film.x, pixel as u32 / view.film.x);
             format!("pixel ({x}, {y}) of a picture, {text}")
         }
@@ -154,20 +160,20 @@ fn nth_ray(rays: &Rays, element: usize) -> String {
 }
 
 /// Shapes, if they are few; else how many.
-fn all(shapes: &[Shape]) -> String {
+fn shapes_text(shapes: &[Shape]) -> String {
     match shapes {
-        [one] => shape(one),
+        [one] => shape_text(one),
         _ => format!("{} primitives", shapes.len()),
     }
 }
 
-fn shape(shape: &Shape) -> String {
+fn shape_text(shape: &Shape) -> String {
     match *shape {
         Shape::Triangle { vertices, .. } => {
             let [p0, p1, p2] = vertices.map(|vertex| point(vertex.position));
             format!("triangle {p0} {p1} {p2}")
         }
-        Shape::Facet { corners, .. } => {
+        Shape::FlatTriangle { corners, .. } => {
             let [p0, p1, p2] = corners.map(point);
             format!("triangle {p0} {p1} {p2}")
         }
@@ -186,7 +192,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_have_six_digits_that_count() {
+    fn prints_six_significant_digits() {
         for (value, text) in [
             (0.0, "0"),
             (-0.0, "0"),

@@ -13,11 +13,11 @@ use serde::Serialize;
 use crate::exam::{Exam, Item, Key};
 
 /// The version of the format that is read.
-const SCHEMA: u32 = 1;
+const SCHEMA_VERSION: u32 = 1;
 /// The most pixels along one side of a picture; ours have 64.
-const LONGEST_SIDE: u32 = 4096;
+const MAX_PICTURE_SIDE: u32 = 4096;
 /// The longest exam file, in bytes; ours have about 3,000,000.
-const LONGEST_FILE: u64 = 64 << 20;
+const MAX_FILE_BYTES: u64 = 64 << 20;
 
 const PRACTICE: &str = include_str!("../../exams/practice.json");
 
@@ -52,7 +52,7 @@ impl ExamFile {
 
 /// Why an exam can not be used.
 #[derive(Debug, thiserror::Error)]
-pub enum BadExam {
+pub enum ExamError {
     /// The file can not be read.
     #[error("can not read the exam {path}: {source}")]
     Io {
@@ -74,7 +74,7 @@ pub enum BadExam {
     },
     /// The file is an exam that can not be asked.
     #[error("the exam {path}: {problem}; `cargo author exam --seed S` writes a good one")]
-    Problem {
+    Invalid {
         /// Which.
         path: PathBuf,
         /// What is wrong.
@@ -83,7 +83,7 @@ pub enum BadExam {
 }
 
 /// Reads the exam at `path`, from standard input for `-`; without a path, the practice exam.
-pub fn load(path: Option<&Path>) -> Result<ExamFile, BadExam> {
+pub fn load(path: Option<&Path>) -> Result<ExamFile, ExamError> {
     match path {
         None => parse(Path::new("practice.json"), PRACTICE.as_bytes()),
         Some(path) => parse(path, &read(path)?),
@@ -91,7 +91,7 @@ pub fn load(path: Option<&Path>) -> Result<ExamFile, BadExam> {
 }
 
 /// The hash of the exam at `path`, which need not be a good one; without a path, of the practice exam.
-pub fn hash(path: Option<&Path>) -> Result<String, BadExam> {
+pub fn hash(path: Option<&Path>) -> Result<String, ExamError> {
     Ok(match path {
         None => hash_of(PRACTICE.as_bytes()),
         Some(path) => hash_of(&read(path)?),
@@ -102,31 +102,31 @@ fn hash_of(bytes: &[u8]) -> String {
     blake2b_simd::blake2b(bytes).to_hex()[..32].to_owned()
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, BadExam> {
+fn read(path: &Path) -> Result<Vec<u8>, ExamError> {
     let mut bytes = Vec::new();
     let read = match path.to_str() {
-        Some("-") => io::stdin().take(LONGEST_FILE + 1).read_to_end(&mut bytes),
+        Some("-") => io::stdin().take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes),
         Some(_) | None => fs::File::open(path)
-            .and_then(|file| file.take(LONGEST_FILE + 1).read_to_end(&mut bytes)),
+            .and_then(|file| file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)),
     };
-    read.map_err(|source| BadExam::Io {
+    read.map_err(|source| ExamError::Io {
         path: path.to_owned(),
         source,
     })?;
-    if bytes.len() as u64 > LONGEST_FILE {
-        return Err(BadExam::TooLong(path.to_owned()));
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        return Err(ExamError::TooLong(path.to_owned()));
     }
     Ok(bytes)
 }
 
 /// The exam in a file's bytes; `path` is for the error.
-pub fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, BadExam> {
-    let exam: Exam = serde_json::from_slice(bytes).map_err(|source| BadExam::Json {
+pub fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, ExamError> {
+    let exam: Exam = serde_json::from_slice(bytes).map_err(|source| ExamError::Json {
         path: path.to_owned(),
         source,
     })?;
     if let Some(problem) = problem(&exam) {
-        return Err(BadExam::Problem {
+        return Err(ExamError::Invalid {
             path: path.to_owned(),
             problem,
         });
@@ -139,9 +139,9 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, BadExam> {
 
 /// What is wrong with an exam, if anything is.
 fn problem(exam: &Exam) -> Option<String> {
-    if exam.schema != SCHEMA {
+    if exam.schema != SCHEMA_VERSION {
         return Some(format!(
-            "its format is version {}, and this grader reads version {SCHEMA}",
+            "its format is version {}, and this grader reads version {SCHEMA_VERSION}",
             exam.schema
         ));
     }
@@ -151,7 +151,7 @@ fn problem(exam: &Exam) -> Option<String> {
     let mut earlier = BTreeSet::new();
     for item in &exam.items {
         let problem = item_problem(item, &earlier);
-        let problem = problem.or_else(|| tells_problem(item, exam.mistakes.len()));
+        let problem = problem.or_else(|| signatures_problem(item, exam.mistakes.len()));
         if let Some(problem) = problem {
             return Some(format!("item {}: {problem}", item.id));
         }
@@ -175,14 +175,16 @@ fn item_problem(item: &Item, earlier: &BTreeSet<&str>) -> Option<String> {
     if item.points == 0 || item.questions.is_empty() {
         return Some("it has no points, or no questions".to_owned());
     }
-    let misfit = |(number, asked): (usize, &crate::exam::Asked)| {
-        if let Some(film) = film(&asked.question).filter(|film| film.max_element() > LONGEST_SIDE) {
+    let misfit = |(number, asked): (usize, &crate::exam::ExamQuestion)| {
+        if let Some(film) =
+            film(&asked.question).filter(|film| film.max_element() > MAX_PICTURE_SIDE)
+        {
             let UVec2 { x, y } = film;
             return Some(format!(
-                "question {number} asks for {x} x {y} pixels, and {LONGEST_SIDE} is the most"
+                "question {number} asks for {x} x {y} pixels, and {MAX_PICTURE_SIDE} is the most"
             ));
         }
-        let (fits, keys) = fit(&asked.question, &asked.key);
+        let (fits, keys) = match_key(&asked.question, &asked.key);
         let count = asked.question.count();
         match (fits, keys == count) {
             (false, _) => Some(format!("question {number} and its key are of two kinds")),
@@ -190,7 +192,7 @@ fn item_problem(item: &Item, earlier: &BTreeSet<&str>) -> Option<String> {
                 "question {number} asks {count} times, and its key answers {keys}"
             )),
             (true, true) => {
-                let problem = asked.shown.problem(&asked.question)?;
+                let problem = asked.drawing_data.problem(&asked.question)?;
                 Some(format!("question {number}: {problem}"))
             }
         }
@@ -219,30 +221,32 @@ fn film(question: &Question) -> Option<UVec2> {
 }
 
 /// What is wrong with what an item tells of mistakes, if anything is.
-fn tells_problem(item: &Item, mistakes: usize) -> Option<String> {
+fn signatures_problem(item: &Item, mistakes: usize) -> Option<String> {
     let count: usize = item
         .questions
         .iter()
         .map(|asked| asked.question.count())
         .sum();
-    let tells = &item.tells;
+    let tells = &item.signatures;
     let too_far = tells
         .elements
         .iter()
         .any(|element| *element as usize >= count);
-    let of_none = tells.wrong.iter().any(|told| {
+    let of_none = tells.mistake_answers.iter().any(|told| {
         let answers = told.answers.iter();
-        told.by.iter().any(|mistake| *mistake as usize >= mistakes)
+        told.mistakes
+            .iter()
+            .any(|mistake| *mistake as usize >= mistakes)
             || answers
                 .map(|(place, _)| *place as usize)
                 .any(|place| place >= tells.elements.len())
     });
-    (too_far || of_none || tells.right.len() != tells.elements.len())
+    (too_far || of_none || tells.correct_answers.len() != tells.elements.len())
         .then(|| "it tells of mistakes or elements that are not there".to_owned())
 }
 
 /// Whether a key is one to this question, and how many elements it answers.
-fn fit(question: &Question, key: &Key) -> (bool, usize) {
+fn match_key(question: &Question, key: &Key) -> (bool, usize) {
     use protocol::Rays;
 
     match (key, question) {
@@ -252,7 +256,10 @@ fn fit(question: &Question, key: &Key) -> (bool, usize) {
             Question::Shapes { .. } | Question::Traverse { .. } | Question::BuildAndTraverse { .. },
         ) => (true, hits.len()),
         (
-            Key::FirstHits { hits, also },
+            Key::FirstHits {
+                hits,
+                alternatives: also,
+            },
             Question::Shapes { rays, .. }
             | Question::Traverse { rays, .. }
             | Question::BuildAndTraverse { rays, .. },

@@ -15,12 +15,12 @@
 //! | data | [`exam`], [`tells`], [`shown`], [`section`]; [`tame`] |
 
 pub mod describe;
+pub mod drawing_data;
 pub mod exam;
 pub mod exam_file;
 pub mod judge;
 pub mod picture;
 pub mod recognise;
+pub mod sanitize;
 pub mod section;
-pub mod shown;
-pub mod tame;
-pub mod tells;
+pub mod signatures;

@@ -7,37 +7,37 @@
 
 use std::collections::BTreeMap;
 
-use protocol::{Answer, Interval, Outcome, Ray, Trace};
+use protocol::{Answer, ElementOutcome, Interval, Ray, Trace};
 
-use crate::exam::{Asked, Exam, Hit, Item, Key, Part, RayPart, Task};
-use crate::judge::{How, judge};
-use crate::tells::{KnownMistake, Seen, Silence, Told};
+use crate::exam::{Exam, ExamQuestion, ExpectedHit, HitCheck, Item, Key, RayCheck, Task};
+use crate::judge::{FailureKind, judge};
+use crate::signatures::{KnownMistake, MistakeAnswers, NoAnswerReason, ObservedAnswer};
 
 /// The most mistakes that are named together. More than that is no hint.
-const MOST: usize = 3;
+const MAX_MISTAKES: usize = 3;
 
 /// What was seen of a submission's answers to the elements that the keys tell of, by item.
 #[derive(Clone, Debug, Default)]
-pub struct Sightings(BTreeMap<String, Vec<Seen>>);
+pub struct Observations(BTreeMap<String, Vec<ObservedAnswer>>);
 
-impl Sightings {
+impl Observations {
     /// Notes the answers to an item, or why there were none.
-    pub fn note(&mut self, item: &Item, answers: Result<&[Answer], Silence>) {
-        if item.tells.elements.is_empty() {
+    pub fn record(&mut self, item: &Item, answers: Result<&[Answer], NoAnswerReason>) {
+        if item.signatures.elements.is_empty() {
             return;
         }
         let seen = match answers {
             Ok(answers) => {
-                let all = see_all(item, answers);
-                let told = item.tells.elements.iter();
+                let all = observe(item, answers);
+                let told = item.signatures.elements.iter();
                 told.map(|&element| {
                     all.get(element as usize)
                         .cloned()
-                        .unwrap_or(Seen::NoAnswer(Silence::Other))
+                        .unwrap_or(ObservedAnswer::NoAnswer(NoAnswerReason::Other))
                 })
                 .collect()
             }
-            Err(why) => vec![Seen::NoAnswer(why); item.tells.elements.len()],
+            Err(why) => vec![ObservedAnswer::NoAnswer(why); item.signatures.elements.len()],
         };
         self.0.insert(item.id.clone(), seen);
     }
@@ -47,17 +47,17 @@ impl Sightings {
         let Some(seen) = self.0.get(&item.id) else {
             return Vec::new();
         };
-        if self.is_mute(exam, item.task) {
+        if self.is_uninformative(exam, item.task) {
             return Vec::new();
         }
         let told = item
-            .tells
-            .wrong
+            .signatures
+            .mistake_answers
             .iter()
             .filter(|told| explains(item, told, seen));
-        let candidates = told.flat_map(|told| &told.by);
+        let candidates = told.flat_map(|told| &told.mistakes);
         let explained: Vec<(u32, usize)> = candidates
-            .filter_map(|&mistake| Some((mistake, self.explained(exam, item.task, mistake)?)))
+            .filter_map(|&mistake| Some((mistake, self.explained_items(exam, item.task, mistake)?)))
             .collect();
         let Some(most) = explained.iter().map(|(_, count)| *count).max() else {
             return Vec::new();
@@ -66,23 +66,27 @@ impl Sightings {
         let best: Vec<&KnownMistake> = best
             .filter_map(|(mistake, _)| exam.mistakes.get(*mistake as usize))
             .collect();
-        if best.len() > MOST { Vec::new() } else { best }
+        if best.len() > MAX_MISTAKES {
+            Vec::new()
+        } else {
+            best
+        }
     }
 
     /// Whether there is nothing to go by in a whole task: no right answer, and no wrong one either.
-    fn is_mute(&self, exam: &Exam, task: Task) -> bool {
+    fn is_uninformative(&self, exam: &Exam, task: Task) -> bool {
         let items = exam.items.iter().filter(|item| item.task == task);
         let mut seen = items.filter_map(|item| self.0.get(&item.id)).flatten();
-        seen.all(Seen::is_mute)
+        seen.all(ObservedAnswer::is_uninformative)
     }
 
     /// How many items of a task a mistake explains; none if something speaks against it.
-    fn explained(&self, exam: &Exam, task: Task, mistake: u32) -> Option<usize> {
+    fn explained_items(&self, exam: &Exam, task: Task, mistake: u32) -> Option<usize> {
         let items = exam.items.iter().filter(|item| item.task == task);
         let mut count = 0;
         for item in items {
-            let mut told = item.tells.wrong.iter();
-            let told = told.find(|told| told.by.contains(&mistake));
+            let mut told = item.signatures.mistake_answers.iter();
+            let told = told.find(|told| told.mistakes.contains(&mistake));
             match (told, self.0.get(&item.id)) {
                 (Some(told), Some(seen)) if explains(item, told, seen) => count += 1,
                 (Some(_), Some(_)) => return None,
@@ -95,35 +99,38 @@ impl Sightings {
 }
 
 /// Whether these answers are the submission's, wrong ones and right ones.
-fn explains(item: &Item, told: &Told, seen: &[Seen]) -> bool {
+fn explains(item: &Item, told: &MistakeAnswers, seen: &[ObservedAnswer]) -> bool {
     let mut wrong = told.answers.iter().peekable();
     seen.iter()
-        .zip(&item.tells.right)
+        .zip(&item.signatures.correct_answers)
         .enumerate()
         .all(
             |(place, (seen, right))| match wrong.next_if(|(other, _)| *other as usize == place) {
-                Some((_, answer)) => seen.is_like(answer),
-                None => seen.is_like(right),
+                Some((_, answer)) => seen.matches(answer),
+                None => seen.matches(right),
             },
         )
 }
 
 /// What is seen of each element of an item's answers.
-pub fn see_all(item: &Item, answers: &[Answer]) -> Vec<Seen> {
+pub fn observe(item: &Item, answers: &[Answer]) -> Vec<ObservedAnswer> {
     let asked = item.questions.iter().zip(answers);
     asked
-        .flat_map(|(asked, answer)| see(asked, answer))
+        .flat_map(|(asked, answer)| observe_question(asked, answer))
         .collect()
 }
 
 /// What a right answer shows, of each element of an item.
-pub fn right(item: &Item) -> Vec<Seen> {
-    item.questions.iter().flat_map(right_elements).collect()
+pub fn expected(item: &Item) -> Vec<ObservedAnswer> {
+    item.questions.iter().flat_map(expected_elements).collect()
 }
 
-fn right_elements(asked: &Asked) -> Vec<Seen> {
+fn expected_elements(asked: &ExamQuestion) -> Vec<ObservedAnswer> {
     match &asked.key {
-        Key::Rays { judged, directions } => {
+        Key::Rays {
+            checks: judged,
+            directions,
+        } => {
             let ray = |dir| Ray {
                 origin: glam::Vec3::ZERO,
                 dir,
@@ -131,10 +138,13 @@ fn right_elements(asked: &Asked) -> Vec<Seen> {
             };
             directions
                 .iter()
-                .map(|&dir| of_ray(judged, &ray(dir)))
+                .map(|&dir| observe_ray(judged, &ray(dir)))
                 .collect()
         }
-        Key::Hits { judged, hits } => {
+        Key::Hits {
+            checks: judged,
+            hits,
+        } => {
             let rays = match &asked.question {
                 protocol::Question::Shapes { rays, .. }
                 | protocol::Question::Traverse { rays, .. }
@@ -145,7 +155,7 @@ fn right_elements(asked: &Asked) -> Vec<Seen> {
                 | protocol::Question::Radiance { .. }
                 | protocol::Question::Done => Vec::new(),
             };
-            let trace = |hit: &Hit, ray: &Ray| Trace {
+            let trace = |hit: &ExpectedHit, ray: &Ray| Trace {
                 distance: hit.distance,
                 position: hit.position,
                 normal: hit.normal,
@@ -157,23 +167,29 @@ fn right_elements(asked: &Asked) -> Vec<Seen> {
                 .iter()
                 .zip(&rays)
                 .map(|(hit, ray)| hit.as_ref().map(|hit| trace(hit, ray)));
-            traces.map(|trace| of_hit(judged, trace.as_ref())).collect()
+            traces
+                .map(|trace| observe_hit(judged, trace.as_ref()))
+                .collect()
         }
-        Key::Spans { spans } => spans.iter().map(|span| of_span(*span)).collect(),
-        Key::Tree { .. } => vec![Seen::Tree(None)],
+        Key::Spans { spans } => spans.iter().map(|span| observe_span(*span)).collect(),
+        Key::Tree { .. } => vec![ObservedAnswer::Tree(None)],
         Key::FirstHits { .. } | Key::Radiance { .. } => Vec::new(),
     }
 }
 
-fn see(asked: &Asked, answer: &Answer) -> Vec<Seen> {
+fn observe_question(asked: &ExamQuestion, answer: &Answer) -> Vec<ObservedAnswer> {
     match (&asked.key, answer) {
-        (Key::Rays { judged, .. }, Answer::Rays(rays)) => each(rays, |ray| of_ray(judged, ray)),
-        (Key::Hits { judged, .. }, Answer::Hits(hits)) => {
-            each(hits, |hit| of_hit(judged, hit.as_ref()))
+        (Key::Rays { checks: judged, .. }, Answer::Rays(rays)) => {
+            observe_each(rays, |ray| observe_ray(judged, ray))
         }
-        (Key::Spans { .. }, Answer::Spans(spans)) => each(spans, |span| of_span(*span)),
+        (Key::Hits { checks: judged, .. }, Answer::Hits(hits)) => {
+            observe_each(hits, |hit| observe_hit(judged, hit.as_ref()))
+        }
+        (Key::Spans { .. }, Answer::Spans(spans)) => {
+            observe_each(spans, |span| observe_span(*span))
+        }
         (Key::Tree { .. }, Answer::Tree(tree)) => {
-            each(std::slice::from_ref(tree), |_| of_tree(asked, answer))
+            observe_each(std::slice::from_ref(tree), |_| observe_tree(asked, answer))
         }
         (
             Key::Rays { .. }
@@ -187,60 +203,63 @@ fn see(asked: &Asked, answer: &Answer) -> Vec<Seen> {
     }
 }
 
-fn each<T>(outcomes: &[Outcome<T>], see: impl Fn(&T) -> Seen) -> Vec<Seen> {
+fn observe_each<T>(
+    outcomes: &[ElementOutcome<T>],
+    see: impl Fn(&T) -> ObservedAnswer,
+) -> Vec<ObservedAnswer> {
     let seen = outcomes.iter().map(|outcome| match outcome {
-        Outcome::Value(value) => see(value),
-        Outcome::Panicked(_) | Outcome::GivenUp => Seen::Panicked,
+        ElementOutcome::Value(value) => see(value),
+        ElementOutcome::Panicked(_) | ElementOutcome::Skipped => ObservedAnswer::Panicked,
     });
     seen.collect()
 }
 
-fn of_ray(judged: &[RayPart], ray: &Ray) -> Seen {
-    let part = |part: &RayPart| match part {
-        RayPart::Origin => ray.origin.to_array().to_vec(),
-        RayPart::Direction => (ray.dir / ray.dir.length()).to_array().to_vec(),
-        RayPart::UnitLength => vec![ray.dir.length()],
-        RayPart::Range => vec![ray.range.min, ray.range.max],
+fn observe_ray(judged: &[RayCheck], ray: &Ray) -> ObservedAnswer {
+    let part = |part: &RayCheck| match part {
+        RayCheck::Origin => ray.origin.to_array().to_vec(),
+        RayCheck::Direction => (ray.dir / ray.dir.length()).to_array().to_vec(),
+        RayCheck::UnitLength => vec![ray.dir.length()],
+        RayCheck::Range => vec![ray.range.min, ray.range.max],
     };
-    Seen::Numbers(judged.iter().flat_map(part).collect())
+    ObservedAnswer::Numbers(judged.iter().flat_map(part).collect())
 }
 
-fn of_hit(judged: &[Part], trace: Option<&Trace>) -> Seen {
+fn observe_hit(judged: &[HitCheck], trace: Option<&Trace>) -> ObservedAnswer {
     let Some(trace) = trace else {
-        return Seen::Nothing;
+        return ObservedAnswer::NoHit;
     };
-    let part = |part: &Part| match part {
-        Part::Distance => vec![trace.distance],
-        Part::Position => trace.position.to_array().to_vec(),
-        Part::Normal => (trace.normal / trace.normal.length()).to_array().to_vec(),
-        Part::UnitNormal => vec![trace.normal.length()],
-        Part::Uv => trace.uv.to_array().to_vec(),
-        Part::Origin => trace.origin.to_array().to_vec(),
-        Part::Material => vec![trace.material as f32],
+    let part = |part: &HitCheck| match part {
+        HitCheck::Distance => vec![trace.distance],
+        HitCheck::Position => trace.position.to_array().to_vec(),
+        HitCheck::Normal => (trace.normal / trace.normal.length()).to_array().to_vec(),
+        HitCheck::UnitNormal => vec![trace.normal.length()],
+        HitCheck::Uv => trace.uv.to_array().to_vec(),
+        HitCheck::Origin => trace.origin.to_array().to_vec(),
+        HitCheck::Material => vec![trace.material as f32],
     };
-    Seen::Numbers(judged.iter().flat_map(part).collect())
+    ObservedAnswer::Numbers(judged.iter().flat_map(part).collect())
 }
 
-fn of_span(span: Option<Interval>) -> Seen {
-    span.map_or(Seen::Nothing, |span| {
-        Seen::Numbers(vec![span.min, span.max])
+fn observe_span(span: Option<Interval>) -> ObservedAnswer {
+    span.map_or(ObservedAnswer::NoHit, |span| {
+        ObservedAnswer::Numbers(vec![span.min, span.max])
     })
 }
 
 /// Trees of one mind differ from submission to submission: what is told is what the judge finds.
-fn of_tree(asked: &Asked, answer: &Answer) -> Seen {
-    let how = judge(asked, answer).failure.map(|failure| failure.how);
+fn observe_tree(asked: &ExamQuestion, answer: &Answer) -> ObservedAnswer {
+    let how = judge(asked, answer).failure.map(|failure| failure.kind);
     match how {
-        None => Seen::Tree(None),
-        Some(How::Wrong { what, got, .. }) => {
+        None => ObservedAnswer::Tree(None),
+        Some(FailureKind::Wrong { what, got, .. }) => {
             // Where the finding is a number it comes first. The other numbers are places.
             let amount = got.split(' ').next().and_then(|word| word.parse().ok());
             let is_word = |word: &&str| !word.contains(|c: char| c.is_ascii_digit());
             let words: Vec<&str> = got.split(' ').filter(is_word).collect();
             let found = format!("{what}: {}", words.join(" "));
-            Seen::Tree(Some((found, amount.unwrap_or(0.0))))
+            ObservedAnswer::Tree(Some((found, amount.unwrap_or(0.0))))
         }
-        Some(How::Panicked(_)) => Seen::Panicked,
-        Some(How::Protocol(_)) => Seen::NoAnswer(Silence::Other),
+        Some(FailureKind::Panicked(_)) => ObservedAnswer::Panicked,
+        Some(FailureKind::Protocol(_)) => ObservedAnswer::NoAnswer(NoAnswerReason::Other),
     }
 }

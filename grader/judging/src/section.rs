@@ -46,7 +46,7 @@ impl Section {
     }
 
     /// What to open and what to look for: `handout/src/boxes.md, "Zero and minus zero"`.
-    pub fn words(&self) -> String {
+    pub fn location(&self) -> String {
         let chapter = self.chapter();
         match self.anchor() {
             "" => format!("{CHAPTERS}/{chapter}"),
@@ -66,16 +66,16 @@ mod tests {
     use super::Section;
 
     #[test]
-    fn a_section_is_told_by_its_file_and_its_heading() {
+    fn location_names_file_and_heading() {
         let section = Section::new("boxes.md#zero-and-minus-zero");
         assert_eq!(
-            section.words(),
+            section.location(),
             "handout/src/boxes.md, \"Zero and minus zero\""
         );
     }
 
     #[test]
-    fn a_whole_chapter_has_no_heading_to_look_for() {
-        assert_eq!(Section::new("start.md").words(), "handout/src/start.md");
+    fn location_of_a_whole_chapter_is_its_file() {
+        assert_eq!(Section::new("start.md").location(), "handout/src/start.md");
     }
 }

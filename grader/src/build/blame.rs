@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 
 use crate::build::diagnostics::Diagnostic;
-use crate::given::TaskFile;
-use crate::submission::{Submission, Unreadable};
+use crate::given_files::TaskFile;
+use crate::submission::{Submission, TaskFileError};
 
 /// Why a file is not part of the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotCompiled {
     /// There is no text to compile.
-    Unreadable(Unreadable),
+    Unreadable(TaskFileError),
     /// It lacks something that other files call.
-    Lacks(&'static str),
+    MissingDeclaration(&'static str),
     /// The compiler's first error in it.
     Error {
         /// What it says.
@@ -26,28 +26,31 @@ pub enum NotCompiled {
 
 impl NotCompiled {
     /// Whether it would be the same on any day.
-    pub fn is_settled(&self) -> bool {
+    pub fn is_reproducible(&self) -> bool {
         match self {
             NotCompiled::Unreadable(
-                Unreadable::Missing(_)
-                | Unreadable::NotAFile(_)
-                | Unreadable::TooLong(_)
-                | Unreadable::NotText { .. },
+                TaskFileError::Missing(_)
+                | TaskFileError::NotRegular(_)
+                | TaskFileError::TooLong(_)
+                | TaskFileError::NotText { .. },
             )
-            | NotCompiled::Lacks(_)
+            | NotCompiled::MissingDeclaration(_)
             | NotCompiled::Error { .. } => true,
-            NotCompiled::Unreadable(Unreadable::Io { .. }) | NotCompiled::Compiler(_) => false,
+            NotCompiled::Unreadable(TaskFileError::Io { .. }) | NotCompiled::Compiler(_) => false,
         }
     }
 }
 
 /// Files that are not worth a compile: without text, or without what the others call.
-pub(super) fn missing_parts(submission: &Submission) -> BTreeMap<&'static str, NotCompiled> {
-    let why = |file: &TaskFile, text: &Result<String, Unreadable>| match text {
+pub(super) fn unusable_files(submission: &Submission) -> BTreeMap<&'static str, NotCompiled> {
+    let why = |file: &TaskFile, text: &Result<String, TaskFileError>| match text {
         Err(unreadable) => Some(NotCompiled::Unreadable(unreadable.clone())),
         Ok(text) => {
-            let lacking = file.needed.iter().find(|part| !text.contains(**part));
-            lacking.map(|part| NotCompiled::Lacks(part))
+            let lacking = file
+                .required_declarations
+                .iter()
+                .find(|part| !text.contains(**part));
+            lacking.map(|part| NotCompiled::MissingDeclaration(part))
         }
     };
     submission
@@ -64,7 +67,7 @@ pub(super) fn blame(
 ) -> bool {
     let before = not_compiled.len();
     for error in errors {
-        if let Some(name) = error.blamed() {
+        if let Some(name) = error.blamed_file() {
             let why = || NotCompiled::Error {
                 text: error.text().to_owned(),
                 line: error.line_in(name),

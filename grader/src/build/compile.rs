@@ -4,9 +4,9 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use crate::build::kept::Content;
-use crate::build::rustc::{Compiled, Crate, Kind, Rustc};
-use crate::given::GIVEN_FILES;
+use crate::build::program_cache::ContentHash;
+use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
+use crate::given_files::GIVEN_FILES;
 
 /// The crate's root: the given `lib.rs`, and a way in.
 const ROOT: &str = "probe.rs";
@@ -18,15 +18,19 @@ fn main() -> std::process::ExitCode {
 ";
 
 /// Compiles the five files, given as name and text, together with ours, in `folder`.
-pub fn compile(files: &[(&str, &str)], folder: &Path, rustc: &Rustc) -> io::Result<Compiled> {
+pub fn compile(files: &[(&str, &str)], folder: &Path, rustc: &Rustc) -> io::Result<CompileOutcome> {
     let content = files.iter().chain(&GIVEN_FILES).fold(
-        Content::default().with(rustc.identity()),
+        ContentHash::default().with(rustc.identity()),
         |content, (name, text)| content.with(name.as_bytes()).with(text.as_bytes()),
     );
-    rustc.once(&content, || compile_afresh(files, folder, rustc))
+    rustc.compile_cached(&content, || compile_uncached(files, folder, rustc))
 }
 
-fn compile_afresh(files: &[(&str, &str)], folder: &Path, rustc: &Rustc) -> io::Result<Compiled> {
+fn compile_uncached(
+    files: &[(&str, &str)],
+    folder: &Path,
+    rustc: &Rustc,
+) -> io::Result<CompileOutcome> {
     fs::create_dir_all(folder)?;
     for (name, text) in files.iter().chain(&GIVEN_FILES) {
         fs::write(folder.join(name), text)?;
@@ -35,10 +39,10 @@ fn compile_afresh(files: &[(&str, &str)], folder: &Path, rustc: &Rustc) -> io::R
     fs::write(folder.join(ROOT), format!("{lib}{ENTRY}"))?;
     rustc.compile(&Crate {
         name: "probe",
-        kind: Kind::Program,
+        kind: CrateKind::Program,
         folder,
         root: ROOT,
         links: &[],
-        behind: None,
+        dependency_folder: None,
     })
 }

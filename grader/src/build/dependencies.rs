@@ -22,9 +22,9 @@ use crate::workspace::Workspace;
 /// The crates that a submission may name.
 const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
 /// The package that they all come with, as the probe needs it.
-const FRAMEWORK: [&str; 3] = ["--package", "framework", "--no-default-features"];
+const FRAMEWORK_PACKAGE: [&str; 3] = ["--package", "framework", "--no-default-features"];
 /// Changes when this module makes something else of the same sources.
-const RECIPE: &str = "4";
+const RECIPE_VERSION: &str = "4";
 
 /// Where the compiled dependencies lie.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -37,7 +37,7 @@ pub struct Dependencies {
 
 /// The dependencies can not be made: our fault, or the machine's.
 #[derive(Debug, thiserror::Error)]
-pub enum NoDependencies {
+pub enum DependenciesError {
     /// The cache can not be used.
     #[error("can not use {path}: {source}")]
     Io {
@@ -53,38 +53,44 @@ pub enum NoDependencies {
     Cargo,
     /// Cargo said nothing of a crate that we need.
     #[error("cargo built no {0}: is student/framework as it was handed out?")]
-    Nothing(String),
+    MissingCrate(String),
 }
 
 impl Dependencies {
     /// Those in the cache, or newly made ones.
-    pub fn prepare(workspace: &Workspace, toolchain: &Toolchain) -> Result<Self, NoDependencies> {
-        let key = key(workspace, toolchain)?;
-        let cache = workspace.grade().join("dependencies").join(&key[..16]);
-        once(&cache, || {
+    pub fn prepare(
+        workspace: &Workspace,
+        toolchain: &Toolchain,
+    ) -> Result<Self, DependenciesError> {
+        let key = cache_key(workspace, toolchain)?;
+        let cache = workspace
+            .output_folder()
+            .join("dependencies")
+            .join(&key[..16]);
+        prepare_once(&cache, || {
             eprintln!(
                 "Preparing what submissions are built with: this once, it takes some seconds."
             );
-            let libraries = build(&FRAMEWORK, workspace, toolchain)?;
+            let libraries = build(&FRAMEWORK_PACKAGE, workspace, toolchain)?;
             copy(libraries, &EXTERNS, &cache.join("crates"))
         })
     }
 
     /// Those and more crates of the lock file: for a solution of ours. No submission is ever built
     /// with them.
-    pub fn and(
+    pub fn with_crates(
         names: &[String],
         workspace: &Workspace,
         toolchain: &Toolchain,
-    ) -> Result<Self, NoDependencies> {
-        let cache = workspace.grade().join("dependencies");
+    ) -> Result<Self, DependenciesError> {
+        let cache = workspace.output_folder().join("dependencies");
         let cache = cache.join(format!(
             "{}-{}",
-            &key(workspace, toolchain)?[..16],
+            &cache_key(workspace, toolchain)?[..16],
             names.join("-")
         ));
-        once(&cache, || {
-            let mut libraries = build(&FRAMEWORK, workspace, toolchain)?;
+        prepare_once(&cache, || {
+            let mut libraries = build(&FRAMEWORK_PACKAGE, workspace, toolchain)?;
             let packages: Vec<&str> = names.iter().flat_map(|name| ["--package", name]).collect();
             libraries.extend(build(&packages, workspace, toolchain)?);
             let names = names.iter().map(String::as_str);
@@ -96,10 +102,10 @@ impl Dependencies {
 
 /// What this folder holds already, or what is now made in it. It is never made twice: a compiler may
 /// be reading what was made first.
-fn once(
+fn prepare_once(
     cache: &Path,
-    make: impl FnOnce() -> Result<Dependencies, NoDependencies>,
-) -> Result<Dependencies, NoDependencies> {
+    make: impl FnOnce() -> Result<Dependencies, DependenciesError>,
+) -> Result<Dependencies, DependenciesError> {
     let record = cache.join("dependencies.json");
     if let Some(ready) = read(&record) {
         return Ok(ready);
@@ -112,22 +118,22 @@ fn once(
     }
     let made = make()?;
     let text = serde_json::to_vec_pretty(&made).expect("paths are text");
-    fs::write(&record, text).map_err(at(&record))?;
+    fs::write(&record, text).map_err(io_error(&record))?;
     Ok(made)
 }
 
 /// Held by whoever makes what lies in this folder.
-fn lock(cache: &Path) -> Result<File, NoDependencies> {
-    fs::create_dir_all(cache).map_err(at(cache))?;
+fn lock(cache: &Path) -> Result<File, DependenciesError> {
+    fs::create_dir_all(cache).map_err(io_error(cache))?;
     let path = cache.join("lock");
-    let lock = File::create(&path).map_err(at(&path))?;
-    lock.lock().map_err(at(&path))?;
+    let lock = File::create(&path).map_err(io_error(&path))?;
+    lock.lock().map_err(io_error(&path))?;
     Ok(lock)
 }
 
-fn at(path: &Path) -> impl FnOnce(io::Error) -> NoDependencies {
+fn io_error(path: &Path) -> impl FnOnce(io::Error) -> DependenciesError {
     let path = path.to_owned();
-    move |source| NoDependencies::Io { path, source }
+    move |source| DependenciesError::Io { path, source }
 }
 
 fn read(record: &Path) -> Option<Dependencies> {
@@ -140,33 +146,33 @@ fn read(record: &Path) -> Option<Dependencies> {
 }
 
 /// What the compiled dependencies follow from: the compiler, the lock file, the sources.
-fn key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, NoDependencies> {
+fn cache_key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, DependenciesError> {
     let mut hasher = blake2b_simd::State::new();
-    hasher.update(RECIPE.as_bytes());
+    hasher.update(RECIPE_VERSION.as_bytes());
     hasher.update(toolchain.fingerprint().as_bytes());
     let mut files = vec![workspace.root().join("Cargo.lock")];
     for folder in ["protocol", "framework"] {
         let folder = workspace.student().join(folder);
         files.push(folder.join("Cargo.toml"));
-        sources(&folder.join("src"), &mut files)?;
+        list_sources(&folder.join("src"), &mut files)?;
     }
     for file in files {
         let name = file.strip_prefix(workspace.root()).unwrap_or(&file);
         hasher.update(name.as_os_str().as_encoded_bytes());
-        let text = fs::read(&file).map_err(at(&file))?;
+        let text = fs::read(&file).map_err(io_error(&file))?;
         hasher.update(&(text.len() as u64).to_le_bytes());
         hasher.update(&text);
     }
     Ok(hasher.finalize().to_hex().to_string())
 }
 
-fn sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), NoDependencies> {
-    let entries = fs::read_dir(folder).map_err(at(folder))?;
+fn list_sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), DependenciesError> {
+    let entries = fs::read_dir(folder).map_err(io_error(folder))?;
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.sort();
     for path in paths {
         if path.is_dir() {
-            sources(&path, files)?;
+            list_sources(&path, files)?;
         } else {
             files.push(path);
         }
@@ -180,9 +186,9 @@ fn build(
     package: &[&str],
     workspace: &Workspace,
     toolchain: &Toolchain,
-) -> Result<Vec<(String, PathBuf)>, NoDependencies> {
+) -> Result<Vec<(String, PathBuf)>, DependenciesError> {
     let run = |offline: bool| {
-        let mut cargo = system::tied(&toolchain.cargo);
+        let mut cargo = system::command_killed_at_eof(&toolchain.cargo);
         cargo
             .arg("build")
             .args(package)
@@ -209,14 +215,14 @@ fn build(
             .env("CARGO_PROFILE_RELEASE_DEBUG", "false")
             .env("CARGO_PROFILE_RELEASE_LTO", "off")
             .env("CARGO_PROFILE_RELEASE_PANIC", "unwind");
-        output(&mut cargo).map_err(at(&toolchain.cargo))
+        output(&mut cargo).map_err(io_error(&toolchain.cargo))
     };
     let mut output = run(true)?;
     if !output.status.success() {
         output = run(false)?;
     }
     if !output.status.success() {
-        return Err(NoDependencies::Cargo);
+        return Err(DependenciesError::Cargo);
     }
     Ok(libraries(&String::from_utf8_lossy(&output.stdout)))
 }
@@ -256,18 +262,18 @@ fn copy(
     libraries: Vec<(String, PathBuf)>,
     names: &[&str],
     folder: &Path,
-) -> Result<Dependencies, NoDependencies> {
-    fs::create_dir_all(folder).map_err(at(folder))?;
+) -> Result<Dependencies, DependenciesError> {
+    fs::create_dir_all(folder).map_err(io_error(folder))?;
     let mut externs = BTreeMap::new();
     for (name, library) in libraries {
         let copy = folder.join(library.file_name().expect("cargo names files"));
-        fs::copy(&library, &copy).map_err(at(&library))?;
+        fs::copy(&library, &copy).map_err(io_error(&library))?;
         if names.contains(&&*name) {
             externs.insert(name, copy);
         }
     }
     if let Some(name) = names.iter().find(|name| !externs.contains_key(**name)) {
-        return Err(NoDependencies::Nothing((*name).to_owned()));
+        return Err(DependenciesError::MissingCrate((*name).to_owned()));
     }
     Ok(Dependencies {
         externs,
@@ -284,7 +290,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn of_several_at_once_one_makes_them_and_the_others_wait_for_it() {
+    fn concurrent_callers_build_the_dependencies_once() {
         let folder = tempfile::tempdir().unwrap();
         let cache = folder.path().join("key");
         let made = AtomicU32::new(0);
@@ -292,7 +298,7 @@ mod tests {
         let make = || {
             made.fetch_add(1, Ordering::SeqCst);
             let rlib = cache.join("libglam.rlib");
-            fs::write(&rlib, "a library").map_err(at(&rlib))?;
+            fs::write(&rlib, "a library").map_err(io_error(&rlib))?;
             Ok(Dependencies {
                 externs: BTreeMap::from([("glam".to_owned(), rlib)]),
                 folder: cache.clone(),
@@ -302,7 +308,7 @@ mod tests {
             for _ in 0..8 {
                 scope.spawn(|| {
                     all_at_once.wait();
-                    once(&cache, make).unwrap();
+                    prepare_once(&cache, make).unwrap();
                 });
             }
         });

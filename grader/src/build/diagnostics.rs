@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::given::TASK_FILES;
+use crate::given_files::TASK_FILES;
 
 /// One message of `rustc --error-format=json`.
 #[derive(Clone, Debug, Deserialize)]
@@ -24,12 +24,12 @@ struct Span {
     #[serde(default)]
     line_start: Option<u32>,
     #[serde(default)]
-    text: Vec<Line>,
+    text: Vec<SourceLine>,
 }
 
 /// A line of source that a span touches.
 #[derive(Clone, Debug, Deserialize)]
-struct Line {
+struct SourceLine {
     text: String,
 }
 
@@ -46,7 +46,7 @@ impl Diagnostic {
     /// Which of the five files has to be mended: the one that the error is in. An error in a given
     /// file is told of the file that it points to for an explanation ("method not found for this
     /// struct"), else of the one that its line calls.
-    pub fn blamed(&self) -> Option<&'static str> {
+    pub fn blamed_file(&self) -> Option<&'static str> {
         let primary = || self.spans.iter().filter(|span| span.is_primary);
         let secondary = self.spans.iter().filter(|span| !span.is_primary);
         let explaining = self.children.iter().flat_map(|child| &child.spans);
@@ -58,7 +58,7 @@ impl Diagnostic {
             .or_else(|| {
                 primary()
                     .flat_map(|span| &span.text)
-                    .find_map(|line| called(&line.text))
+                    .find_map(|line| called_file(&line.text))
             })
     }
 
@@ -75,7 +75,7 @@ impl Diagnostic {
 }
 
 /// The file that a line of a given file calls first, by its name: `triangle.bbox()`.
-fn called(line: &str) -> Option<&'static str> {
+fn called_file(line: &str) -> Option<&'static str> {
     let line = line.to_lowercase();
     let place = |name: &str| line.find(name.trim_end_matches(".rs"));
     let named = TASK_FILES
@@ -88,15 +88,15 @@ fn called(line: &str) -> Option<&'static str> {
 mod tests {
     use super::*;
 
-    fn one(spans: &str, children: &str) -> Option<&'static str> {
+    fn blame_one(spans: &str, children: &str) -> Option<&'static str> {
         let line = format!(
             r#"{{"message":"m","level":"error","spans":[{spans}],"children":[{children}],"rendered":"r"}}"#
         );
-        errors(&line)[0].blamed()
+        errors(&line)[0].blamed_file()
     }
 
     #[test]
-    fn the_line_is_that_of_the_error_itself() {
+    fn line_comes_from_the_primary_span() {
         let spans = r#"{"file_name":"sphere.rs","is_primary":false,"line_start":1},
             {"file_name":"sphere.rs","is_primary":true,"line_start":7}"#;
         let line = format!(r#"{{"message":"m","level":"error","spans":[{spans}]}}"#);
@@ -109,25 +109,25 @@ mod tests {
     const IN_WORLD: &str = r#"{"file_name":"world.rs","is_primary":true}"#;
 
     #[test]
-    fn the_file_with_the_error_is_blamed() {
-        assert_eq!(one(IN_SPHERE, ""), Some("sphere.rs"));
+    fn blames_the_file_with_the_error() {
+        assert_eq!(blame_one(IN_SPHERE, ""), Some("sphere.rs"));
     }
 
     #[test]
-    fn an_error_in_a_given_file_is_told_of_what_it_points_to() {
+    fn blames_the_file_that_an_error_in_a_given_file_points_to() {
         let child = r#"{"message":"defined here","level":"note","spans":[{"file_name":"bvh.rs","is_primary":true}]}"#;
-        assert_eq!(one(IN_WORLD, child), Some("bvh.rs"));
-        assert_eq!(one(IN_WORLD, ""), None);
+        assert_eq!(blame_one(IN_WORLD, child), Some("bvh.rs"));
+        assert_eq!(blame_one(IN_WORLD, ""), None);
     }
 
     #[test]
-    fn an_error_that_points_nowhere_is_told_of_what_its_line_calls() {
+    fn blames_the_file_called_on_the_error_line() {
         let span = r#"{"file_name":"primitive.rs","is_primary":true,"text":[{"text":"Primitive::Triangle(triangle) => triangle.bbox(),"}]}"#;
-        assert_eq!(one(span, ""), Some("triangle.rs"));
+        assert_eq!(blame_one(span, ""), Some("triangle.rs"));
     }
 
     #[test]
-    fn warnings_and_noise_are_passed_over() {
+    fn ignores_warnings_and_noise() {
         assert!(errors("{\"message\":\"m\",\"level\":\"warning\"}\nnot json").is_empty());
     }
 }

@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::system;
 
 /// Where the toolchain's own linker lies, on the one system where it is the usual one.
-const OWN: &str = "lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld";
+const BUNDLED_LINKER: &str = "lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld";
 
 /// Says which linker to use, in a command that compiles a program in this folder.
 ///
@@ -17,9 +17,9 @@ const OWN: &str = "lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld";
 /// texts that nobody keeps. The system's linker, which knows no such options, would make a compile a
 /// third slower.
 pub(super) fn arguments(sysroot: &Path, folder: &Path, command: &mut Command) -> io::Result<()> {
-    let own = sysroot.join(OWN);
+    let own = sysroot.join(BUNDLED_LINKER);
     if cfg!(all(target_os = "linux", target_arch = "x86_64")) && own.is_file() {
-        system::link(&own, &folder.join("ld.lld"))?;
+        system::symlink(&own, &folder.join("ld.lld"))?;
         command.args([
             "-Clinker-features=-lld",
             "-Clink-args=-fuse-ld=lld -B. -Wl,--threads=1,-O0",

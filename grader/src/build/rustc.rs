@@ -8,16 +8,16 @@ use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::build::confined;
+use crate::build::compiler_sandbox;
 use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::{self, Diagnostic};
-use crate::build::kept::{Content, Kept};
-use crate::build::lacking::Lacking;
 use crate::build::linker;
-use crate::build::taken;
+use crate::build::machine_fault::MachineFault;
+use crate::build::program_cache::{ContentHash, ProgramCache};
 use crate::build::toolchain::Toolchain;
+use crate::build::verified_copy;
 use crate::capture::Capture;
-use crate::sandbox::{Ending, Sandbox};
+use crate::sandbox::{ExitReason, Sandbox};
 use crate::system::{self, Limits};
 
 const LIMITS: Limits = Limits {
@@ -26,9 +26,9 @@ const LIMITS: Limits = Limits {
     file: 256 << 20,
 };
 /// The back-stop for a compiler that waits instead of working.
-const WALL: Duration = Duration::from_secs(90);
+const WALL_LIMIT: Duration = Duration::from_secs(90);
 /// How much is kept of what the compiler says.
-const KEPT: usize = 1 << 20;
+const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
 /// A crate to compile.
 #[derive(Debug)]
@@ -36,7 +36,7 @@ pub struct Crate<'a> {
     /// What others call it.
     pub name: &'a str,
     /// What is made of it.
-    pub kind: Kind,
+    pub kind: CrateKind,
     /// Where its sources lie, and what is made of them.
     pub folder: &'a Path,
     /// The file in the folder that holds its root module.
@@ -44,31 +44,31 @@ pub struct Crate<'a> {
     /// The crates that it may name, beside those that every submission may.
     pub links: &'a [(&'a str, &'a Path)],
     /// The folder with what those need in turn, beside what every submission needs.
-    pub behind: Option<&'a Path>,
+    pub dependency_folder: Option<&'a Path>,
 }
 
 /// What is made of a crate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum CrateKind {
     /// An executable.
     Program,
     /// An `rlib`, and the metadata that suffices to compile against it.
     Library,
 }
 
-impl Kind {
+impl CrateKind {
     /// What the compiler calls its file.
-    fn file(self, name: &str) -> String {
+    fn file_name(self, name: &str) -> String {
         match self {
-            Kind::Program => format!("{name}{}", std::env::consts::EXE_SUFFIX),
-            Kind::Library => format!("lib{name}.rlib"),
+            CrateKind::Program => format!("{name}{}", std::env::consts::EXE_SUFFIX),
+            CrateKind::Library => format!("lib{name}.rlib"),
         }
     }
 }
 
 /// What became of one call of the compiler.
 #[derive(Debug)]
-pub enum Compiled {
+pub enum CompileOutcome {
     /// The program or library.
     Done(PathBuf),
     /// Errors.
@@ -85,7 +85,7 @@ pub struct Rustc {
     /// What everything is linked with.
     pub dependencies: Dependencies,
     /// What was compiled before, for whoever wants it again.
-    pub kept: Option<Kept>,
+    pub cache: Option<ProgramCache>,
     /// How the compiler is kept apart, and programs are linked for.
     pub sandbox: Sandbox,
 }
@@ -98,122 +98,128 @@ impl Rustc {
     }
 
     /// The program of this content, compiled unless it is kept from an earlier time.
-    pub fn once(
+    pub fn compile_cached(
         &self,
-        content: &Content,
-        compile: impl FnOnce() -> io::Result<Compiled>,
-    ) -> io::Result<Compiled> {
-        let Some(kept) = &self.kept else {
+        content: &ContentHash,
+        compile: impl FnOnce() -> io::Result<CompileOutcome>,
+    ) -> io::Result<CompileOutcome> {
+        let Some(kept) = &self.cache else {
             return compile();
         };
         if let Some(program) = kept.find(content) {
-            return Ok(Compiled::Done(program));
+            return Ok(CompileOutcome::Done(program));
         }
         Ok(match compile()? {
-            Compiled::Done(program) => Compiled::Done(kept.keep(content, &program)?),
-            other @ (Compiled::Errors(_) | Compiled::Failed(_)) => other,
+            CompileOutcome::Done(program) => CompileOutcome::Done(kept.store(content, &program)?),
+            other @ (CompileOutcome::Errors(_) | CompileOutcome::Failed(_)) => other,
         })
     }
 
     /// Compiles one crate. What the machine lacks for that is an error, and no fault of the crate's.
-    pub fn compile(&self, source: &Crate) -> io::Result<Compiled> {
+    pub fn compile(&self, source: &Crate) -> io::Result<CompileOutcome> {
         let mut command = Command::new(&self.toolchain.rustc);
         system::clear_environment(&mut command);
         command
             .env("PATH", std::env::var_os("PATH").unwrap_or_default())
             .env("TMPDIR", source.folder)
             .args(FLAGS)
-            .args(self.links(source))
+            .args(self.link_arguments(source))
             .args(["--crate-name", source.name])
             .args(match source.kind {
-                Kind::Program => ["--crate-type=bin", "--emit=link"],
-                Kind::Library => ["--crate-type=rlib", "--emit=metadata,link"],
+                CrateKind::Program => ["--crate-type=bin", "--emit=link"],
+                CrateKind::Library => ["--crate-type=rlib", "--emit=metadata,link"],
             })
             .arg(source.root);
         match source.kind {
-            Kind::Program => {
+            CrateKind::Program => {
                 linker::arguments(self.toolchain.sysroot(), source.folder, &mut command)?;
             }
-            Kind::Library => {}
+            CrateKind::Library => {}
         }
         if self.sandbox.confines() {
-            confined::arguments(self, source, &mut command);
+            compiler_sandbox::arguments(self, source, &mut command);
         }
-        let profile = confined::profile(self, source);
+        let profile = compiler_sandbox::profile(self, source);
         let mut process = self
             .sandbox
             .start(command, source.folder, profile, LIMITS)?;
-        let messages = Capture::start(process.child.stderr.take().expect("it is piped"), KEPT);
+        let messages = Capture::start(
+            process.child.stderr.take().expect("it is piped"),
+            MAX_MESSAGE_BYTES,
+        );
 
-        let deadline = Instant::now() + WALL;
+        let deadline = Instant::now() + WALL_LIMIT;
         let ending = loop {
-            match process.ending() {
+            match process.exit_reason() {
                 Some(ending) => break ending,
                 None if Instant::now() >= deadline => {
                     process.kill();
-                    let seconds = WALL.as_secs();
-                    return Ok(Compiled::Failed(format!(
+                    let seconds = WALL_LIMIT.as_secs();
+                    return Ok(CompileOutcome::Failed(format!(
                         "the compiler was stopped after {seconds} s"
                     )));
                 }
                 // Its last words come just before its end, and until then there is nothing to see.
-                None => messages.settle(deadline.saturating_duration_since(Instant::now())),
+                None => messages.wait_for_end(deadline.saturating_duration_since(Instant::now())),
             }
             thread::sleep(Duration::from_micros(200));
         };
-        messages.settle(Duration::from_secs(1));
+        messages.wait_for_end(Duration::from_secs(1));
 
         if ending.is_success()
-            && let Some(made) = self.made(source)?
+            && let Some(made) = self.output_file(source)?
         {
-            return Ok(Compiled::Done(made));
+            return Ok(CompileOutcome::Done(made));
         }
         let errors = diagnostics::errors(&messages.head());
-        Lacking::check(ending, &errors, source.folder).map_err(io::Error::other)?;
+        MachineFault::check(ending, &errors, source.folder).map_err(io::Error::other)?;
         Ok(if errors.is_empty() {
-            Compiled::Failed(failure(ending))
+            CompileOutcome::Failed(failure_message(ending))
         } else {
-            Compiled::Errors(errors)
+            CompileOutcome::Errors(errors)
         })
     }
 
     /// What was made, if it was.
-    fn made(&self, source: &Crate) -> io::Result<Option<PathBuf>> {
-        let name = source.kind.file(source.name);
+    fn output_file(&self, source: &Crate) -> io::Result<Option<PathBuf>> {
+        let name = source.kind.file_name(source.name);
         if self.sandbox.confines() {
-            return taken::take(source.folder, &name);
+            return verified_copy::copy_verified(source.folder, &name);
         }
         let path = source.folder.join(name);
         Ok(path.is_file().then_some(path))
     }
 
-    fn links(&self, source: &Crate) -> Vec<OsString> {
+    fn link_arguments(&self, source: &Crate) -> Vec<OsString> {
         let mut arguments = Vec::new();
         for folder in [self.dependencies.folder.as_path()]
             .into_iter()
-            .chain(source.behind)
+            .chain(source.dependency_folder)
         {
-            arguments.push(joined("-Ldependency=", folder));
+            arguments.push(option_with_path("-Ldependency=", folder));
         }
         let common = self.dependencies.externs.iter();
         let common = common.map(|(name, rlib)| (name.as_str(), rlib.as_path()));
         for (name, library) in common.chain(source.links.iter().copied()) {
-            arguments.extend(["--extern".into(), joined(&format!("{name}="), library)]);
+            arguments.extend([
+                "--extern".into(),
+                option_with_path(&format!("{name}="), library),
+            ]);
         }
         arguments
     }
 }
 
-fn joined(option: &str, path: &Path) -> OsString {
+fn option_with_path(option: &str, path: &Path) -> OsString {
     let mut argument = OsString::from(option);
     argument.push(path);
     argument
 }
 
-fn failure(ending: Ending) -> String {
+fn failure_message(ending: ExitReason) -> String {
     match ending {
-        Ending::Code(code) => format!("the compiler ended with exit code {code}"),
-        Ending::Signal(signal) => format!(
+        ExitReason::Code(code) => format!("the compiler ended with exit code {code}"),
+        ExitReason::Signal(signal) => format!(
             "the compiler was ended by signal {signal}: too much time or memory, or code that it can not digest"
         ),
     }

@@ -19,22 +19,24 @@ pub struct Toolchain {
 /// There is no compiler.
 #[derive(Debug, thiserror::Error)]
 #[error("can not find rustc: install Rust, or put it on the PATH ({0})")]
-pub struct NoToolchain(String);
+pub struct ToolchainError(String);
 
 impl Toolchain {
     /// The toolchain whose cargo runs us, else the one on the PATH.
-    pub fn find() -> Result<Self, NoToolchain> {
-        if let Some(toolchain) = env::var_os("CARGO").and_then(|cargo| beside(Path::new(&cargo))) {
+    pub fn find() -> Result<Self, ToolchainError> {
+        if let Some(toolchain) =
+            env::var_os("CARGO").and_then(|cargo| toolchain_beside(Path::new(&cargo)))
+        {
             return Ok(toolchain);
         }
         let output = Command::new("rustc")
             .args(["--print", "sysroot"])
             .output()
-            .map_err(|error| NoToolchain(error.to_string()))?;
+            .map_err(|error| ToolchainError(error.to_string()))?;
         let sysroot = String::from_utf8_lossy(&output.stdout);
         let cargo = format!("cargo{}", env::consts::EXE_SUFFIX);
-        beside(&Path::new(sysroot.trim()).join("bin").join(cargo))
-            .ok_or_else(|| NoToolchain(format!("nothing in {}", sysroot.trim())))
+        toolchain_beside(&Path::new(sysroot.trim()).join("bin").join(cargo))
+            .ok_or_else(|| ToolchainError(format!("nothing in {}", sysroot.trim())))
     }
 
     /// The folder with all of it.
@@ -46,13 +48,13 @@ impl Toolchain {
     /// What changes when the compiler does. Asking it for its version would take 10 ms.
     pub fn fingerprint(&self) -> String {
         let driver = self.sysroot().join("lib");
-        let [rustc, driver] = [&self.rustc, &driver].map(|path| modified(path));
+        let [rustc, driver] = [&self.rustc, &driver].map(|path| file_fingerprint(path));
         format!("{} {rustc} {driver}", self.rustc.display())
     }
 }
 
 /// What changes when a file, or what a folder holds, is replaced: its size, and when that was.
-pub fn modified(path: &Path) -> String {
+pub fn file_fingerprint(path: &Path) -> String {
     let metadata = fs::metadata(path);
     let size = metadata.as_ref().map_or(0, fs::Metadata::len);
     let age = metadata.and_then(|metadata| metadata.modified()).ok();
@@ -60,7 +62,7 @@ pub fn modified(path: &Path) -> String {
     format!("{size} {age:?}")
 }
 
-fn beside(cargo: &Path) -> Option<Toolchain> {
+fn toolchain_beside(cargo: &Path) -> Option<Toolchain> {
     let rustc = cargo.with_file_name(format!("rustc{}", env::consts::EXE_SUFFIX));
     (cargo.is_file() && rustc.is_file()).then(|| Toolchain {
         cargo: cargo.to_owned(),

@@ -3,35 +3,35 @@
 use std::fs;
 use std::path::Path;
 
-use crate::doctor::contents::{Contents, POLICY, contents, unfit};
+use crate::doctor::package_contents::{POLICY, PackageContents, policy_problem, read_package};
 use crate::exam_file;
-use crate::given::TASK_FILES;
+use crate::given_files::TASK_FILES;
 
 /// What classroom50 starts, and what that unpacks.
 const CLASSROOM50: [&str; 2] = ["autograder.py", "pathtracing.zip"];
 /// What such a folder may hold, in bytes.
-const LIMIT: u64 = 10 << 20;
+const MAX_FOLDER_BYTES: u64 = 10 << 20;
 /// What the grader is built from, in that zip.
-const PARTS: [&str; 2] = [
+const REQUIRED_FOLDERS: [&str; 2] = [
     "pathtracing/grader/src/",
     "pathtracing/student/framework/src/",
 ];
 /// What makes a folder a template for GitHub.
 const WORKFLOW: &str = ".github/workflows/grade.yml";
 /// What a template holds beside the five files.
-const OF_TEMPLATE: [&str; 4] = [
+const TEMPLATE_PATHS: [&str; 4] = [
     "Cargo.lock",
     ".cargo/config.toml",
     "grader/src",
     "student/framework/src",
 ];
 /// What a template must not hold, because students read it.
-const SECRET: [&str; 3] = ["reference", "exam.json", "grader/tests"];
+const PRIVATE_PATHS: [&str; 3] = ["reference", "exam.json", "grader/tests"];
 
 /// What is wrong, a sentence each with what to do.
-pub(super) fn complaints(path: &Path) -> Vec<String> {
+pub(super) fn problems(path: &Path) -> Vec<String> {
     if path.join(WORKFLOW).is_file() {
-        return template(path);
+        return template_problems(path);
     }
     if !CLASSROOM50.iter().any(|name| path.join(name).exists()) {
         return vec![format!(
@@ -39,10 +39,10 @@ pub(super) fn complaints(path: &Path) -> Vec<String> {
             CLASSROOM50.join(" and ")
         )];
     }
-    classroom50(path)
+    classroom50_problems(path)
 }
 
-fn classroom50(path: &Path) -> Vec<String> {
+fn classroom50_problems(path: &Path) -> Vec<String> {
     let mut complaints = Vec::new();
     let mut size = 0;
     for name in CLASSROOM50 {
@@ -53,13 +53,13 @@ fn classroom50(path: &Path) -> Vec<String> {
             )),
         }
     }
-    if size > LIMIT {
+    if size > MAX_FOLDER_BYTES {
         let size = size >> 20;
         complaints.push(format!("it holds {size} MiB, and classroom50 takes 10"));
     }
     if complaints.is_empty() {
-        match contents(&path.join(CLASSROOM50[1])) {
-            Ok(contents) => complaints.extend(of_grader(&contents)),
+        match read_package(&path.join(CLASSROOM50[1])) {
+            Ok(contents) => complaints.extend(grader_zip_problems(&contents)),
             Err(error) => complaints.push(format!(
                 "{error}; for this folder `cargo author package classroom50`"
             )),
@@ -69,11 +69,11 @@ fn classroom50(path: &Path) -> Vec<String> {
 }
 
 /// What is wrong with the grader's zip, which asks the practice exam.
-fn of_grader(contents: &Contents) -> Vec<String> {
-    let mut complaints = contents.damages();
-    complaints.extend(contents.lacking(&PARTS, "classroom50"));
-    match (contents.text(POLICY), exam_file::load(None)) {
-        (Some(policy), Ok(practice)) => complaints.extend(unfit(policy, &practice.exam)),
+fn grader_zip_problems(contents: &PackageContents) -> Vec<String> {
+    let mut complaints = contents.damage_problems();
+    complaints.extend(contents.empty_folder_problems(&REQUIRED_FOLDERS, "classroom50"));
+    match (contents.bytes_of(POLICY), exam_file::load(None)) {
+        (Some(policy), Ok(practice)) => complaints.extend(policy_problem(policy, &practice.exam)),
         (_, Err(error)) => complaints.push(error.to_string()),
         (None, _) => complaints.push(format!(
             "there is no {POLICY}: `cargo author package classroom50` writes it"
@@ -82,13 +82,13 @@ fn of_grader(contents: &Contents) -> Vec<String> {
     complaints
 }
 
-fn template(path: &Path) -> Vec<String> {
+fn template_problems(path: &Path) -> Vec<String> {
     let files = TASK_FILES.map(|file| format!("student/src/{}", file.name));
-    let wanted = files.iter().map(String::as_str).chain(OF_TEMPLATE);
+    let wanted = files.iter().map(String::as_str).chain(TEMPLATE_PATHS);
     let missing = wanted.filter(|name| !path.join(name).exists());
     let told =
         missing.map(|name| format!("there is no {name}: `cargo author package github` writes it"));
-    let secret = SECRET.iter().filter(|name| path.join(name).exists());
+    let secret = PRIVATE_PATHS.iter().filter(|name| path.join(name).exists());
     let leaks = secret.map(|name| {
         format!("it holds {name}, which students are not to read: push only what `cargo author package github` writes")
     });

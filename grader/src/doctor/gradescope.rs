@@ -2,57 +2,60 @@
 
 use std::path::Path;
 
-use crate::doctor::contents::{Contents, EXAM, GRADE, POLICY, SCRIPTS, unfit};
+use crate::doctor::package_contents::{
+    EXAM, GRADE, POLICY, PackageContents, SCRIPTS, policy_problem,
+};
 use crate::exam_file::{self, ExamFile};
 
 /// What the grader is built from, and the solution: folders that are not empty.
-const PARTS: [&str; 4] = [
+const REQUIRED_FOLDERS: [&str; 4] = [
     "pathtracing/grader/src/",
     "pathtracing/student/framework/src/",
     "pathtracing/reference/src/",
     "pathtracing/reference/carried/",
 ];
 /// The crates, so that nothing is fetched.
-const CRATES: &str = "pathtracing/crates/registry/cache/";
+const CRATE_CACHE: &str = "pathtracing/crates/registry/cache/";
 /// What is told of them, without which cargo does not look for them.
-const INDEX: &str = "pathtracing/crates/registry/index/";
+const CRATE_INDEX: &str = "pathtracing/crates/registry/index/";
 /// One that only Linux needs, and that no other system has fetched.
-const OF_LINUX: &str = "/landlock-";
+const LINUX_ONLY_CRATE: &str = "/landlock-";
 
-impl Contents {
+impl PackageContents {
     /// What is wrong, as Gradescope will see it.
-    pub(super) fn complaints(&self) -> Vec<String> {
-        let mut complaints = self.damages();
-        complaints.extend(SCRIPTS.iter().flat_map(|name| self.script(name)));
+    pub(super) fn problems(&self) -> Vec<String> {
+        let mut complaints = self.damage_problems();
+        complaints.extend(SCRIPTS.iter().flat_map(|name| self.script_problems(name)));
         // Of a zip that Gradescope can not even start, the rest says nothing.
         if complaints.is_empty() {
-            complaints.extend(self.script(GRADE));
-            complaints.extend(self.exam_and_policy());
-            complaints.extend(self.parts());
+            complaints.extend(self.script_problems(GRADE));
+            complaints.extend(self.exam_and_policy_problems());
+            complaints.extend(self.build_input_problems());
         }
         complaints
     }
 
     /// What the grader is built from.
-    fn parts(&self) -> Vec<String> {
-        let mut complaints = self.lacking(&PARTS, "gradescope");
-        let is_for_linux = |name: &String| name.starts_with(CRATES) && name.contains(OF_LINUX);
-        match [CRATES, INDEX].into_iter().find(|part| !self.has(part)) {
+    fn build_input_problems(&self) -> Vec<String> {
+        let mut complaints = self.empty_folder_problems(&REQUIRED_FOLDERS, "gradescope");
+        let is_for_linux =
+            |name: &String| name.starts_with(CRATE_CACHE) && name.contains(LINUX_ONLY_CRATE);
+        match [CRATE_CACHE, CRATE_INDEX].into_iter().find(|part| !self.has_files_in(part)) {
             Some(empty) => complaints.push(format!(
                 "{empty} is empty: the grader could not be built without a network; write the package where `cargo build` has run"
             )),
-            None if !self.modes.keys().any(is_for_linux) => complaints.push(format!(
-                "{CRATES} lacks what only Linux needs, on which Gradescope runs: write the package on Linux"
+            None if !self.permissions.keys().any(is_for_linux) => complaints.push(format!(
+                "{CRATE_CACHE} lacks what only Linux needs, on which Gradescope runs: write the package on Linux"
             )),
             None => {}
         }
         complaints
     }
 
-    fn script(&self, name: &'static str) -> Vec<String> {
-        let Some(text) = self.read.get(name) else {
+    fn script_problems(&self, name: &'static str) -> Vec<String> {
+        let Some(text) = self.inspected.get(name) else {
             let below = self
-                .modes
+                .permissions
                 .keys()
                 .find(|path| path.ends_with(&format!("/{name}")));
             return vec![match below {
@@ -66,7 +69,7 @@ impl Contents {
             }];
         };
         let is_executable = |mode: u32| mode & 0o111 != 0;
-        let mode = self.modes.get(name).copied();
+        let mode = self.permissions.get(name).copied();
         let faults = [
             (
                 !text.starts_with(b"#!"),
@@ -85,8 +88,8 @@ impl Contents {
         faults.map(|(_, fault)| format!("{name} {fault}")).collect()
     }
 
-    fn exam_and_policy(&self) -> Vec<String> {
-        let (exam, policy) = match (self.read.get(EXAM), self.read.get(POLICY)) {
+    fn exam_and_policy_problems(&self) -> Vec<String> {
+        let (exam, policy) = match (self.inspected.get(EXAM), self.inspected.get(POLICY)) {
             (Some(exam), Some(policy)) => (exam, policy),
             (exam, _) => {
                 let missing = if exam.is_none() { EXAM } else { POLICY };
@@ -105,7 +108,7 @@ impl Contents {
                 "it asks the practice exam, which students have with all its keys: name another with --exam-seed".to_owned(),
             );
         }
-        complaints.extend(unfit(policy, &exam));
+        complaints.extend(policy_problem(policy, &exam));
         complaints
     }
 }

@@ -3,15 +3,15 @@
 
 use std::path::Path;
 
-use crate::doctor::contents::contents;
 use crate::doctor::folder;
+use crate::doctor::package_contents::read_package;
 
-pub use crate::doctor::contents::NoPackage;
+pub use crate::doctor::package_contents::PackageError;
 
 /// What is wrong, a sentence each with what to do. Empty if it will grade.
-pub fn complaints(path: &Path) -> Result<Vec<String>, NoPackage> {
+pub fn problems(path: &Path) -> Result<Vec<String>, PackageError> {
     match path.is_dir() {
-        true => Ok(folder::complaints(path)),
-        false => Ok(contents(path)?.complaints()),
+        true => Ok(folder::problems(path)),
+        false => Ok(read_package(path)?.problems()),
     }
 }

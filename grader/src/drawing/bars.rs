@@ -4,18 +4,18 @@ use glam::dvec2;
 use protocol::Interval;
 
 use super::canvas::{Anchor, Canvas, WIDTH};
-use super::ink::{Fill, Ink, Line};
-use super::words::short;
+use super::ink::{Fill, Ink, LineStyle};
+use super::numbers::short;
 
 /// The height of a bar's row.
-const ROW: f64 = 20.0;
+const ROW_HEIGHT: f64 = 20.0;
 /// Left of it stand the names.
 const LEFT: f64 = 58.0;
 const RIGHT: f64 = WIDTH - 12.0;
 
 /// How a bar looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Bar {
+pub(super) enum BarStyle {
     /// For comparison.
     Plain,
     /// What counts.
@@ -28,11 +28,11 @@ pub(super) enum Bar {
 
 /// A row: what it is called, from when to when, and what to write where that is nothing.
 #[derive(Clone, Debug)]
-pub(super) struct Row {
+pub(super) struct BarRow {
     pub(super) name: &'static str,
-    pub(super) bar: Bar,
+    pub(super) style: BarStyle,
     pub(super) span: Option<Interval>,
-    pub(super) otherwise: String,
+    pub(super) empty_text: String,
 }
 
 /// An axis of distances.
@@ -70,7 +70,7 @@ impl Axis {
     }
 
     /// Where on the page a distance stands; those outside at the ends. Never NaN.
-    pub(super) fn page(&self, t: f64) -> f64 {
+    pub(super) fn to_page(&self, t: f64) -> f64 {
         let share = (t - self.first) / (self.last - self.first);
         if share.is_nan() {
             return self.left;
@@ -79,22 +79,26 @@ impl Axis {
     }
 
     /// Whether it is on the axis.
-    pub(super) fn shows(&self, t: f64) -> bool {
+    pub(super) fn contains(&self, t: f64) -> bool {
         self.first <= t && t <= self.last
     }
 
     /// The line at its foot, with a few distances.
     pub(super) fn draw(&self, canvas: &mut Canvas, y: f64) {
-        canvas.line(dvec2(self.left, y), dvec2(self.right, y), Line::Outline);
-        let step = step((self.last - self.first) / 5.0);
+        canvas.line(
+            dvec2(self.left, y),
+            dvec2(self.right, y),
+            LineStyle::Outline,
+        );
+        let step = tick_step((self.last - self.first) / 5.0);
         let first = (self.first / step).ceil();
         for tick in 0..12 {
             let t = (first + f64::from(tick)) * step;
-            if !self.shows(t) {
+            if !self.contains(t) {
                 break;
             }
-            let x = self.page(t);
-            canvas.line(dvec2(x, y), dvec2(x, y + 4.0), Line::Outline);
+            let x = self.to_page(t);
+            canvas.line(dvec2(x, y), dvec2(x, y + 4.0), LineStyle::Outline);
             let at = dvec2(x, y + 17.0);
             canvas.text(at, Anchor::Middle, Ink::Faint, &short(t));
         }
@@ -102,7 +106,7 @@ impl Axis {
 }
 
 /// One, two or five times a power of ten: the least that is at least this.
-fn step(least: f64) -> f64 {
+fn tick_step(least: f64) -> f64 {
     let power = 10f64.powf(least.log10().floor());
     let steps = [1.0, 2.0, 5.0].map(|step| step * power);
     steps
@@ -115,54 +119,54 @@ fn step(least: f64) -> f64 {
 pub(super) fn draw(
     canvas: &mut Canvas,
     y: f64,
-    rows: &[Row],
+    rows: &[BarRow],
     distances: impl IntoIterator<Item = f64>,
 ) -> f64 {
     let axis = Axis::over(LEFT, distances);
-    let foot = y + ROW * rows.len() as f64;
+    let foot = y + ROW_HEIGHT * rows.len() as f64;
     // Where the right interval begins and ends, through all rows.
-    let right = rows.iter().find(|row| row.bar == Bar::Right);
+    let right = rows.iter().find(|row| row.style == BarStyle::Right);
     if let Some(span) = right.and_then(|row| row.span) {
         for t in [span.min, span.max].map(f64::from) {
-            if axis.shows(t) {
-                let x = axis.page(t);
-                canvas.line(dvec2(x, y), dvec2(x, foot), Line::Grid);
+            if axis.contains(t) {
+                let x = axis.to_page(t);
+                canvas.line(dvec2(x, y), dvec2(x, foot), LineStyle::Grid);
             }
         }
     }
     for (i, row) in rows.iter().enumerate() {
-        draw_row(canvas, &axis, y + ROW * i as f64, row);
+        draw_row(canvas, &axis, y + ROW_HEIGHT * i as f64, row);
     }
     axis.draw(canvas, foot + 2.0);
     foot + 24.0
 }
 
-fn draw_row(canvas: &mut Canvas, axis: &Axis, y: f64, row: &Row) {
-    let ink = match row.bar {
-        Bar::Plain | Bar::Range => Ink::Text,
-        Bar::Right => Ink::Right,
-        Bar::Wrong => Ink::Wrong,
+fn draw_row(canvas: &mut Canvas, axis: &Axis, y: f64, row: &BarRow) {
+    let ink = match row.style {
+        BarStyle::Plain | BarStyle::Range => Ink::Text,
+        BarStyle::Right => Ink::Right,
+        BarStyle::Wrong => Ink::Wrong,
     };
     let name = dvec2(LEFT - 8.0, y + 14.5);
     canvas.text(name, Anchor::End, ink, row.name);
-    let middle = y + 0.5 * ROW;
+    let middle = y + 0.5 * ROW_HEIGHT;
     let Some(span) = row.span.filter(|span| !span.is_empty()) else {
         let at = dvec2(LEFT + 4.0, y + 14.5);
-        canvas.text(at, Anchor::Start, ink, &row.otherwise);
+        canvas.text(at, Anchor::Start, ink, &row.empty_text);
         return;
     };
     let (min, max) = (f64::from(span.min), f64::from(span.max));
-    let (from, to) = (axis.page(min), axis.page(max));
-    let (line, share, half) = match row.bar {
-        Bar::Plain => (Line::Grid, 0.18, 5.0),
-        Bar::Range => (Line::Grid, 0.4, 5.0),
-        Bar::Right => (Line::Right, 0.6, 5.0),
-        Bar::Wrong => (Line::Wrong, 0.15, 5.0),
+    let (from, to) = (axis.to_page(min), axis.to_page(max));
+    let (line, share, half) = match row.style {
+        BarStyle::Plain => (LineStyle::Grid, 0.18, 5.0),
+        BarStyle::Range => (LineStyle::Grid, 0.4, 5.0),
+        BarStyle::Right => (LineStyle::Right, 0.6, 5.0),
+        BarStyle::Wrong => (LineStyle::Wrong, 0.15, 5.0),
     };
     // An interval of one point is seen as well.
     let to = to.max(from + 1.5);
     let corner = |x: f64, up: f64| dvec2(x, middle + up * half);
-    let fill = Fill::Of(ink, share);
+    let fill = Fill::Tint(ink, share);
     canvas.rectangle(corner(from, -1.0), corner(to, 1.0), line, fill);
     // Arrows, where it goes on.
     let goes_on = [(min < axis.first, from, -1.0), (max > axis.last, to, 1.0)];
@@ -179,17 +183,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_axis_shows_what_it_should_and_ends_there() {
+    fn an_axis_covers_the_finite_distances_and_clamps_the_rest() {
         let axis = Axis::over(40.0, [2.0, 4.0, f64::INFINITY, f64::NAN, 1e30]);
-        assert!(axis.shows(2.0) && axis.shows(4.0) && !axis.shows(9.0));
-        assert_eq!(axis.page(f64::NEG_INFINITY), 40.0);
-        assert_eq!(axis.page(f64::INFINITY), RIGHT);
-        assert_eq!(axis.page(f64::NAN), 40.0);
-        assert!((axis.page(3.0) - 0.5 * (40.0 + RIGHT)).abs() < 1e-9);
+        assert!(axis.contains(2.0) && axis.contains(4.0) && !axis.contains(9.0));
+        assert_eq!(axis.to_page(f64::NEG_INFINITY), 40.0);
+        assert_eq!(axis.to_page(f64::INFINITY), RIGHT);
+        assert_eq!(axis.to_page(f64::NAN), 40.0);
+        assert!((axis.to_page(3.0) - 0.5 * (40.0 + RIGHT)).abs() < 1e-9);
     }
 
     #[test]
-    fn steps_are_round() {
-        assert_eq!([0.3, 1.0, 1.1, 6.0].map(step), [0.5, 1.0, 2.0, 10.0]);
+    fn tick_steps_are_round() {
+        assert_eq!([0.3, 1.0, 1.1, 6.0].map(tick_step), [0.5, 1.0, 2.0, 10.0]);
     }
 }

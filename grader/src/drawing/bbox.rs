@@ -2,21 +2,21 @@
 //! of each axis, which the exam tells.
 
 use glam::{DVec2, DVec3, Vec3, dvec2};
-use protocol::{Answer, Interval, Outcome, Ray};
+use protocol::{Answer, ElementOutcome, Interval, Ray};
 
 use super::Drawing;
-use super::bars::{self, Bar, Row};
+use super::bars::{self, BarRow, BarStyle};
 use super::canvas::{Canvas, Mark};
-use super::ink::{Fill, Ink, Line};
-use super::sheet::{Sheet, Sign};
+use super::ink::{Fill, Ink, LineStyle};
+use super::sheet::{Sheet, Symbol};
 use super::sphere;
 use super::window::Window;
 use crate::describe;
-use crate::shown::Shown;
+use crate::drawing_data::DrawingData;
 
 /// One shot at a box.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shot {
+pub(super) struct BoxQuery {
     /// The corners of the box.
     pub(super) corners: [Vec3; 2],
     /// The ray.
@@ -30,37 +30,37 @@ pub(super) struct Shot {
 }
 
 /// What came: an interval, none, or no answer.
-type Got = Option<Option<Interval>>;
+type SpanAnswer = Option<Option<Interval>>;
 
-const NAMES: [&str; 3] = ["x", "y", "z"];
+const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// The drawing.
-pub(super) fn draw(shot: &Shot, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
+pub(super) fn draw(shot: &BoxQuery, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
     let [min, max] = shot.corners.map(|corner| corner.as_dvec3());
     let ray = &shot.ray;
     if !(min.is_finite() && max.is_finite() && ray.origin.is_finite() && ray.dir.is_finite()) {
         return None;
     }
-    let got = got(element, answer);
-    let (a, b) = plane(shot);
+    let got = span_answer(element, answer);
+    let (a, b) = deciding_axes(shot);
     let plane = Plane { a, b };
 
     let mut sheet = Sheet::default();
     sheet.title(&format!(
         "along {}: {} to the right, {} up",
-        NAMES[3 - a - b],
-        NAMES[a],
-        NAMES[b]
+        AXIS_NAMES[3 - a - b],
+        AXIS_NAMES[a],
+        AXIS_NAMES[b]
     ));
-    picture(&mut sheet, shot, got, plane);
+    draw_picture(&mut sheet, shot, got, plane);
     let rows = rows(shot, got);
-    sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, to_be_seen(shot, got));
-    explain(&mut sheet, shot, got);
+    sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, axis_distances(shot, got));
+    draw_legend(&mut sheet, shot, got);
     let title = "The ray, the box, and the times between its planes";
-    Some(sheet.finish(title, sentence(shot, got)))
+    Some(sheet.finish(title, caption(shot, got)))
 }
 
-fn got(element: usize, answer: Option<&Answer>) -> Got {
+fn span_answer(element: usize, answer: Option<&Answer>) -> SpanAnswer {
     let outcome = match answer {
         Some(Answer::Spans(spans)) => spans.get(element),
         Some(
@@ -69,14 +69,14 @@ fn got(element: usize, answer: Option<&Answer>) -> Got {
         | None => None,
     };
     match outcome {
-        Some(Outcome::Value(span)) => Some(*span),
-        Some(Outcome::Panicked(_) | Outcome::GivenUp) | None => None,
+        Some(ElementOutcome::Value(span)) => Some(*span),
+        Some(ElementOutcome::Panicked(_) | ElementOutcome::Skipped) | None => None,
     }
 }
 
 /// The two axes that decide: the one whose planes the ray comes between last, and the one that it
 /// leaves first. In their plane a hit looks like one, and a miss like one.
-fn plane(shot: &Shot) -> (usize, usize) {
+fn deciding_axes(shot: &BoxQuery) -> (usize, usize) {
     let Some(slabs) = shot.slabs else {
         // Across the axis along which the ray goes least.
         let along = shot.ray.dir.abs();
@@ -105,15 +105,15 @@ struct Plane {
 }
 
 impl Plane {
-    fn see(self, point: DVec3) -> DVec2 {
+    fn project(self, point: DVec3) -> DVec2 {
         dvec2(point[self.a], point[self.b])
     }
 }
 
-fn picture(sheet: &mut Sheet, shot: &Shot, got: Got, plane: Plane) {
+fn draw_picture(sheet: &mut Sheet, shot: &BoxQuery, got: SpanAnswer, plane: Plane) {
     let (origin, dir) = (shot.ray.origin.as_dvec3(), shot.ray.dir.as_dvec3());
-    let at = |t: f32| plane.see(origin + f64::from(t) * dir);
-    let corners = shot.corners.map(|corner| plane.see(corner.as_dvec3()));
+    let at = |t: f32| plane.project(origin + f64::from(t) * dir);
+    let corners = shot.corners.map(|corner| plane.project(corner.as_dvec3()));
     let size = corners[0].distance(corners[1]).max(1e-9);
     let middle = 0.5 * (corners[0] + corners[1]);
     let ends = |span: Option<Interval>| {
@@ -127,74 +127,91 @@ fn picture(sheet: &mut Sheet, shot: &Shot, got: Got, plane: Plane) {
         ends(Some(shot.times)),
     ]
     .concat();
-    let others = others.into_iter().chain([plane.see(origin)]);
+    let others = others.into_iter().chain([plane.project(origin)]);
     let seen: Vec<DVec2> = corners.into_iter().chain(others.filter(is_near)).collect();
-    let part = sheet.panel(sphere::height(&seen));
+    let part = sheet.panel(sphere::panel_height(&seen));
     let window = Window::around(part, seen);
 
     let canvas = &mut sheet.canvas;
-    let (low, high) = (window.page(corners[0]), window.page(corners[1]));
+    let (low, high) = (window.to_page(corners[0]), window.to_page(corners[1]));
     // A flat box is seen as well.
-    canvas.rectangle(low, high, Line::Outline, Fill::Of(Ink::Text, 0.08));
-    ray(canvas, &window, shot, plane);
+    canvas.rectangle(low, high, LineStyle::Outline, Fill::Tint(Ink::Text, 0.08));
+    draw_ray(canvas, &window, shot, plane);
     if let Some(span) = shot.wanted {
-        segment(canvas, &window, [span.min, span.max].map(at), Line::Right);
+        draw_segment(
+            canvas,
+            &window,
+            [span.min, span.max].map(at),
+            LineStyle::Right,
+        );
     }
     if let Some(span) = got.flatten() {
-        segment(canvas, &window, [span.min, span.max].map(at), Line::Wrong);
+        draw_segment(
+            canvas,
+            &window,
+            [span.min, span.max].map(at),
+            LineStyle::Wrong,
+        );
     }
     for (span, mark) in [(shot.wanted, Mark::Right), (got.flatten(), Mark::Wrong)] {
         for end in ends(span) {
-            if let Some((at, false)) = window.pinned(end) {
+            if let Some((at, false)) = window.pin_to_border(end) {
                 canvas.mark(at, mark);
             }
         }
     }
 }
 
-fn ray(canvas: &mut Canvas, window: &Window, shot: &Shot, plane: Plane) {
+fn draw_ray(canvas: &mut Canvas, window: &Window, shot: &BoxQuery, plane: Plane) {
     const FAR: f64 = 1e6;
 
     let (origin, dir) = (shot.ray.origin.as_dvec3(), shot.ray.dir.as_dvec3());
-    let at = |t: f64| plane.see(origin + t.clamp(-FAR, FAR) * dir);
+    let at = |t: f64| plane.project(origin + t.clamp(-FAR, FAR) * dir);
     let times = [shot.times.min, shot.times.max].map(|t| at(t.into()));
-    segment(canvas, window, times, Line::Range);
-    segment(canvas, window, [at(-FAR), at(0.0)], Line::Behind);
-    segment(canvas, window, [at(0.0), at(FAR)], Line::Ray);
-    if let Some((start, false)) = window.pinned(at(0.0)) {
+    draw_segment(canvas, window, times, LineStyle::Range);
+    draw_segment(canvas, window, [at(-FAR), at(0.0)], LineStyle::Behind);
+    draw_segment(canvas, window, [at(0.0), at(FAR)], LineStyle::Ray);
+    if let Some((start, false)) = window.pin_to_border(at(0.0)) {
         canvas.mark(start, Mark::Origin);
     }
 }
 
-fn segment(canvas: &mut Canvas, window: &Window, ends: [DVec2; 2], line: Line) {
-    if let Some((from, to)) = window.clipped(ends[0], ends[1]) {
+fn draw_segment(canvas: &mut Canvas, window: &Window, ends: [DVec2; 2], line: LineStyle) {
+    if let Some((from, to)) = window.clip_segment(ends[0], ends[1]) {
         canvas.line(from, to, line);
     }
 }
 
-fn rows(shot: &Shot, got: Got) -> Vec<Row> {
-    let row = |name, bar, span, otherwise: &str| Row {
+fn rows(shot: &BoxQuery, got: SpanAnswer) -> Vec<BarRow> {
+    let row = |name, bar, span, otherwise: &str| BarRow {
         name,
-        bar,
+        style: bar,
         span,
-        otherwise: otherwise.to_owned(),
+        empty_text: otherwise.to_owned(),
     };
-    let slabs = shot.slabs.into_iter().flatten().zip(NAMES);
-    let mut rows: Vec<Row> = slabs
-        .map(|(slab, name)| row(name, Bar::Plain, Some(slab), "never between these planes"))
+    let slabs = shot.slabs.into_iter().flatten().zip(AXIS_NAMES);
+    let mut rows: Vec<BarRow> = slabs
+        .map(|(slab, name)| {
+            row(
+                name,
+                BarStyle::Plain,
+                Some(slab),
+                "never between these planes",
+            )
+        })
         .collect();
-    rows.push(row("times", Bar::Range, Some(shot.times), "none"));
-    rows.push(row("wanted", Bar::Right, shot.wanted, "None"));
+    rows.push(row("times", BarStyle::Range, Some(shot.times), "none"));
+    rows.push(row("wanted", BarStyle::Right, shot.wanted, "None"));
     let otherwise = match got {
         None => "no answer".to_owned(),
         Some(span) => describe::span(span),
     };
-    rows.push(row("got", Bar::Wrong, got.flatten(), &otherwise));
+    rows.push(row("got", BarStyle::Wrong, got.flatten(), &otherwise));
     rows
 }
 
 /// The distances that matter: of the planes those that the ray comes between last and leaves first.
-fn to_be_seen(shot: &Shot, got: Got) -> Vec<f64> {
+fn axis_distances(shot: &BoxQuery, got: SpanAnswer) -> Vec<f64> {
     let ends = |span: Interval| [f64::from(span.min), f64::from(span.max)];
     let mut seen: Vec<f64> = [shot.wanted, Some(shot.times)]
         .into_iter()
@@ -216,31 +233,31 @@ fn to_be_seen(shot: &Shot, got: Got) -> Vec<f64> {
     seen
 }
 
-fn explain(sheet: &mut Sheet, shot: &Shot, got: Got) {
+fn draw_legend(sheet: &mut Sheet, shot: &BoxQuery, got: SpanAnswer) {
     let wanted = format!("wanted: {}", describe::span(shot.wanted));
     let sign = |span: Option<Interval>, mark| match span {
-        Some(_) => Sign::Mark(mark),
-        None => Sign::None,
+        Some(_) => Symbol::Mark(mark),
+        None => Symbol::None,
     };
-    sheet.explain(sign(shot.wanted, Mark::Right), &wanted);
+    sheet.add_legend(sign(shot.wanted, Mark::Right), &wanted);
     if let Some(span) = got {
         let words = format!("got: {}", describe::span(span));
-        sheet.explain(sign(span, Mark::Wrong), &words);
+        sheet.add_legend(sign(span, Mark::Wrong), &words);
     }
     let times = format!("times: {}", describe::interval(shot.times));
-    sheet.explain(Sign::Line(Line::Range), &times);
+    sheet.add_legend(Symbol::Line(LineStyle::Range), &times);
     let start = format!("the ray starts at {}", describe::point(shot.ray.origin));
-    sheet.explain(Sign::Mark(Mark::Origin), &start);
+    sheet.add_legend(Symbol::Mark(Mark::Origin), &start);
     if shot.slabs.is_some() {
-        let fill = Fill::Of(Ink::Text, 0.18);
-        sheet.explain(
-            Sign::Area(fill),
+        let fill = Fill::Tint(Ink::Text, 0.18);
+        sheet.add_legend(
+            Symbol::Area(fill),
             "when the ray is between the planes of x, y, z",
         );
     }
 }
 
-fn sentence(shot: &Shot, got: Got) -> String {
+fn caption(shot: &BoxQuery, got: SpanAnswer) -> String {
     let wanted = describe::span(shot.wanted);
     match (shot.wanted, got) {
         (_, None) => format!("Right is {wanted}; your code gave no answer."),
@@ -260,9 +277,9 @@ fn sentence(shot: &Shot, got: Got) -> String {
 }
 
 /// The slabs of one shot, if the exam tells them.
-pub(super) fn slabs(shown: &Shown, element: usize) -> Option<[Interval; 3]> {
+pub(super) fn slabs(shown: &DrawingData, element: usize) -> Option<[Interval; 3]> {
     match shown {
-        Shown::Slabs(slabs) => slabs.get(element).copied(),
-        Shown::Nothing | Shown::Walks(_) | Shown::Sweep(_) => None,
+        DrawingData::Slabs(slabs) => slabs.get(element).copied(),
+        DrawingData::None | DrawingData::Traversals(_) | DrawingData::Sweep(_) => None,
     }
 }

@@ -7,16 +7,16 @@ use std::fmt::{Display, Write};
 
 use glam::{DVec2, dvec2};
 
-use super::ink::{Fill, Ink, Line};
+use super::ink::{Fill, Ink, LineStyle};
 
 /// The width of every drawing. At 360 pixels a phone shows it one to one, with some room around.
 pub(super) const WIDTH: f64 = 340.0;
 /// The height of letters.
-const FONT: f64 = 12.5;
+const FONT_SIZE: f64 = 12.5;
 /// The most bytes of one drawing.
-const LONGEST: usize = 120_000;
+const MAX_BYTES: usize = 120_000;
 /// Coordinates beyond are no part of any page.
-const FARTHEST: f64 = 1e4;
+const MAX_COORDINATE: f64 = 1e4;
 
 /// Where text stands, seen from its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,21 +49,21 @@ pub(super) struct Canvas {
 impl Canvas {
     /// The whole image: `height` high, with these words for whoever can not see it.
     pub(super) fn finish(self, height: f64, title: &str, description: &str) -> String {
-        let (title, description) = (escaped(title), escaped(description));
+        let (title, description) = (escape(title), escape(description));
         format!(
             concat!(
                 r#"<svg xmlns="http://www.w3.org/2000/svg" role="img" viewBox="0 0 {} {:.0}" "#,
                 r#"font-family="system-ui, sans-serif" font-size="{}" stroke-linejoin="round">"#,
                 "<title>{}</title><desc>{}</desc>{}</svg>"
             ),
-            WIDTH, height, FONT, title, description, self.body
+            WIDTH, height, FONT_SIZE, title, description, self.body
         )
     }
 
     /// A straight line.
-    pub(super) fn line(&mut self, from: DVec2, to: DVec2, line: Line) {
-        if is_near(from) && is_near(to) {
-            let (a, b) = (point(from), point(to));
+    pub(super) fn line(&mut self, from: DVec2, to: DVec2, line: LineStyle) {
+        if is_drawable(from) && is_drawable(to) {
+            let (a, b) = (coordinates(from), coordinates(to));
             self.add(format_args!(
                 r#"<path d="M{a}L{b}" {}/>"#,
                 line.attributes()
@@ -72,16 +72,17 @@ impl Canvas {
     }
 
     /// A closed outline through all the points, or nothing if one of them is far off.
-    pub(super) fn polygon(&mut self, corners: &[DVec2], line: Line, fill: Fill) {
+    pub(super) fn polygon(&mut self, corners: &[DVec2], line: LineStyle, fill: Fill) {
         self.polygons(&[corners], line, fill);
     }
 
     /// Several of them, alike.
-    pub(super) fn polygons(&mut self, all: &[impl AsRef<[DVec2]>], line: Line, fill: Fill) {
+    pub(super) fn polygons(&mut self, all: &[impl AsRef<[DVec2]>], line: LineStyle, fill: Fill) {
         let mut path = String::new();
         for corners in all.iter().map(AsRef::as_ref) {
-            if corners.iter().all(|corner| is_near(*corner)) {
-                let corners: Vec<String> = corners.iter().map(|corner| point(*corner)).collect();
+            if corners.iter().all(|corner| is_drawable(*corner)) {
+                let corners: Vec<String> =
+                    corners.iter().map(|corner| coordinates(*corner)).collect();
                 write!(path, "M{}Z", corners.join("L")).expect("text takes text");
             }
         }
@@ -92,14 +93,14 @@ impl Canvas {
     }
 
     /// A rectangle between two corners.
-    pub(super) fn rectangle(&mut self, from: DVec2, to: DVec2, line: Line, fill: Fill) {
+    pub(super) fn rectangle(&mut self, from: DVec2, to: DVec2, line: LineStyle, fill: Fill) {
         let corners = [from, dvec2(to.x, from.y), to, dvec2(from.x, to.y)];
         self.polygon(&corners, line, fill);
     }
 
     /// An area between two corners, without a line around it.
     pub(super) fn area(&mut self, from: DVec2, to: DVec2, fill: Fill) {
-        if is_near(from) && is_near(to) {
+        if is_drawable(from) && is_drawable(to) {
             let (min, size) = (from.min(to), (to - from).abs());
             let fill = fill.attributes();
             self.add(format_args!(
@@ -110,8 +111,8 @@ impl Canvas {
     }
 
     /// A circle.
-    pub(super) fn circle(&mut self, center: DVec2, radius: f64, line: Line, fill: Fill) {
-        if is_near(center) && radius.is_finite() && radius < FARTHEST {
+    pub(super) fn circle(&mut self, center: DVec2, radius: f64, line: LineStyle, fill: Fill) {
+        if is_drawable(center) && radius.is_finite() && radius < MAX_COORDINATE {
             let (fill, line) = (fill.attributes(), line.attributes());
             self.add(format_args!(
                 r#"<circle cx="{:.1}" cy="{:.1}" r="{radius:.1}" {fill} {line}/>"#,
@@ -121,14 +122,16 @@ impl Canvas {
     }
 
     /// An arrow with its head at `to`.
-    pub(super) fn arrow(&mut self, from: DVec2, to: DVec2, line: Line, ink: Ink) {
+    pub(super) fn arrow(&mut self, from: DVec2, to: DVec2, line: LineStyle, ink: Ink) {
         self.line(from, to, line);
         let Some(dir) = (to - from).try_normalize() else {
             return;
         };
         let (back, across) = (to - 9.0 * dir, 4.0 * dir.perp());
-        if is_near(to) {
-            let head = [to, back + across, back - across].map(point).join("L");
+        if is_drawable(to) {
+            let head = [to, back + across, back - across]
+                .map(coordinates)
+                .join("L");
             let paint = ink.paint();
             self.add(format_args!(r#"<path d="M{head}Z" fill="{paint}"/>"#));
         }
@@ -136,7 +139,7 @@ impl Canvas {
 
     /// A mark.
     pub(super) fn mark(&mut self, at: DVec2, mark: Mark) {
-        if !is_near(at) {
+        if !is_drawable(at) {
             return;
         }
         let paper = r#"stroke="var(--paper, Canvas)" stroke-width="1.5""#;
@@ -149,7 +152,7 @@ impl Canvas {
                 ));
             }
             Mark::Wrong => {
-                let arm = |x: f64, y: f64| point(at + 5.5 * dvec2(x, y));
+                let arm = |x: f64, y: f64| coordinates(at + 5.5 * dvec2(x, y));
                 let path = format!(
                     "M{}L{}M{}L{}",
                     arm(-1.0, -1.0),
@@ -175,7 +178,7 @@ impl Canvas {
 
     /// Words, with a little paper around them, so that they can be read on lines.
     pub(super) fn text(&mut self, at: DVec2, anchor: Anchor, ink: Ink, text: &str) {
-        if !is_near(at) {
+        if !is_drawable(at) {
             return;
         }
         let anchor = match anchor {
@@ -183,7 +186,7 @@ impl Canvas {
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
-        let (paint, opacity, text) = (ink.paint(), ink.opacity(), escaped(text));
+        let (paint, opacity, text) = (ink.paint(), ink.opacity(), escape(text));
         let opacity = match opacity {
             "1" => String::new(),
             opacity => format!(r#" fill-opacity="{opacity}""#),
@@ -198,22 +201,22 @@ impl Canvas {
     }
 
     fn add(&mut self, element: impl Display) {
-        if self.body.len() < LONGEST {
+        if self.body.len() < MAX_BYTES {
             write!(self.body, "{element}").expect("text takes text");
         }
     }
 }
 
-fn is_near(at: DVec2) -> bool {
+fn is_drawable(at: DVec2) -> bool {
     // A NaN compares as false.
-    at.abs().max_element() < FARTHEST && at.is_finite()
+    at.abs().max_element() < MAX_COORDINATE && at.is_finite()
 }
 
-fn point(at: DVec2) -> String {
+fn coordinates(at: DVec2) -> String {
     format!("{:.1} {:.1}", at.x, at.y)
 }
 
-fn escaped(text: &str) -> String {
+fn escape(text: &str) -> String {
     let mut escaped = String::new();
     for character in text.chars() {
         match character {
@@ -234,7 +237,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_can_not_become_elements() {
+    fn text_cannot_become_elements() {
         let mut canvas = Canvas::default();
         let words = "<script>&\"\u{0}";
         canvas.text(DVec2::ZERO, Anchor::Start, Ink::Text, words);
@@ -243,14 +246,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_place_on_the_page_is_left_out() {
+    fn skips_coordinates_that_are_not_on_the_page() {
         let mut canvas = Canvas::default();
         for wild in [f64::NAN, f64::INFINITY, -1e38] {
             let at = dvec2(1.0, wild);
-            canvas.line(at, DVec2::ZERO, Line::Ray);
-            canvas.polygon(&[at, DVec2::ZERO], Line::Ray, Fill::None);
+            canvas.line(at, DVec2::ZERO, LineStyle::Ray);
+            canvas.polygon(&[at, DVec2::ZERO], LineStyle::Ray, Fill::None);
             canvas.area(at, DVec2::ZERO, Fill::None);
-            canvas.circle(DVec2::ZERO, wild.abs(), Line::Ray, Fill::None);
+            canvas.circle(DVec2::ZERO, wild.abs(), LineStyle::Ray, Fill::None);
             canvas.mark(at, Mark::Wrong);
             canvas.text(at, Anchor::End, Ink::Text, "nowhere");
         }

@@ -38,7 +38,7 @@ impl Ink {
 
 /// A kind of line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Line {
+pub(super) enum LineStyle {
     /// Around shapes.
     Outline,
     /// What is there for orientation.
@@ -55,17 +55,17 @@ pub(super) enum Line {
     Wrong,
 }
 
-impl Line {
+impl LineStyle {
     /// As attributes of an SVG element.
     pub(super) fn attributes(self) -> String {
         let (ink, opacity, width, dashes) = match self {
-            Line::Outline => (Ink::Text, "1", "1.5", ""),
-            Line::Grid => (Ink::Text, "0.3", "1", ""),
-            Line::Ray => (Ink::Text, "0.85", "1.5", ""),
-            Line::Behind => (Ink::Text, "0.6", "1.2", "1.5 4"),
-            Line::Range => (Ink::Text, "0.35", "7", ""),
-            Line::Right => (Ink::Right, "1", "2.5", ""),
-            Line::Wrong => (Ink::Wrong, "1", "2.5", "6 4"),
+            LineStyle::Outline => (Ink::Text, "1", "1.5", ""),
+            LineStyle::Grid => (Ink::Text, "0.3", "1", ""),
+            LineStyle::Ray => (Ink::Text, "0.85", "1.5", ""),
+            LineStyle::Behind => (Ink::Text, "0.6", "1.2", "1.5 4"),
+            LineStyle::Range => (Ink::Text, "0.35", "7", ""),
+            LineStyle::Right => (Ink::Right, "1", "2.5", ""),
+            LineStyle::Wrong => (Ink::Wrong, "1", "2.5", "6 4"),
         };
         let dashes = match dashes {
             "" => String::new(),
@@ -86,7 +86,7 @@ pub(super) enum Fill {
     /// Nothing.
     None,
     /// So much of the ink, from 0 to 1.
-    Of(Ink, f64),
+    Tint(Ink, f64),
 }
 
 impl Fill {
@@ -94,7 +94,7 @@ impl Fill {
     pub(super) fn attributes(self) -> String {
         match self {
             Fill::None => r#"fill="none""#.to_owned(),
-            Fill::Of(ink, share) => {
+            Fill::Tint(ink, share) => {
                 let (paint, share) = (ink.paint(), share.clamp(0.0, 1.0));
                 format!(r#"fill="{paint}" fill-opacity="{share:.2}""#)
             }

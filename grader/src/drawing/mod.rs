@@ -3,34 +3,34 @@
 //! Pure, and without a way of its own to any answer: how a ray meets a shape, and how a tree is
 //! built or walked, comes with the exam ([`crate::shown`]). Answers may hold any numbers.
 
-mod along;
+mod along_ray;
 mod bars;
 mod bbox;
 mod build;
 mod camera;
 mod canvas;
-mod encounter;
+mod hit_comparison;
 mod ink;
+mod numbers;
 mod shapes;
 mod sheet;
 mod side;
 mod sphere;
+mod traversal;
 mod triangle;
 mod uv;
-mod walk;
 mod window;
-mod words;
 
 use glam::DVec3;
 use protocol::{Answer, Interval, Question};
 
-use crate::exam::{Asked, Key, TreePart};
-use crate::shown::{Shown, Step};
+use crate::drawing_data::{DrawingData, TraversalStep};
+use crate::exam::{ExamQuestion, Key, TreeCheck};
 
-use bbox::Shot;
-use camera::Aim;
-use encounter::Encounter;
-use walk::Walked;
+use bbox::BoxQuery;
+use camera::CameraQuery;
+use hit_comparison::HitComparison;
+use traversal::RecordedTraversal;
 
 /// A drawing of one element of a question.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,27 +45,31 @@ pub struct Drawing {
 
 /// Draws one element of a question, counted from 0, beside the whole answer to the question, if one
 /// came. None where there is nothing to see that words do not say.
-pub fn of(asked: &Asked, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
+pub fn draw(asked: &ExamQuestion, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
     match &asked.question {
         Question::Shapes { shapes, .. } => {
-            let encounter = Encounter::of(asked, element, answer)?;
+            let encounter = HitComparison::new(asked, element, answer)?;
             shapes::draw(&encounter, shapes)
         }
-        Question::BBox { min, max, shots } => {
+        Question::BBox {
+            min,
+            max,
+            queries: shots,
+        } => {
             let &(ray, times) = shots.get(element)?;
-            let shot = Shot {
+            let shot = BoxQuery {
                 corners: [*min, *max],
                 ray,
                 times,
                 wanted: wanted_span(&asked.key, element)?,
-                slabs: bbox::slabs(&asked.shown, element),
+                slabs: bbox::slabs(&asked.drawing_data, element),
             };
             bbox::draw(&shot, element, answer)
         }
         Question::Camera { camera, samples } => {
-            let aim = Aim {
+            let aim = CameraQuery {
                 camera: *camera,
-                sample: *samples.on(camera.film).get(element)?,
+                sample: *samples.to_vec(camera.film).get(element)?,
                 wanted: wanted_direction(&asked.key, element)?,
             };
             camera::draw(&aim, element, answer)
@@ -74,13 +78,13 @@ pub fn of(asked: &Asked, element: usize, answer: Option<&Answer>) -> Option<Draw
             shapes,
             max_leaf_size,
         } => {
-            let (judged, sweep_cost) = judged_of_tree(&asked.key)?;
-            let task = build::Task {
+            let (judged, sweep_cost) = tree_key(&asked.key)?;
+            let task = build::BuildCase {
                 shapes,
                 max_leaf_size: *max_leaf_size,
                 judged,
                 sweep_cost,
-                shown: &asked.shown,
+                shown: &asked.drawing_data,
             };
             build::draw(&task, answer)
         }
@@ -90,19 +94,19 @@ pub fn of(asked: &Asked, element: usize, answer: Option<&Answer>) -> Option<Draw
             root,
             ..
         } => {
-            let encounter = Encounter::of(asked, element, answer)?;
-            let walked = Walked {
+            let encounter = HitComparison::new(asked, element, answer)?;
+            let walked = RecordedTraversal {
                 shapes,
                 nodes,
                 root: *root,
-                steps: steps(&asked.shown, element),
+                steps: steps(&asked.drawing_data, element),
             };
-            let walk = walk::draw(&encounter, &walked);
-            Some(walk.unwrap_or_else(|| along::draw(&encounter)))
+            let walk = traversal::draw(&encounter, &walked);
+            Some(walk.unwrap_or_else(|| along_ray::draw(&encounter)))
         }
-        Question::BuildAndTraverse { .. } => {
-            Some(along::draw(&Encounter::of(asked, element, answer)?))
-        }
+        Question::BuildAndTraverse { .. } => Some(along_ray::draw(&HitComparison::new(
+            asked, element, answer,
+        )?)),
         Question::Radiance { .. } | Question::Done => None,
     }
 }
@@ -129,9 +133,12 @@ fn wanted_direction(key: &Key, element: usize) -> Option<DVec3> {
     }
 }
 
-fn judged_of_tree(key: &Key) -> Option<(&[TreePart], Option<f64>)> {
+fn tree_key(key: &Key) -> Option<(&[TreeCheck], Option<f64>)> {
     match key {
-        Key::Tree { judged, sweep_cost } => Some((judged, *sweep_cost)),
+        Key::Tree {
+            checks: judged,
+            sweep_cost,
+        } => Some((judged, *sweep_cost)),
         Key::Rays { .. }
         | Key::Hits { .. }
         | Key::Spans { .. }
@@ -140,10 +147,10 @@ fn judged_of_tree(key: &Key) -> Option<(&[TreePart], Option<f64>)> {
     }
 }
 
-fn steps(shown: &Shown, element: usize) -> &[Step] {
+fn steps(shown: &DrawingData, element: usize) -> &[TraversalStep] {
     match shown {
-        Shown::Walks(walks) => walks.get(element).map_or(&[], Vec::as_slice),
-        Shown::Nothing | Shown::Slabs(_) | Shown::Sweep(_) => &[],
+        DrawingData::Traversals(walks) => walks.get(element).map_or(&[], Vec::as_slice),
+        DrawingData::None | DrawingData::Slabs(_) | DrawingData::Sweep(_) => &[],
     }
 }
 

@@ -4,18 +4,18 @@ use glam::{DVec2, DVec3, dvec2};
 
 use super::Drawing;
 use super::canvas::{Anchor, Canvas};
-use super::encounter::{Encounter, Focus};
-use super::ink::{Fill, Ink, Line};
+use super::hit_comparison::{Focus, HitComparison};
+use super::ink::{Fill, Ink, LineStyle};
 use super::sheet::Sheet;
-use super::side::{self, Side};
+use super::side::{self, SideView};
 use super::uv;
 use super::window::{Window, extent};
 
 /// The drawing.
-pub(super) fn draw(encounter: &Encounter, center: DVec3, radius: f64) -> Drawing {
+pub(super) fn draw(encounter: &HitComparison, center: DVec3, radius: f64) -> Drawing {
     let aside = center - encounter.ray.origin.as_dvec3();
-    let side = Side::of(encounter, aside);
-    let middle = side.see(center);
+    let side = SideView::new(encounter, aside);
+    let middle = side.project(center);
     let corner = DVec2::splat(radius);
     let shape = [middle - corner, middle + corner];
     let seen = side::landmarks(encounter, &side, &shape);
@@ -25,37 +25,37 @@ pub(super) fn draw(encounter: &Encounter, center: DVec3, radius: f64) -> Drawing
         Focus::Uv => {
             let titles = ["from the side", "texture coordinates"];
             let [left, right] = sheet.panels(titles, 150.0);
-            uv::square(&mut sheet.canvas, right, encounter, &[]);
+            uv::draw_square(&mut sheet.canvas, right, encounter, &[]);
             Window::around(left, seen)
         }
         Focus::Distance | Focus::Position | Focus::Normal | Focus::Origin | Focus::Material => {
-            let part = sheet.panel(height(&seen));
+            let part = sheet.panel(panel_height(&seen));
             Window::around(part, seen)
         }
     };
-    circle(&mut sheet.canvas, &window, middle, radius);
-    side::ray(&mut sheet.canvas, &window, encounter);
-    side::hits(&mut sheet.canvas, &window, encounter, &side);
-    side::explain(&mut sheet, encounter, &side, &window);
+    draw_circle(&mut sheet.canvas, &window, middle, radius);
+    side::draw_ray(&mut sheet.canvas, &window, encounter);
+    side::draw_hits(&mut sheet.canvas, &window, encounter, &side);
+    side::draw_legend(&mut sheet, encounter, &side, &window);
     let title = "The ray and the sphere, in the plane through the ray and the center";
-    sheet.finish(title, encounter.sentence())
+    sheet.finish(title, encounter.caption())
 }
 
 /// The height of a panel over the whole width that shows these points well.
-pub(super) fn height(seen: &[DVec2]) -> f64 {
+pub(super) fn panel_height(seen: &[DVec2]) -> f64 {
     let size = extent(seen.iter().copied()).map_or(DVec2::ONE, |(min, max)| max - min);
     // Of one point the shape is that of nothing over nothing.
     let shape = if size.x > 0.0 { size.y / size.x } else { 1.0 };
     (306.0 * shape + 32.0).clamp(100.0, 210.0)
 }
 
-fn circle(canvas: &mut Canvas, window: &Window, middle: DVec2, radius: f64) {
-    let at = window.page(middle);
-    let fill = Fill::Of(Ink::Text, 0.08);
-    canvas.circle(at, window.length(radius), Line::Outline, fill);
+fn draw_circle(canvas: &mut Canvas, window: &Window, middle: DVec2, radius: f64) {
+    let at = window.to_page(middle);
+    let fill = Fill::Tint(Ink::Text, 0.08);
+    canvas.circle(at, window.to_page_length(radius), LineStyle::Outline, fill);
     let arm = dvec2(3.0, 0.0);
-    canvas.line(at - arm, at + arm, Line::Outline);
-    canvas.line(at - arm.perp(), at + arm.perp(), Line::Outline);
+    canvas.line(at - arm, at + arm, LineStyle::Outline);
+    canvas.line(at - arm.perp(), at + arm.perp(), LineStyle::Outline);
     // The ray is below.
     let above = at - dvec2(0.0, 7.0);
     canvas.text(above, Anchor::Middle, Ink::Faint, "center");

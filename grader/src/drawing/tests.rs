@@ -4,18 +4,18 @@ use std::sync::LazyLock;
 
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
-use protocol::{Answer, Interval, Outcome, Panic, Question, Ray, Trace, Tree, TreeNode};
+use protocol::{Answer, ElementOutcome, Interval, Panic, Question, Ray, Trace, Tree, TreeNode};
 use roxmltree::Document;
 
-use super::{Drawing, of};
-use crate::exam::Asked;
+use super::{Drawing, draw};
+use crate::exam::ExamQuestion;
 use crate::exam_file;
 
 /// Larger than any honest drawing.
-const LARGEST: usize = 130_000;
+const MAX_BYTES: usize = 130_000;
 
 /// One question of each item of the practice exam.
-static QUESTIONS: LazyLock<Vec<Asked>> = LazyLock::new(|| {
+static QUESTIONS: LazyLock<Vec<ExamQuestion>> = LazyLock::new(|| {
     let exam = exam_file::load(None)
         .expect("it was built with this program")
         .exam;
@@ -44,15 +44,15 @@ fn interval() -> impl Strategy<Value = Interval> {
 
 fn outcome<T: Clone + std::fmt::Debug>(
     value: impl Strategy<Value = T>,
-) -> impl Strategy<Value = Outcome<T>> {
+) -> impl Strategy<Value = ElementOutcome<T>> {
     let panic = Panic {
         message: "<script>\"&".to_owned(),
-        place: "bvh.rs:1".to_owned(),
+        location: "bvh.rs:1".to_owned(),
     };
     prop_oneof![
-        8 => value.prop_map(Outcome::Value),
-        1 => Just(Outcome::Panicked(panic)),
-        1 => Just(Outcome::GivenUp),
+        8 => value.prop_map(ElementOutcome::Value),
+        1 => Just(ElementOutcome::Panicked(panic)),
+        1 => Just(ElementOutcome::Skipped),
     ]
 }
 
@@ -94,7 +94,7 @@ fn tree() -> impl Strategy<Value = Tree> {
 }
 
 /// An answer of the right kind to one of the questions, and the element that is drawn.
-fn answered() -> impl Strategy<Value = (usize, usize, Answer)> {
+fn any_answer() -> impl Strategy<Value = (usize, usize, Answer)> {
     let ray = (point(), point(), interval());
     let ray = ray.prop_map(|(origin, dir, range)| Ray { origin, dir, range });
     let answers = (
@@ -123,7 +123,7 @@ fn answered() -> impl Strategy<Value = (usize, usize, Answer)> {
 
 fn assert_well_formed(drawing: &Drawing) {
     let svg = &drawing.svg;
-    assert!(svg.len() < LARGEST, "{} bytes", svg.len());
+    assert!(svg.len() < MAX_BYTES, "{} bytes", svg.len());
     let document = Document::parse(svg).expect("it is XML");
     let root = document.root_element();
     assert_eq!(root.tag_name().name(), "svg");
@@ -156,17 +156,17 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn any_answer_is_drawn_small_and_well_formed_or_not_at_all((question, element, answer) in answered()) {
-        if let Some(drawing) = of(&QUESTIONS[question], element, Some(&answer)) {
+    fn any_answer_is_drawn_small_and_well_formed_or_not_at_all((question, element, answer) in any_answer()) {
+        if let Some(drawing) = draw(&QUESTIONS[question], element, Some(&answer)) {
             assert_well_formed(&drawing);
         }
     }
 }
 
 #[test]
-fn without_an_answer_what_is_right_is_drawn() {
+fn draws_the_expected_result_without_an_answer() {
     for asked in QUESTIONS.iter() {
-        let drawing = of(asked, 0, None);
+        let drawing = draw(asked, 0, None);
         drawing.iter().for_each(assert_well_formed);
         let is_expected = match asked.question {
             Question::Camera { .. }
@@ -181,10 +181,10 @@ fn without_an_answer_what_is_right_is_drawn() {
 }
 
 #[test]
-fn an_element_that_is_not_there_or_an_answer_of_another_kind_is_not_drawn() {
+fn ignores_missing_elements_and_answers_of_another_kind() {
     for asked in QUESTIONS.iter() {
-        assert_eq!(of(asked, usize::MAX, Some(&Answer::Done)), None);
-        if let Some(drawing) = of(asked, 0, Some(&Answer::Done)) {
+        assert_eq!(draw(asked, usize::MAX, Some(&Answer::Done)), None);
+        if let Some(drawing) = draw(asked, 0, Some(&Answer::Done)) {
             assert_well_formed(&drawing);
         }
     }

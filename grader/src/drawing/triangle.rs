@@ -6,21 +6,21 @@ use protocol::Vertex;
 
 use super::Drawing;
 use super::canvas::{Anchor, Canvas, Mark};
-use super::encounter::{Encounter, Focus};
-use super::ink::{Fill, Ink, Line};
+use super::hit_comparison::{Focus, HitComparison};
+use super::ink::{Fill, Ink, LineStyle};
 use super::sheet::Sheet;
-use super::side::{self, Side};
+use super::side::{self, SideView};
 use super::uv;
-use super::window::{Part, Window};
+use super::window::{Panel, Window};
 
 /// The drawing.
-pub(super) fn draw(encounter: &Encounter, vertices: &[Vertex; 3]) -> Drawing {
+pub(super) fn draw(encounter: &HitComparison, vertices: &[Vertex; 3]) -> Drawing {
     let corners = vertices.map(|vertex| vertex.position.as_dvec3());
     let [p0, p1, p2] = corners;
     // In the plane of the ray and the normal the triangle is seen edge on; without a normal, in
     // that of its first side.
     let normal = (p1 - p0).cross(p2 - p0).try_normalize();
-    let side = Side::of(encounter, normal.unwrap_or(p1 - p0));
+    let side = SideView::new(encounter, normal.unwrap_or(p1 - p0));
 
     let mut sheet = Sheet::default();
     let is_uv = encounter.focus == Focus::Uv;
@@ -30,38 +30,46 @@ pub(super) fn draw(encounter: &Encounter, vertices: &[Vertex; 3]) -> Drawing {
         "from the side"
     };
     let [left, right] = sheet.panels(["seen along the ray", beside], 168.0);
-    along(&mut sheet.canvas, left, encounter, &side, corners);
-    let seen = corners.map(|corner| side.see(corner));
+    draw_along_ray(&mut sheet.canvas, left, encounter, &side, corners);
+    let seen = corners.map(|corner| side.project(corner));
     let window = Window::around(right, side::landmarks(encounter, &side, &seen));
     if is_uv {
         let uvs = vertices.map(|vertex| vertex.uv.as_dvec2());
-        uv::square(&mut sheet.canvas, right, encounter, &uvs);
+        uv::draw_square(&mut sheet.canvas, right, encounter, &uvs);
     } else {
-        outline(&mut sheet.canvas, &window, seen);
-        side::ray(&mut sheet.canvas, &window, encounter);
-        side::hits(&mut sheet.canvas, &window, encounter, &side);
+        draw_outline(&mut sheet.canvas, &window, seen);
+        side::draw_ray(&mut sheet.canvas, &window, encounter);
+        side::draw_hits(&mut sheet.canvas, &window, encounter, &side);
     }
-    side::explain(&mut sheet, encounter, &side, &window);
+    side::draw_legend(&mut sheet, encounter, &side, &window);
     let title = "The ray and the triangle, seen along the ray and from the side";
-    sheet.finish(title, encounter.sentence())
+    sheet.finish(title, encounter.caption())
 }
 
-fn along(canvas: &mut Canvas, part: Part, encounter: &Encounter, side: &Side, corners: [DVec3; 3]) {
-    let seen = corners.map(|corner| side.see_along(corner));
+fn draw_along_ray(
+    canvas: &mut Canvas,
+    part: Panel,
+    encounter: &HitComparison,
+    side: &SideView,
+    corners: [DVec3; 3],
+) {
+    let seen = corners.map(|corner| side.project_along_ray(corner));
     let window = Window::around(part, seen.into_iter().chain([DVec2::ZERO]));
-    outline(canvas, &window, seen);
-    canvas.mark(window.page(DVec2::ZERO), Mark::Origin);
+    draw_outline(canvas, &window, seen);
+    canvas.mark(window.to_page(DVec2::ZERO), Mark::Origin);
     if encounter.focus == Focus::Position {
-        let got = encounter.got_point().map(|point| side.see_along(point));
-        if let Some((at, _)) = got.and_then(|at| window.pinned(at)) {
+        let got = encounter
+            .got_point()
+            .map(|point| side.project_along_ray(point));
+        if let Some((at, _)) = got.and_then(|at| window.pin_to_border(at)) {
             canvas.mark(at, Mark::Wrong);
         }
     }
 }
 
-fn outline(canvas: &mut Canvas, window: &Window, corners: [DVec2; 3]) {
-    let page = corners.map(|corner| window.page(corner));
-    canvas.polygon(&page, Line::Outline, Fill::Of(Ink::Text, 0.08));
+fn draw_outline(canvas: &mut Canvas, window: &Window, corners: [DVec2; 3]) {
+    let page = corners.map(|corner| window.to_page(corner));
+    canvas.polygon(&page, LineStyle::Outline, Fill::Tint(Ink::Text, 0.08));
     let middle = (page[0] + page[1] + page[2]) / 3.0;
     let mut places: Vec<DVec2> = Vec::new();
     for (at, name) in page.into_iter().zip(["p0", "p1", "p2"]) {

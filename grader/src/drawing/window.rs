@@ -4,7 +4,7 @@ use glam::{DVec2, dvec2};
 
 /// A part of the page.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Part {
+pub(super) struct Panel {
     /// Its upper left corner.
     pub(super) min: DVec2,
     /// Its lower right corner.
@@ -14,14 +14,14 @@ pub(super) struct Part {
 /// What of a plane is seen in a part of the page. The plane's y goes up.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
-    part: Part,
+    panel: Panel,
     center: DVec2,
     scale: f64,
 }
 
 impl Window {
     /// Around these points, those of them that are finite, with a margin.
-    pub(super) fn around(part: Part, points: impl IntoIterator<Item = DVec2>) -> Window {
+    pub(super) fn around(part: Panel, points: impl IntoIterator<Item = DVec2>) -> Window {
         /// Of the part, on each side, in page units.
         const MARGIN: f64 = 20.0;
 
@@ -31,48 +31,48 @@ impl Window {
         // One point has no size: whatever the scale, it is in the middle.
         let scale = (room / size.max(DVec2::splat(1e-12))).min_element();
         Window {
-            part,
+            panel: part,
             center: 0.5 * (min + max),
             scale,
         }
     }
 
     /// The point's place on the page.
-    pub(super) fn page(&self, at: DVec2) -> DVec2 {
-        let middle = 0.5 * (self.part.min + self.part.max);
+    pub(super) fn to_page(&self, at: DVec2) -> DVec2 {
+        let middle = 0.5 * (self.panel.min + self.panel.max);
         middle + self.scale * (at - self.center) * dvec2(1.0, -1.0)
     }
 
     /// So long is a length of the world on the page.
-    pub(super) fn length(&self, length: f64) -> f64 {
+    pub(super) fn to_page_length(&self, length: f64) -> f64 {
         self.scale * length
     }
 
     /// So long is a length on the page in the world.
-    pub(super) fn world_length(&self, length: f64) -> f64 {
+    pub(super) fn to_world_length(&self, length: f64) -> f64 {
         length / self.scale
     }
 
     /// The point's place on the page, or the nearest one at the border and `true`. None for what is
     /// not finite.
-    pub(super) fn pinned(&self, at: DVec2) -> Option<(DVec2, bool)> {
-        let (min, max) = (self.part.min + 7.0, self.part.max - 7.0);
-        let page = self.page(at);
+    pub(super) fn pin_to_border(&self, at: DVec2) -> Option<(DVec2, bool)> {
+        let (min, max) = (self.panel.min + 7.0, self.panel.max - 7.0);
+        let page = self.to_page(at);
         let inside = page.clamp(min, max);
         page.is_finite().then_some((inside, inside != page))
     }
 
     /// How far a point is outside of what is seen.
-    pub(super) fn beyond_border(&self, at: DVec2) -> f64 {
-        let page = self.page(at);
-        self.world_length(page.distance(page.clamp(self.part.min, self.part.max)))
+    pub(super) fn distance_outside(&self, at: DVec2) -> f64 {
+        let page = self.to_page(at);
+        self.to_world_length(page.distance(page.clamp(self.panel.min, self.panel.max)))
     }
 
     /// The part of a segment that is seen, on the page: what is outside of one side after the other
     /// is cut off (Sutherland and Hodgman, "Reentrant polygon clipping", Communications of the ACM
     /// 17, 1974).
-    pub(super) fn clipped(&self, from: DVec2, to: DVec2) -> Option<(DVec2, DVec2)> {
-        let (from, to) = (self.page(from), self.page(to));
+    pub(super) fn clip_segment(&self, from: DVec2, to: DVec2) -> Option<(DVec2, DVec2)> {
+        let (from, to) = (self.to_page(from), self.to_page(to));
         if !(from.is_finite() && to.is_finite()) {
             return None;
         }
@@ -80,7 +80,7 @@ impl Window {
         let farthest = DVec2::splat(1e9);
         let [mut from, mut to] = [from, to].map(|at| at.clamp(-farthest, farthest));
         for axis in 0..2 {
-            for (side, inward) in [(self.part.min[axis], 1.0), (self.part.max[axis], -1.0)] {
+            for (side, inward) in [(self.panel.min[axis], 1.0), (self.panel.max[axis], -1.0)] {
                 let [a, b] = [from, to].map(|end| inward * (end[axis] - side));
                 match (a < 0.0, b < 0.0) {
                     (true, true) => return None,
@@ -107,39 +107,42 @@ pub(super) fn extent(points: impl IntoIterator<Item = DVec2>) -> Option<(DVec2, 
 mod tests {
     use super::*;
 
-    const PART: Part = Part {
+    const PANEL: Panel = Panel {
         min: DVec2::ZERO,
         max: dvec2(140.0, 140.0),
     };
 
     #[test]
-    fn the_world_is_seen_to_scale_and_up_is_up() {
-        let window = Window::around(PART, [dvec2(0.0, 0.0), dvec2(10.0, 5.0)]);
-        assert_eq!(window.page(dvec2(0.0, 2.5)), dvec2(20.0, 70.0));
-        assert_eq!(window.page(dvec2(10.0, 7.5)), dvec2(120.0, 20.0));
+    fn keeps_proportions_and_points_y_up() {
+        let window = Window::around(PANEL, [dvec2(0.0, 0.0), dvec2(10.0, 5.0)]);
+        assert_eq!(window.to_page(dvec2(0.0, 2.5)), dvec2(20.0, 70.0));
+        assert_eq!(window.to_page(dvec2(10.0, 7.5)), dvec2(120.0, 20.0));
     }
 
     #[test]
-    fn lines_end_at_the_border_however_long_they_are() {
-        let window = Window::around(PART, [DVec2::NEG_ONE, DVec2::ONE]);
+    fn clips_long_segments_at_the_border() {
+        let window = Window::around(PANEL, [DVec2::NEG_ONE, DVec2::ONE]);
         let (from, to) = window
-            .clipped(dvec2(-1e30, 0.0), dvec2(1e30, 0.0))
+            .clip_segment(dvec2(-1e30, 0.0), dvec2(1e30, 0.0))
             .expect("it passes through");
         assert!(
             from.abs_diff_eq(dvec2(0.0, 70.0), 1e-3) && to.abs_diff_eq(dvec2(140.0, 70.0), 1e-3)
         );
-        assert_eq!(window.clipped(dvec2(-9.0, 5.0), dvec2(9.0, 5.0)), None);
-        assert_eq!(window.clipped(DVec2::NAN, DVec2::ZERO), None);
+        assert_eq!(window.clip_segment(dvec2(-9.0, 5.0), dvec2(9.0, 5.0)), None);
+        assert_eq!(window.clip_segment(DVec2::NAN, DVec2::ZERO), None);
     }
 
     #[test]
-    fn a_point_off_the_page_is_pinned_to_its_border() {
-        let window = Window::around(PART, [DVec2::NEG_ONE, DVec2::ONE]);
-        assert_eq!(window.pinned(DVec2::ZERO), Some((dvec2(70.0, 70.0), false)));
+    fn pins_points_off_the_page_to_the_border() {
+        let window = Window::around(PANEL, [DVec2::NEG_ONE, DVec2::ONE]);
         assert_eq!(
-            window.pinned(dvec2(1e30, 0.0)),
+            window.pin_to_border(DVec2::ZERO),
+            Some((dvec2(70.0, 70.0), false))
+        );
+        assert_eq!(
+            window.pin_to_border(dvec2(1e30, 0.0)),
             Some((dvec2(133.0, 70.0), true))
         );
-        assert_eq!(window.pinned(DVec2::INFINITY), None);
+        assert_eq!(window.pin_to_border(DVec2::INFINITY), None);
     }
 }

@@ -5,30 +5,30 @@
 
 use serde_json::{Value, json};
 
-use crate::format::said::{said, what};
-use crate::format::{Around, Seen};
+use crate::format::item_text::{item_message, item_text};
+use crate::format::{FormatContext, StudentView};
 use crate::score::{ItemScore, Verdict};
 
 /// The whole file.
-pub fn text(seen: &Seen, around: &Around) -> String {
+pub fn render(seen: &StudentView, around: &FormatContext) -> String {
     let results: Vec<Value> = seen
-        .lines()
+        .visible_items()
         .map(|(_, item)| result(seen, item, around))
         .collect();
-    super::json(&json!({
-        "slug": format!("pathtracing/{}", seen.now.exam.id),
+    super::to_json(&json!({
+        "slug": format!("pathtracing/{}", seen.visible.exam.id),
         "results": results,
         "version": env!("CARGO_PKG_VERSION"),
     }))
 }
 
-fn result(seen: &Seen, item: &ItemScore, around: &Around) -> Value {
+fn result(seen: &StudentView, item: &ItemScore, around: &FormatContext) -> Value {
     let passed = passed(&item.verdict);
-    let rationale = match what(item) {
-        nothing if nothing.is_empty() => item.verdict.words().to_owned(),
-        what => what,
+    let rationale = match item_message(item) {
+        nothing if nothing.is_empty() => item.verdict.label().to_owned(),
+        message => message,
     };
-    let help = said(seen, item, around);
+    let help = item_text(seen, item, around);
     let help = help.split_once('\n').map(|(_, help)| help);
     let cause = match passed {
         Some(true) => Value::Null,

@@ -5,8 +5,8 @@
 
 use serde_json::{Value, json};
 
-use crate::format::said::{said, what};
-use crate::format::{Around, Seen};
+use crate::format::item_text::{item_message, item_text};
+use crate::format::{FormatContext, StudentView};
 use crate::score::Verdict;
 
 /// What the runner sets.
@@ -24,27 +24,27 @@ pub const VARIABLES: [&str; 9] = [
 ];
 
 /// The whole file.
-pub fn text(seen: &Seen, around: &Around) -> String {
+pub fn render(seen: &StudentView, around: &FormatContext) -> String {
     let of = |name: &str| around.variables.get(name).cloned().unwrap_or_default();
     let review = match of("REVIEW_URL") {
         none if none.is_empty() => of("COMMIT_URL"),
         review => review,
     };
     let tests: Vec<Value> = seen
-        .lines()
+        .visible_items()
         .map(|(_, item)| {
             json!({
                 "test-name": format!("{}: {}", item.id, item.title),
                 "passed": item.verdict == Verdict::Pass,
                 "score": item.points,
                 "max-score": item.max_points,
-                "outcome": item.verdict.words(),
-                "message": what(item),
-                "output": said(seen, item, around),
+                "outcome": item.verdict.label(),
+                "message": item_message(item),
+                "output": item_text(seen, item, around),
             })
         })
         .collect();
-    super::json(&json!({
+    super::to_json(&json!({
         "schema": "classroom50/result/v1",
         "classroom": of("CLASSROOM"),
         "assignment": of("ASSIGNMENT"),

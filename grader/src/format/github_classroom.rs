@@ -6,39 +6,42 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
-use crate::format::size::{cut, within};
-use crate::format::{Around, Seen, said};
+use crate::format::size::{fit, truncate};
+use crate::format::{FormatContext, StudentView, item_text};
 
 /// What a step's output may hold, in bytes.
-const MOST: usize = 1 << 20;
+const MAX_BYTES: usize = 1 << 20;
 
 /// One line for `$GITHUB_OUTPUT`.
-pub fn text(seen: &Seen, around: &Around) -> String {
-    within(MOST, |longest| {
+pub fn render(seen: &StudentView, around: &FormatContext) -> String {
+    fit(MAX_BYTES, |longest| {
         let result = result(seen, around, longest).to_string();
         format!("result={}\n", STANDARD.encode(result))
     })
 }
 
-fn result(seen: &Seen, around: &Around, longest: usize) -> Value {
+fn result(seen: &StudentView, around: &FormatContext, longest: usize) -> Value {
     let tests: Vec<Value> = seen
-        .lines()
+        .visible_items()
         .map(|(task, item)| {
             let has_all = item.points == item.max_points;
-            let said = said::said(seen, item, around);
+            let said = item_text::item_text(seen, item, around);
             json!({
                 "name": format!("{}: {}", item.id, item.title),
                 "status": if has_all { "pass" } else { "fail" },
                 // Without it, the reporter's total is no number.
                 "score": item.points,
-                "message": if has_all { Value::Null } else { cut(&said, longest).into() },
+                "message": if has_all { Value::Null } else { truncate(&said, longest).into() },
                 "test_code": "",
                 "filename": task.id.file(),
                 "line_no": item.at.as_ref().map_or(0, |at| at.line),
             })
         })
         .collect();
-    let status = match (seen.now.complete, seen.now.points == seen.now.max_points) {
+    let status = match (
+        seen.visible.complete,
+        seen.visible.points == seen.visible.max_points,
+    ) {
         (false, _) => "error",
         (true, true) => "pass",
         (true, false) => "fail",
@@ -46,7 +49,7 @@ fn result(seen: &Seen, around: &Around, longest: usize) -> Value {
     json!({
         "version": 1,
         "status": status,
-        "max_score": seen.now.max_points,
+        "max_score": seen.visible.max_points,
         "tests": tests,
     })
 }

@@ -7,25 +7,27 @@
 use serde_json::{Map, Value, json};
 
 use crate::exam::Task;
-use crate::format::said::{headline, of_files, said};
-use crate::format::size::{cut, within};
-use crate::format::{Around, Line, Seen};
+use crate::format::item_text::{build_report, headline, item_text};
+use crate::format::size::{fit, truncate};
+use crate::format::{FormatContext, ItemView, StudentView};
 use crate::policy::Visibility;
 use crate::score::Verdict;
 
 /// Gradescope publishes no limit; its neighbours begin to cut at half of this, in bytes.
-const MOST: usize = 256 << 10;
+const MAX_BYTES: usize = 256 << 10;
 
 /// The whole file.
-pub fn text(seen: &Seen, around: &Around) -> String {
-    within(MOST, |longest| super::json(&results(seen, around, longest)))
+pub fn render(seen: &StudentView, around: &FormatContext) -> String {
+    fit(MAX_BYTES, |longest| {
+        super::to_json(&results(seen, around, longest))
+    })
 }
 
-fn results(seen: &Seen, around: &Around, longest: usize) -> Value {
-    let score = &seen.now;
+fn results(seen: &StudentView, around: &FormatContext, longest: usize) -> Value {
+    let score = &seen.visible;
     let milliseconds = score.timings.build_ms + score.timings.exam_ms;
     let tests = Task::ALL.iter().zip(1..).flat_map(|(task, number)| {
-        let lines = seen.later.iter().filter(|line| line.task == *task);
+        let lines = seen.all_items.iter().filter(|line| line.task == *task);
         lines.zip(1..).map(move |(line, place)| {
             let number = format!("{number}.{place}");
             test(seen, line, number, around, longest)
@@ -34,7 +36,7 @@ fn results(seen: &Seen, around: &Around, longest: usize) -> Value {
     json!({
         "score": seen.counted.points,
         "execution_time": milliseconds as f64 / 1000.0,
-        "output": cut(&output(seen), 4 * longest),
+        "output": truncate(&output(seen), 4 * longest),
         "output_format": "text",
         "test_output_format": "text",
         "test_name_format": "text",
@@ -52,16 +54,30 @@ fn results(seen: &Seen, around: &Around, longest: usize) -> Value {
 }
 
 /// What stands above all tests. A total that hidden items are part of is not for here.
-fn output(seen: &Seen) -> String {
-    let all_shown = seen.later.iter().all(|line| line.visibility.is_shown_now());
+fn output(seen: &StudentView) -> String {
+    let all_shown = seen
+        .all_items
+        .iter()
+        .all(|line| line.visibility.is_shown_now());
     let points = all_shown.then(|| headline(seen));
     let not_all = (!all_shown).then(|| "Some items are not shown yet.".to_owned());
-    let parts = [seen.unfinished(), points, not_all, Some(of_files(seen))];
+    let parts = [
+        seen.unfinished_notice(),
+        points,
+        not_all,
+        Some(build_report(seen)),
+    ];
     let parts = parts.into_iter().flatten().filter(|part| !part.is_empty());
     parts.collect::<Vec<_>>().join("\n\n")
 }
 
-fn test(seen: &Seen, line: &Line, number: String, around: &Around, longest: usize) -> Value {
+fn test(
+    seen: &StudentView,
+    line: &ItemView,
+    number: String,
+    around: &FormatContext,
+    longest: usize,
+) -> Value {
     let item = &line.item;
     let mut test = Map::new();
     test.insert("name".into(), item.title.clone().into());
@@ -74,7 +90,7 @@ fn test(seen: &Seen, line: &Line, number: String, around: &Around, longest: usiz
     }
     test.insert(
         "output".into(),
-        cut(&said(seen, item, around), longest).into(),
+        truncate(&item_text(seen, item, around), longest).into(),
     );
     test.insert("output_format".into(), "text".into());
     test.insert("tags".into(), json!([line.task]));

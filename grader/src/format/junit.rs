@@ -6,15 +6,15 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use crate::format::said::{said, what};
-use crate::format::{Around, Seen};
+use crate::format::item_text::{item_message, item_text};
+use crate::format::{FormatContext, StudentView};
 use crate::score::{ItemScore, TaskScore, Verdict};
 
 const DECLARATION: PreEscaped<&str> = PreEscaped("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
 
 /// The whole file.
-pub fn text(seen: &Seen, around: &Around) -> String {
-    let score = &seen.now;
+pub fn render(seen: &StudentView, around: &FormatContext) -> String {
+    let score = &seen.visible;
     let all: Counts = score.items().collect();
     let report = html! {
         (DECLARATION)
@@ -26,26 +26,26 @@ pub fn text(seen: &Seen, around: &Around) -> String {
         }
         "\n"
     };
-    report.into_string().chars().filter(is_xml).collect()
+    report.into_string().chars().filter(is_xml_char).collect()
 }
 
-fn suite(seen: &Seen, task: &TaskScore, around: &Around) -> Markup {
+fn suite(seen: &StudentView, task: &TaskScore, around: &FormatContext) -> Markup {
     let own: Counts = task.items.iter().collect();
     html! {
         testsuite name=(task.id.id()) tests=(own.tests)
             skipped=(own.skipped) errors=(own.errors) failures=(own.failures) {
             properties {
                 (property("title", &task.title))
-                (property("complete", &seen.now.complete.to_string()))
-                (points(task.points, task.max_points))
+                (property("complete", &seen.visible.complete.to_string()))
+                (points_properties(task.points, task.max_points))
             }
             @for item in &task.items {
                 testcase name=(item.id) classname=(task.id.id()) {
                     properties {
                         (property("title", &item.title))
-                        (points(item.points, item.max_points))
+                        (points_properties(item.points, item.max_points))
                     }
-                    (status(seen, item, around))
+                    (status_element(seen, item, around))
                 }
             }
             @if let Some(printed) = &task.printed {
@@ -59,17 +59,17 @@ fn property(name: &str, value: &str) -> Markup {
     html! { property name=(name) value=(value) {} }
 }
 
-fn points(points: u32, max_points: u32) -> Markup {
+fn points_properties(points: u32, max_points: u32) -> Markup {
     html! {
         (property("points", &points.to_string()))
         (property("max_points", &max_points.to_string()))
     }
 }
 
-fn status(seen: &Seen, item: &ItemScore, around: &Around) -> Markup {
-    let (message, kind) = (what(item), item.verdict.words());
-    let said = said(seen, item, around);
-    match Status::of(&item.verdict) {
+fn status_element(seen: &StudentView, item: &ItemScore, around: &FormatContext) -> Markup {
+    let (message, kind) = (item_message(item), item.verdict.label());
+    let said = item_text(seen, item, around);
+    match Status::from_verdict(&item.verdict) {
         Status::Passed => html! {},
         Status::Failed => html! { failure message=(message) type=(kind) { (said) } },
         Status::Error => html! { error message=(message) type=(kind) { (said) } },
@@ -87,7 +87,7 @@ enum Status {
 
 impl Status {
     /// A wrong answer is a failure; none at all is an error; what was not asked is skipped.
-    fn of(verdict: &Verdict) -> Self {
+    fn from_verdict(verdict: &Verdict) -> Self {
         match verdict {
             Verdict::Pass => Status::Passed,
             Verdict::Partial | Verdict::Wrong | Verdict::Panicked | Verdict::Unimplemented => {
@@ -117,7 +117,7 @@ impl<'a> FromIterator<&'a ItemScore> for Counts {
         let mut counts = Counts::default();
         for item in items {
             counts.tests += 1;
-            match Status::of(&item.verdict) {
+            match Status::from_verdict(&item.verdict) {
                 Status::Passed => {}
                 Status::Failed => counts.failures += 1,
                 Status::Error => counts.errors += 1,
@@ -129,6 +129,6 @@ impl<'a> FromIterator<&'a ItemScore> for Counts {
 }
 
 /// No XML may hold any other, not even escaped.
-fn is_xml(character: &char) -> bool {
+fn is_xml_char(character: &char) -> bool {
     matches!(character, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }

@@ -6,12 +6,12 @@ mod classroom50;
 pub mod github;
 mod github_classroom;
 mod gradescope;
+mod item_text;
 mod junit;
 pub mod outputs;
 mod prairielearn;
-mod said;
-mod seen;
 mod size;
+mod student_view;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -21,9 +21,9 @@ use clap::ValueEnum;
 
 use crate::exam::Task;
 use crate::report::html;
-use crate::report::text::{Hints, report};
+use crate::report::text::{HintDetail, report};
 
-pub use seen::{Line, Seen};
+pub use student_view::{ItemView, StudentView};
 
 /// A format, by the platform that reads it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -52,7 +52,7 @@ pub enum Format {
 
 /// A format, and where it goes if not to its usual place: `gradescope`, `github=summary.md`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Wanted {
+pub struct OutputSpec {
     /// Which.
     pub format: Format,
     /// Where.
@@ -61,11 +61,11 @@ pub struct Wanted {
 
 /// What is around a submission, and no part of its score.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Around {
+pub struct FormatContext {
     /// The folder of the five files, as its repository names it: `student/src`. Empty at the top.
     pub folder: String,
     /// The line where each task's method begins in its file.
-    pub methods: BTreeMap<Task, u32>,
+    pub method_lines: BTreeMap<Task, u32>,
     /// What the platform says of the submission.
     pub variables: BTreeMap<&'static str, String>,
     /// How much is said of recognised mistakes.
@@ -106,42 +106,42 @@ impl Format {
     }
 
     /// The file's text. None for the score file, which is no matter of what students see.
-    pub fn text(self, seen: &Seen, around: &Around) -> Option<String> {
+    pub fn render(self, seen: &StudentView, around: &FormatContext) -> Option<String> {
         Some(match self {
             Format::Json => return None,
-            Format::Text => terminal(seen, around),
-            Format::Html => html::feedback(&seen.now),
-            Format::Gradescope => gradescope::text(seen, around),
-            Format::Classroom50 => classroom50::text(seen, around),
-            Format::Junit => junit::text(seen, around),
+            Format::Text => terminal_report(seen, around),
+            Format::Html => html::feedback(&seen.visible),
+            Format::Gradescope => gradescope::render(seen, around),
+            Format::Classroom50 => classroom50::render(seen, around),
+            Format::Junit => junit::render(seen, around),
             Format::Github => github::summary(seen, around),
-            Format::GithubClassroom => github_classroom::text(seen, around),
-            Format::Check50 => check50::text(seen, around),
-            Format::Prairielearn => prairielearn::text(seen, around),
+            Format::GithubClassroom => github_classroom::render(seen, around),
+            Format::Check50 => check50::render(seen, around),
+            Format::Prairielearn => prairielearn::render(seen, around),
         })
     }
 }
 
 /// The report on a terminal, without colours.
-fn terminal(seen: &Seen, around: &Around) -> String {
+fn terminal_report(seen: &StudentView, around: &FormatContext) -> String {
     let hints = match around.full_hints {
-        true => Hints::Full,
-        false => Hints::Nudge,
+        true => HintDetail::Full,
+        false => HintDetail::Nudge,
     };
-    let report = report(&seen.now, None, hints);
+    let report = report(&seen.visible, None, hints);
     let mut text = anstream::adapter::strip_str(&report).to_string();
-    if let Some(unfinished) = seen.unfinished() {
+    if let Some(unfinished) = seen.unfinished_notice() {
         text.push_str(&format!("  {unfinished}\n"));
     }
     text
 }
 
 /// A value as JSON, with a line end.
-fn json(value: &serde_json::Value) -> String {
+fn to_json(value: &serde_json::Value) -> String {
     format!("{value:#}\n")
 }
 
-impl FromStr for Wanted {
+impl FromStr for OutputSpec {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -160,7 +160,7 @@ impl FromStr for Wanted {
             Some(path) if format == Format::Json || path.as_os_str().is_empty() => {
                 Err("a path is meant, and score.json goes to --out".to_owned())
             }
-            path => Ok(Wanted { format, path }),
+            path => Ok(OutputSpec { format, path }),
         }
     }
 }

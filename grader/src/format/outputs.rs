@@ -8,22 +8,22 @@ use std::path::{Path, PathBuf};
 
 use crate::exam::Task;
 use crate::format::github::annotations;
-use crate::format::{Around, Format, Seen, Wanted};
-use crate::given::TASK_FILES;
-use crate::report::whole;
+use crate::format::{Format, FormatContext, OutputSpec, StudentView};
+use crate::given_files::TASK_FILES;
+use crate::report::atomic_write;
 use crate::submission::Submission;
 
 /// The places of the five files in a checkout, as a submission is collected.
-const PLACES: [&str; 3] = ["", "src", "student/src"];
+const TASK_FILE_FOLDERS: [&str; 3] = ["", "src", "student/src"];
 
 /// Why a format can not be written.
 #[derive(Debug, thiserror::Error)]
-pub enum NoOutput {
+pub enum OutputError {
     /// The platform has not said whose work it is.
     #[error(
         "--format {format} repeats what its runner says in {variable}, which is not set: run it there, or set all of {all}"
     )]
-    Variable {
+    MissingVariable {
         /// The format.
         format: &'static str,
         /// What is missing.
@@ -45,7 +45,7 @@ pub enum NoOutput {
 #[derive(Clone, Debug, Default)]
 pub struct Outputs {
     files: Vec<Output>,
-    around: Around,
+    context: FormatContext,
 }
 
 /// One format's file.
@@ -54,36 +54,36 @@ struct Output {
     format: Format,
     path: PathBuf,
     /// What others have written there before us, which stays.
-    before: String,
+    existing_text: String,
 }
 
 impl Outputs {
     /// Those that the command line names, in `folder` unless a platform or `PATH` says otherwise.
-    pub fn of(
-        wanted: &[Wanted],
+    pub fn new(
+        wanted: &[OutputSpec],
         folder: &Path,
         submitted: &Path,
         submission: &Submission,
         full_hints: bool,
-    ) -> Result<Self, NoOutput> {
+    ) -> Result<Self, OutputError> {
         let mut outputs = Outputs {
             files: Vec::new(),
-            around: Around {
-                folder: in_checkout(submitted),
-                methods: methods(submission),
+            context: FormatContext {
+                folder: folder_in_checkout(submitted),
+                method_lines: find_method_lines(submission),
                 variables: BTreeMap::new(),
                 full_hints,
             },
         };
         for wanted in wanted {
-            variables(wanted.format, &mut outputs.around.variables)?;
-            outputs.files.push(output(wanted, folder)?);
+            read_variables(wanted.format, &mut outputs.context.variables)?;
+            outputs.files.push(resolve_output(wanted, folder)?);
         }
         Ok(outputs)
     }
 
     /// Writes each file whole. What may be seen is only asked for where there are any.
-    pub fn write(&self, seen: &dyn Fn() -> Seen) -> Result<(), NoOutput> {
+    pub fn write(&self, seen: &dyn Fn() -> StudentView) -> Result<(), OutputError> {
         if self.is_empty() {
             return Ok(());
         }
@@ -91,14 +91,14 @@ impl Outputs {
         for Output {
             format,
             path,
-            before,
+            existing_text: before,
         } in &self.files
         {
-            let Some(text) = format.text(seen, &self.around) else {
+            let Some(text) = format.render(seen, &self.context) else {
                 continue;
             };
             let text = format!("{before}{text}");
-            whole::write(&text, path).map_err(|source| NoOutput::Io {
+            atomic_write::write(&text, path).map_err(|source| OutputError::Io {
                 path: path.clone(),
                 source,
             })?;
@@ -107,10 +107,10 @@ impl Outputs {
     }
 
     /// What the runner is to be told on standard output.
-    pub fn commands(&self, seen: &Seen) -> Option<String> {
+    pub fn runner_commands(&self, seen: &StudentView) -> Option<String> {
         let mut files = self.files.iter();
         let is_wanted = files.any(|output| output.format == Format::Github);
-        is_wanted.then(|| annotations(seen, &self.around))
+        is_wanted.then(|| annotations(seen, &self.context))
     }
 
     /// Whether nothing was asked for.
@@ -126,7 +126,7 @@ impl Outputs {
     }
 }
 
-fn output(wanted: &Wanted, folder: &Path) -> Result<Output, NoOutput> {
+fn resolve_output(wanted: &OutputSpec, folder: &Path) -> Result<Output, OutputError> {
     let format = wanted.format;
     // A step's own files: others of the step may have written there already.
     let shared = match format {
@@ -148,21 +148,24 @@ fn output(wanted: &Wanted, folder: &Path) -> Result<Output, NoOutput> {
         (None, Some(path)) => match fs::read_to_string(&path) {
             Ok(before) => (path, before),
             Err(error) if error.kind() == io::ErrorKind::NotFound => (path, String::new()),
-            Err(source) => return Err(NoOutput::Io { path, source }),
+            Err(source) => return Err(OutputError::Io { path, source }),
         },
     };
     Ok(Output {
         format,
         path,
-        before,
+        existing_text: before,
     })
 }
 
 /// Notes what the platform says, all of which a format needs.
-fn variables(format: Format, known: &mut BTreeMap<&'static str, String>) -> Result<(), NoOutput> {
+fn read_variables(
+    format: Format,
+    known: &mut BTreeMap<&'static str, String>,
+) -> Result<(), OutputError> {
     for variable in format.variables() {
         let value = env::var(variable).ok().filter(|value| !value.is_empty());
-        let value = value.ok_or_else(|| NoOutput::Variable {
+        let value = value.ok_or_else(|| OutputError::MissingVariable {
             format: format.id(),
             variable,
             all: format.variables().join(", "),
@@ -174,11 +177,11 @@ fn variables(format: Format, known: &mut BTreeMap<&'static str, String>) -> Resu
 
 /// The folder of the five files, from the checkout's, which is the current one unless the runner
 /// says otherwise. Empty if they are not below it.
-fn in_checkout(submitted: &Path) -> String {
+fn folder_in_checkout(submitted: &Path) -> String {
     let here = env::current_dir().unwrap_or_default();
     let submitted = here.join(submitted);
     let here = env::var_os("GITHUB_WORKSPACE").map_or(here, PathBuf::from);
-    let places = PLACES.map(|place| submitted.join(place));
+    let places = TASK_FILE_FOLDERS.map(|place| submitted.join(place));
     let holds_some = |place: &PathBuf| {
         let mut files = TASK_FILES.iter();
         files.any(|file| place.join(file.name).symlink_metadata().is_ok())
@@ -193,7 +196,7 @@ fn in_checkout(submitted: &Path) -> String {
 }
 
 /// The line of each task's method, counted from 1.
-fn methods(submission: &Submission) -> BTreeMap<Task, u32> {
+fn find_method_lines(submission: &Submission) -> BTreeMap<Task, u32> {
     let line = |task: Task| {
         let mut files = submission.files.iter();
         let (_, text) = files.find(|(file, _)| file.name == task.file())?;

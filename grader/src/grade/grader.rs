@@ -6,26 +6,26 @@ use std::path::Path;
 use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
-use super::files_said::build_report;
-use super::named::{budget, builder, collect, lateness, policy, submitted, usual_folder};
-use crate::again::Again;
+use super::build_report::build_report;
+use super::resolve::{budget, builder, collect, default_folder, lateness, policy, submission_path};
 use crate::build::{Build, BuildError, Builder, NotCompiled};
 use crate::cli::Arguments;
 use crate::error::Error;
 use crate::exam::Exam;
 use crate::exam_file::{self, ExamFile, ExamName};
-use crate::examine::examine;
-use crate::exhibit::Exhibits;
-use crate::files::Files;
-use crate::format::Seen;
-use crate::format::outputs::{NoOutput, Outputs};
-use crate::isolate::isolated;
+use crate::format::StudentView;
+use crate::format::outputs::{OutputError, Outputs};
 use crate::policy::{Lateness, Policy};
 use crate::report::html::Reload;
+use crate::report_answers::ReportAnswers;
+use crate::report_files::ReportFiles;
+use crate::rerun_command::RerunCommand;
+use crate::run_exam::run_exam;
 use crate::sandbox::Isolation;
 use crate::score::Score;
+use crate::select_isolation::with_requested_level;
 use crate::submission::Submission;
-use crate::verdict::unasked;
+use crate::verdict::pending_score;
 use crate::workspace::Workspace;
 
 /// All that stays as it is from one version of a submission to the next.
@@ -40,22 +40,22 @@ pub struct Grader<'a> {
 }
 
 /// One version of a submission, built.
-pub struct Built {
+pub struct BuiltSubmission {
     build: Build,
     took: Duration,
 }
 
-impl Built {
+impl BuiltSubmission {
     /// Makes a program of a submission, as far as it compiles; says what does not as soon as that is
     /// known.
-    fn of(
+    fn new(
         builder: &Builder,
         submission: &Submission,
         tell: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
     ) -> Result<Self, BuildError> {
         let began = Instant::now();
-        let build = builder.build_telling(submission, tell)?;
-        Ok(Built {
+        let build = builder.build_with_progress(submission, tell)?;
+        Ok(BuiltSubmission {
             build,
             took: began.elapsed(),
         })
@@ -67,9 +67,9 @@ impl Built {
     }
 
     /// Whether as much of it would compile on any day.
-    pub(super) fn is_settled(&self) -> bool {
+    pub(super) fn is_reproducible(&self) -> bool {
         let mut why = self.build.not_compiled.values();
-        why.all(NotCompiled::is_settled)
+        why.all(NotCompiled::is_reproducible)
     }
 }
 
@@ -80,36 +80,36 @@ impl<'a> Grader<'a> {
         let file = exam_file::load(arguments.exam.as_deref())?;
         // A submission that is nowhere is told of before anything is compiled.
         collect(arguments, &workspace)?;
-        let builder = isolated(builder(arguments, &workspace)?, arguments)?;
-        Grader::of(arguments, workspace, builder, file)
+        let builder = with_requested_level(builder(arguments, &workspace)?, arguments)?;
+        Grader::new(arguments, workspace, builder, file)
     }
 
     /// The same for one submission, which is built meanwhile: reading an exam takes a tenth of the
     /// time that compiling does, and neither waits for the other.
-    pub(super) fn prepare_building(
+    pub(super) fn prepare_and_build(
         arguments: &'a Arguments,
         tell: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
-    ) -> Result<(Self, Submission, Built), Error> {
+    ) -> Result<(Self, Submission, BuiltSubmission), Error> {
         let workspace = Workspace::find()?;
         let submission = collect(arguments, &workspace)?;
         let (builder, built, file) = thread::scope(|scope| {
             let reading = scope.spawn(|| exam_file::load(arguments.exam.as_deref()));
             let read = |reading: ScopedJoinHandle<'_, _>| reading.join().expect("it reads a file");
-            let builder = isolated(builder(arguments, &workspace)?, arguments)?;
+            let builder = with_requested_level(builder(arguments, &workspace)?, arguments)?;
             // The first time, all that took its time: a bad exam need not wait for more.
             let (built, file) = match reading.is_finished() {
                 true => {
                     let file = read(reading)?;
-                    (Built::of(&builder, &submission, tell)?, file)
+                    (BuiltSubmission::new(&builder, &submission, tell)?, file)
                 }
                 false => {
-                    let built = Built::of(&builder, &submission, tell)?;
+                    let built = BuiltSubmission::new(&builder, &submission, tell)?;
                     (built, read(reading)?)
                 }
             };
             Ok::<_, Error>((builder, built, file))
         })?;
-        let grader = Grader::of(arguments, workspace, builder, file)?;
+        let grader = Grader::new(arguments, workspace, builder, file)?;
         Ok((grader, submission, built))
     }
 
@@ -117,11 +117,11 @@ impl<'a> Grader<'a> {
     pub fn for_many(arguments: &'a Arguments) -> Result<Self, Error> {
         let file = exam_file::load(arguments.exam.as_deref())?;
         let workspace = Workspace::find()?;
-        let builder = isolated(builder(arguments, &workspace)?, arguments)?;
-        Grader::of(arguments, workspace, builder, file)
+        let builder = with_requested_level(builder(arguments, &workspace)?, arguments)?;
+        Grader::new(arguments, workspace, builder, file)
     }
 
-    fn of(
+    fn new(
         arguments: &'a Arguments,
         workspace: Workspace,
         builder: Builder,
@@ -133,7 +133,7 @@ impl<'a> Grader<'a> {
             lateness: lateness(arguments, &policy)?,
             exam_name: file.name(),
             exam: match arguments.task {
-                Some(task) => file.exam.with_what_it_needs(|item| item.task == task),
+                Some(task) => file.exam.with_needed_items(|item| item.task == task),
                 None => file.exam,
             },
             policy,
@@ -143,8 +143,8 @@ impl<'a> Grader<'a> {
     }
 
     /// As much of a score as the policy lets students see.
-    pub fn seen(&self, score: &Score) -> Seen {
-        Seen::of(score, &self.policy, self.lateness)
+    pub fn student_view(&self, score: &Score) -> StudentView {
+        StudentView::new(score, &self.policy, self.lateness)
     }
 
     /// The formats that were asked for, in `folder` unless they belong elsewhere.
@@ -152,10 +152,10 @@ impl<'a> Grader<'a> {
         &self,
         submission: &Submission,
         folder: &Path,
-    ) -> Result<Outputs, NoOutput> {
-        let submitted = submitted(self.arguments, &self.workspace);
+    ) -> Result<Outputs, OutputError> {
+        let submitted = submission_path(self.arguments, &self.workspace);
         let (formats, hints) = (&self.arguments.format, self.arguments.hints);
-        Outputs::of(formats, folder, &submitted, submission, hints)
+        Outputs::new(formats, folder, &submitted, submission, hints)
     }
 
     /// What the exam is called.
@@ -164,7 +164,7 @@ impl<'a> Grader<'a> {
     }
 
     /// What scores follow from, beside submission and exam: compiler, dependencies, reference.
-    pub fn built_with(&self) -> String {
+    pub fn builder_identity(&self) -> String {
         self.builder.identity()
     }
 
@@ -189,14 +189,14 @@ impl<'a> Grader<'a> {
     }
 
     /// Makes a program of it, as far as it compiles.
-    pub fn build(&self, submission: &Submission) -> Result<Built, Error> {
-        Ok(Built::of(&self.builder, submission, |_| {})?)
+    pub fn build(&self, submission: &Submission) -> Result<BuiltSubmission, Error> {
+        Ok(BuiltSubmission::new(&self.builder, submission, |_| {})?)
     }
 
     /// The score before anything is asked.
-    pub fn unasked(&self, submission: &Submission, built: &Built) -> Score {
-        let mut score = unasked(&self.exam, self.exam_name.clone(), &submission.name);
-        score.again = Again {
+    pub fn pending_score(&self, submission: &Submission, built: &BuiltSubmission) -> Score {
+        let mut score = pending_score(&self.exam, self.exam_name.clone(), &submission.name);
+        score.rerun_command = RerunCommand {
             submission: self.arguments.submission.clone(),
             exam: self.arguments.exam.clone(),
         };
@@ -209,34 +209,34 @@ impl<'a> Grader<'a> {
 
     /// Asks some or all of the exam, and shows the score to `progress` after each item, with the
     /// answers that are worth a look.
-    pub fn examine<E: From<io::Error>>(
+    pub fn run_exam<E: From<io::Error>>(
         &self,
         exam: &Exam,
-        built: &Built,
+        built: &BuiltSubmission,
         score: &mut Score,
-        mut progress: impl FnMut(&Score, &Exhibits) -> Result<(), E>,
+        mut progress: impl FnMut(&Score, &ReportAnswers) -> Result<(), E>,
     ) -> Result<(), E> {
         let began = Instant::now();
         let budget = budget(self.arguments);
-        examine(exam, &built.build, budget, score, |score, exhibits| {
+        run_exam(exam, &built.build, budget, score, |score, exhibits| {
             score.timings.exam_ms = millis(began.elapsed());
             progress(score, exhibits)
         })
     }
 
     /// Where the score goes. One task's points are no score.
-    pub fn files(&self, submission: &Submission) -> Option<Files> {
+    pub fn files(&self, submission: &Submission) -> Option<ReportFiles> {
         let folder = match &self.arguments.out {
             Some(folder) => folder.clone(),
-            None => usual_folder(&self.workspace, submission),
+            None => default_folder(&self.workspace, submission),
         };
         let reload = match self.arguments.watch {
-            true => Reload::WhileAway,
+            true => Reload::WhileUnfocused,
             false => Reload::Never,
         };
         match self.arguments.task {
             Some(_) => None,
-            None => Some(Files::of(&folder, reload)),
+            None => Some(ReportFiles::new(&folder, reload)),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use toml::value::{Datetime, Offset};
 
-use crate::policy::{Late, Of, Policy, Rounding};
+use crate::policy::{LatePolicy, PercentBase, Policy, Rounding};
 
 /// One day, in seconds.
 const DAY: u64 = 24 * 60 * 60;
@@ -23,7 +23,7 @@ impl Lateness {
 
 /// What a submission counts for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Counted {
+pub struct CountedPoints {
     /// What it counts for.
     pub points: u32,
     /// What a perfect one in time counts for.
@@ -34,7 +34,7 @@ pub struct Counted {
     pub is_closed: bool,
 }
 
-impl fmt::Display for Counted {
+impl fmt::Display for CountedPoints {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{} of {} points", self.points, self.max_points)
     }
@@ -42,18 +42,23 @@ impl fmt::Display for Counted {
 
 impl Policy {
     /// What `points` of `max_points` count for: scaled, less what lateness costs, capped, rounded.
-    pub fn counted(&self, points: u32, max_points: u32, lateness: Lateness) -> Counted {
+    pub fn counted_points(
+        &self,
+        points: u32,
+        max_points: u32,
+        lateness: Lateness,
+    ) -> CountedPoints {
         let out_of = self.points.out_of.unwrap_or(max_points);
-        let late_days = self.late.days(lateness);
+        let late_days = self.late.late_days(lateness);
         let is_closed = self.late.closed_after_days.is_some_and(|n| late_days > n);
         let share = match is_closed {
-            true => Share::NONE,
+            true => Fraction::NONE,
             false => self
                 .late
-                .share(points.min(max_points), max_points, late_days),
+                .fraction(points.min(max_points), max_points, late_days),
         };
-        Counted {
-            points: share.of(out_of, self.points.rounding),
+        CountedPoints {
+            points: share.apply(out_of, self.points.rounding),
             max_points: out_of,
             late_days,
             is_closed,
@@ -62,55 +67,61 @@ impl Policy {
 
     /// How late a submission of this moment is, in seconds since 1970, UTC. None without a due time.
     pub fn lateness(&self, submitted: i64) -> Option<Lateness> {
-        let seconds = submitted - unix(self.late.due.as_ref()?)?;
+        let seconds = submitted - unix_seconds(self.late.due.as_ref()?)?;
         Some(Lateness {
             seconds: u64::try_from(seconds).unwrap_or(0),
         })
     }
 }
 
-impl Late {
+impl LatePolicy {
     /// The begun days since the due time; none within the time of grace.
-    fn days(&self, lateness: Lateness) -> u32 {
+    fn late_days(&self, lateness: Lateness) -> u32 {
         match lateness.seconds <= u64::from(self.grace_minutes) * 60 {
             true => 0,
             false => u32::try_from(lateness.seconds.div_ceil(DAY)).unwrap_or(u32::MAX),
         }
     }
 
-    fn share(&self, points: u32, max_points: u32, late_days: u32) -> Share {
+    fn fraction(&self, points: u32, max_points: u32, late_days: u32) -> Fraction {
         // In hundredths of a point, so that percentages are whole numbers.
         let (points, all) = (u64::from(points) * 100, u64::from(max_points) * 100);
         let days = late_days.saturating_sub(self.free_days);
         if days == 0 {
-            return Share { part: points, all };
+            return Fraction {
+                numerator: points,
+                denominator: all,
+            };
         }
         let percent = u64::from(days.saturating_mul(self.percent_per_day).min(100));
         let of = match self.percent_of {
-            Of::Earned => points,
-            Of::Possible => all,
+            PercentBase::Earned => points,
+            PercentBase::Possible => all,
         };
         let part = points.saturating_sub(of / 100 * percent);
         let most = all / 100 * u64::from(self.most_percent);
-        Share {
-            part: part.min(most),
-            all,
+        Fraction {
+            numerator: part.min(most),
+            denominator: all,
         }
     }
 }
 
 /// A part of the whole, exactly.
 #[derive(Clone, Copy, Debug)]
-struct Share {
-    part: u64,
-    all: u64,
+struct Fraction {
+    numerator: u64,
+    denominator: u64,
 }
 
-impl Share {
-    const NONE: Share = Share { part: 0, all: 1 };
+impl Fraction {
+    const NONE: Fraction = Fraction {
+        numerator: 0,
+        denominator: 1,
+    };
 
-    fn of(self, points: u32, rounding: Rounding) -> u32 {
-        let (exact, all) = (self.part * u64::from(points), self.all.max(1));
+    fn apply(self, points: u32, rounding: Rounding) -> u32 {
+        let (exact, all) = (self.numerator * u64::from(points), self.denominator.max(1));
         let rounded = match rounding {
             Rounding::Down => exact / all,
             Rounding::Nearest => (2 * exact + all) / (2 * all),
@@ -121,7 +132,7 @@ impl Share {
 }
 
 /// Seconds since 1970, UTC. None without a date, a time and an offset.
-pub(super) fn unix(moment: &Datetime) -> Option<i64> {
+pub(super) fn unix_seconds(moment: &Datetime) -> Option<i64> {
     let (date, time) = (moment.date?, moment.time?);
     let minutes = match moment.offset? {
         Offset::Z => 0,
@@ -129,12 +140,12 @@ pub(super) fn unix(moment: &Datetime) -> Option<i64> {
     };
     let (hour, minute) = (i64::from(time.hour), i64::from(time.minute));
     let second = i64::from(time.second.unwrap_or(0));
-    let days = days(date.year.into(), date.month.into(), date.day.into());
+    let days = days_since_epoch(date.year.into(), date.month.into(), date.day.into());
     Some(((days * 24 + hour) * 60 + minute - minutes) * 60 + second)
 }
 
 /// Days since 1970-01-01 (Howard Hinnant, "chrono-Compatible Low-Level Date Algorithms").
-fn days(year: i64, month: i64, day: i64) -> i64 {
+fn days_since_epoch(year: i64, month: i64, day: i64) -> i64 {
     // Years begin in March, so that the odd day is the last.
     let year = if month <= 2 { year - 1 } else { year };
     let era = year.div_euclid(400);
@@ -158,18 +169,18 @@ mod tests {
     }
 
     fn counts(text: &str, points: u32, late: Lateness) -> u32 {
-        policy(text).counted(points, 100, late).points
+        policy(text).counted_points(points, 100, late).points
     }
 
     #[test]
-    fn without_a_policy_points_count_as_they_are_however_late() {
+    fn default_policy_ignores_lateness() {
         for late in [Lateness::NONE, hours(1000)] {
             assert_eq!(counts("", 87, late), 87);
         }
     }
 
     #[test]
-    fn fractions_are_rounded_once_and_as_told() {
+    fn fractions_are_rounded_once_as_configured() {
         let out_of = |rounding: &str| format!("[points]\nout_of = 50\nrounding = '{rounding}'");
         assert_eq!(counts(&out_of("down"), 87, Lateness::NONE), 43);
         assert_eq!(counts(&out_of("nearest"), 87, Lateness::NONE), 44);
@@ -181,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn every_begun_day_costs_what_is_earned_or_possible() {
+    fn each_started_day_costs_a_percentage() {
         assert_eq!(counts("[late]\npercent_per_day = 10", 80, hours(25)), 64);
         let possible = "[late]\npercent_per_day = 10\npercent_of = 'possible'";
         assert_eq!(counts(possible, 80, hours(25)), 60);
@@ -200,14 +211,14 @@ mod tests {
     }
 
     #[test]
-    fn after_the_last_day_nothing_counts() {
+    fn nothing_counts_after_the_last_day() {
         let policy = policy("[late]\nfree_days = 5\nclosed_after_days = 2");
-        let last = policy.counted(70, 100, hours(48));
+        let last = policy.counted_points(70, 100, hours(48));
         assert_eq!(
             (last.points, last.is_closed, last.late_days),
             (70, false, 2)
         );
-        let later = policy.counted(70, 100, hours(49));
+        let later = policy.counted_points(70, 100, hours(49));
         assert_eq!(
             (later.points, later.is_closed, later.late_days),
             (0, true, 3)
@@ -216,11 +227,16 @@ mod tests {
 
     #[test]
     fn an_exam_without_points_counts_for_nothing() {
-        assert_eq!(Policy::default().counted(0, 0, Lateness::NONE).points, 0);
+        assert_eq!(
+            Policy::default()
+                .counted_points(0, 0, Lateness::NONE)
+                .points,
+            0
+        );
     }
 
     #[test]
-    fn lateness_is_counted_from_the_due_moment_wherever_it_is() {
+    fn due_times_are_compared_across_time_zones() {
         let due = |text: &str| policy(&format!("[late]\ndue = {text}"));
         // `date -d 2026-11-20T23:59:59+01:00 +%s`
         let moment = 1_795_215_599;
@@ -231,7 +247,7 @@ mod tests {
             assert_eq!(due.lateness(moment + 9), Some(Lateness { seconds: 9 }));
         }
         assert_eq!(
-            unix(&"2024-02-29T12:00:00Z".parse().unwrap()),
+            unix_seconds(&"2024-02-29T12:00:00Z".parse().unwrap()),
             Some(1_709_208_000)
         );
         assert_eq!(Policy::default().lateness(moment), None);

@@ -3,9 +3,9 @@
 //! Nothing here changes a score: `score.json` says what a submission is worth as if in time, and
 //! what counts follows from it and from the policy.
 
-mod handed_in;
 mod late;
 mod read;
+mod submission_time;
 mod visibility;
 
 use std::collections::BTreeMap;
@@ -13,9 +13,9 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::value::Datetime;
 
-pub use handed_in::{HandedIn, NoMoments};
-pub use late::{Counted, Lateness};
+pub use late::{CountedPoints, Lateness};
 pub use read::PolicyError;
+pub use submission_time::{SubmissionTime, SubmissionTimeError};
 pub use visibility::Visibility;
 
 /// The documented file that says what holds without a policy.
@@ -26,17 +26,17 @@ pub const DEFAULT: &str = include_str!("default.toml");
 #[serde(deny_unknown_fields, default)]
 pub struct Policy {
     /// What points count for.
-    pub points: Points,
+    pub points: PointsPolicy,
     /// What lateness costs.
-    pub late: Late,
+    pub late: LatePolicy,
     /// What students see.
-    pub visibility: Visible,
+    pub visibility: VisibilityPolicy,
 }
 
 /// What points count for.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Points {
+pub struct PointsPolicy {
     /// What a perfect submission counts for; without it, as much as the exam has.
     pub out_of: Option<u32>,
     /// What becomes of fractions, at the very end.
@@ -59,7 +59,7 @@ pub enum Rounding {
 /// What lateness costs.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Late {
+pub struct LatePolicy {
     /// The last second in time.
     pub due: Option<Datetime>,
     /// So much later is still in time.
@@ -69,7 +69,7 @@ pub struct Late {
     /// What each further day costs.
     pub percent_per_day: u32,
     /// Of what.
-    pub percent_of: Of,
+    pub percent_of: PercentBase,
     /// The most that a late submission can count for, in percent of all points.
     pub most_percent: u32,
     /// After so many days, nothing counts.
@@ -79,7 +79,7 @@ pub struct Late {
 /// What a percentage is of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Of {
+pub enum PercentBase {
     /// Of the submission's own points.
     #[default]
     Earned,
@@ -90,35 +90,35 @@ pub enum Of {
 /// What students see of an exam's items.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Visible {
+pub struct VisibilityPolicy {
     /// Of the practice exam, which they have.
     pub practice: Visibility,
     /// Of any other.
     #[serde(rename = "final")]
-    pub others: Visibility,
+    pub other_exams: Visibility,
     /// Exceptions, by task or item.
     pub items: BTreeMap<String, Visibility>,
 }
 
-impl Default for Late {
+impl Default for LatePolicy {
     fn default() -> Self {
-        Late {
+        LatePolicy {
             due: None,
             grace_minutes: 0,
             free_days: 0,
             percent_per_day: 0,
-            percent_of: Of::Earned,
+            percent_of: PercentBase::Earned,
             most_percent: 100,
             closed_after_days: None,
         }
     }
 }
 
-impl Default for Visible {
+impl Default for VisibilityPolicy {
     fn default() -> Self {
-        Visible {
+        VisibilityPolicy {
             practice: Visibility::All,
-            others: Visibility::Feedback,
+            other_exams: Visibility::Feedback,
             items: BTreeMap::new(),
         }
     }

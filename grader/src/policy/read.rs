@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::exam::Exam;
 use crate::policy::Policy;
-use crate::policy::late::unix;
+use crate::policy::late::unix_seconds;
 
 /// Why a policy can not be used.
 #[derive(Debug, thiserror::Error)]
@@ -27,7 +27,7 @@ pub enum PolicyError {
         "the policy {}, line {line}: {problem}\n  {text}\n`cargo grade --policy-default` prints all keys and what they mean",
         path.display()
     )]
-    Line {
+    Invalid {
         /// Which.
         path: PathBuf,
         /// Counted from 1.
@@ -42,7 +42,7 @@ pub enum PolicyError {
         "the policy {}: [visibility.items] names `{name}`, and the exam {exam} has no such task or item",
         path.display()
     )]
-    NoSuchItem {
+    UnknownItem {
         /// Which.
         path: PathBuf,
         /// What it names.
@@ -59,20 +59,20 @@ impl Policy {
             path: path.to_owned(),
             source,
         })?;
-        Policy::of_text(path, &text)
+        Policy::from_text(path, &text)
     }
 
     /// Reads a policy that `path` is the name of.
-    pub fn of_text(path: &Path, text: &str) -> Result<Policy, PolicyError> {
-        Policy::parse(text).map_err(|complaint| complaint.of(path, text))
+    pub fn from_text(path: &Path, text: &str) -> Result<Policy, PolicyError> {
+        Policy::parse(text).map_err(|complaint| complaint.into_error(path, text))
     }
 
     /// Refuses exceptions for what this exam does not hold: nobody would miss them.
     pub fn check(&self, path: &Path, exam: &Exam) -> Result<(), PolicyError> {
         let items = exam.items.iter().map(|item| item.id.as_str());
-        match self.unmatched(items) {
+        match self.unmatched_exception(items) {
             None => Ok(()),
-            Some(name) => Err(PolicyError::NoSuchItem {
+            Some(name) => Err(PolicyError::UnknownItem {
                 path: path.to_owned(),
                 name: name.to_owned(),
                 exam: exam.id.clone(),
@@ -80,15 +80,15 @@ impl Policy {
         }
     }
 
-    fn parse(text: &str) -> Result<Policy, Complaint> {
-        let policy: Policy = toml::from_str(text).map_err(|error| Complaint {
-            place: error.span().map_or(0, |span| span.start),
+    fn parse(text: &str) -> Result<Policy, Problem> {
+        let policy: Policy = toml::from_str(text).map_err(|error| Problem {
+            offset: error.span().map_or(0, |span| span.start),
             problem: error.message().to_owned(),
         })?;
         match policy.problem() {
             None => Ok(policy),
-            Some((key, problem)) => Err(Complaint {
-                place: place(text, key),
+            Some((key, problem)) => Err(Problem {
+                offset: line_offset(text, key),
                 problem: problem.to_owned(),
             }),
         }
@@ -97,7 +97,10 @@ impl Policy {
     /// The key whose value can not be meant, and what is wrong with it.
     fn problem(&self) -> Option<(&'static str, &'static str)> {
         let late = &self.late;
-        let is_moment = late.due.as_ref().is_none_or(|due| unix(due).is_some());
+        let is_moment = late
+            .due
+            .as_ref()
+            .is_none_or(|due| unix_seconds(due).is_some());
         [
             (
                 self.points.out_of == Some(0),
@@ -126,16 +129,16 @@ impl Policy {
 }
 
 /// What is wrong, and at which byte.
-struct Complaint {
-    place: usize,
+struct Problem {
+    offset: usize,
     problem: String,
 }
 
-impl Complaint {
-    fn of(self, path: &Path, text: &str) -> PolicyError {
-        let before = text.get(..self.place).unwrap_or(text);
+impl Problem {
+    fn into_error(self, path: &Path, text: &str) -> PolicyError {
+        let before = text.get(..self.offset).unwrap_or(text);
         let line = before.matches('\n').count();
-        PolicyError::Line {
+        PolicyError::Invalid {
             path: path.to_owned(),
             line: line + 1,
             text: text.lines().nth(line).unwrap_or_default().trim().to_owned(),
@@ -145,7 +148,7 @@ impl Complaint {
 }
 
 /// The byte where the line of this key begins.
-fn place(text: &str, key: &str) -> usize {
+fn line_offset(text: &str, key: &str) -> usize {
     let mut begin = 0;
     for line in text.split_inclusive('\n') {
         if line.trim_start().starts_with(key) {
@@ -161,12 +164,12 @@ mod tests {
     use crate::policy::{DEFAULT, Policy};
 
     #[test]
-    fn the_documented_default_is_what_holds_without_a_policy() {
+    fn documented_default_equals_the_built_in_default() {
         assert_eq!(Policy::parse(DEFAULT).ok(), Some(Policy::default()));
     }
 
     #[test]
-    fn what_the_default_only_shows_can_be_said() {
+    fn commented_examples_are_valid() {
         let shown = |line: &str| {
             let line = line.strip_prefix("# ")?;
             line.split_once(" = ").map(|_| line.to_owned())

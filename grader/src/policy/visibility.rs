@@ -6,7 +6,7 @@ use crate::exam_file::ExamName;
 use crate::policy::Policy;
 
 /// The exam that students have, with its keys.
-const PRACTICE: &str = "practice";
+const PRACTICE_EXAM: &str = "practice";
 
 /// How much students see of an item, from all to nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
@@ -44,13 +44,13 @@ impl Policy {
         let exceptions = &self.visibility.items;
         let exception = exceptions.get(item).or_else(|| exceptions.get(task));
         exception.copied().unwrap_or(match exam.id.as_str() {
-            PRACTICE => self.visibility.practice,
-            _ => self.visibility.others,
+            PRACTICE_EXAM => self.visibility.practice,
+            _ => self.visibility.other_exams,
         })
     }
 
     /// An exception that is neither a task nor an item of these.
-    pub(super) fn unmatched<'a>(
+    pub(super) fn unmatched_exception<'a>(
         &self,
         items: impl Iterator<Item = &'a str> + Clone,
     ) -> Option<&str> {
@@ -78,13 +78,13 @@ mod tests {
     }
 
     #[test]
-    fn only_the_practice_exams_answers_are_shown_unless_told_otherwise() {
+    fn answers_are_shown_only_for_the_practice_exam_by_default() {
         assert_eq!(of("", "practice", "bbox.flat"), Visibility::All);
         assert_eq!(of("", "final", "bbox.flat"), Visibility::Feedback);
     }
 
     #[test]
-    fn an_items_own_line_comes_before_its_tasks() {
+    fn item_exception_overrides_task_exception() {
         let policy = "[visibility.items]\nbbox = 'points'\n'bbox.flat' = 'hidden'";
         assert_eq!(of(policy, "final", "bbox.flat"), Visibility::Hidden);
         assert_eq!(of(policy, "final", "bbox.inside"), Visibility::Points);
@@ -92,11 +92,14 @@ mod tests {
     }
 
     #[test]
-    fn an_exception_that_meets_nothing_is_told() {
+    fn reports_an_exception_that_matches_nothing() {
         let policy = "[visibility.items]\nbbox = 'points'\n'bbox.flat' = 'hidden'";
         let policy: Policy = toml::from_str(policy).unwrap();
         let items = ["bbox.flat", "sphere.miss"];
-        assert_eq!(policy.unmatched(items.into_iter()), None);
-        assert_eq!(policy.unmatched(["bbox.x"].into_iter()), Some("bbox.flat"));
+        assert_eq!(policy.unmatched_exception(items.into_iter()), None);
+        assert_eq!(
+            policy.unmatched_exception(["bbox.x"].into_iter()),
+            Some("bbox.flat")
+        );
     }
 }

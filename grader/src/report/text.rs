@@ -6,14 +6,14 @@ use anstyle::{AnsiColor, Style};
 
 use crate::exam::Task;
 use crate::sandbox::Isolation;
+use crate::sanitize::sanitize;
 use crate::score::{Hint, ItemScore, Score, TaskScore, Verdict};
 use crate::section::Section;
-use crate::tame::tame;
 
 const WIDTH: usize = 80;
-const BAR: usize = 20;
+const BAR_WIDTH: usize = 20;
 /// The most lines that are shown of a compiler's message.
-const COMPILER_LINES: usize = 20;
+const MAX_COMPILER_LINES: usize = 20;
 
 const STRONG: Style = Style::new().bold();
 const FAINT: Style = Style::new().dimmed();
@@ -23,7 +23,7 @@ const BAD: Style = AnsiColor::Red.on_default();
 
 /// How much is said of a mistake that is recognised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Hints {
+pub enum HintDetail {
     /// A question that leads there.
     Nudge,
     /// What is wrong.
@@ -32,22 +32,27 @@ pub enum Hints {
 
 /// The whole report, with colours: the stream that takes it drops them where they do not belong.
 /// With `only`, that task alone.
-pub fn report(score: &Score, only: Option<Task>, hints: Hints) -> String {
+pub fn report(score: &Score, only: Option<Task>, hints: HintDetail) -> String {
     let mut text = String::new();
     write_report(&mut text, score, only, hints).expect("text takes text");
     text
 }
 
-fn write_report(out: &mut String, score: &Score, only: Option<Task>, hints: Hints) -> fmt::Result {
+fn write_report(
+    out: &mut String,
+    score: &Score,
+    only: Option<Task>,
+    hints: HintDetail,
+) -> fmt::Result {
     let shown = |task: &&TaskScore| only.is_none_or(|only| only == task.id);
     let tasks: Vec<&TaskScore> = score.tasks.iter().filter(shown).collect();
 
     writeln!(out)?;
     if only.is_none() {
-        headline(out, score)?;
+        write_headline(out, score)?;
     }
     for task in &tasks {
-        task_line(out, task)?;
+        write_task_line(out, task)?;
     }
     // A single line stands at the task's item already.
     let told = score
@@ -56,7 +61,7 @@ fn write_report(out: &mut String, score: &Score, only: Option<Task>, hints: Hint
         .iter()
         .filter(|file| file.message.contains('\n'));
     for file in told {
-        compiler(out, &file.message)?;
+        write_compiler_message(out, &file.message)?;
     }
     for task in &tasks {
         let failing = task.items.iter();
@@ -68,20 +73,20 @@ fn write_report(out: &mut String, score: &Score, only: Option<Task>, hints: Hint
         let others = failing.iter().skip(1).filter(says_more);
         let shown: Vec<&&ItemScore> = failing.first().into_iter().chain(others).collect();
         for line in &shown {
-            item(out, line, hints)?;
-            ask_again(out, &line.again(&score.again))?;
+            write_item(out, line, hints)?;
+            write_rerun_command(out, &line.rerun_command(&score.rerun_command))?;
         }
         let others = failing.len() - shown.len();
         match only {
-            Some(_) => more(out, others, "")?,
-            None => more(
+            Some(_) => write_hidden_count(out, others, "")?,
+            None => write_hidden_count(
                 out,
                 others,
-                &format!(": {}", score.again.task(task.id.id())),
+                &format!(": {}", score.rerun_command.task(task.id.id())),
             )?,
         }
         if let Some(printed) = &task.printed {
-            printed_lines(out, task, printed)?;
+            write_printed(out, task, printed)?;
         }
     }
     for note in &score.build.notes {
@@ -90,7 +95,7 @@ fn write_report(out: &mut String, score: &Score, only: Option<Task>, hints: Hint
     writeln!(out)
 }
 
-fn headline(out: &mut String, score: &Score) -> fmt::Result {
+fn write_headline(out: &mut String, score: &Score) -> fmt::Result {
     let title = format!("  {}, {} exam", score.submission, score.exam.id);
     let points = format!("{} / {}", score.points, score.max_points);
     let gap = WIDTH.saturating_sub(2 + title.chars().count() + points.len());
@@ -102,13 +107,13 @@ fn headline(out: &mut String, score: &Score) -> fmt::Result {
     Ok(())
 }
 
-fn task_line(out: &mut String, task: &TaskScore) -> fmt::Result {
-    let style = style(task.points, task.max_points);
-    let filled = (BAR as u32 * task.points) / task.max_points.max(1);
-    let bar: String = (0..BAR as u32)
+fn write_task_line(out: &mut String, task: &TaskScore) -> fmt::Result {
+    let style = points_style(task.points, task.max_points);
+    let filled = (BAR_WIDTH as u32 * task.points) / task.max_points.max(1);
+    let bar: String = (0..BAR_WIDTH as u32)
         .map(|i| if i < filled { '█' } else { '·' })
         .collect();
-    let (passed, all) = (passed(task), task.items.len());
+    let (passed, all) = (passed_count(task), task.items.len());
     writeln!(
         out,
         "  {:24} {style}{bar}{style:#}  {:>3} / {:<3} {FAINT}{passed:>5} of {all} passed{FAINT:#}",
@@ -116,12 +121,12 @@ fn task_line(out: &mut String, task: &TaskScore) -> fmt::Result {
     )
 }
 
-fn passed(task: &TaskScore) -> usize {
+fn passed_count(task: &TaskScore) -> usize {
     let passed = |item: &&ItemScore| item.verdict == Verdict::Pass;
     task.items.iter().filter(passed).count()
 }
 
-fn style(points: u32, max_points: u32) -> Style {
+fn points_style(points: u32, max_points: u32) -> Style {
     match points {
         0 => BAD,
         _ if points == max_points => GOOD,
@@ -129,20 +134,20 @@ fn style(points: u32, max_points: u32) -> Style {
     }
 }
 
-fn compiler(out: &mut String, message: &str) -> fmt::Result {
+fn write_compiler_message(out: &mut String, message: &str) -> fmt::Result {
     writeln!(out)?;
-    for line in message.lines().take(COMPILER_LINES) {
+    for line in message.lines().take(MAX_COMPILER_LINES) {
         writeln!(out, "  {BAD}│{BAD:#} {line}")?;
     }
-    if message.lines().count() > COMPILER_LINES {
+    if message.lines().count() > MAX_COMPILER_LINES {
         writeln!(out, "  {BAD}│{BAD:#} …")?;
     }
     Ok(())
 }
 
-fn item(out: &mut String, item: &ItemScore, hints: Hints) -> fmt::Result {
-    let style = style(item.points, item.max_points);
-    let words = item.verdict.words();
+fn write_item(out: &mut String, item: &ItemScore, hints: HintDetail) -> fmt::Result {
+    let style = points_style(item.points, item.max_points);
+    let words = item.verdict.label();
     let gap = (WIDTH - 2).saturating_sub(item.id.chars().count() + words.chars().count());
     writeln!(
         out,
@@ -152,8 +157,8 @@ fn item(out: &mut String, item: &ItemScore, hints: Hints) -> fmt::Result {
     for line in wrap(&item.title, WIDTH - 4) {
         writeln!(out, "    {line}")?;
     }
-    let hint = said(&item.hints, hints);
-    let section = item.section.as_ref().map(Section::words);
+    let hint = hint_text(&item.hints, hints);
+    let section = item.section.as_ref().map(Section::location);
     let rows = [
         ("what", Some(&item.message)),
         (
@@ -171,28 +176,28 @@ fn item(out: &mut String, item: &ItemScore, hints: Hints) -> fmt::Result {
     ];
     for (label, text) in rows {
         if let Some(text) = text.filter(|text| !text.is_empty()) {
-            row(out, label, text)?;
+            write_row(out, label, text)?;
         }
     }
     Ok(())
 }
 
 /// What the mistakes that a wrong answer looks like would do well to hear, if it looks like any.
-fn said(known: &[Hint], hints: Hints) -> Option<String> {
+fn hint_text(known: &[Hint], hints: HintDetail) -> Option<String> {
     let one = |known: &Hint| match hints {
-        Hints::Nudge => known.nudge.clone(),
-        Hints::Full => known.hint.clone(),
+        HintDetail::Nudge => known.nudge.clone(),
+        HintDetail::Full => known.hint.clone(),
     };
     let all: Vec<String> = known.iter().map(one).collect();
     let more = match hints {
-        Hints::Nudge => " (--hints says more)",
-        Hints::Full => "",
+        HintDetail::Nudge => " (--hints says more)",
+        HintDetail::Full => "",
     };
     (!all.is_empty()).then(|| format!("{}{more}", all.join(" Or: ")))
 }
 
 /// A label and its text, wrapped within the width, later lines indented.
-fn row(out: &mut String, label: &str, text: &str) -> fmt::Result {
+fn write_row(out: &mut String, label: &str, text: &str) -> fmt::Result {
     const INDENT: usize = 12;
     let mut lines = wrap(text, WIDTH - INDENT).into_iter();
     let first = lines.next().unwrap_or_default();
@@ -220,12 +225,12 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
 }
 
 /// How to ask the same again.
-fn ask_again(out: &mut String, command: &str) -> fmt::Result {
+fn write_rerun_command(out: &mut String, command: &str) -> fmt::Result {
     writeln!(out, "    {FAINT}{:<7} {command}{FAINT:#}", "again")
 }
 
 /// How many items are not shown, and how to see them.
-fn more(out: &mut String, count: usize, how: &str) -> fmt::Result {
+fn write_hidden_count(out: &mut String, count: usize, how: &str) -> fmt::Result {
     let items = match count {
         0 => return Ok(()),
         1 => "item",
@@ -237,11 +242,11 @@ fn more(out: &mut String, count: usize, how: &str) -> fmt::Result {
     )
 }
 
-fn printed_lines(out: &mut String, task: &TaskScore, printed: &str) -> fmt::Result {
-    const MOST: usize = 5;
+fn write_printed(out: &mut String, task: &TaskScore, printed: &str) -> fmt::Result {
+    const MAX_PRINTED_LINES: usize = 5;
     writeln!(out, "\n  {FAINT}printed during {}:{FAINT:#}", task.title)?;
-    for line in printed.lines().take(MOST) {
-        let line = tame(line, WIDTH - 5);
+    for line in printed.lines().take(MAX_PRINTED_LINES) {
+        let line = sanitize(line, WIDTH - 5);
         writeln!(out, "  {FAINT}│{FAINT:#} {line}")?;
     }
     Ok(())
@@ -252,7 +257,7 @@ mod tests {
     use super::wrap;
 
     #[test]
-    fn lines_are_broken_between_words() {
+    fn wraps_between_words() {
         assert_eq!(wrap("one two three", 7), ["one two", "three"]);
         assert_eq!(wrap("a\nlonger-than-that", 4), ["a", "longer-than-that"]);
     }

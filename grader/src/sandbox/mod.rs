@@ -3,18 +3,18 @@
 //! One's own work runs at level `none`: a process group of its own, an empty environment, limits on
 //! memory and CPU as far as the [`system`](crate::system) has them. Others' runs behind a *launcher*,
 //! which is this very program started once more: it gives up, one after the other, all that the
-//! program after it shall not have, and then becomes that program. All of that is Linux; elsewhere
+//! program after it shall not have, and then becomes that program. All of that is Linux; unsupported
 //! there is no level but `none`.
 //!
 //! What each level promises, and what none does, stands in `grader/SECURITY.md`.
 
-#[cfg(not(target_os = "linux"))]
-mod elsewhere;
 mod isolation;
+mod launch_request;
 #[cfg(target_os = "linux")]
 mod linux;
-mod order;
 mod process;
+#[cfg(not(target_os = "linux"))]
+mod unsupported;
 
 use std::env;
 use std::io;
@@ -23,15 +23,15 @@ use std::process::{Command, ExitCode};
 
 use crate::system::Limits;
 
-#[cfg(not(target_os = "linux"))]
-use elsewhere as platform;
+use launch_request::{LAUNCH_FLAG, LaunchRequest};
 #[cfg(target_os = "linux")]
 use linux as platform;
-use order::{LAUNCH, Order};
+#[cfg(not(target_os = "linux"))]
+use unsupported as platform;
 
-pub use crate::system::Ending;
+pub use crate::system::ExitReason;
 pub use isolation::Isolation;
-pub use order::Profile;
+pub use launch_request::Profile;
 pub use process::Process;
 
 /// Starts programs at one level of isolation.
@@ -43,9 +43,9 @@ pub struct Sandbox {
 
 /// The first thing in the `main` of each program that opens a [`Sandbox`]: if it was started as the
 /// launcher, it does that work and nothing else. `None` for everyone else.
-pub fn launched() -> Option<ExitCode> {
+pub fn run_as_launcher() -> Option<ExitCode> {
     let mut arguments = env::args_os().skip(1);
-    if arguments.next()? != LAUNCH {
+    if arguments.next()? != LAUNCH_FLAG {
         return None;
     }
     Some(platform::launch(arguments).unwrap_or_else(|error| {
@@ -72,7 +72,7 @@ impl Sandbox {
 
     /// With another program as the launcher, whose `main` begins with [`launched`]: for programs
     /// whose own does not, such as tests.
-    pub fn launched_by(self, launcher: PathBuf) -> Self {
+    pub fn with_launcher(self, launcher: PathBuf) -> Self {
         Sandbox { launcher, ..self }
     }
 
@@ -100,7 +100,7 @@ impl Sandbox {
         if !self.confines() {
             return Process::start(&mut command, folder, limits);
         }
-        let order = Order {
+        let order = LaunchRequest {
             level: self.level,
             grader: std::process::id(),
             profile,
@@ -108,7 +108,7 @@ impl Sandbox {
         };
         let mut launch = Command::new(&self.launcher);
         launch
-            .arg(LAUNCH)
+            .arg(LAUNCH_FLAG)
             .arg(serde_json::to_string(&order)?)
             .arg(command.get_program())
             .args(command.get_args())

@@ -5,11 +5,11 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use crate::sandbox::order::READY;
-use crate::system::{self, Ending, Limits};
+use crate::sandbox::launch_request::READY;
+use crate::system::{self, ExitReason, Limits};
 
 /// The most that is read of a launcher's words.
-const LONGEST_REASON: u64 = 4 << 10;
+const MAX_REASON_BYTES: u64 = 4 << 10;
 
 /// A running program, with pipes to its three standard streams. Killed when dropped.
 #[derive(Debug)]
@@ -21,9 +21,9 @@ pub struct Process {
 impl Process {
     /// Starts `program` in `folder`, in a process group of its own.
     pub(super) fn start(command: &mut Command, folder: &Path, limits: Limits) -> io::Result<Self> {
-        system::own_group(command);
+        system::use_own_process_group(command);
         let process = Process::spawn(command, folder)?;
-        system::limit(&process.child, limits)?;
+        system::set_limits(&process.child, limits)?;
         Ok(process)
     }
 
@@ -38,7 +38,7 @@ impl Process {
             Ok(()) | Err(_) => {
                 let mut reason = String::new();
                 let stderr = process.child.stderr.take().expect("it is piped");
-                stderr.take(LONGEST_REASON).read_to_string(&mut reason)?;
+                stderr.take(MAX_REASON_BYTES).read_to_string(&mut reason)?;
                 Err(io::Error::other(match reason.as_str() {
                     "" => "the launcher ended without a word",
                     words => words,
@@ -68,19 +68,23 @@ impl Process {
     }
 
     /// How the process ended, if it has.
-    pub fn ending(&mut self) -> Option<Ending> {
-        self.child.try_wait().ok().flatten().map(system::ending)
+    pub fn exit_reason(&mut self) -> Option<ExitReason> {
+        self.child
+            .try_wait()
+            .ok()
+            .flatten()
+            .map(system::exit_reason)
     }
 
     /// Ends the process and all of its group.
-    pub fn kill(&mut self) -> Option<Ending> {
-        if let Some(ending) = self.ending() {
+    pub fn kill(&mut self) -> Option<ExitReason> {
+        if let Some(ending) = self.exit_reason() {
             return Some(ending);
         }
         system::kill_group(&self.child);
         // A killed process is gone in no time: SIGKILL can not be refused.
         self.child.kill().ok();
-        self.child.wait().ok().map(system::ending)
+        self.child.wait().ok().map(system::exit_reason)
     }
 }
 
@@ -90,17 +94,17 @@ impl Drop for Process {
     }
 }
 
-impl Ending {
+impl ExitReason {
     /// Whether the process says that all went well. Worth nothing from one that we do not trust.
     pub fn is_success(self) -> bool {
-        self == Ending::Code(0)
+        self == ExitReason::Code(0)
     }
 
     /// Whether somebody has ended it who is neither itself nor one of its limits: those end a process
     /// by other signals. Where memory runs out, that is the system.
-    pub fn is_by_others(self) -> bool {
+    pub fn is_external_kill(self) -> bool {
         /// SIGKILL, everywhere.
         const KILL: i32 = 9;
-        self == Ending::Signal(KILL)
+        self == ExitReason::Signal(KILL)
     }
 }

@@ -8,10 +8,10 @@ use std::time::Duration;
 use rustix::process::{Resource, Rlimit, prlimit};
 
 use super::unix::pid;
-use super::{GRACE, Limits};
+use super::{CPU_GRACE_SECONDS, Limits};
 
 /// Sets the limits of a process that has just been started.
-pub fn limit(child: &Child, limits: Limits) -> io::Result<()> {
+pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
     // The child has run for a moment without limits. It is still starting: a probe does
     // nothing before its first question, which is sent after this.
     for (resource, most) in [
@@ -20,11 +20,17 @@ pub fn limit(child: &Child, limits: Limits) -> io::Result<()> {
         (Resource::Fsize, limits.file),
         (Resource::Core, 0),
     ] {
-        let limit = Rlimit {
+        let rlimit = Rlimit {
             current: Some(most),
-            maximum: Some(most + if resource == Resource::Cpu { GRACE } else { 0 }),
+            maximum: Some(
+                most + if resource == Resource::Cpu {
+                    CPU_GRACE_SECONDS
+                } else {
+                    0
+                },
+            ),
         };
-        match prlimit(pid(child), resource, limit) {
+        match prlimit(pid(child), resource, rlimit) {
             // It has ended already, which whoever waits for it will see.
             Ok(_) | Err(rustix::io::Errno::SRCH) => {}
             Err(error) => return Err(error.into()),

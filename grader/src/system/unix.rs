@@ -11,16 +11,16 @@ use rustix::fs::{Mode, OFlags};
 use rustix::io::Errno;
 use rustix::process::{Pid, Signal, kill_process_group};
 
-use super::Ending;
+use super::ExitReason;
 
 /// Starts the program in a process group of its own, which can be ended as one.
-pub fn own_group(command: &mut Command) {
+pub fn use_own_process_group(command: &mut Command) {
     command.process_group(0);
 }
 
 /// A command for a program that starts others, all of which end when its standard input does: so
 /// does what holds the other end, however it ends. That is for whoever starts it to hold.
-pub fn tied(program: &Path) -> Command {
+pub fn command_killed_at_eof(program: &Path) -> Command {
     // The shell's own words about what it ends are of no interest.
     const SCRIPT: &str = r#"
         exec 3<&0
@@ -44,36 +44,36 @@ pub fn kill_group(child: &Child) {
 }
 
 /// How a process ended.
-pub fn ending(status: ExitStatus) -> Ending {
+pub fn exit_reason(status: ExitStatus) -> ExitReason {
     match status.code() {
-        Some(code) => Ending::Code(code),
-        None => Ending::Signal(status.signal().unwrap_or(0)),
+        Some(code) => ExitReason::Code(code),
+        None => ExitReason::Signal(status.signal().unwrap_or(0)),
     }
 }
 
 /// Lets everybody read a file who may read its folder: temporary ones are for their owner only.
-pub fn readable_by_all(file: &File) -> io::Result<()> {
+pub fn make_readable(file: &File) -> io::Result<()> {
     file.set_permissions(Permissions::from_mode(0o644))
 }
 
 /// Lets everybody run a program who can reach it.
-pub fn runnable_by_all(file: &File) -> io::Result<()> {
+pub fn make_executable(file: &File) -> io::Result<()> {
     file.set_permissions(Permissions::from_mode(0o755))
 }
 
 /// Lets everybody look into a folder.
-pub fn open_to_all(folder: &Path) -> io::Result<()> {
+pub fn make_folder_accessible(folder: &Path) -> io::Result<()> {
     std::fs::set_permissions(folder, Permissions::from_mode(0o755))
 }
 
 /// Makes a symbolic link at `path`.
-pub fn link(original: &Path, path: &Path) -> io::Result<()> {
+pub fn symlink(original: &Path, path: &Path) -> io::Result<()> {
     std::os::unix::fs::symlink(original, path)
 }
 
 /// Opens a regular file that has one name. `None` if it is something else.
-pub fn open_regular(path: &Path) -> io::Result<Option<File>> {
-    let Some(file) = open_file(path)? else {
+pub fn open_file_without_hard_links(path: &Path) -> io::Result<Option<File>> {
+    let Some(file) = open_regular_file(path)? else {
         return Ok(None);
     };
     let has_one_name = file.metadata()?.nlink() == 1;
@@ -82,7 +82,7 @@ pub fn open_regular(path: &Path) -> io::Result<Option<File>> {
 
 /// Opens a regular file in one step: what else lies there is never followed, waited for, or changed
 /// between a look and the opening. `None` if it is something else.
-pub fn open_file(path: &Path) -> io::Result<Option<File>> {
+pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
     let flags = OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::CLOEXEC | OFlags::RDONLY;
     let file = match rustix::fs::open(path, flags, Mode::empty()) {
         Ok(file) => File::from(file),

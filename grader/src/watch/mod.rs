@@ -1,6 +1,6 @@
 //! `cargo grade --watch`: grades again whenever a file is saved, what failed last time first.
 
-mod saves;
+mod save_watcher;
 mod screen;
 
 use std::convert::Infallible;
@@ -11,22 +11,22 @@ use crate::desktop;
 use crate::error::Error;
 use crate::exam::Exam;
 use crate::grade::Grader;
-use crate::report::text::Hints;
+use crate::report::text::HintDetail;
 use crate::score::Score;
 use crate::submission::Submission;
-use crate::watch::saves::Saves;
-use crate::watch::screen::{Screen, State};
+use crate::watch::save_watcher::SaveWatcher;
+use crate::watch::screen::{Phase, Screen};
 
 /// Grades until it is stopped from outside, or fails.
-pub fn watch(arguments: &Arguments, hints: Hints) -> Result<Infallible, Error> {
+pub fn watch(arguments: &Arguments, hints: HintDetail) -> Result<Infallible, Error> {
     let grader = Grader::prepare(arguments)?;
-    let saves = Saves::of(|| grader.collect().ok());
+    let saves = SaveWatcher::new(|| grader.collect().ok());
     let mut screen = Screen::open(arguments.task, hints);
     let mut submission = grader.collect()?;
     let mut last: Option<Score> = None;
     let mut page = arguments.open.then(|| grader.files(&submission)).flatten();
     loop {
-        match round(&grader, &submission, &saves, last.as_ref(), &mut screen) {
+        match grade_version(&grader, &submission, &saves, last.as_ref(), &mut screen) {
             Ok(score) => {
                 last = Some(score);
                 // Once: from now on it reloads itself.
@@ -35,59 +35,77 @@ pub fn watch(arguments: &Arguments, hints: Hints) -> Result<Infallible, Error> {
                 }
             }
             // What is on the screen is of an older version: the next round begins at once.
-            Err(Stopped::Saved) => {}
-            Err(Stopped::Failed(error)) => return Err(error),
+            Err(Interruption::Saved) => {}
+            Err(Interruption::Failed(error)) => return Err(error),
         }
-        submission = saves.next(&submission);
+        submission = saves.wait_for_change(&submission);
     }
 }
 
 /// One version of the submission: what failed last time, then everything. In the end the screen waits.
-fn round(
+fn grade_version(
     grader: &Grader,
     submission: &Submission,
-    saves: &Saves,
+    saves: &SaveWatcher,
     last: Option<&Score>,
     screen: &mut Screen,
-) -> Result<Score, Stopped> {
+) -> Result<Score, Interruption> {
     if let Some(last) = last {
-        screen.show(last, State::Compiling)?;
+        screen.show(last, Phase::Compiling)?;
     }
     let built = grader.build(submission)?;
-    let go_on = || match saves.since(submission) {
-        true => Err(Stopped::Saved),
+    let go_on = || match saves.has_changed_since(submission) {
+        true => Err(Interruption::Saved),
         false => Ok(()),
     };
 
-    let failed = last.map(|last| failed(grader.exam(), last));
+    let failed = last.map(|last| failed_items(grader.exam(), last));
     // What passed last time stands until it is asked again.
-    let mut shown = grader.unasked(submission, &built);
+    let mut shown = grader.pending_score(submission, &built);
     if let (Some(last), Some(failed)) = (last, &failed) {
         shown.tasks.clone_from(&last.tasks);
-        shown.total();
+        shown.update_totals();
         let mut asked = 0;
-        grader.examine(failed, &built, &mut shown, |score, _| {
+        grader.run_exam(failed, &built, &mut shown, |score, _| {
             asked += 1;
             let of = failed.items.len();
-            screen.show(score, State::FailedFirst { asked, of })?;
+            screen.show(
+                score,
+                Phase::RegradingFailed {
+                    done: asked,
+                    total: of,
+                },
+            )?;
             go_on()
         })?;
     }
 
-    let mut score = grader.unasked(submission, &built);
+    let mut score = grader.pending_score(submission, &built);
     let exam = grader.exam();
     let mut files = grader.files(submission);
     let mut asked = 0;
-    grader.examine(exam, &built, &mut score, |score, exhibits| {
+    grader.run_exam(exam, &built, &mut score, |score, exhibits| {
         asked += 1;
         let of = exam.items.len();
         if let Some(files) = &mut files {
             files.write_score(score)?;
         }
         match (score.complete, &failed) {
-            (true, _) => screen.show(score, State::Waiting)?,
-            (false, Some(_)) => screen.show(&shown, State::Asking { asked, of })?,
-            (false, None) => screen.show(score, State::Asking { asked, of })?,
+            (true, _) => screen.show(score, Phase::Waiting)?,
+            (false, Some(_)) => screen.show(
+                &shown,
+                Phase::Grading {
+                    done: asked,
+                    total: of,
+                },
+            )?,
+            (false, None) => screen.show(
+                score,
+                Phase::Grading {
+                    done: asked,
+                    total: of,
+                },
+            )?,
         }
         // Its reader is elsewhere: who looks at the screen does not wait for the page.
         if let Some(files) = &mut files {
@@ -99,28 +117,28 @@ fn round(
 }
 
 /// The items that were not passed, and what they need.
-fn failed(exam: &Exam, last: &Score) -> Exam {
+fn failed_items(exam: &Exam, last: &Score) -> Exam {
     let lost = last.items().filter(|item| item.points < item.max_points);
     let lost: Vec<&str> = lost.map(|item| item.id.as_str()).collect();
-    exam.with_what_it_needs(|item| lost.contains(&item.id.as_str()))
+    exam.with_needed_items(|item| lost.contains(&item.id.as_str()))
 }
 
 /// Why a round came to no end.
-enum Stopped {
+enum Interruption {
     /// A file was saved meanwhile.
     Saved,
     /// The fault is ours.
     Failed(Error),
 }
 
-impl From<Error> for Stopped {
+impl From<Error> for Interruption {
     fn from(error: Error) -> Self {
-        Stopped::Failed(error)
+        Interruption::Failed(error)
     }
 }
 
-impl From<io::Error> for Stopped {
+impl From<io::Error> for Interruption {
     fn from(error: io::Error) -> Self {
-        Stopped::Failed(error.into())
+        Interruption::Failed(error.into())
     }
 }

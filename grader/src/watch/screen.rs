@@ -6,27 +6,27 @@ use std::io;
 use console::{Term, truncate_str};
 
 use crate::exam::Task;
-use crate::report::text::{Hints, report};
+use crate::report::text::{HintDetail, report};
 use crate::score::Score;
 
 /// How far it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum State {
+pub enum Phase {
     /// The compiler is at it.
     Compiling,
     /// What failed last time is being asked.
-    FailedFirst {
+    RegradingFailed {
         /// So many items.
-        asked: usize,
+        done: usize,
         /// Of so many.
-        of: usize,
+        total: usize,
     },
     /// All is being asked.
-    Asking {
+    Grading {
         /// So many items.
-        asked: usize,
+        done: usize,
         /// Of so many.
-        of: usize,
+        total: usize,
     },
     /// All is asked.
     Waiting,
@@ -35,30 +35,34 @@ pub enum State {
 /// Where reports go.
 pub struct Screen {
     term: Term,
-    only: Option<Task>,
-    hints: Hints,
+    task: Option<Task>,
+    hints: HintDetail,
 }
 
 impl Screen {
     /// Standard output. With `only`, reports are of that task alone.
-    pub fn open(only: Option<Task>, hints: Hints) -> Self {
+    pub fn open(only: Option<Task>, hints: HintDetail) -> Self {
         let term = Term::buffered_stdout();
         if term.is_term() {
             // What stood there before is kept above.
             let rows = usize::from(term.size().0);
             let _ = term.write_str(&"\n".repeat(rows));
         }
-        Screen { term, only, hints }
+        Screen {
+            term,
+            task: only,
+            hints,
+        }
     }
 
     /// Shows a score, whole or not.
-    pub fn show(&mut self, score: &Score, state: State) -> io::Result<()> {
-        let report = report(score, self.only, self.hints);
+    pub fn show(&mut self, score: &Score, state: Phase) -> io::Result<()> {
+        let report = report(score, self.task, self.hints);
         if self.term.is_term() {
-            self.draw(&line(score, state), &report)
-        } else if state == State::Waiting {
+            self.draw(&status_line(score, state), &report)
+        } else if state == Phase::Waiting {
             anstream::print!("{report}");
-            anstream::println!("{}\n", line(score, state).trim());
+            anstream::println!("{}\n", status_line(score, state).trim());
             Ok(())
         } else {
             Ok(())
@@ -80,7 +84,7 @@ impl Screen {
         for line in lines[..kept].iter().copied().chain(cut) {
             self.term.clear_line()?;
             self.term
-                .write_line(&colours(&truncate_str(line, columns, "…")))?;
+                .write_line(&strip_unwanted_colours(&truncate_str(line, columns, "…")))?;
         }
         self.term.clear_to_end_of_screen()?;
         self.term.flush()
@@ -88,16 +92,22 @@ impl Screen {
 }
 
 /// What is said above the report.
-fn line(score: &Score, state: State) -> String {
+fn status_line(score: &Score, state: Phase) -> String {
     let name = &score.submission;
     let seconds = |millis: u64| format!("{:.1} s", millis as f64 / 1e3);
     match state {
-        State::Compiling => format!("  {name}: compiling …"),
-        State::FailedFirst { asked, of } => {
+        Phase::Compiling => format!("  {name}: compiling …"),
+        Phase::RegradingFailed {
+            done: asked,
+            total: of,
+        } => {
             format!("  {name}: asking what failed before, {asked} of {of} …")
         }
-        State::Asking { asked, of } => format!("  {name}: asking everything, {asked} of {of} …"),
-        State::Waiting => format!(
+        Phase::Grading {
+            done: asked,
+            total: of,
+        } => format!("  {name}: asking everything, {asked} of {of} …"),
+        Phase::Waiting => format!(
             "  {name}: graded in {}; save a file to grade again, Ctrl-C ends",
             seconds(score.timings.build_ms + score.timings.exam_ms)
         ),
@@ -105,7 +115,7 @@ fn line(score: &Score, state: State) -> String {
 }
 
 /// With colours only where they are wanted.
-fn colours(line: &str) -> String {
+fn strip_unwanted_colours(line: &str) -> String {
     match anstream::AutoStream::choice(&io::stdout()) {
         anstream::ColorChoice::Never => anstream::adapter::strip_str(line).to_string(),
         anstream::ColorChoice::Auto

@@ -17,7 +17,7 @@ const NAMES: [&str; 5] = [
     "chrome",
 ];
 
-const SKIPPED: &[u8] = b"SKIPPED, no Chromium: the page was not tested in a browser\n";
+const SKIP_NOTICE: &[u8] = b"SKIPPED, no Chromium: the page was not tested in a browser\n";
 
 /// A browser of one's own, with a profile that vanishes with it.
 pub struct Chromium {
@@ -35,7 +35,7 @@ impl Chromium {
                 "CI is set, and there is no Chromium: apt-get install chromium"
             );
             // Not `eprintln!`, which a passing test swallows.
-            std::io::stderr().write_all(SKIPPED).unwrap();
+            std::io::stderr().write_all(SKIP_NOTICE).unwrap();
             return None;
         };
         let profile = TempDir::new().unwrap();

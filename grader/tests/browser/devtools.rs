@@ -10,18 +10,18 @@ use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
 /// No answer takes longer.
-const PATIENCE: Duration = Duration::from_secs(60);
+const READ_TIMEOUT: Duration = Duration::from_secs(60);
 
 /// What a reader's machine is like.
 #[derive(Clone, Copy)]
-pub struct Reader {
+pub struct Viewer {
     pub width: u32,
     pub dark: bool,
     pub reduced_motion: bool,
 }
 
 /// At a desk, by day.
-pub const DESK: Reader = Reader {
+pub const DESKTOP: Viewer = Viewer {
     width: 1200,
     dark: false,
     reduced_motion: false,
@@ -41,7 +41,7 @@ impl Tab {
         let host = address.strip_prefix("ws://").unwrap();
         let host = host.split('/').next().unwrap();
         let stream = TcpStream::connect(host).unwrap();
-        stream.set_read_timeout(Some(PATIENCE)).unwrap();
+        stream.set_read_timeout(Some(READ_TIMEOUT)).unwrap();
         let (socket, _) = tungstenite::client(address, stream).unwrap();
         let mut tab = Tab {
             socket,
@@ -62,7 +62,7 @@ impl Tab {
     }
 
     /// Loads a file, and waits until it is there.
-    pub fn load(&mut self, file: &Path, reader: Reader) {
+    pub fn load(&mut self, file: &Path, reader: Viewer) {
         let metrics = json!({
             "width": reader.width, "height": 900, "deviceScaleFactor": 1, "mobile": reader.width < 600,
         });
@@ -81,14 +81,14 @@ impl Tab {
         self.events.clear();
         let url = format!("file://{}", file.display());
         self.call("Page.navigate", json!({ "url": url }));
-        self.loaded();
+        self.wait_until_loaded();
     }
 
     /// Waits until a page is there, from now on.
-    pub fn loaded(&mut self) {
+    pub fn wait_until_loaded(&mut self) {
         let is_load = |event: &Value| event["method"] == "Page.loadEventFired";
         while !self.events.iter().any(is_load) {
-            self.listen();
+            self.read_message();
         }
         self.events.retain(|event| !is_load(event));
     }
@@ -108,7 +108,7 @@ impl Tab {
     }
 
     /// From now on the page is one to be printed.
-    pub fn print(&mut self) {
+    pub fn emulate_print(&mut self) {
         self.call("Emulation.setEmulatedMedia", json!({ "media": "print" }));
     }
 
@@ -162,7 +162,7 @@ impl Tab {
             .send(Message::text(message.to_string()))
             .unwrap();
         loop {
-            if let Some(answer) = self.listen() {
+            if let Some(answer) = self.read_message() {
                 assert!(answer.get("error").is_none(), "{method}: {answer}");
                 return answer["result"].clone();
             }
@@ -170,7 +170,7 @@ impl Tab {
     }
 
     /// One message: the answer to what was sent last, or None for an event, which is kept.
-    fn listen(&mut self) -> Option<Value> {
+    fn read_message(&mut self) -> Option<Value> {
         let message = self.socket.read().unwrap();
         let message: Value = serde_json::from_str(message.to_text().unwrap()).ok()?;
         if message["id"] == json!(self.sent) {

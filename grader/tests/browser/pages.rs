@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
-const FIVE: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
+const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 
 /// All is right.
 pub static PERFECT: LazyLock<PathBuf> = LazyLock::new(|| page("perfect", |_| {}));
@@ -18,17 +18,17 @@ pub static STARTER: LazyLock<PathBuf> = LazyLock::new(|| {
 });
 
 /// Every picture is wrong, in all that it is judged by and nowhere the same: the largest page.
-pub static NOISY: LazyLock<PathBuf> = LazyLock::new(|| page("noisy", noise));
+pub static NOISY: LazyLock<PathBuf> = LazyLock::new(|| page("noisy", add_noise));
 
 /// Fails in many ways, and would take the page over if it could.
-pub static BROKEN: LazyLock<PathBuf> = LazyLock::new(|| page("broken", hostility));
+pub static HOSTILE: LazyLock<PathBuf> = LazyLock::new(|| page("broken", add_hostile_text));
 
 /// All four.
 pub fn all() -> [&'static Path; 4] {
-    [&PERFECT, &STARTER, &NOISY, &BROKEN].map(|page| page.as_path())
+    [&PERFECT, &STARTER, &NOISY, &HOSTILE].map(|page| page.as_path())
 }
 
-fn noise(source: &Path) {
+fn add_noise(source: &Path) {
     let noise = "(ray.dir.x * 7e4).sin() * (ray.dir.y * 9e4).cos()";
     let distance = format!("distance: t + t * ({noise}).max(0.0),");
     let normal = format!("normal: glam::Vec3::splat({noise}) + ray.dir,");
@@ -39,15 +39,15 @@ fn noise(source: &Path) {
         "max_leaf_size: max_leaf_size.max(1)",
         "max_leaf_size: 2 * max_leaf_size",
     ];
-    change(source, "camera.rs", "(place * sensor)", place);
-    change(source, "triangle.rs", "distance: t,", &distance);
-    change(source, "triangle.rs", smooth, &normal);
-    change(source, "sphere.rs", "distance: t,", &distance);
-    change(source, "sphere.rs", "            normal,\n", &normal);
-    change(source, "bvh.rs", leaf, larger);
+    replace(source, "camera.rs", "(place * sensor)", place);
+    replace(source, "triangle.rs", "distance: t,", &distance);
+    replace(source, "triangle.rs", smooth, &normal);
+    replace(source, "sphere.rs", "distance: t,", &distance);
+    replace(source, "sphere.rs", "            normal,\n", &normal);
+    replace(source, "bvh.rs", leaf, larger);
 }
 
-fn hostility(source: &Path) {
+fn add_hostile_text(source: &Path) {
     let words = r#"</script><script>document.title = \"taken\"</script><img src=x onerror='document.title = 1'>\u{202e}"#;
     let panic = format!(
         "if ray.dir.x > 0.0 {{ println!(\"{words}\"); panic!(\"{words}\"); }} Some(Trace {{"
@@ -58,7 +58,7 @@ fn hostility(source: &Path) {
             source,
         );
     }
-    change(source, "triangle.rs", "Some(Trace {", &panic);
+    replace(source, "triangle.rs", "Some(Trace {", &panic);
 }
 
 /// The page of the reference, changed. It stays in the target folder until the next run.
@@ -87,13 +87,13 @@ fn workspace() -> PathBuf {
 }
 
 fn copy(from: &Path, to: &Path) {
-    for file in FIVE.iter().filter(|file| from.join(file).is_file()) {
+    for file in TASK_FILES.iter().filter(|file| from.join(file).is_file()) {
         fs::copy(from.join(file), to.join(file)).unwrap();
     }
 }
 
 /// Replaces text that must be there.
-fn change(source: &Path, file: &str, from: &str, to: &str) {
+fn replace(source: &Path, file: &str, from: &str, to: &str) {
     let path = source.join(file);
     let text = fs::read_to_string(&path).unwrap();
     assert!(text.contains(from), "{file} has no {from:?} any more");

@@ -65,7 +65,7 @@ impl Canaries {
     }
 
     /// What an entry's text may name.
-    pub fn places(&self) -> [(&'static str, String); 8] {
+    pub fn placeholders(&self) -> [(&'static str, String); 8] {
         let port = |address: std::io::Result<std::net::SocketAddr>| {
             address.expect("it is bound").port().to_string()
         };
@@ -85,7 +85,7 @@ impl Canaries {
     }
 
     /// The secrets that stand in a text, as they are, backwards, or in base 64.
-    pub fn found_in(&self, text: &str) -> Vec<&'static str> {
+    pub fn secrets_in(&self, text: &str) -> Vec<&'static str> {
         let stands = |secret: &str| {
             let backwards: String = secret.chars().rev().collect();
             let encoded = STANDARD.encode(secret);
@@ -102,7 +102,7 @@ impl Canaries {
     }
 
     /// The listeners that somebody has reached.
-    pub fn reached(&self) -> Vec<&'static str> {
+    pub fn reached_listeners(&self) -> Vec<&'static str> {
         let came = |result: std::io::Result<()>| match result {
             Ok(()) => true,
             Err(error) => error.kind() != ErrorKind::WouldBlock,

@@ -38,11 +38,11 @@ pub fn enter() {
         SeccompRule::new(vec![condition.expect("the first argument")]).expect("a rule")
     };
     calls.insert(libc::SYS_clone, each.map(asks_for).collect());
-    apply(calls, libc::EPERM);
-    apply([(libc::SYS_clone3, Vec::new())].into(), libc::ENOSYS);
+    refuse(calls, libc::EPERM);
+    refuse([(libc::SYS_clone3, Vec::new())].into(), libc::ENOSYS);
 }
 
-fn apply(calls: BTreeMap<i64, Vec<SeccompRule>>, answer: i32) {
+fn refuse(calls: BTreeMap<i64, Vec<SeccompRule>>, answer: i32) {
     let architecture = std::env::consts::ARCH
         .try_into()
         .expect("one that is known");

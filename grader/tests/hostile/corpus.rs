@@ -6,14 +6,14 @@ use std::process::ExitCode;
 
 use grader::sandbox::Isolation;
 
-use crate::calls;
 use crate::canary::Canaries;
-use crate::check::{Broken, Finding, broken};
+use crate::check::{Violation, ViolationKind, violations};
 use crate::container;
 use crate::entry::Entry;
-use crate::leftovers::Leftovers;
 use crate::levels;
-use crate::run::{self, Run};
+use crate::run::{self, GraderRun};
+use crate::syscalls;
+use crate::system_state::SystemState;
 
 /// What the command line asks for.
 struct Selection {
@@ -40,7 +40,7 @@ impl Selection {
         }
     }
 
-    fn takes(&self, entry: &Entry) -> bool {
+    fn includes(&self, entry: &Entry) -> bool {
         match self.names.is_empty() {
             true => self.all || !entry.expect.slow,
             false => self.names.iter().any(|name| entry.name.contains(name)),
@@ -53,26 +53,29 @@ struct Tally {
     held: usize,
     forged: usize,
     leaked: usize,
-    left: usize,
+    left_behind: usize,
 }
 
 pub fn main() -> ExitCode {
     let mut selection = Selection::from_arguments();
-    run::adopt_orphans();
+    run::become_subreaper();
     if selection.contained {
         container::enter();
     }
     if selection.levels.is_empty() {
-        selection.levels.push(levels::best());
+        selection.levels.push(levels::best_level());
     }
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hostile");
     let entries = Entry::all(&corpus.join("entries"));
-    is_listed(&entries, &corpus.join("README.md"));
+    assert_listed(&entries, &corpus.join("README.md"));
     let entries: Vec<Entry> = entries
         .into_iter()
-        .filter(|entry| selection.takes(entry))
+        .filter(|entry| selection.includes(entry))
         .collect();
-    let held = selection.levels.iter().map(|level| all(&entries, *level));
+    let held = selection
+        .levels
+        .iter()
+        .map(|level| run_at_level(&entries, *level));
     // Every level is tried, also after one that does not hold.
     match held.collect::<Vec<bool>>().contains(&false) {
         false => ExitCode::SUCCESS,
@@ -81,7 +84,7 @@ pub fn main() -> ExitCode {
 }
 
 /// An idea that the list of all ideas does not know would be thought to be missing.
-fn is_listed(entries: &[Entry], list: &Path) {
+fn assert_listed(entries: &[Entry], list: &Path) {
     let list = fs::read_to_string(list).expect("there is a list");
     for entry in entries {
         let listed = list.contains(&format!("`{}`", entry.name));
@@ -90,14 +93,14 @@ fn is_listed(entries: &[Entry], list: &Path) {
 }
 
 /// Whether all entries hold at one level.
-fn all(entries: &[Entry], level: Isolation) -> bool {
-    let honest = Entry::honest();
+fn run_at_level(entries: &[Entry], level: Isolation) -> bool {
+    let honest = Entry::reference();
     // Whatever is compiled once is compiled here.
     run::grade(&honest, &Canaries::plant(), level);
-    let first = match graded(&honest, None, level) {
+    let first = match grade_and_check(&honest, None, level) {
         Ok(run) => run,
         Err(broken) => {
-            tell("BROKEN", &honest, &broken);
+            print_result("BROKEN", &honest, &broken);
             return false;
         }
     };
@@ -106,17 +109,17 @@ fn all(entries: &[Entry], level: Isolation) -> bool {
         .partition(|entry| entry.expect.least <= level);
     let mut tally = Tally::default();
     for entry in &here {
-        let own = graded(entry, None, level);
+        let own = grade_and_check(entry, None, level);
         // Also after one that went wrong: whether it harms the next is what this is about.
-        let next = graded(&honest, Some(&first), level);
-        let broken: Vec<Broken> = [own, next]
+        let next = grade_and_check(&honest, Some(&first), level);
+        let broken: Vec<Violation> = [own, next]
             .into_iter()
             .filter_map(Result::err)
             .flatten()
             .collect();
         tally.count(&broken);
         let verdict = if broken.is_empty() { "held" } else { "BROKEN" };
-        tell(verdict, entry, &broken);
+        print_result(verdict, entry, &broken);
     }
     println!(
         "{level}: hostile {} of {} held, forged {}, leaked {}, left {}; {} are for better levels",
@@ -124,52 +127,62 @@ fn all(entries: &[Entry], level: Isolation) -> bool {
         here.len(),
         tally.forged,
         tally.leaked,
-        tally.left,
+        tally.left_behind,
         below.len(),
     );
-    tally.held == here.len() && calls_are_closed(level)
+    tally.held == here.len() && forbidden_calls_fail(level)
 }
 
 /// Whether none of the calls that no submission may make is let through.
-fn calls_are_closed(level: Isolation) -> bool {
+fn forbidden_calls_fail(level: Isolation) -> bool {
     if level == Isolation::None {
         return true;
     }
-    let open = calls::open(level);
+    let open = syscalls::allowed_calls(level);
     println!("{level}: system calls let through: {open:?}");
     open.is_empty()
 }
 
-fn tell(verdict: &str, entry: &Entry, broken: &[Broken]) {
+fn print_result(verdict: &str, entry: &Entry, broken: &[Violation]) {
     /// The most findings of one entry that are told.
     const MOST: usize = 10;
     println!("{verdict:>6}  {}: {}", entry.name, entry.expect.does);
     // What is left is often for a reason that is told as well.
     let (left, others): (Vec<_>, Vec<_>) = broken
         .iter()
-        .partition(|broken| broken.finding == Finding::Left);
+        .partition(|broken| broken.kind == ViolationKind::LeftBehind);
     for broken in others.into_iter().chain(left).take(MOST) {
-        println!("        {:?}: {}", broken.finding, broken.what);
+        println!("        {:?}: {}", broken.kind, broken.what);
     }
 }
 
 impl Tally {
-    fn count(&mut self, broken: &[Broken]) {
-        let has = |finding| usize::from(broken.iter().any(|broken| broken.finding == finding));
+    fn count(&mut self, broken: &[Violation]) {
+        let has = |finding| usize::from(broken.iter().any(|broken| broken.kind == finding));
         self.held += usize::from(broken.is_empty());
-        self.forged += has(Finding::Forged);
-        self.leaked += has(Finding::Leaked);
-        self.left += has(Finding::Left);
+        self.forged += has(ViolationKind::Forged);
+        self.leaked += has(ViolationKind::Leaked);
+        self.left_behind += has(ViolationKind::LeftBehind);
     }
 }
 
 /// Grades one entry and looks at all that it may have done. `as_before`: what an honest one got.
-fn graded(entry: &Entry, as_before: Option<&Run>, level: Isolation) -> Result<Run, Vec<Broken>> {
+fn grade_and_check(
+    entry: &Entry,
+    as_before: Option<&GraderRun>,
+    level: Isolation,
+) -> Result<GraderRun, Vec<Violation>> {
     let canaries = Canaries::plant();
-    let before = Leftovers::look(&canaries);
+    let before = SystemState::snapshot(&canaries);
     let run = run::grade(entry, &canaries, level);
-    let after = Leftovers::look(&canaries);
-    let broken = broken(entry, &run, as_before, &canaries, before.what_came(&after));
+    let after = SystemState::snapshot(&canaries);
+    let broken = violations(
+        entry,
+        &run,
+        as_before,
+        &canaries,
+        before.differences(&after),
+    );
     match broken.is_empty() {
         true => Ok(run),
         false => Err(broken),

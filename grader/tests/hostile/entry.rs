@@ -9,28 +9,28 @@ use grader::sandbox::Isolation;
 use serde::Deserialize;
 
 use crate::canary::Canaries;
-use crate::pack::{Pack, pack};
+use crate::packaging::{Packaging, pack};
 
-const FIVE: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
+const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 /// What is put into one of the five. All other files lie beside them, or in their place.
-const ATTACK: &str = "attack.rs";
-const EXPECT: &str = "expect.toml";
+const ATTACK_FILE: &str = "attack.rs";
+const EXPECT_FILE: &str = "expect.toml";
 
 /// A folder of `entries/`.
 pub struct Entry {
     pub name: String,
-    pub expect: Expect,
+    pub expect: Expectation,
     folder: Option<PathBuf>,
 }
 
 /// `expect.toml`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Expect {
+pub struct Expectation {
     /// In words: "It ...".
     pub does: String,
     /// Below this level it is known to do harm, and is passed over.
-    #[serde(default = "Expect::any_level")]
+    #[serde(default = "Expectation::any_level")]
     pub least: Isolation,
     /// The honest files that it changes.
     #[serde(default)]
@@ -41,10 +41,10 @@ pub struct Expect {
     #[serde(default)]
     within: Vec<String>,
     /// What is called there.
-    #[serde(default = "Expect::attack")]
+    #[serde(default = "Expectation::default_call")]
     call: String,
     /// As what it is handed in, if not as a folder.
-    pack: Option<Pack>,
+    pack: Option<Packaging>,
     /// Words of the reason why it is not graded at all.
     pub refused: Option<String>,
     /// The most points of each task that it touches. Every other task has what is honest.
@@ -56,7 +56,7 @@ pub struct Expect {
     /// What the report must say.
     pub says: Option<String>,
     /// In seconds.
-    #[serde(default = "some_minutes")]
+    #[serde(default = "default_wall_seconds")]
     wall: u64,
     /// Not among the quick ones.
     #[serde(default)]
@@ -73,18 +73,18 @@ enum Base {
     Starter,
 }
 
-impl Expect {
+impl Expectation {
     fn any_level() -> Isolation {
         Isolation::None
     }
 
-    fn attack() -> String {
+    fn default_call() -> String {
         "attack();".to_owned()
     }
 }
 
 /// Some ten times what one takes on a machine of its own: nobody else's load shall break an entry.
-fn some_minutes() -> u64 {
+fn default_wall_seconds() -> u64 {
     240
 }
 
@@ -102,8 +102,8 @@ impl Entry {
     fn read(folder: PathBuf) -> Self {
         let name = folder.file_name().expect("it has a name");
         let name = name.to_string_lossy().into_owned();
-        let text = fs::read_to_string(folder.join(EXPECT))
-            .unwrap_or_else(|error| panic!("{name}/{EXPECT}: {error}"));
+        let text = fs::read_to_string(folder.join(EXPECT_FILE))
+            .unwrap_or_else(|error| panic!("{name}/{EXPECT_FILE}: {error}"));
         Entry {
             expect: toml::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}")),
             folder: Some(folder),
@@ -112,7 +112,7 @@ impl Entry {
     }
 
     /// The reference as it stands.
-    pub fn honest() -> Self {
+    pub fn reference() -> Self {
         Entry {
             name: "honest".to_owned(),
             expect: toml::from_str("does = 'It is right.'\nwall = 300").expect("it is good"),
@@ -125,7 +125,7 @@ impl Entry {
     }
 
     /// The points of camera, triangle, sphere, bbox, build, traverse without the attack.
-    pub fn honest_points(&self) -> [(&'static str, u64); 6] {
+    pub fn base_points(&self) -> [(&'static str, u64); 6] {
         let tasks = [
             ("camera", 15),
             ("triangle", 20),
@@ -143,7 +143,7 @@ impl Entry {
     /// Writes the submission into a new folder; returns what is handed in. `places` are what its text
     /// names as `@NAME@`.
     pub fn write(&self, place: &Path, canaries: &Canaries) -> PathBuf {
-        self.write_folder(place, &canaries.places());
+        self.write_folder(place, &canaries.placeholders());
         match self.expect.pack {
             Some(how) => pack(place, how, &canaries.key_file()),
             None => place.to_owned(),
@@ -157,41 +157,41 @@ impl Entry {
             Base::Starter => project.join("grader/starter"),
         };
         fs::create_dir_all(place).expect("a folder");
-        for file in FIVE {
+        for file in TASK_FILES {
             fs::copy(honest.join(file), place.join(file)).expect("a file");
         }
         let Some(folder) = &self.folder else {
             return;
         };
-        copy_filled(folder, place, places);
+        copy_with_placeholders_filled(folder, place, places);
         if let Some(into) = &self.expect.into {
             let mut text = fs::read_to_string(place.join(into)).expect("one of the five");
             for method in &self.expect.within {
-                text = called_first(&text, method, &self.expect.call);
+                text = insert_first_statement(&text, method, &self.expect.call);
             }
-            let attack = fs::read_to_string(folder.join(ATTACK)).expect("an attack");
-            text.push_str(&filled(&attack, places));
+            let attack = fs::read_to_string(folder.join(ATTACK_FILE)).expect("an attack");
+            text.push_str(&fill_placeholders(&attack, places));
             fs::write(place.join(into), text).expect("a file");
         }
     }
 }
 
 /// All that lies in an entry's folder beside the attack, folders too.
-fn copy_filled(folder: &Path, place: &Path, places: &[(&str, String)]) {
+fn copy_with_placeholders_filled(folder: &Path, place: &Path, places: &[(&str, String)]) {
     for file in fs::read_dir(folder).expect("it was read").flatten() {
         let (name, path) = (file.file_name(), file.path());
         if path.is_dir() {
             fs::create_dir_all(place.join(&name)).expect("a folder");
-            copy_filled(&path, &place.join(name), places);
-        } else if name != ATTACK && name != EXPECT {
+            copy_with_placeholders_filled(&path, &place.join(name), places);
+        } else if name != ATTACK_FILE && name != EXPECT_FILE {
             let text = fs::read_to_string(path).expect("text");
-            fs::write(place.join(name), filled(&text, places)).expect("a file");
+            fs::write(place.join(name), fill_placeholders(&text, places)).expect("a file");
         }
     }
 }
 
 /// The text with a call as the first statement of a method.
-fn called_first(text: &str, method: &str, call: &str) -> String {
+fn insert_first_statement(text: &str, method: &str, call: &str) -> String {
     let start = text
         .find(&format!("fn {method}("))
         .unwrap_or_else(|| panic!("there is no method {method}"));
@@ -200,7 +200,7 @@ fn called_first(text: &str, method: &str, call: &str) -> String {
 }
 
 /// `@NAME@` becomes the place, `@{1000x(}` a thousand parentheses.
-fn filled(text: &str, places: &[(&str, String)]) -> String {
+fn fill_placeholders(text: &str, places: &[(&str, String)]) -> String {
     let mut text = text.to_owned();
     for (name, place) in places {
         text = text.replace(&format!("@{name}@"), place);

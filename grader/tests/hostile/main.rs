@@ -13,8 +13,6 @@
 //! ideas there are, and where each is tried: `README.md`.
 
 #[cfg(target_os = "linux")]
-mod calls;
-#[cfg(target_os = "linux")]
 mod canary;
 #[cfg(target_os = "linux")]
 mod check;
@@ -25,13 +23,15 @@ mod corpus;
 #[cfg(target_os = "linux")]
 mod entry;
 #[cfg(target_os = "linux")]
-mod leftovers;
-#[cfg(target_os = "linux")]
 mod levels;
 #[cfg(target_os = "linux")]
-mod pack;
+mod packaging;
 #[cfg(target_os = "linux")]
 mod run;
+#[cfg(target_os = "linux")]
+mod syscalls;
+#[cfg(target_os = "linux")]
+mod system_state;
 
 use std::process::ExitCode;
 

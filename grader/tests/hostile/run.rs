@@ -14,23 +14,23 @@ use crate::canary::Canaries;
 use crate::entry::Entry;
 
 /// What became of one run.
-pub struct Run {
+pub struct GraderRun {
     /// Not there if it had to be ended.
     pub exit_code: Option<i32>,
-    pub took: Duration,
+    pub elapsed: Duration,
     /// The most memory that the grader itself has used, in bytes.
     pub memory: u64,
     /// The most files that it has had open at once.
-    pub files: usize,
+    pub open_files: usize,
     /// Both streams.
     pub printed: String,
     pub score: Option<String>,
     pub page: Option<String>,
 }
 
-impl Run {
+impl GraderRun {
     /// The score file without what may differ from run to run.
-    pub fn lasting(&self) -> Option<Value> {
+    pub fn reproducible_score(&self) -> Option<Value> {
         let mut score: Value = serde_json::from_str(self.score.as_ref()?).ok()?;
         let fields = score.as_object_mut()?;
         fields.remove("timings");
@@ -39,13 +39,13 @@ impl Run {
 }
 
 /// Whatever outlives its parent becomes ours, and is found.
-pub fn adopt_orphans() {
+pub fn become_subreaper() {
     let own = rustix::process::getpid();
     rustix::process::set_child_subreaper(Some(own)).expect("Linux can do this");
 }
 
 /// Grades one submission. Never waits for longer than it may take.
-pub fn grade(entry: &Entry, canaries: &Canaries, level: Isolation) -> Run {
+pub fn grade(entry: &Entry, canaries: &Canaries, level: Isolation) -> GraderRun {
     let folder = tempfile::TempDir::new().expect("a folder");
     let submission = folder.path().join("submission");
     let submission = entry.write(&submission, canaries);
@@ -70,15 +70,15 @@ pub fn grade(entry: &Entry, canaries: &Canaries, level: Isolation) -> Run {
         read(child.stdout.take().expect("it is piped")),
         read(child.stderr.take().expect("it is piped")),
     ];
-    let mut most = Most::default();
-    let exit_code = end_of(&mut child, began + entry.wall(), &mut most);
+    let mut most = PeakUsage::default();
+    let exit_code = wait_for_exit(&mut child, began + entry.wall(), &mut most);
     let took = began.elapsed();
     let text = |name| fs::read_to_string(out.join(name)).ok();
-    Run {
+    GraderRun {
         exit_code,
-        took,
+        elapsed: took,
         memory: most.memory,
-        files: most.files,
+        open_files: most.files,
         printed: printed
             .map(|thread| thread.join().expect("it reads"))
             .concat(),
@@ -97,13 +97,13 @@ fn read(mut pipe: impl Read + Send + 'static) -> JoinHandle<String> {
 
 /// What the grader itself has held at once.
 #[derive(Default)]
-struct Most {
+struct PeakUsage {
     memory: u64,
     files: usize,
 }
 
-impl Most {
-    fn look(&mut self, child: &Child) {
+impl PeakUsage {
+    fn sample(&mut self, child: &Child) {
         let process = format!("/proc/{}", child.id());
         let files = fs::read_dir(format!("{process}/fd")).map_or(0, Iterator::count);
         self.files = self.files.max(files);
@@ -111,12 +111,12 @@ impl Most {
     }
 }
 
-fn end_of(child: &mut Child, deadline: Instant, most: &mut Most) -> Option<i32> {
+fn wait_for_exit(child: &mut Child, deadline: Instant, most: &mut PeakUsage) -> Option<i32> {
     loop {
         if let Some(status) = child.try_wait().expect("it is ours") {
             return status.code();
         }
-        most.look(child);
+        most.sample(child);
         if Instant::now() >= deadline {
             child.kill().ok();
             child.wait().ok();

@@ -8,7 +8,7 @@ use insta::assert_snapshot;
 use crate::harness::{Submission, grader};
 
 /// A good exam of one item.
-const GOOD: &str = r#"{
+const VALID_EXAM: &str = r#"{
   "schema": 1,
   "id": "small",
   "items": [
@@ -31,7 +31,7 @@ const GOOD: &str = r#"{
   ]
 }"#;
 
-fn refused(exam: impl AsRef<[u8]>) -> String {
+fn rejection(exam: impl AsRef<[u8]>) -> String {
     let submission = Submission::reference("any").with("exam.json", exam);
     let path = submission.path().join("exam.json");
     let graded = submission.grade_with(&["--exam", path.to_str().unwrap()]);
@@ -41,8 +41,8 @@ fn refused(exam: impl AsRef<[u8]>) -> String {
 }
 
 #[test]
-fn a_good_one_is_asked() {
-    let submission = Submission::reference("any").with("exam.json", GOOD);
+fn grades_with_a_valid_exam() {
+    let submission = Submission::reference("any").with("exam.json", VALID_EXAM);
     let path = submission.path().join("exam.json");
     let graded = submission.grade_with(&["--exam", path.to_str().unwrap()]);
     assert_eq!(graded.score()["points"], 5);
@@ -50,7 +50,7 @@ fn a_good_one_is_asked() {
 }
 
 #[test]
-fn one_can_come_through_standard_input() {
+fn reads_an_exam_from_standard_input() {
     let submission = Submission::reference("any");
     let mut grader = grader()
         .arg(submission.path())
@@ -64,7 +64,7 @@ fn one_can_come_through_standard_input() {
         .stdin
         .take()
         .unwrap()
-        .write_all(GOOD.as_bytes())
+        .write_all(VALID_EXAM.as_bytes())
         .unwrap();
     let output = grader.wait_with_output().unwrap();
     assert!(output.status.success());
@@ -76,25 +76,25 @@ fn one_can_come_through_standard_input() {
 }
 
 #[test]
-fn bad_ones_are_refused_with_place_and_remedy() {
+fn rejects_invalid_exams_with_position_and_remedy() {
     let cases = [
         ("empty", String::new()),
-        ("cut off", GOOD[..200].to_owned()),
+        ("cut off", VALID_EXAM[..200].to_owned()),
         (
             "tells of nothing",
-            GOOD.replace(
+            VALID_EXAM.replace(
                 "\"look\"",
                 r#""tells": {"elements": [9], "wrong": []}, "look""#,
             ),
         ),
-        ("unknown key", GOOD.replace("\"look\"", "\"clue\"")),
+        ("unknown key", VALID_EXAM.replace("\"look\"", "\"clue\"")),
         (
             "unknown task",
-            GOOD.replace("\"task\": \"bbox\"", "\"task\": \"box\""),
+            VALID_EXAM.replace("\"task\": \"bbox\"", "\"task\": \"box\""),
         ),
         (
             "other version",
-            GOOD.replace("\"schema\": 1", "\"schema\": 2"),
+            VALID_EXAM.replace("\"schema\": 1", "\"schema\": 2"),
         ),
         (
             "no items",
@@ -102,40 +102,43 @@ fn bad_ones_are_refused_with_place_and_remedy() {
         ),
         (
             "negative points",
-            GOOD.replace("\"points\": 5", "\"points\": -5"),
+            VALID_EXAM.replace("\"points\": 5", "\"points\": -5"),
         ),
         (
             "id of another task",
-            GOOD.replace("bbox.through", "sphere.through"),
+            VALID_EXAM.replace("bbox.through", "sphere.through"),
         ),
         (
             "key of another kind",
-            GOOD.replace(
+            VALID_EXAM.replace(
                 r#""spans": { "spans": [[2, 4], null] }"#,
                 r#""tree": { "judged": [] }"#,
             ),
         ),
         (
             "shows too little",
-            GOOD.replace(r#""key":"#, r#""shown": { "slabs": "AA" }, "key":"#),
+            VALID_EXAM.replace(r#""key":"#, r#""shown": { "slabs": "AA" }, "key":"#),
         ),
-        ("key too short", GOOD.replace("[[2, 4], null]", "[[2, 4]]")),
+        (
+            "key too short",
+            VALID_EXAM.replace("[[2, 4], null]", "[[2, 4]]"),
+        ),
         (
             "needs what is not there",
-            GOOD.replace("\"points\"", "\"needs\": [\"bbox.other\"], \"points\""),
+            VALID_EXAM.replace("\"points\"", "\"needs\": [\"bbox.other\"], \"points\""),
         ),
     ];
-    let refusals = cases.map(|(name, exam)| format!("{name}:\n  {}", refused(exam)));
+    let refusals = cases.map(|(name, exam)| format!("{name}:\n  {}", rejection(exam)));
     assert_snapshot!(refusals.join("\n"));
 }
 
 #[test]
-fn bytes_that_are_no_text_are_refused() {
-    assert!(refused(b"\xff\xfe").starts_with("error: the exam exam.json, "));
+fn rejects_exams_that_are_not_utf8() {
+    assert!(rejection(b"\xff\xfe").starts_with("error: the exam exam.json, "));
 }
 
 #[test]
-fn an_exam_that_is_not_there_is_named() {
+fn names_a_missing_exam_file() {
     let graded = Submission::reference("any").grade_with(&["--exam", "nowhere.json"]);
     assert_eq!(graded.exit_code(), 2);
     assert!(

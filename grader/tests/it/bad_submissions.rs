@@ -2,11 +2,11 @@
 
 use insta::assert_snapshot;
 
-use crate::harness::{FULL, Submission};
+use crate::harness::{FULL_POINTS, Submission};
 
 /// The points of a submission whose only fault is in these tasks, by place in lecture order.
-fn all_but(zero: &[usize]) -> Vec<u64> {
-    let mut points = FULL.to_vec();
+fn full_points_except(zero: &[usize]) -> Vec<u64> {
+    let mut points = FULL_POINTS.to_vec();
     zero.iter().for_each(|&task| points[task] = 0);
     points
 }
@@ -16,7 +16,7 @@ const BUILD: usize = 4;
 const TRAVERSE: usize = 5;
 
 /// Points of the other tasks, where this one is at fault: all, but for what rests on it.
-fn other_points(points: &[u64], fault: usize) -> u64 {
+fn points_of_other_tasks(points: &[u64], fault: usize) -> u64 {
     points
         .iter()
         .enumerate()
@@ -31,12 +31,12 @@ fn a_missing_file_costs_its_own_task() {
         .without("sphere.rs")
         .grade();
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
-    assert_eq!(graded.points()[..5], all_but(&[SPHERE])[..5]);
+    assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
     assert_snapshot!(graded.report());
 }
 
 #[test]
-fn a_renamed_file_is_missing_and_the_new_name_is_noted() {
+fn a_renamed_file_counts_as_missing_and_is_noted() {
     let text = std::fs::read(Submission::reference("x").path().join("sphere.rs")).unwrap();
     let submission = Submission::reference("renamed").without("sphere.rs");
     let graded = submission.with("sphere_final.rs", text).grade();
@@ -49,10 +49,10 @@ fn a_renamed_file_is_missing_and_the_new_name_is_noted() {
 }
 
 #[test]
-fn an_empty_file_costs_its_own_task_though_others_call_it() {
+fn an_empty_file_costs_its_own_task_even_if_other_files_use_it() {
     let graded = Submission::reference("empty").with("bbox.rs", "").grade();
     assert_eq!(graded.verdicts("bbox"), ["not_compiled"]);
-    assert_eq!(graded.points()[..3], FULL[..3]);
+    assert_eq!(graded.points()[..3], FULL_POINTS[..3]);
     assert_snapshot!(graded.report());
 }
 
@@ -61,7 +61,7 @@ fn a_file_that_is_not_text_costs_its_own_task() {
     let graded = Submission::reference("not-text")
         .with("sphere.rs", b"struct \xff")
         .grade();
-    assert_eq!(graded.points()[..5], all_but(&[SPHERE])[..5]);
+    assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
     assert_snapshot!(graded.report());
 }
 
@@ -69,7 +69,7 @@ fn a_file_that_is_not_text_costs_its_own_task() {
 fn a_file_that_does_not_compile_costs_its_own_task() {
     let graded = Submission::case("not_compiling").grade();
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
-    assert_eq!(graded.points()[..5], all_but(&[SPHERE])[..5]);
+    assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
     assert_snapshot!(graded.report());
     // Before the others are compiled without it: that takes four times as long.
     let said = "sphere.rs: error[E0609]: no field `direction` on type `&Ray`; grading the rest\n";
@@ -77,38 +77,38 @@ fn a_file_that_does_not_compile_costs_its_own_task() {
 }
 
 #[test]
-fn a_changed_signature_costs_its_own_task_though_a_given_file_trips_over_it() {
+fn a_changed_signature_costs_its_own_task_though_a_given_file_fails_to_compile() {
     let graded = Submission::reference("signature")
-        .changed(
+        .with_replaced(
             "sphere.rs",
             "pub fn bbox(&self) -> BBox {",
             "pub fn bbox(&self) -> Option<BBox> {",
         )
-        .changed(
+        .with_replaced(
             "sphere.rs",
             "BBox::new(self.center - self.radius, self.center + self.radius)",
             "Some(BBox::new(self.center - self.radius, self.center + self.radius))",
         )
         .grade();
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
-    assert_eq!(graded.points()[..5], all_but(&[SPHERE])[..5]);
+    assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
 }
 
 #[test]
-fn errors_that_only_show_one_after_the_other_are_each_found() {
+fn finds_errors_that_the_compiler_reports_one_after_the_other() {
     // The compiler stops at the first before it can see the second.
     let graded =
         Submission::case("not_compiling").with("camera.rs", "struct Camera fn new fn sample_ray (");
     let graded = graded.grade();
     assert_eq!(graded.verdicts("camera"), ["not_compiled"]);
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
-    assert_eq!(graded.points()[1], FULL[1]);
+    assert_eq!(graded.points()[1], FULL_POINTS[1]);
 }
 
 #[test]
-fn if_nothing_compiles_there_is_still_a_report() {
+fn writes_a_report_if_nothing_compiles() {
     let mut submission = Submission::reference("nothing");
-    for file in crate::harness::FIVE {
+    for file in crate::harness::TASK_FILES {
         submission = submission.with(file, "fn (");
     }
     let graded = submission.grade();
@@ -117,56 +117,56 @@ fn if_nothing_compiles_there_is_still_a_report() {
 }
 
 #[test]
-fn a_panic_costs_the_items_that_meet_it() {
+fn a_panic_costs_the_items_that_trigger_it() {
     let graded = Submission::case("panicking").grade();
     assert!(graded.verdicts("sphere").contains(&"panicked".to_owned()));
     // One point of `traverse` is for a tree with spheres in it.
-    assert_eq!(other_points(&graded.points(), SPHERE), 84);
+    assert_eq!(points_of_other_tasks(&graded.points(), SPHERE), 84);
     assert_snapshot!(graded.report());
 }
 
 #[test]
-fn a_panic_in_a_constructor_is_told_like_any_other() {
+fn a_panic_in_a_constructor_is_reported_like_any_other() {
     let stubborn = "        assert!(aspect_ratio <= 1.0, \"too wide\");\n        Camera {\n            vertical_fov,";
     let graded = Submission::reference("stubborn")
-        .changed(
+        .with_replaced(
             "camera.rs",
             "        Camera {\n            vertical_fov,",
             stubborn,
         )
         .grade();
     assert!(graded.verdicts("camera").contains(&"panicked".to_owned()));
-    assert_eq!(graded.points()[1..5], FULL[1..5]);
+    assert_eq!(graded.points()[1..5], FULL_POINTS[1..5]);
 }
 
 #[test]
 fn an_endless_loop_is_stopped() {
     let graded = Submission::case("looping").grade_with(&["--cpu-limit", "1"]);
     assert!(graded.verdicts("sphere").contains(&"timed_out".to_owned()));
-    assert_eq!(graded.points()[..2], FULL[..2]);
+    assert_eq!(graded.points()[..2], FULL_POINTS[..2]);
     assert_snapshot!(graded.report());
 }
 
 #[test]
-fn endless_recursion_ends_the_process_and_not_the_exam() {
+fn endless_recursion_ends_the_process_but_not_the_exam() {
     let graded = Submission::case("recursing").grade();
     assert_eq!(graded.verdicts("build"), ["crashed"]);
-    assert_eq!(graded.points()[..4], FULL[..4]);
+    assert_eq!(graded.points()[..4], FULL_POINTS[..4]);
     assert_snapshot!(graded.report());
 }
 
 #[test]
-fn leaving_early_is_no_answer() {
+fn exiting_early_does_not_count_as_an_answer() {
     let graded = Submission::case("exiting").grade();
     assert!(graded.verdicts("camera").contains(&"crashed".to_owned()));
-    assert_eq!(graded.points()[1..5], FULL[1..5]);
+    assert_eq!(graded.points()[1..5], FULL_POINTS[1..5]);
     assert_snapshot!(graded.report());
 }
 
 #[test]
 fn printing_is_harmless() {
     let graded = Submission::case("printing").grade();
-    assert_eq!(graded.points(), FULL);
+    assert_eq!(graded.points(), FULL_POINTS);
     assert_snapshot!(graded.report());
 }
 
@@ -174,7 +174,7 @@ fn printing_is_harmless() {
 fn nan_is_a_wrong_answer() {
     let graded = Submission::case("not_a_number").grade();
     assert!(graded.verdicts("sphere").contains(&"wrong".to_owned()));
-    assert_eq!(graded.points()[3..5], FULL[3..5]);
+    assert_eq!(graded.points()[3..5], FULL_POINTS[3..5]);
     assert_snapshot!(graded.report());
 }
 
@@ -183,35 +183,38 @@ fn nan_is_a_wrong_answer() {
 fn allocating_without_bound_is_stopped() {
     let graded = Submission::case("hoarding").grade();
     assert_eq!(graded.verdicts("traverse"), ["out_of_memory"]);
-    assert_eq!(graded.points(), all_but(&[TRAVERSE]));
+    assert_eq!(graded.points(), full_points_except(&[TRAVERSE]));
     assert_snapshot!(graded.report());
 }
 
 #[test]
-fn a_helper_in_another_file_is_found_where_it_is() {
+fn a_helper_in_another_task_file_works() {
     let graded = Submission::case("helpers_elsewhere").grade();
-    assert_eq!(graded.points(), FULL);
+    assert_eq!(graded.points(), FULL_POINTS);
 }
 
 #[test]
-fn a_helper_in_a_file_that_does_not_compile_takes_its_callers_along() {
-    let broken =
-        Submission::case("helpers_elsewhere").changed("bbox.rs", "times.min.max(enter)", "oops");
+fn a_broken_file_also_fails_the_files_that_use_its_helpers() {
+    let broken = Submission::case("helpers_elsewhere").with_replaced(
+        "bbox.rs",
+        "times.min.max(enter)",
+        "oops",
+    );
     let graded = broken.grade();
     assert_eq!(graded.verdicts("bbox"), ["not_compiled"]);
     assert_eq!(graded.verdicts("build"), ["not_compiled"]);
-    assert_eq!(graded.points()[..3], FULL[..3]);
+    assert_eq!(graded.points()[..3], FULL_POINTS[..3]);
 }
 
 #[test]
-fn a_given_method_that_was_changed_is_a_note() {
-    let graded = Submission::reference("changed").changed(
+fn notes_a_changed_given_method() {
+    let graded = Submission::reference("changed").with_replaced(
         "bbox.rs",
         "0.5 * (self.min + self.max)",
         "(self.min + self.max) / 2.0",
     );
     let graded = graded.grade();
-    assert_eq!(graded.points(), FULL);
+    assert_eq!(graded.points(), FULL_POINTS);
     let note = &graded.score()["build"]["notes"][0];
     assert_eq!(
         note,
@@ -221,7 +224,7 @@ fn a_given_method_that_was_changed_is_a_note() {
 
 #[test]
 fn unsafe_code_does_not_compile() {
-    let graded = Submission::reference("unsafe").changed(
+    let graded = Submission::reference("unsafe").with_replaced(
         "sphere.rs",
         "discriminant.sqrt()",
         "unsafe { discriminant.sqrt() }",
@@ -230,11 +233,11 @@ fn unsafe_code_does_not_compile() {
 }
 
 #[test]
-fn what_was_built_does_not_come_from_files_of_the_same_age() {
+fn does_not_reuse_a_build_of_files_with_the_same_modification_time() {
     // Zips and tars unpack with old times; a build by time would serve the other's program.
     let old = std::time::SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(315_532_800);
     let aged = |submission: Submission| {
-        for file in crate::harness::FIVE {
+        for file in crate::harness::TASK_FILES {
             let file = std::fs::File::options()
                 .append(true)
                 .open(submission.path().join(file));
@@ -244,17 +247,17 @@ fn what_was_built_does_not_come_from_files_of_the_same_age() {
     };
     let starter = aged(Submission::starter("same-name")).grade().points();
     let reference = aged(Submission::reference("same-name")).grade().points();
-    assert_eq!((starter, reference), (vec![0; 6], FULL.to_vec()));
+    assert_eq!((starter, reference), (vec![0; 6], FULL_POINTS.to_vec()));
 }
 
 #[test]
-fn only_the_tree_that_a_builder_returns_counts() {
-    let graded = Submission::reference("leafy").changed(
+fn leaf_size_is_judged_by_the_returned_tree() {
+    let graded = Submission::reference("leafy").with_replaced(
         "bvh.rs",
         "max_leaf_size: max_leaf_size.max(1)",
         "max_leaf_size: max_leaf_size + 1",
     );
     let points = graded.grade().points();
-    assert!(points[BUILD] < FULL[BUILD], "{points:?}");
-    assert_eq!(other_points(&points, BUILD), 80);
+    assert!(points[BUILD] < FULL_POINTS[BUILD], "{points:?}");
+    assert_eq!(points_of_other_tasks(&points, BUILD), 80);
 }

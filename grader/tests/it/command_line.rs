@@ -4,16 +4,16 @@ use std::fs;
 
 use insta::assert_snapshot;
 
-use crate::harness::{FULL, Submission, grader};
+use crate::harness::{FULL_POINTS, Submission, grader};
 
-fn told(arguments: &[&str]) -> (i32, String) {
+fn exit_code_and_error(arguments: &[&str]) -> (i32, String) {
     let output = grader().args(arguments).output().unwrap();
     let error = String::from_utf8(output.stderr).unwrap();
     (output.status.code().unwrap(), error)
 }
 
 #[test]
-fn help_names_every_option() {
+fn help_lists_every_option() {
     let output = grader()
         .arg("--help")
         .env("COLUMNS", "80")
@@ -23,26 +23,26 @@ fn help_names_every_option() {
 }
 
 #[test]
-fn a_place_without_a_submission_is_the_callers_fault() {
+fn a_path_without_a_submission_is_a_usage_error() {
     let empty = tempfile::TempDir::new().unwrap();
-    let (code, error) = told(&[empty.path().to_str().unwrap()]);
+    let (code, error) = exit_code_and_error(&[empty.path().to_str().unwrap()]);
     assert_eq!(code, 2);
     assert!(
         error.contains("holds none of camera.rs, triangle.rs"),
         "{error}"
     );
 
-    let (code, error) = told(&["nowhere"]);
+    let (code, error) = exit_code_and_error(&["nowhere"]);
     assert_eq!(code, 2);
     assert!(error.contains("there is no "), "{error}");
 
-    let (code, error) = told(&["Cargo.toml"]);
+    let (code, error) = exit_code_and_error(&["Cargo.toml"]);
     assert_eq!(code, 2);
     assert!(error.contains("is neither a folder nor a .zip"), "{error}");
 }
 
 #[test]
-fn an_archive_is_graded_like_the_folder_in_it() {
+fn grades_an_archive_like_the_folder_in_it() {
     let submission = Submission::case("panicking");
     let folder = submission.grade().score();
     let file = submission.path().with_extension("tar.gz");
@@ -73,8 +73,8 @@ fn an_archive_is_graded_like_the_folder_in_it() {
 }
 
 #[test]
-fn an_unknown_task_is_answered_with_the_known_ones() {
-    let (code, error) = told(&["--task", "box"]);
+fn an_unknown_task_lists_the_known_ones() {
+    let (code, error) = exit_code_and_error(&["--task", "box"]);
     assert_eq!(code, 2);
     assert!(
         error.contains("camera, triangle, sphere, bbox, build, traverse"),
@@ -83,10 +83,10 @@ fn an_unknown_task_is_answered_with_the_known_ones() {
 }
 
 #[test]
-fn the_five_files_are_found_at_the_top_in_src_and_in_student_src() {
+fn finds_the_task_files_at_the_top_in_src_and_in_student_src() {
     for place in ["src", "student/src"] {
         let mut submission = Submission::reference("checkout");
-        for file in crate::harness::FIVE {
+        for file in crate::harness::TASK_FILES {
             let text = fs::read(submission.path().join(file)).unwrap();
             submission = submission
                 .without(file)
@@ -101,16 +101,16 @@ fn the_five_files_are_found_at_the_top_in_src_and_in_student_src() {
 }
 
 #[test]
-fn fewer_points_than_required_exit_with_one() {
+fn exits_with_1_below_the_required_points() {
     let graded = Submission::case("not_compiling").grade_with(&["--require", "100"]);
     assert_eq!(graded.exit_code(), 1);
     assert!(graded.score.is_some());
     let graded = Submission::reference("full").grade_with(&["--require", "100"]);
-    assert_eq!(graded.points(), FULL);
+    assert_eq!(graded.points(), FULL_POINTS);
 }
 
 #[test]
-fn one_task_is_reported_alone_and_writes_no_score() {
+fn grading_one_task_reports_it_alone_and_writes_no_score() {
     let graded = Submission::case("panicking").grade_with(&["--task", "sphere"]);
     assert_eq!(graded.exit_code(), 0);
     assert!(graded.score.is_none());
@@ -118,7 +118,7 @@ fn one_task_is_reported_alone_and_writes_no_score() {
 }
 
 #[test]
-fn timings_say_where_the_time_went() {
+fn timings_list_each_stage() {
     let graded = Submission::reference("timed").grade_with(&["--task", "camera", "--timings"]);
     let report = graded.report();
     let (_, table) = report.split_once("where the time went").unwrap();
@@ -135,7 +135,7 @@ fn timings_say_where_the_time_went() {
 }
 
 #[test]
-fn one_question_can_be_asked_again() {
+fn replays_one_question() {
     let submission = Submission::case("panicking");
     let score = submission.grade().score();
     let items = score["tasks"][2]["items"].as_array().unwrap();
@@ -157,11 +157,11 @@ fn one_question_can_be_asked_again() {
 }
 
 #[test]
-fn a_question_that_is_not_there_is_answered_with_those_that_are() {
-    let (code, error) = told(&["--replay", "sphere.nothing#1"]);
+fn an_unknown_question_lists_the_known_ones() {
+    let (code, error) = exit_code_and_error(&["--replay", "sphere.nothing#1"]);
     assert_eq!(code, 2);
     assert!(error.contains("there are: sphere."), "{error}");
-    let (code, error) = told(&["--replay", "sphere"]);
+    let (code, error) = exit_code_and_error(&["--replay", "sphere"]);
     assert_eq!(code, 2);
     assert!(error.contains("such as sphere.from_inside#7"), "{error}");
 }
@@ -169,7 +169,7 @@ fn a_question_that_is_not_there_is_answered_with_those_that_are() {
 /// Elsewhere there always is a desktop.
 #[cfg(target_os = "linux")]
 #[test]
-fn without_a_desktop_the_pages_place_is_told_and_nothing_fails() {
+fn without_a_desktop_prints_the_path_of_the_page_and_succeeds() {
     let submission = Submission::starter("alice");
     let out = submission.path().join("out");
     let output = grader()

@@ -7,10 +7,10 @@ use std::process::{Command, Output};
 use serde_json::Value;
 use tempfile::TempDir;
 
-pub const FIVE: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
+pub const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 
 /// The points of camera, triangle, sphere, bbox, build, traverse.
-pub const FULL: [u64; 6] = [15, 20, 15, 10, 20, 20];
+pub const FULL_POINTS: [u64; 6] = [15, 20, 15, 10, 20, 20];
 
 /// The folder of the whole project.
 pub fn workspace() -> PathBuf {
@@ -26,12 +26,12 @@ pub struct Submission {
 impl Submission {
     /// The five files of the reference.
     pub fn reference(name: &str) -> Self {
-        Submission::of(name, &workspace().join("reference/src"))
+        Submission::copy_of(name, &workspace().join("reference/src"))
     }
 
     /// The five files of the starter.
     pub fn starter(name: &str) -> Self {
-        Submission::of(name, &workspace().join("grader/starter"))
+        Submission::copy_of(name, &workspace().join("grader/starter"))
     }
 
     /// The reference, with the files of `tests/submissions/NAME` in place of its own.
@@ -44,13 +44,13 @@ impl Submission {
         submission
     }
 
-    fn of(name: &str, source: &Path) -> Self {
+    fn copy_of(name: &str, source: &Path) -> Self {
         let submission = Submission {
             folder: TempDir::new().unwrap(),
             name: name.to_owned(),
         };
         fs::create_dir(submission.path()).unwrap();
-        for file in FIVE {
+        for file in TASK_FILES {
             fs::copy(source.join(file), submission.path().join(file)).unwrap();
         }
         submission
@@ -73,28 +73,28 @@ impl Submission {
     }
 
     /// Replaces text that must be there.
-    pub fn changed(self, file: &str, from: &str, to: &str) -> Self {
+    pub fn with_replaced(self, file: &str, from: &str, to: &str) -> Self {
         let text = fs::read_to_string(self.path().join(file)).unwrap();
         assert!(text.contains(from), "{file} has no {from:?} any more");
         self.with(file, text.replace(from, to))
     }
 
     /// As on a student's machine.
-    pub fn grade(&self) -> Graded {
+    pub fn grade(&self) -> GradeRun {
         self.grade_with(&[])
     }
 
     /// As on a student's machine, with more arguments.
-    pub fn grade_with(&self, arguments: &[&str]) -> Graded {
+    pub fn grade_with(&self, arguments: &[&str]) -> GradeRun {
         self.run(&[&["--no-reference"], arguments].concat())
     }
 
     /// As on the staff's machines.
-    pub fn grade_with_reference(&self) -> Graded {
+    pub fn grade_with_reference(&self) -> GradeRun {
         self.run(&[])
     }
 
-    fn run(&self, arguments: &[&str]) -> Graded {
+    fn run(&self, arguments: &[&str]) -> GradeRun {
         let out = self.folder.path().join("out");
         let output = grader()
             .arg(self.path())
@@ -103,7 +103,7 @@ impl Submission {
             .args(arguments)
             .output()
             .unwrap();
-        Graded {
+        GradeRun {
             output,
             submission: self.path(),
             score: fs::read(out.join("score.json")).ok(),
@@ -119,7 +119,7 @@ pub fn grader() -> Command {
 }
 
 /// What came of one run.
-pub struct Graded {
+pub struct GradeRun {
     pub output: Output,
     /// Where the submission lies.
     submission: PathBuf,
@@ -127,7 +127,7 @@ pub struct Graded {
     pub score: Option<Vec<u8>>,
 }
 
-impl Graded {
+impl GradeRun {
     pub fn exit_code(&self) -> i32 {
         self.output.status.code().expect("it was not killed")
     }

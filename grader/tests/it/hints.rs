@@ -3,11 +3,11 @@
 use insta::assert_snapshot;
 use serde_json::Value;
 
-use crate::harness::{Graded, Submission};
+use crate::harness::{GradeRun, Submission};
 
 /// Whoever takes the far root, by other formulas than the catalogue's.
 fn far_first() -> Submission {
-    Submission::reference("far-first").changed(
+    Submission::reference("far-first").with_replaced(
         "sphere.rs",
         "let t = [near, far].into_iter().find(|&t| ray.range.contains(t))?;",
         "let both = [near, far].map(|t| t * ray.dir.length());
@@ -18,7 +18,7 @@ fn far_first() -> Submission {
     )
 }
 
-fn hints(graded: &Graded) -> Vec<Value> {
+fn hints(graded: &GradeRun) -> Vec<Value> {
     let score = graded.score();
     let tasks = score["tasks"].as_array().unwrap().iter();
     let items = tasks.flat_map(|task| task["items"].as_array().unwrap());
@@ -28,7 +28,7 @@ fn hints(graded: &Graded) -> Vec<Value> {
 }
 
 #[test]
-fn a_known_mistake_is_nudged() {
+fn a_known_mistake_gets_a_nudge() {
     let graded = far_first().grade();
     assert_snapshot!(graded.report());
     assert!(!hints(&graded).is_empty());
@@ -37,28 +37,28 @@ fn a_known_mistake_is_nudged() {
 }
 
 #[test]
-fn hints_say_more_when_asked() {
+fn the_hints_option_says_more() {
     assert_snapshot!(far_first().grade_with(&["--hints"]).report());
 }
 
 #[test]
-fn a_strange_mistake_gets_no_hint() {
+fn an_unknown_mistake_gets_no_hint() {
     let graded = Submission::reference("strange")
-        .changed("sphere.rs", "distance: t,", "distance: t + t.sin(),")
+        .with_replaced("sphere.rs", "distance: t,", "distance: t + t.sin(),")
         .grade();
     assert!(graded.points()[2] < 15);
     assert_eq!(hints(&graded), [0; 0].map(Value::from));
 }
 
 #[test]
-fn two_mistakes_in_one_task_are_each_recognised() {
+fn recognises_two_mistakes_in_one_task() {
     let graded = Submission::reference("two")
-        .changed(
+        .with_replaced(
             "triangle.rs",
             "position: ray.at(t),",
             "position: t * ray.dir,",
         )
-        .changed("triangle.rs", "material: self.material,", "material: 0,")
+        .with_replaced("triangle.rs", "material: self.material,", "material: 0,")
         .grade();
     let staff = graded.score().to_string();
     for known in ["triangle.position_without_origin", "triangle.material_zero"] {

@@ -10,24 +10,24 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-use crate::harness::{FULL, Graded, Submission, grader};
+use crate::harness::{FULL_POINTS, GradeRun, Submission, grader};
 
 /// Every level that keeps submissions apart. Where a machine lacks one, its tests are skipped, and
 /// said to be; where `CI` is set, that is a failure.
 const LEVELS: [&str; 3] = ["full", "no-namespaces", "seccomp-only"];
-const KEY: &str = "the final exam";
+const SECRET: &str = "the final exam";
 
 /// A file that every user of this machine may read.
-struct Key {
+struct SecretFile {
     folder: TempDir,
 }
 
-impl Key {
-    fn planted() -> Self {
+impl SecretFile {
+    fn create() -> Self {
         let folder = TempDir::new().unwrap();
-        open_to_all(folder.path());
-        fs::write(folder.path().join("key"), KEY).unwrap();
-        Key { folder }
+        make_readable_by_all(folder.path());
+        fs::write(folder.path().join("key"), SECRET).unwrap();
+        SecretFile { folder }
     }
 
     fn path(&self) -> String {
@@ -35,29 +35,33 @@ impl Key {
     }
 }
 
-fn open_to_all(folder: &Path) {
+fn make_readable_by_all(folder: &Path) {
     use std::os::unix::fs::PermissionsExt;
     fs::set_permissions(folder, fs::Permissions::from_mode(0o755)).unwrap();
 }
 
 /// The reference, with something that is done before the camera's rays are made.
-fn doing(what: &str) -> Submission {
+fn running(what: &str) -> Submission {
     let method = "let height = 2.0 * framework";
-    Submission::reference("mallory").changed("camera.rs", method, &format!("{what}\n{method}"))
+    Submission::reference("mallory").with_replaced(
+        "camera.rs",
+        method,
+        &format!("{what}\n{method}"),
+    )
 }
 
 /// What the submission printed while it was asked for the camera's rays.
-fn printed(graded: &Graded) -> String {
+fn camera_output(graded: &GradeRun) -> String {
     let printed = &graded.score()["tasks"][0]["printed"];
     printed.as_str().unwrap_or_default().to_owned()
 }
 
-fn at(submission: &Submission, level: &str) -> Graded {
+fn grade_at(submission: &Submission, level: &str) -> GradeRun {
     submission.grade_with(&["--isolation", level])
 }
 
 /// Whether the machine has this level, from what the doctor says of it.
-fn holds(level: &str) -> bool {
+fn is_available(level: &str) -> bool {
     static TOLD: LazyLock<String> = LazyLock::new(|| {
         let output = grader().arg("--doctor").output().unwrap();
         String::from_utf8(output.stdout).unwrap()
@@ -77,67 +81,67 @@ fn holds(level: &str) -> bool {
 
 /// It prints `done` where nothing keeps it apart, and at no level that does; and earns its points.
 #[track_caller]
-fn is_refused(attempt: &str) {
-    let submission = doing(&format!("if {attempt} {{ println!(\"done\"); }}"));
-    assert!(printed(&at(&submission, "none")).starts_with("done"));
-    for level in LEVELS.into_iter().filter(|level| holds(level)) {
-        let graded = at(&submission, level);
-        assert_eq!(printed(&graded), "", "{level}");
-        assert_eq!(graded.points(), FULL, "{level}");
+fn assert_blocked(attempt: &str) {
+    let submission = running(&format!("if {attempt} {{ println!(\"done\"); }}"));
+    assert!(camera_output(&grade_at(&submission, "none")).starts_with("done"));
+    for level in LEVELS.into_iter().filter(|level| is_available(level)) {
+        let graded = grade_at(&submission, level);
+        assert_eq!(camera_output(&graded), "", "{level}");
+        assert_eq!(graded.points(), FULL_POINTS, "{level}");
         assert_eq!(graded.score()["isolation"], level);
     }
 }
 
 #[test]
-fn files_are_not_read() {
-    let key = Key::planted();
-    is_refused(&format!("std::fs::read({}).is_ok()", key.path()));
+fn cannot_read_files() {
+    let key = SecretFile::create();
+    assert_blocked(&format!("std::fs::read({}).is_ok()", key.path()));
 }
 
 #[test]
-fn sockets_are_not_opened() {
-    is_refused("std::net::UdpSocket::bind(\"127.0.0.1:0\").is_ok()");
+fn cannot_open_sockets() {
+    assert_blocked("std::net::UdpSocket::bind(\"127.0.0.1:0\").is_ok()");
 }
 
 #[test]
-fn programs_are_not_started() {
-    is_refused("std::process::Command::new(\"true\").status().is_ok()");
+fn cannot_start_programs() {
+    assert_blocked("std::process::Command::new(\"true\").status().is_ok()");
 }
 
 #[test]
-fn the_compiler_reads_no_file_for_a_submission() {
-    let key = Key::planted();
+fn the_compiler_cannot_read_files_for_a_submission() {
+    let key = SecretFile::create();
     let line = format!("println!(\"{{}}\", include_str!({}));", key.path());
-    let submission = doing(&line);
-    assert!(printed(&at(&submission, "none")).starts_with(KEY));
+    let submission = running(&line);
+    assert!(camera_output(&grade_at(&submission, "none")).starts_with(SECRET));
     for level in ["full", "no-namespaces"]
         .into_iter()
-        .filter(|level| holds(level))
+        .filter(|level| is_available(level))
     {
-        let graded = at(&submission, level);
+        let graded = grade_at(&submission, level);
         assert_eq!(graded.verdicts("camera"), ["not_compiled"], "{level}");
-        assert!(!graded.score().to_string().contains(KEY), "{level}");
+        assert!(!graded.score().to_string().contains(SECRET), "{level}");
     }
 }
 
 #[test]
-fn a_confined_score_is_the_same_but_for_what_it_says_of_itself() {
+fn isolation_does_not_change_the_score() {
     let submission = Submission::case("panicking");
     let score = |level| {
-        let mut score = at(&submission, level).score();
+        let mut score = grade_at(&submission, level).score();
         for field in ["isolation", "timings"] {
             score.as_object_mut().unwrap().remove(field);
         }
         score
     };
     let own = score("none");
-    for level in LEVELS.into_iter().filter(|level| holds(level)) {
+    for level in LEVELS.into_iter().filter(|level| is_available(level)) {
         assert_eq!(score(level), own, "{level}");
     }
 }
 
 #[test]
-fn loops_recursion_and_hoarding_cost_their_task_as_they_do_elsewhere() {
+fn loops_recursion_and_allocation_cost_only_their_task() {
     for (what, verdict) in [
         ("loop { std::hint::black_box(0); }", "timed_out"),
         (
@@ -149,23 +153,23 @@ fn loops_recursion_and_hoarding_cost_their_task_as_they_do_elsewhere() {
             "out_of_memory",
         ),
     ] {
-        let submission = doing(what);
-        for level in LEVELS.into_iter().filter(|level| holds(level)) {
+        let submission = running(what);
+        for level in LEVELS.into_iter().filter(|level| is_available(level)) {
             let graded = submission.grade_with(&["--isolation", level, "--cpu-limit", "1"]);
             assert_eq!(graded.verdicts("camera"), [verdict], "{level}");
             // But for the picture, which needs a camera.
-            assert_eq!(graded.points()[1..5], FULL[1..5], "{level}");
+            assert_eq!(graded.points()[1..5], FULL_POINTS[1..5], "{level}");
         }
     }
 }
 
 #[test]
-fn others_code_is_graded_at_the_best_level_and_the_report_says_so() {
-    if !holds("full") {
+fn untrusted_code_is_graded_at_the_best_level_and_the_report_says_so() {
+    if !is_available("full") {
         return;
     }
     let graded = Submission::reference("alice").grade_with(&["--untrusted"]);
-    assert_eq!(graded.points(), FULL);
+    assert_eq!(graded.points(), FULL_POINTS);
     assert_eq!(graded.score()["isolation"], "full");
     assert!(
         graded.report().contains("kept apart: full"),
@@ -175,9 +179,9 @@ fn others_code_is_graded_at_the_best_level_and_the_report_says_so() {
 }
 
 #[test]
-fn nothing_survives_a_grader_that_is_killed() {
-    let submission = doing("loop { std::hint::black_box(0); }");
-    for level in LEVELS.into_iter().filter(|level| holds(level)) {
+fn no_process_survives_a_killed_grader() {
+    let submission = running("loop { std::hint::black_box(0); }");
+    for level in LEVELS.into_iter().filter(|level| is_available(level)) {
         let out = TempDir::new().unwrap();
         let mut grader = grader()
             .arg(submission.path())

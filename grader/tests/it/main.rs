@@ -3,8 +3,9 @@
 
 mod bad_exams;
 mod bad_submissions;
-mod carried_forward;
+mod cached_report;
 mod command_line;
+mod dependencies;
 mod faults;
 mod formats;
 mod harness;
@@ -16,6 +17,5 @@ mod ordinary_user;
 mod packages;
 mod policies;
 mod scores;
-mod unchanged;
-mod walls;
+mod substitution;
 mod watch;

@@ -8,7 +8,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::faults::workspace::Copy;
+use crate::faults::workspace::WorkspaceCopy;
 use crate::harness::{Submission, workspace};
 
 /// A user that every system has, and that owns nothing.
@@ -45,14 +45,14 @@ fn skip(why: &str) {
 }
 
 /// The folder of the compiler that runs these tests.
-fn toolchain() -> PathBuf {
+fn toolchain_folder() -> PathBuf {
     let cargo = Path::new(env!("CARGO"));
     cargo.ancestors().nth(2).unwrap().to_owned()
 }
 
 /// Grades as nobody. None where there is no way to become that.
-fn graded_by_nobody(submission: &Submission, arguments: &[&str]) -> Option<Value> {
-    let copy = Copy::prepared();
+fn grade_as_nobody(submission: &Submission, arguments: &[&str]) -> Option<Value> {
+    let copy = WorkspaceCopy::with_dependencies();
     let grade = copy.path().join("target/grade");
     let out = grade.join("out");
     for folder in [copy.path(), submission.path().parent().unwrap()] {
@@ -63,7 +63,11 @@ fn graded_by_nobody(submission: &Submission, arguments: &[&str]) -> Option<Value
     let grader = Path::new(env!("CARGO_BIN_EXE_grader"));
     let project = workspace().canonicalize().unwrap();
     let home = PathBuf::from(std::env::var_os("HOME").unwrap_or("/root".into()));
-    let needed = [toolchain(), project, grader.parent().unwrap().to_owned()];
+    let needed = [
+        toolchain_folder(),
+        project,
+        grader.parent().unwrap().to_owned(),
+    ];
     let at_home = needed.iter().filter(|folder| folder.starts_with(&home));
 
     let mut command = Command::new("unshare");
@@ -77,7 +81,7 @@ fn graded_by_nobody(submission: &Submission, arguments: &[&str]) -> Option<Value
         .arg("--out")
         .arg(&out)
         .args(arguments);
-    command.env("CARGO", toolchain().join("bin/cargo"));
+    command.env("CARGO", toolchain_folder().join("bin/cargo"));
     let output = command.current_dir(copy.path()).output().ok()?;
     let error = String::from_utf8_lossy(&output.stderr);
     let lacks = ["unshare: ", "mount: ", "setpriv: "];
@@ -90,7 +94,7 @@ fn graded_by_nobody(submission: &Submission, arguments: &[&str]) -> Option<Value
 }
 
 #[test]
-fn nobody_in_particular_grades_others_code_as_well_as_root() {
+fn an_unprivileged_user_grades_untrusted_code_as_well_as_root() {
     if !is_root() {
         eprintln!("this test is run by an ordinary user, as all others are");
         return;
@@ -107,9 +111,9 @@ fn nobody_in_particular_grades_others_code_as_well_as_root() {
     );
     let method = "let height = 2.0 * framework";
     let mallory = Submission::reference("mallory");
-    let mallory = mallory.changed("camera.rs", method, &format!("{attempt}\n{method}"));
+    let mallory = mallory.with_replaced("camera.rs", method, &format!("{attempt}\n{method}"));
     for level in ["none", "seccomp-only", "no-namespaces", "full"] {
-        let Some(score) = graded_by_nobody(&mallory, &["--isolation", level]) else {
+        let Some(score) = grade_as_nobody(&mallory, &["--isolation", level]) else {
             skip("root can not become nobody here: it takes unshare, mount and setpriv");
             return;
         };

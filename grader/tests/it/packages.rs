@@ -8,7 +8,7 @@ use tempfile::TempDir;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use crate::formats::exam;
+use crate::formats::small_exam;
 use crate::harness::grader;
 
 const SETUP: (&str, &str) = ("setup.sh", "#!/bin/sh\n");
@@ -16,7 +16,7 @@ const RUN: (&str, &str) = ("run_autograder", "#!/bin/sh\n");
 const POLICY: (&str, &str) = ("pathtracing/policy.toml", "");
 const GRADE: (&str, &str) = ("pathtracing/grade", "#!/bin/sh\n");
 /// What is only looked for.
-const REST: [(&str, &str); 6] = [
+const OTHER_FILES: [(&str, &str); 6] = [
     ("pathtracing/grader/src/main.rs", ""),
     ("pathtracing/student/framework/src/lib.rs", ""),
     ("pathtracing/reference/src/bvh.rs", ""),
@@ -35,7 +35,7 @@ const REST: [(&str, &str); 6] = [
 type Case<'a> = (&'a str, Vec<(&'a str, &'a str)>, u32);
 
 /// A zip with these files, as they are.
-fn zipped(files: &[(&str, &str)], mode: u32) -> Vec<u8> {
+fn make_zip(files: &[(&str, &str)], mode: u32) -> Vec<u8> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, text) in files {
         let options = SimpleFileOptions::default()
@@ -48,19 +48,19 @@ fn zipped(files: &[(&str, &str)], mode: u32) -> Vec<u8> {
 }
 
 /// What is said of a zip with these files, and the exit code.
-fn told(files: &[(&str, &str)], mode: u32) -> (i32, String) {
-    told_of(&zipped(files, mode))
+fn check_files(files: &[(&str, &str)], mode: u32) -> (i32, String) {
+    check_bytes(&make_zip(files, mode))
 }
 
-fn told_of(bytes: &[u8]) -> (i32, String) {
+fn check_bytes(bytes: &[u8]) -> (i32, String) {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("package.zip"), bytes).unwrap();
     let path = folder.path().join("package.zip");
-    told_at(&path)
+    check_path(&path)
 }
 
 /// What is said of the package at this place, which is called as its last part is.
-fn told_at(path: &Path) -> (i32, String) {
+fn check_path(path: &Path) -> (i32, String) {
     let output = grader()
         .args(["--doctor", "--package"])
         .arg(path)
@@ -73,13 +73,13 @@ fn told_at(path: &Path) -> (i32, String) {
 }
 
 /// A whole package, but for one file, which is another one or not there.
-fn whole_but<'a>(
+fn package_except<'a>(
     exam: &'a str,
     name: &str,
     file: Option<(&'a str, &'a str)>,
 ) -> Vec<(&'a str, &'a str)> {
     let whole = [SETUP, RUN, GRADE, ("pathtracing/exam.json", exam), POLICY];
-    let whole = whole.into_iter().chain(REST);
+    let whole = whole.into_iter().chain(OTHER_FILES);
     whole
         .filter(|(other, _)| *other != name)
         .chain(file)
@@ -87,8 +87,8 @@ fn whole_but<'a>(
 }
 
 #[test]
-fn a_whole_one_has_nothing_wrong_with_it() {
-    let (code, text) = told(&whole_but(&exam("final"), "", None), 0o755);
+fn a_complete_package_has_no_problems() {
+    let (code, text) = check_files(&package_except(&small_exam("final"), "", None), 0o755);
     assert_eq!(
         (code, text.as_str()),
         (0, "package.zip: nothing is wrong with it\n")
@@ -96,11 +96,11 @@ fn a_whole_one_has_nothing_wrong_with_it() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_what_to_do() {
-    let (good, practice) = (exam("final"), exam("practice"));
+fn reports_each_problem_with_a_remedy() {
+    let (good, practice) = (small_exam("final"), small_exam("practice"));
     let exam = "pathtracing/exam.json";
-    let without = |name| whole_but(&good, name, None);
-    let with = |name, text| whole_but(&good, name, Some((name, text)));
+    let without = |name| package_except(&good, name, None);
+    let with = |name, text| package_except(&good, name, Some((name, text)));
     let bad: [Case; 13] = [
         (
             "the folder was zipped",
@@ -117,8 +117,12 @@ fn what_is_wrong_is_told_with_what_to_do() {
         ("an exam's beginning", with(exam, &good[..100]), 0o755),
         ("no exam, no crates", vec![SETUP, RUN, POLICY], 0o755),
         ("no script below", without(GRADE.0), 0o755),
-        ("no solution", without(REST[2].0), 0o755),
-        ("not written on Linux", with_other_crate(&good), 0o755),
+        ("no solution", without(OTHER_FILES[2].0), 0o755),
+        (
+            "not written on Linux",
+            package_without_linux_crates(&good),
+            0o755,
+        ),
         (
             "policy",
             with(POLICY.0, "[visibility.items]\ncamra = 'all'"),
@@ -127,31 +131,31 @@ fn what_is_wrong_is_told_with_what_to_do() {
     ];
     let mut all = String::new();
     for (what, files, mode) in &bad {
-        let (code, text) = told(files, *mode);
+        let (code, text) = check_files(files, *mode);
         assert_eq!(code, 2, "{what}: {text}");
         all.push_str(&format!("-- {what}\n{text}\n"));
     }
-    let (code, text) = told_of(b"not a zip");
+    let (code, text) = check_bytes(b"not a zip");
     assert_eq!(code, 2);
     all.push_str(&format!("-- no zip\n{text}\n"));
-    let marked = with(REST[0].0, "fn main() { todo!() }");
-    let mut damaged = zipped(&marked, 0o755);
+    let marked = with(OTHER_FILES[0].0, "fn main() { todo!() }");
+    let mut damaged = make_zip(&marked, 0o755);
     let place = damaged.windows(4).position(|bytes| bytes == b"todo");
     damaged[place.unwrap()] = b'T';
-    let (code, text) = told_of(&damaged);
+    let (code, text) = check_bytes(&damaged);
     assert_eq!(code, 2);
     all.push_str(&format!("-- damaged\n{text}"));
     insta::assert_snapshot!(all);
 }
 
 /// With a crate, but none that only Linux needs.
-fn with_other_crate(exam: &str) -> Vec<(&str, &str)> {
+fn package_without_linux_crates(exam: &str) -> Vec<(&str, &str)> {
     let other = ("pathtracing/crates/registry/cache/x/glam-0.34.crate", "");
-    whole_but(exam, REST[4].0, Some(other))
+    package_except(exam, OTHER_FILES[4].0, Some(other))
 }
 
 /// Writes these files below a folder.
-fn lay_out(folder: &Path, files: &[(&str, &[u8])]) {
+fn write_files(folder: &Path, files: &[(&str, &[u8])]) {
     for (name, bytes) in files {
         let path = folder.join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -160,32 +164,32 @@ fn lay_out(folder: &Path, files: &[(&str, &[u8])]) {
 }
 
 #[test]
-fn of_a_folder_it_is_told_whose_it_is_and_what_it_lacks() {
+fn recognises_package_folders_and_lists_missing_files() {
     let folder = TempDir::new().unwrap();
     let package = folder.path().join("package");
     fs::create_dir(&package).unwrap();
-    let (code, nothing) = told_at(&package);
+    let (code, nothing) = check_path(&package);
     assert!(
         code == 2 && nothing.contains("it is no package"),
         "{nothing}"
     );
 
     let policy = ("pathtracing/policy.toml", "");
-    let zip = zipped(&[REST[0], REST[1], policy], 0o644);
+    let zip = make_zip(&[OTHER_FILES[0], OTHER_FILES[1], policy], 0o644);
     let entry = ("autograder.py", b"".as_slice());
-    lay_out(&package, &[entry, ("pathtracing.zip", &zip)]);
-    let (code, text) = told_at(&package);
+    write_files(&package, &[entry, ("pathtracing.zip", &zip)]);
+    let (code, text) = check_path(&package);
     assert_eq!((code, &*text), (0, "package: nothing is wrong with it\n"));
-    for broken in [b"not a zip".as_slice(), &zipped(&REST, 0o644)] {
-        lay_out(&package, &[("pathtracing.zip", broken)]);
-        let (code, text) = told_at(&package);
+    for broken in [b"not a zip".as_slice(), &make_zip(&OTHER_FILES, 0o644)] {
+        write_files(&package, &[("pathtracing.zip", broken)]);
+        let (code, text) = check_path(&package);
         assert!(code == 2 && text.contains("package classroom50`"), "{text}");
     }
 
     let template = folder.path().join("template");
     let workflow = (".github/workflows/grade.yml", b"".as_slice());
-    lay_out(&template, &[workflow, ("reference/src/bvh.rs", b"")]);
-    let (code, text) = told_at(&template);
+    write_files(&template, &[workflow, ("reference/src/bvh.rs", b"")]);
+    let (code, text) = check_path(&template);
     assert_eq!(code, 2);
     for told in ["there is no student/src/bvh.rs", "it holds reference"] {
         assert!(text.contains(told), "{text}");

@@ -3,11 +3,11 @@
 use insta::assert_snapshot;
 use serde_json::Value;
 
-use crate::formats::{exam, written};
+use crate::formats::{grade_in_all_formats, small_exam};
 use crate::harness::{Submission, grader};
 
 /// What is said of a policy, in which nothing is graded.
-fn refused(policy: &str) -> String {
+fn rejection(policy: &str) -> String {
     let submission = Submission::starter("any").with("policy.toml", policy);
     let path = submission.path().join("policy.toml");
     let path = path.to_str().unwrap();
@@ -18,7 +18,7 @@ fn refused(policy: &str) -> String {
 }
 
 #[test]
-fn bad_ones_are_refused_with_line_and_remedy() {
+fn rejects_invalid_policies_with_line_and_remedy() {
     let bad = [
         "[late]\nfree_dayz = 2",
         "[points]\n\nrounding = 'upwards'",
@@ -29,11 +29,11 @@ fn bad_ones_are_refused_with_line_and_remedy() {
         "[visibility.items]\nbuild = 'secret'",
         "[visibility.items]\n'sphere.inside_out' = 'hidden'",
     ];
-    assert_snapshot!(bad.map(refused).join("\n"));
+    assert_snapshot!(bad.map(rejection).join("\n"));
 }
 
 #[test]
-fn points_count_as_the_policy_says_and_the_score_stays() {
+fn the_policy_scales_points_but_not_the_score() {
     let submission = Submission::case("not_compiling").with("policy.toml", "[points]\nout_of = 30");
     let path = submission.path().join("policy.toml");
     let graded = submission.grade_with(&["--policy", path.to_str().unwrap()]);
@@ -51,7 +51,7 @@ fn the_default_policy_explains_itself() {
 }
 
 #[test]
-fn what_comes_late_on_gradescope_counts_as_the_policy_says_and_is_told() {
+fn late_gradescope_submissions_are_reduced_and_reported() {
     let metadata = r#"{"id": 1, "created_at": "2026-11-21T00:10:00.365935-08:00",
         "assignment": {"due_date": "2026-11-20T23:59:59.000000-08:00", "late_due_date": null}}"#;
     let submission = Submission::reference("late")
@@ -60,7 +60,7 @@ fn what_comes_late_on_gradescope_counts_as_the_policy_says_and_is_told() {
     let path = |name: &str| submission.path().join(name).to_str().unwrap().to_owned();
     let (policy, metadata) = (path("policy.toml"), path("metadata.json"));
     let late = ["--policy", &policy, "--gradescope-metadata", &metadata];
-    let written = written(&submission, &exam("final"), &late);
+    let written = grade_in_all_formats(&submission, &small_exam("final"), &late);
     let results: Value = serde_json::from_str(&written["gradescope"]).unwrap();
     let points = results["extra_data"]["points"].as_u64().unwrap();
     let counted = (points * 9 + 5) / 10;
@@ -71,7 +71,7 @@ fn what_comes_late_on_gradescope_counts_as_the_policy_says_and_is_told() {
 }
 
 #[test]
-fn a_platform_that_tells_no_moments_is_no_students_fault() {
+fn missing_submission_times_are_not_the_students_fault() {
     let submission = Submission::starter("any").with("metadata.json", "{}");
     let path = submission.path().join("metadata.json");
     let graded = submission.grade_with(&["--gradescope-metadata", path.to_str().unwrap()]);

@@ -3,39 +3,39 @@
 use insta::assert_snapshot;
 use serde_json::Value;
 
-use crate::harness::{FIVE, FULL, Submission, grader, workspace};
+use crate::harness::{FULL_POINTS, Submission, TASK_FILES, grader, workspace};
 
 #[test]
-fn the_reference_has_all_points() {
-    let graded = grader_on("reference");
+fn the_reference_gets_full_points() {
+    let graded = grade_path("reference");
     assert_eq!(graded["points"], 100);
     assert_eq!(graded["max_points"], 100);
     assert_eq!(graded["complete"], true);
 }
 
 #[test]
-fn line_ends_and_byte_order_marks_of_windows_change_nothing() {
+fn windows_line_endings_and_byte_order_marks_change_nothing() {
     let windows = |text: String| format!("\u{feff}{}", text.replace('\n', "\r\n"));
     let read = |place: &str| std::fs::read_to_string(workspace().join(place)).unwrap();
     let mut submission = Submission::reference("windows");
-    for file in FIVE {
+    for file in TASK_FILES {
         submission = submission.with(file, windows(read(&format!("reference/src/{file}"))));
     }
     let world = read("grader/starter/world.rs").replace('\n', "\r\n");
     let graded = submission.with("world.rs", world).grade();
-    assert_eq!(graded.points(), FULL);
+    assert_eq!(graded.points(), FULL_POINTS);
     assert_eq!(graded.score()["build"]["notes"], serde_json::json!([]));
 }
 
 #[test]
-fn the_starter_has_none_and_each_item_says_why() {
+fn the_starter_gets_no_points_and_each_task_says_why() {
     let graded = Submission::starter("starter").grade();
     assert_eq!(graded.points(), [0; 6]);
     assert_snapshot!(graded.report());
 }
 
 #[test]
-fn without_a_bvh_of_ones_own_there_are_sixty() {
+fn without_a_bvh_there_are_sixty_points() {
     let bvh = std::fs::read(workspace().join("grader/starter/bvh.rs")).unwrap();
     let graded = Submission::reference("no-bvh").with("bvh.rs", bvh).grade();
     assert_eq!(graded.points(), [15, 20, 15, 10, 0, 0]);
@@ -49,7 +49,7 @@ fn constant_answers_earn_nothing() {
 }
 
 #[test]
-fn a_second_run_writes_the_same_bytes_but_for_the_timings() {
+fn a_second_run_differs_only_in_timings() {
     let submission = Submission::case("panicking");
     let mut scores = [submission.grade().score(), submission.grade().score()];
     for score in &mut scores {
@@ -60,7 +60,7 @@ fn a_second_run_writes_the_same_bytes_but_for_the_timings() {
 }
 
 #[test]
-fn every_score_file_keeps_the_published_schema() {
+fn every_score_file_matches_the_published_schema() {
     let schema = grader().arg("--schema").output().unwrap().stdout;
     let schema: Value = serde_json::from_slice(&schema).unwrap();
     let (mut schemas, mut compiler) = (boon::Schemas::new(), boon::Compiler::new());
@@ -96,10 +96,10 @@ fn points_add_up() {
         sum += of_items;
     }
     assert_eq!(score["points"], sum);
-    assert_eq!(FULL.iter().sum::<u64>(), 100);
+    assert_eq!(FULL_POINTS.iter().sum::<u64>(), 100);
 }
 
-fn grader_on(submission: &str) -> Value {
+fn grade_path(submission: &str) -> Value {
     let out = tempfile::TempDir::new().unwrap();
     let output = grader()
         .arg(submission)

@@ -7,12 +7,12 @@ use std::process::{Child, ChildStdout, Stdio};
 use crate::harness::{Submission, grader};
 
 /// A grader that waits for saves, and ends with the test.
-struct Watching {
+struct WatchProcess {
     child: Child,
     lines: BufReader<ChildStdout>,
 }
 
-impl Watching {
+impl WatchProcess {
     fn start(submission: &Submission) -> Self {
         let mut child = grader()
             .arg("--watch")
@@ -23,7 +23,7 @@ impl Watching {
             .spawn()
             .unwrap();
         let lines = BufReader::new(child.stdout.take().unwrap());
-        Watching { child, lines }
+        WatchProcess { child, lines }
     }
 
     /// The next report, up to the line that says that it waits.
@@ -41,7 +41,7 @@ impl Watching {
     }
 }
 
-impl Drop for Watching {
+impl Drop for WatchProcess {
     fn drop(&mut self) {
         let _ = self.child.kill();
         let _ = self.child.wait();
@@ -49,7 +49,7 @@ impl Drop for Watching {
 }
 
 #[test]
-fn every_save_is_graded_and_the_score_file_follows() {
+fn grades_every_save_and_updates_the_score_file() {
     let submission = Submission::case("not_compiling");
     let sphere = submission.path().join("sphere.rs");
     let right = fs::read_to_string(Submission::reference("right").path().join("sphere.rs"));
@@ -59,7 +59,7 @@ fn every_save_is_graded_and_the_score_file_follows() {
         (score["points"].as_u64(), score["complete"].as_bool())
     };
 
-    let mut watching = Watching::start(&submission);
+    let mut watching = WatchProcess::start(&submission);
     let report = watching.report();
     assert!(report.contains("sphere.rs does not compile"), "{report}");
     let (points, complete) = score();
@@ -80,7 +80,7 @@ fn every_save_is_graded_and_the_score_file_follows() {
 }
 
 #[test]
-fn a_place_without_a_submission_is_told_of_at_once() {
+fn fails_at_once_without_a_submission() {
     let output = grader().args(["--watch", "nowhere"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
 }

@@ -9,11 +9,11 @@ use std::process::ExitCode;
 use std::{env, error, fs};
 
 use author::exams;
-use author::proof::exhibits::Exhibits;
+use author::proof::solutions::Solutions;
 use author::proof::workbench::Workbench;
 use grader::drawing::{self, Drawing};
 use grader::exam::Item;
-use grader::judge::{Share, judge};
+use grader::judge::{Credit, judge};
 use protocol::Answer;
 use rayon::prelude::*;
 
@@ -45,8 +45,8 @@ fn run() -> Result<(), Box<dyn error::Error>> {
         .nth(1)
         .ok_or("where shall the page be written?")?;
     let word = env::args().nth(2).unwrap_or_default();
-    let exhibits = Exhibits::prepare(Workbench::open()?)?;
-    let exam = exams::practice(Path::new(ROOT))?;
+    let exhibits = Solutions::load(Workbench::open()?)?;
+    let exam = exams::load_practice(Path::new(ROOT))?;
     let figures = exhibits
         .mistakes
         .par_iter()
@@ -70,7 +70,7 @@ fn run() -> Result<(), Box<dyn error::Error>> {
             }
             Ok(figures)
         })
-        .collect::<Result<Vec<String>, author::proof::workbench::NotTried>>()?;
+        .collect::<Result<Vec<String>, author::proof::workbench::WorkbenchError>>()?;
     let page = format!(
         "<!doctype html><meta charset=utf-8><meta name=viewport content='width=device-width'>\
          <title>Drawings</title><style>{STYLE}</style>{}",
@@ -84,9 +84,11 @@ fn first_failure(item: &Item, answers: &[Answer]) -> Option<(String, Option<Draw
     let asked = item.questions.iter().zip(answers).enumerate();
     let mut failures = asked.filter_map(|(number, (asked, answer))| {
         let judgement = judge(asked, answer);
-        let failure = judgement.failure.filter(|_| judgement.share < Share::ALL)?;
+        let failure = judgement
+            .failure
+            .filter(|_| judgement.credit < Credit::FULL)?;
         let words = format!(", question {number}, element {}", failure.element);
-        Some((words, drawing::of(asked, failure.element, Some(answer))))
+        Some((words, drawing::draw(asked, failure.element, Some(answer))))
     });
     failures.next()
 }

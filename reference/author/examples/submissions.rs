@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use author::proof::catalogue::mistakes;
 use author::proof::sources::Sources;
 use author::proof::variants::variants;
-use grader::given::TASK_FILES;
+use grader::given_files::TASK_FILES;
 use grader::workspace::Workspace;
 
 fn main() -> Result<(), Box<dyn Error>> {

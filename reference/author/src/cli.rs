@@ -5,11 +5,11 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-use crate::generated::Mode;
+use crate::generated_file::Mode;
 use crate::package::Platform;
 
 /// Where the book goes unless told otherwise: beside everything else that is built.
-const BOOK: &str = "target/handout";
+const DEFAULT_BOOK: &str = "target/handout";
 
 /// Writes all that is generated in this repository.
 #[derive(Debug, Parser)]
@@ -24,9 +24,9 @@ pub struct Cli {
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
     /// The starter, from the reference's marked files
-    Starter(Check),
+    Starter(CheckArgs),
     /// The practice exam
-    Exams(Check),
+    Exams(CheckArgs),
     /// Any other exam, to standard output
     Exam {
         /// What all questions follow from; keep a final exam's secret
@@ -34,14 +34,14 @@ pub enum Command {
         seed: u64,
     },
     /// The scenes' meshes
-    Scenes(Check),
+    Scenes(CheckArgs),
     /// The handout's figures; with `--check`, its links, names and commands as well
     Handout {
         /// Whether to write the figures.
         #[command(flatten)]
-        check: Check,
+        check: CheckArgs,
         /// Make it into a book, in this folder; only `cargo book` can
-        #[arg(long, value_name = "FOLDER", num_args = 0..=1, default_missing_value = BOOK)]
+        #[arg(long, value_name = "FOLDER", num_args = 0..=1, default_missing_value = DEFAULT_BOOK)]
         book: Option<PathBuf>,
     },
     /// What students get, as an archive or as a folder for a Git repository
@@ -78,7 +78,7 @@ pub enum Command {
         check: bool,
     },
     /// The table of which known mistake fails which item of the practice exam
-    Mistakes(Check),
+    Mistakes(CheckArgs),
     /// How well the practice exam's hints recognise known mistakes, and take unknown ones for others
     Hints,
     /// The list of mutants that cargo-mutants makes of the reference; and ask each of them
@@ -88,12 +88,12 @@ pub enum Command {
         fast: bool,
         /// Whether to write the list.
         #[command(flatten)]
-        check: Check,
+        check: CheckArgs,
     },
     /// Ask every variant of every seed's exam, and every mistake of the first few
     Prove {
         /// The seeds, such as 0..1000
-        #[arg(long, value_parser = seeds)]
+        #[arg(long, value_parser = parse_seeds)]
         seeds: Range<u64>,
         /// How many of the seeds the mistakes are asked as well
         #[arg(long, default_value_t = 10)]
@@ -108,7 +108,7 @@ pub enum Command {
     /// Measure how far right answers and mistakes are from every threshold of the exam
     Calibrate {
         /// The seeds that every variant is asked; without any 0..200, with `--check` 0..2
-        #[arg(long, value_parser = seeds)]
+        #[arg(long, value_parser = parse_seeds)]
         seeds: Option<Range<u64>>,
         /// How many of the seeds the mistakes are asked as well
         #[arg(long, default_value_t = 3)]
@@ -119,7 +119,7 @@ pub enum Command {
     },
 }
 
-fn seeds(text: &str) -> Result<Range<u64>, String> {
+fn parse_seeds(text: &str) -> Result<Range<u64>, String> {
     let (start, end) = text
         .split_once("..")
         .ok_or("two numbers are meant: 0..1000")?;
@@ -136,13 +136,13 @@ fn seeds(text: &str) -> Result<Range<u64>, String> {
 
 /// Whether to write at all.
 #[derive(Clone, Copy, Debug, Args)]
-pub struct Check {
+pub struct CheckArgs {
     /// Change nothing; fail if a file is not as it would be written
     #[arg(long)]
     pub check: bool,
 }
 
-impl Check {
+impl CheckArgs {
     /// The mode that was asked for.
     pub fn mode(self) -> Mode {
         if self.check { Mode::Check } else { Mode::Write }

@@ -3,16 +3,16 @@
 use std::path::Path;
 
 use grader::exam::{Exam, Item};
-use grader::exam_file::{self, BadExam};
+use grader::exam_file::{self, ExamError};
 
-use crate::generated::Generated;
+use crate::drawing_data::with_drawing_data;
+use crate::generated_file::GeneratedFile;
 use crate::hints::with_hints;
 use crate::items::{bbox, build, camera, sphere, traverse, triangle};
-use crate::proof::exhibits::{Exhibits, NotProven};
+use crate::proof::solutions::{ProofError, Solutions};
 use crate::proof::workbench::Workbench;
-use crate::recorded::{NotRecorded, Recorded, Recorder};
+use crate::recording::{RecordedPicture, Recorder, RecordingError};
 use crate::seed::Seed;
-use crate::shown::with_shown;
 
 /// The version of the exam file's format.
 const SCHEMA: u32 = 1;
@@ -25,45 +25,45 @@ const PRACTICE_FILE: &str = "grader/exams/practice.json";
 
 /// Why there is no exam.
 #[derive(Debug, thiserror::Error)]
-pub enum NoExam {
+pub enum ExamGenerationError {
     /// What the reference and the mistakes must say was not said.
     #[error(transparent)]
-    NotProven(#[from] NotProven),
+    Solutions(#[from] ProofError),
     /// The exam can not be put into text.
     #[error("can not write the exam: {0}")]
     Text(#[from] serde_json::Error),
 }
 
 /// The files with exams in this repository.
-pub fn generated() -> Result<Vec<Generated>, NoExam> {
-    let practice = whole_text("practice", PRACTICE)?;
-    Ok(vec![Generated::new(PRACTICE_FILE, practice)])
+pub fn generated_files() -> Result<Vec<GeneratedFile>, ExamGenerationError> {
+    let practice = exam_text("practice", PRACTICE)?;
+    Ok(vec![GeneratedFile::new(PRACTICE_FILE, practice)])
 }
 
 /// The practice exam that is committed in the workspace at `root`.
-pub fn practice(root: &Path) -> Result<Exam, BadExam> {
+pub fn load_practice(root: &Path) -> Result<Exam, ExamError> {
     Ok(exam_file::load(Some(&root.join(PRACTICE_FILE)))?.exam)
 }
 
 /// The file of an exam of other questions about the same ideas.
-pub fn final_text(seed: u64) -> Result<String, NoExam> {
-    whole_text("final", Seed(seed))
+pub fn final_exam_text(seed: u64) -> Result<String, ExamGenerationError> {
+    exam_text("final", Seed(seed))
 }
 
-fn whole_text(id: &str, seed: Seed) -> Result<String, NoExam> {
-    let exhibits = Exhibits::prepare(Workbench::open().map_err(NotProven::from)?)?;
-    let exam = whole(id, seed, &exhibits.recorder).map_err(NotProven::from)?;
-    Ok(text(&with_shown(with_hints(exam, &exhibits)?))?)
+fn exam_text(id: &str, seed: Seed) -> Result<String, ExamGenerationError> {
+    let exhibits = Solutions::load(Workbench::open().map_err(ProofError::from)?)?;
+    let exam = generate(id, seed, &exhibits.recorder).map_err(ProofError::from)?;
+    Ok(to_text(&with_drawing_data(with_hints(exam, &exhibits)?))?)
 }
 
 /// A whole exam, with the reference's picture.
-pub fn whole(id: &str, seed: Seed, recorder: &Recorder) -> Result<Exam, NotRecorded> {
-    let recorded = recorder.cornell_box(|scene| traverse::radiance_question(seed, scene))?;
-    Ok(exam(id, seed, recorded))
+pub fn generate(id: &str, seed: Seed, recorder: &Recorder) -> Result<Exam, RecordingError> {
+    let recorded = recorder.record_cornell_box(|scene| traverse::radiance_question(seed, scene))?;
+    Ok(assemble(id, seed, recorded))
 }
 
 /// An exam: each item after those that it needs.
-pub fn exam(id: &str, seed: Seed, recorded: Recorded) -> Exam {
+pub fn assemble(id: &str, seed: Seed, recorded: RecordedPicture) -> Exam {
     let tasks: [fn(Seed) -> Vec<Item>; 6] = [
         camera::items,
         triangle::items,
@@ -84,7 +84,7 @@ pub fn exam(id: &str, seed: Seed, recorded: Recorded) -> Exam {
 }
 
 /// The exam as a file: an item a line, so that a difference shows which items it is in.
-fn text(exam: &Exam) -> Result<String, serde_json::Error> {
+fn to_text(exam: &Exam) -> Result<String, serde_json::Error> {
     let items: Vec<String> = exam
         .items
         .iter()
@@ -105,12 +105,12 @@ fn text(exam: &Exam) -> Result<String, serde_json::Error> {
 
 #[cfg(test)]
 mod tests {
-    use grader::tells::KnownMistake;
+    use grader::signatures::KnownMistake;
 
     use super::*;
 
     #[test]
-    fn the_text_is_the_exam() {
+    fn text_parses_back_to_the_exam() {
         let exam = Exam {
             schema: SCHEMA,
             id: "a \"test\"".to_owned(),
@@ -122,7 +122,7 @@ mod tests {
             }],
             items: bbox::items(Seed(1)),
         };
-        let text = text(&exam).unwrap();
+        let text = to_text(&exam).unwrap();
         assert_eq!(serde_json::from_str::<Exam>(&text).unwrap(), exam);
         assert_eq!(
             text.lines().count(),

@@ -2,25 +2,25 @@
 
 use std::collections::BTreeSet;
 
-use grader::ask::Fault;
 use grader::exam::{Exam, Item, Key};
-use grader::recognise::{right, see_all};
-use grader::tells::{KnownMistake, Seen, Tells, Told};
+use grader::probe::Fault;
+use grader::recognise::{expected, observe};
+use grader::signatures::{KnownMistake, MistakeAnswers, MistakeSignatures, ObservedAnswer};
 use protocol::{Answer, Question, Samples};
 use rayon::prelude::*;
 
-use crate::proof::exhibits::{Exhibits, NotProven};
-use crate::proof::workbench::NotTried;
+use crate::proof::solutions::{ProofError, Solutions};
+use crate::proof::workbench::WorkbenchError;
 
 /// The most elements of an item that are told of.
-const MOST: usize = 24;
+const MAX_ELEMENTS: usize = 24;
 /// So many are told of even if fewer tell the known mistakes apart: unknown ones are to show that
 /// they are none of these.
-const ENOUGH: usize = 12;
+const MIN_ELEMENTS: usize = 12;
 
 /// The exam, with what every known mistake answers to some of its questions.
-pub fn with_hints(mut exam: Exam, exhibits: &Exhibits) -> Result<Exam, NotProven> {
-    let answers: Vec<Vec<Option<Vec<Seen>>>> = exhibits
+pub fn with_hints(mut exam: Exam, exhibits: &Solutions) -> Result<Exam, ProofError> {
+    let answers: Vec<Vec<Option<Vec<ObservedAnswer>>>> = exhibits
         .mistakes
         .par_iter()
         .map(|(mistake, sources)| {
@@ -28,11 +28,12 @@ pub fn with_hints(mut exam: Exam, exhibits: &Exhibits) -> Result<Exam, NotProven
             let items = exam.items.iter();
             let seen = items.map(|item| {
                 let own = item.task == mistake.task() && is_table(item);
-                own.then(|| seen(item, solution.answers(item))).transpose()
+                own.then(|| observed_answers(item, solution.answers(item)))
+                    .transpose()
             });
-            seen.collect::<Result<_, NotProven>>()
+            seen.collect::<Result<_, ProofError>>()
         })
-        .collect::<Result<_, NotProven>>()?;
+        .collect::<Result<_, ProofError>>()?;
 
     let mistakes = exhibits.mistakes.iter().map(|(mistake, _)| KnownMistake {
         id: mistake.id.clone(),
@@ -45,7 +46,7 @@ pub fn with_hints(mut exam: Exam, exhibits: &Exhibits) -> Result<Exam, NotProven
         if is_table(item) {
             let by = (0..).zip(&answers);
             let told = by.filter_map(|(mistake, seen)| Some((mistake, seen[place].as_deref()?)));
-            item.tells = tells(&right(item), &told.collect::<Vec<_>>());
+            item.signatures = signatures(&expected(item), &told.collect::<Vec<_>>());
         }
     }
     Ok(exam)
@@ -64,73 +65,75 @@ fn is_table(item: &Item) -> bool {
         })
 }
 
-fn seen(
+fn observed_answers(
     item: &Item,
     answers: std::io::Result<Result<Vec<Answer>, Fault>>,
-) -> Result<Vec<Seen>, NotProven> {
-    Ok(match answers.map_err(NotTried::from)? {
-        Ok(answers) => see_all(item, &answers),
-        Err(fault) => vec![Seen::NoAnswer(fault.silence()); right(item).len()],
+) -> Result<Vec<ObservedAnswer>, ProofError> {
+    Ok(match answers.map_err(WorkbenchError::from)? {
+        Ok(answers) => observe(item, &answers),
+        Err(fault) => {
+            vec![ObservedAnswer::NoAnswer(fault.no_answer_reason()); expected(item).len()]
+        }
     })
 }
 
 /// What is told of an item, given the right answers and each mistake's.
-fn tells(right: &[Seen], told: &[(u32, &[Seen])]) -> Tells {
-    let elements = choose(right, told);
-    let mut tells = Tells {
-        right: elements
+fn signatures(right: &[ObservedAnswer], told: &[(u32, &[ObservedAnswer])]) -> MistakeSignatures {
+    let elements = choose_elements(right, told);
+    let mut tells = MistakeSignatures {
+        correct_answers: elements
             .iter()
             .map(|&element| right[element].clone())
             .collect(),
         elements: elements.iter().map(|&element| element as u32).collect(),
-        wrong: Vec::new(),
+        mistake_answers: Vec::new(),
     };
     for (mistake, seen) in told {
         let wrong = (0..)
             .zip(&elements)
-            .filter(|(_, element)| !seen[**element].is_like(&right[**element]));
-        let answers: Vec<(u32, Seen)> = wrong
+            .filter(|(_, element)| !seen[**element].matches(&right[**element]));
+        let answers: Vec<(u32, ObservedAnswer)> = wrong
             .map(|(place, &element)| (place, seen[element].clone()))
             .collect();
         if answers.is_empty() {
             continue;
         }
         match tells
-            .wrong
+            .mistake_answers
             .iter_mut()
-            .find(|other| same(&other.answers, &answers))
+            .find(|other| same_answers(&other.answers, &answers))
         {
-            Some(other) => other.by.push(*mistake),
-            None => tells.wrong.push(Told {
-                by: vec![*mistake],
+            Some(other) => other.mistakes.push(*mistake),
+            None => tells.mistake_answers.push(MistakeAnswers {
+                mistakes: vec![*mistake],
                 answers,
             }),
         }
     }
-    if tells.wrong.is_empty() {
-        return Tells::default();
+    if tells.mistake_answers.is_empty() {
+        return MistakeSignatures::default();
     }
     tells
 }
 
-fn same(a: &[(u32, Seen)], b: &[(u32, Seen)]) -> bool {
+fn same_answers(a: &[(u32, ObservedAnswer)], b: &[(u32, ObservedAnswer)]) -> bool {
     a.len() == b.len()
         && a.iter()
             .zip(b)
-            .all(|(a, b)| a.0 == b.0 && a.1.is_like(&b.1))
+            .all(|(a, b)| a.0 == b.0 && a.1.matches(&b.1))
 }
 
 /// The elements that tell most apart: mistakes from each other and from what is right. Greedily,
 /// each the one that tells most of what those before it do not.
-fn choose(right: &[Seen], told: &[(u32, &[Seen])]) -> Vec<usize> {
-    let all: Vec<&[Seen]> = told.iter().map(|(_, seen)| *seen).chain([right]).collect();
+fn choose_elements(right: &[ObservedAnswer], told: &[(u32, &[ObservedAnswer])]) -> Vec<usize> {
+    let all: Vec<&[ObservedAnswer]> = told.iter().map(|(_, seen)| *seen).chain([right]).collect();
     let mut pairs: Vec<(usize, usize)> = (0..all.len())
         .flat_map(|b| (0..b).map(move |a| (a, b)))
         .collect();
     let differ =
-        |element: usize, &(a, b): &(usize, usize)| !all[a][element].is_like(&all[b][element]);
+        |element: usize, &(a, b): &(usize, usize)| !all[a][element].matches(&all[b][element]);
     let mut chosen = BTreeSet::new();
-    while chosen.len() < MOST.min(right.len()) {
+    while chosen.len() < MAX_ELEMENTS.min(right.len()) {
         let left = (0..right.len()).filter(|element| !chosen.contains(element));
         let gains = left.map(|element| {
             (
@@ -144,7 +147,7 @@ fn choose(right: &[Seen], told: &[(u32, &[Seen])]) -> Vec<usize> {
             break;
         };
         // Where nothing is left to tell apart, any other element tells strangers.
-        if gain == 0 && chosen.len() >= ENOUGH {
+        if gain == 0 && chosen.len() >= MIN_ELEMENTS {
             break;
         }
         pairs.retain(|pair| !differ(best, pair));

@@ -5,17 +5,17 @@
 
 pub mod bundle;
 pub mod cli;
+pub mod drawing_data;
 pub mod exams;
-pub mod generated;
+pub mod generated_file;
 pub mod handout;
 pub mod hints;
 pub mod items;
 pub mod oracle;
 pub mod package;
 pub mod proof;
-pub mod recorded;
+pub mod recording;
 pub mod scenes;
 pub mod seed;
-pub mod shown;
 pub mod starter;
 pub mod tree;

@@ -7,14 +7,14 @@ use std::process::ExitCode;
 use author::bundle::secrets::Secrets;
 use author::bundle::{self, Bundle, archive};
 use author::cli::{Cli, Command};
-use author::generated::{Generated, Mode, deliver};
+use author::generated_file::{GeneratedFile, Mode, write_or_check};
 use author::package::{self, Course, Platform, trial};
 use author::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, calibrate, table};
-use author::proof::exhibits::{Exhibits, NotProven};
 use author::proof::matrix;
-use author::proof::mutants::{self, Extent};
+use author::proof::mutants::{self, MutantSelection};
 use author::proof::prove::prove;
 use author::proof::recognition::recognise;
+use author::proof::solutions::{ProofError, Solutions};
 use author::proof::workbench::Workbench;
 use author::{exams, handout, scenes, starter};
 use clap::Parser;
@@ -32,22 +32,24 @@ fn main() -> ExitCode {
     }
 }
 
-type Done = Result<(), Box<dyn std::error::Error>>;
+type CommandResult = Result<(), Box<dyn std::error::Error>>;
 
-fn run(command: Command) -> Done {
+fn run(command: Command) -> CommandResult {
     let root = Path::new(ROOT);
     match command {
-        Command::Starter(check) => put(&starter::generated(root)?, check.mode(), "starter"),
-        Command::Exams(check) => put(&exams::generated()?, check.mode(), "exams"),
+        Command::Starter(check) => {
+            generate(&starter::generated_files(root)?, check.mode(), "starter")
+        }
+        Command::Exams(check) => generate(&exams::generated_files()?, check.mode(), "exams"),
         Command::Exam { seed } => {
-            let exam = exams::final_text(seed)?;
+            let exam = exams::final_exam_text(seed)?;
             Ok(io::stdout().write_all(exam.as_bytes())?)
         }
-        Command::Scenes(check) => put(&scenes::generated(), check.mode(), "scenes"),
+        Command::Scenes(check) => generate(&scenes::generated_files(), check.mode(), "scenes"),
         Command::Handout { check, book } => make_handout(root, check.mode(), book.as_deref()),
         Command::Bundle { out, book, check } => {
             let bundle = Bundle::collect(root, book.as_deref())?;
-            hand_out(root, &bundle, out.as_deref(), check)
+            write_bundle(root, &bundle, out.as_deref(), check)
         }
         Command::Package {
             platform,
@@ -59,12 +61,16 @@ fn run(command: Command) -> Done {
         } => {
             let course = Course::new(exam_seed, exam.as_deref(), policy.as_deref())?;
             let package = package::collect(root, platform, course)?;
-            pack(root, platform, &package, &out, check)
+            write_package(root, platform, &package, &out, check)
         }
-        Command::Mistakes(check) => put(&[matrix::generated()?], check.mode(), "mistakes"),
-        Command::Mutants { fast, check } => ask_mutants(root, Extent::new(fast), check.mode()),
+        Command::Mistakes(check) => {
+            generate(&[matrix::generated_file()?], check.mode(), "mistakes")
+        }
+        Command::Mutants { fast, check } => {
+            run_mutants(root, MutantSelection::new(fast), check.mode())
+        }
         Command::Hints => {
-            let recognition = recognise(&exhibits()?, &exams::practice(root)?)?;
+            let recognition = recognise(&solutions()?, &exams::load_practice(root)?)?;
             println!("{recognition}");
             Ok(())
         }
@@ -75,15 +81,15 @@ fn run(command: Command) -> Done {
             write,
         } => {
             let exhibits = match variant {
-                Some(id) => exhibits()?.only(&id)?,
-                None => exhibits()?,
+                Some(id) => solutions()?.only_variant(&id)?,
+                None => solutions()?,
             };
             let summary = prove(&exhibits, seeds, mistakes)?;
             if write {
                 let record = summary.record(&today(), &commit(root)?);
-                put(&[record], Mode::Write, "prove")?;
+                generate(&[record], Mode::Write, "prove")?;
             }
-            conclude(&summary.complaints(), &summary.line())
+            report(&summary.problems(), &summary.summary_line())
         }
         Command::Calibrate {
             seeds,
@@ -94,25 +100,29 @@ fn run(command: Command) -> Done {
                 table::check(root)?;
             }
             let usual = if check { FEW_SEEDS } else { MANY_SEEDS };
-            let calibration = calibrate(&exhibits()?, seeds.unwrap_or(usual), mistakes)?;
+            let calibration = calibrate(&solutions()?, seeds.unwrap_or(usual), mistakes)?;
             if !check {
-                put(&[table::generated(&calibration)], Mode::Write, "calibrate")?;
+                generate(
+                    &[table::generated_file(&calibration)],
+                    Mode::Write,
+                    "calibrate",
+                )?;
             }
-            conclude(&calibration.margins.complaints(), &calibration.line())
+            report(&calibration.margins.problems(), &calibration.summary_line())
         }
     }
 }
 
 /// Writes or compares what is generated; `name` is the command that writes it.
-fn put(files: &[Generated], mode: Mode, name: &str) -> Done {
+fn generate(files: &[GeneratedFile], mode: Mode, name: &str) -> CommandResult {
     let mend = format!("cargo author {name}");
-    Ok(deliver(files, Path::new(ROOT), mode, &mend)?)
+    Ok(write_or_check(files, Path::new(ROOT), mode, &mend)?)
 }
 
-fn make_handout(root: &Path, mode: Mode, book: Option<&Path>) -> Done {
-    put(&handout::generated(), mode, "handout")?;
-    let complaints = handout::complaints(root, &exams::practice(root)?)?;
-    conclude(
+fn make_handout(root: &Path, mode: Mode, book: Option<&Path>) -> CommandResult {
+    generate(&handout::generated_files(), mode, "handout")?;
+    let complaints = handout::problems(root, &exams::load_practice(root)?)?;
+    report(
         &complaints,
         "the handout: every link, name and command is there",
     )?;
@@ -120,23 +130,23 @@ fn make_handout(root: &Path, mode: Mode, book: Option<&Path>) -> Done {
 }
 
 #[cfg(feature = "book")]
-fn make_book(root: &Path, folder: &Path) -> Done {
+fn make_book(root: &Path, folder: &Path) -> CommandResult {
     handout::book::build(root, folder)?;
     println!("{}", folder.join("index.html").display());
     Ok(())
 }
 
 #[cfg(not(feature = "book"))]
-fn make_book(_: &Path, _: &Path) -> Done {
+fn make_book(_: &Path, _: &Path) -> CommandResult {
     Err("this program was built without mdBook; `cargo book` builds one with it".into())
 }
 
-fn exhibits() -> Result<Exhibits, NotProven> {
-    Exhibits::prepare(Workbench::open()?)
+fn solutions() -> Result<Solutions, ProofError> {
+    Solutions::load(Workbench::open()?)
 }
 
 /// Hands out what students get; refuses if there is a secret in it.
-fn hand_out(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -> Done {
+fn write_bundle(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -> CommandResult {
     let secrets = Secrets::gather(root, bundle)?;
     let leaks = secrets.search(bundle);
     let mut complaints: Vec<String> = leaks.iter().map(ToString::to_string).collect();
@@ -145,7 +155,7 @@ fn hand_out(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -> Do
     }
     let (count, size) = (bundle.files.len(), bundle.size() / 1000);
     let line = format!("{count} files, {size} kB, {secrets} in none of them");
-    conclude(&complaints, &line)?;
+    report(&complaints, &line)?;
     if let Some(out) = out {
         archive::write(bundle, out)?;
     }
@@ -153,7 +163,13 @@ fn hand_out(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -> Do
 }
 
 /// Writes a platform's package. What students can read is searched for secrets before.
-fn pack(root: &Path, platform: Platform, package: &Bundle, out: &Path, check: bool) -> Done {
+fn write_package(
+    root: &Path,
+    platform: Platform,
+    package: &Bundle,
+    out: &Path,
+    check: bool,
+) -> CommandResult {
     match platform {
         Platform::Gradescope => {
             let is_zip = out.extension().is_some_and(|extension| extension == "zip");
@@ -161,11 +177,11 @@ fn pack(root: &Path, platform: Platform, package: &Bundle, out: &Path, check: bo
                 return Err("Gradescope takes a zip: let --out end with .zip".into());
             }
             out.parent().map_or(Ok(()), std::fs::create_dir_all)?;
-            std::fs::write(out, archive::zip_below(package, "")?)?;
+            std::fs::write(out, archive::zip_with_prefix(package, "")?)?;
             let (count, size) = (package.files.len(), package.size() / 1_000_000);
             println!("{count} files, {size} MB unpacked: {}", out.display());
             match check {
-                true => conclude(
+                true => report(
                     &trial::gradescope::check(root, out)?,
                     "it grades as Gradescope runs it",
                 ),
@@ -176,7 +192,7 @@ fn pack(root: &Path, platform: Platform, package: &Bundle, out: &Path, check: bo
             archive::write_folder(package, out)?;
             println!("{} files: {}", package.files.len(), out.display());
             match check {
-                true => conclude(
+                true => report(
                     &trial::classroom50::check(root, out)?,
                     "it grades a checkout as classroom50 runs it",
                 ),
@@ -184,9 +200,9 @@ fn pack(root: &Path, platform: Platform, package: &Bundle, out: &Path, check: bo
             }
         }
         Platform::Github => {
-            hand_out(root, package, Some(out), false)?;
+            write_bundle(root, package, Some(out), false)?;
             match check {
-                true => conclude(
+                true => report(
                     &trial::github::check(root, package)?,
                     "its workflow grades a checkout",
                 ),
@@ -196,16 +212,16 @@ fn pack(root: &Path, platform: Platform, package: &Bundle, out: &Path, check: bo
     }
 }
 
-fn ask_mutants(root: &Path, extent: Extent, mode: Mode) -> Done {
+fn run_mutants(root: &Path, extent: MutantSelection, mode: Mode) -> CommandResult {
     let list = mutants::list(root, mode)?;
-    put(&[list.generated()], mode, "mutants")?;
-    let findings = mutants::ask(&list, extent)?;
-    println!("{}", extent.words());
-    conclude(&findings.complaints(), &findings.line())
+    generate(&[list.generated_file()], mode, "mutants")?;
+    let findings = mutants::run(&list, extent)?;
+    println!("{}", extent.description());
+    report(&findings.problems(), &findings.summary_line())
 }
 
 /// Says what was found, and fails if there is something to complain of.
-fn conclude(complaints: &[String], line: &str) -> Done {
+fn report(complaints: &[String], line: &str) -> CommandResult {
     for complaint in complaints {
         eprintln!("{complaint}");
     }

@@ -5,12 +5,12 @@ mod obj;
 mod surface_net;
 mod teapot;
 
-use crate::generated::Generated;
+use crate::generated_file::GeneratedFile;
 
 /// The files in the folder `scenes` that are made.
-pub fn generated() -> Vec<Generated> {
+pub fn generated_files() -> Vec<GeneratedFile> {
     vec![
-        Generated::new("scenes/gyroid.obj", gyroid::obj()),
-        Generated::new("scenes/teapot.obj", teapot::obj()),
+        GeneratedFile::new("scenes/gyroid.obj", gyroid::obj()),
+        GeneratedFile::new("scenes/teapot.obj", teapot::obj()),
     ]
 }

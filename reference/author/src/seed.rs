@@ -11,22 +11,22 @@ pub struct Seed(pub u64);
 impl Seed {
     /// Random numbers for one item. Each item has its own, so that a change of one leaves the
     /// others as they were.
-    pub fn draw(self, item: &str) -> Draw {
+    pub fn rng(self, item: &str) -> Rng {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&self.0.to_le_bytes());
         for (i, byte) in item.bytes().enumerate() {
             let place: &mut u8 = &mut key[8 + i % 24];
             *place = place.rotate_left(3) ^ byte;
         }
-        Draw(ChaCha8Rng::from_seed(key))
+        Rng(ChaCha8Rng::from_seed(key))
     }
 }
 
 /// Random numbers, drawn one after the other.
 #[derive(Debug)]
-pub struct Draw(ChaCha8Rng);
+pub struct Rng(ChaCha8Rng);
 
-impl Draw {
+impl Rng {
     /// A number in `[min, max)`.
     pub fn uniform(&mut self, min: f64, max: f64) -> f64 {
         self.0.random_range(min..max)
@@ -69,7 +69,7 @@ impl Draw {
     }
 
     /// A direction of length one at a right angle to `dir`.
-    pub fn across(&mut self, dir: DVec3) -> DVec3 {
+    pub fn perpendicular_to(&mut self, dir: DVec3) -> DVec3 {
         loop {
             let across = self.direction().reject_from(dir);
             if across.length() > 0.1 {
@@ -91,7 +91,7 @@ impl Draw {
     ///
     /// Questions are found by rejection: drawn, and drawn again where an honest answer in single
     /// precision could differ from the true one.
-    pub fn until<T>(&mut self, mut attempt: impl FnMut(&mut Draw) -> Option<T>) -> T {
+    pub fn retry<T>(&mut self, mut attempt: impl FnMut(&mut Rng) -> Option<T>) -> T {
         const PATIENCE: usize = 1_000_000;
         (0..PATIENCE)
             .find_map(|_| attempt(self))
@@ -104,16 +104,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn seed_and_name_both_count() {
-        let first = |seed, name| Seed(seed).draw(name).uniform(0.0, 1.0);
+    fn numbers_depend_on_the_seed_and_the_item() {
+        let first = |seed, name| Seed(seed).rng(name).uniform(0.0, 1.0);
         assert_eq!(first(1, "a.b"), first(1, "a.b"));
         assert_ne!(first(1, "a.b"), first(2, "a.b"));
         assert_ne!(first(1, "a.b"), first(1, "b.a"));
     }
 
     #[test]
-    fn the_same_numbers_come_on_every_machine() {
-        let mut draw = Seed(7).draw("sphere.near_side");
+    fn numbers_are_the_same_on_every_machine() {
+        let mut draw = Seed(7).rng("sphere.near_side");
         let whole = [draw.index(1000), draw.index(1000), draw.index(1000)];
         assert_eq!(whole, [99, 598, 640]);
     }

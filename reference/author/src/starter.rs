@@ -14,7 +14,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::generated::Generated;
+use crate::generated_file::GeneratedFile;
 
 /// The files that a submission is compiled of: the five to write, and four that are given.
 const FILES: [&str; 9] = [
@@ -30,9 +30,9 @@ const FILES: [&str; 9] = [
 ];
 
 /// Where the starter goes: what students edit, and what the grader knows it by.
-const PLACES: [&str; 2] = ["student/src", "grader/starter"];
+const TARGET_FOLDERS: [&str; 2] = ["student/src", "grader/starter"];
 
-const SOURCE: &str = "reference/src";
+const SOURCE_FOLDER: &str = "reference/src";
 
 /// Why there is no starter.
 #[derive(Debug, thiserror::Error)]
@@ -46,52 +46,55 @@ pub enum StarterError {
         source: io::Error,
     },
     /// A file of the reference is marked wrongly.
-    #[error("{SOURCE}/{file}:{line}: {slip}")]
+    #[error("{SOURCE_FOLDER}/{file}:{line}: {error}")]
     Mark {
         /// The file.
         file: &'static str,
         /// The line, from 1.
         line: usize,
         /// What is wrong there.
-        slip: Slip,
+        error: MarkError,
     },
 }
 
 /// What can be wrong with marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Slip {
+pub enum MarkError {
     /// A region begins inside another.
     #[error("`// solution` inside a solution: end the one before with `// end solution`")]
     Nested,
     /// A region ends that never began.
     #[error("`// end solution` without a `// solution` above it")]
-    NotBegun,
+    NotStarted,
     /// A region never ends.
     #[error("this `// solution` has no `// end solution`")]
     NotEnded,
     /// A region leaves nothing in its place.
     #[error("a solution without a `// starter:` line: say what students get in its place")]
-    Nothing,
+    NoStarterLine,
 }
 
 /// Every file of the starter, in each of its places, from the reference below `root`.
-pub fn generated(root: &Path) -> Result<Vec<Generated>, StarterError> {
+pub fn generated_files(root: &Path) -> Result<Vec<GeneratedFile>, StarterError> {
     let mut generated = Vec::new();
     for file in FILES {
-        let path = root.join(SOURCE).join(file);
+        let path = root.join(SOURCE_FOLDER).join(file);
         let source = fs::read_to_string(&path)
             .map_err(|source| StarterError::Unreadable { path, source })?;
-        let starter =
-            project(&source).map_err(|(line, slip)| StarterError::Mark { file, line, slip })?;
-        for place in PLACES {
-            generated.push(Generated::new(format!("{place}/{file}"), &*starter));
+        let starter = project(&source).map_err(|(line, slip)| StarterError::Mark {
+            file,
+            line,
+            error: slip,
+        })?;
+        for place in TARGET_FOLDERS {
+            generated.push(GeneratedFile::new(format!("{place}/{file}"), &*starter));
         }
     }
     Ok(generated)
 }
 
 /// What a line is to the projection.
-enum Line<'a> {
+enum LineKind<'a> {
     Begin,
     End,
     /// A line of the starter: its indentation, and what follows the mark.
@@ -99,55 +102,55 @@ enum Line<'a> {
     Other,
 }
 
-fn classify(line: &str) -> Line<'_> {
+fn classify(line: &str) -> LineKind<'_> {
     let text = line.trim_start();
     let indentation = &line[..line.len() - text.len()];
     match text {
-        "// solution" => Line::Begin,
-        "// end solution" => Line::End,
-        "// starter:" => Line::Starter("", ""),
+        "// solution" => LineKind::Begin,
+        "// end solution" => LineKind::End,
+        "// starter:" => LineKind::Starter("", ""),
         _ => text
             .strip_prefix("// starter: ")
-            .map_or(Line::Other, |rest| Line::Starter(indentation, rest)),
+            .map_or(LineKind::Other, |rest| LineKind::Starter(indentation, rest)),
     }
 }
 
 /// What is handed out of one file, or the line (from 1) and what is wrong there.
-fn project(source: &str) -> Result<String, (usize, Slip)> {
+fn project(source: &str) -> Result<String, (usize, MarkError)> {
     /// An open region: where it began, and whether it leaves anything.
     struct Region {
         begin: usize,
-        leaves: bool,
+        has_starter_line: bool,
     }
 
     let mut starter = String::with_capacity(source.len());
     let mut open: Option<Region> = None;
     for (number, line) in (1..).zip(source.lines()) {
         match (classify(line), &mut open) {
-            (Line::Begin, None) => {
+            (LineKind::Begin, None) => {
                 open = Some(Region {
                     begin: number,
-                    leaves: false,
+                    has_starter_line: false,
                 });
             }
-            (Line::Begin, Some(_)) => return Err((number, Slip::Nested)),
-            (Line::End, None) => return Err((number, Slip::NotBegun)),
-            (Line::End, Some(region)) if !region.leaves => {
-                return Err((region.begin, Slip::Nothing));
+            (LineKind::Begin, Some(_)) => return Err((number, MarkError::Nested)),
+            (LineKind::End, None) => return Err((number, MarkError::NotStarted)),
+            (LineKind::End, Some(region)) if !region.has_starter_line => {
+                return Err((region.begin, MarkError::NoStarterLine));
             }
-            (Line::End, Some(_)) => open = None,
-            (Line::Starter(indentation, rest), region) => {
+            (LineKind::End, Some(_)) => open = None,
+            (LineKind::Starter(indentation, rest), region) => {
                 starter.extend([indentation, rest, "\n"]);
                 if let Some(region) = region {
-                    region.leaves = true;
+                    region.has_starter_line = true;
                 }
             }
-            (Line::Other, None) => starter.extend([line, "\n"]),
-            (Line::Other, Some(_)) => {}
+            (LineKind::Other, None) => starter.extend([line, "\n"]),
+            (LineKind::Other, Some(_)) => {}
         }
     }
     match open {
-        Some(region) => Err((region.begin, Slip::NotEnded)),
+        Some(region) => Err((region.begin, MarkError::NotEnded)),
         None => Ok(starter),
     }
 }
@@ -157,14 +160,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_solution_gives_way_to_its_starter_lines() {
+    fn replaces_a_solution_by_its_starter_lines() {
         let source = "fn f() {\n    // solution\n    // starter: todo!(\"1\")\n    // Why.\n    \
                       let x = 1;\n    // end solution\n}\n";
         assert_eq!(project(source).unwrap(), "fn f() {\n    todo!(\"1\")\n}\n");
     }
 
     #[test]
-    fn starter_lines_count_outside_a_solution_and_may_be_empty() {
+    fn starter_lines_work_outside_a_solution_and_may_be_empty() {
         let source = "// starter: #[ignore]\n#[test]\n// starter:\nfn f() {}\n";
         assert_eq!(
             project(source).unwrap(),
@@ -173,18 +176,24 @@ mod tests {
     }
 
     #[test]
-    fn words_in_a_sentence_are_no_marks() {
+    fn marks_within_a_sentence_are_ignored() {
         let source = "// solution of the equation\n/// starter: no\n";
         assert_eq!(project(source).unwrap(), source);
     }
 
     #[test]
-    fn each_slip_is_told_with_its_line() {
+    fn reports_each_mark_error_with_its_line() {
         let cases = [
-            ("\n// solution\n// starter: x\n", (2, Slip::NotEnded)),
-            ("\n// end solution\n", (2, Slip::NotBegun)),
-            ("// solution\n// starter:\n// solution\n", (3, Slip::Nested)),
-            ("x\n// solution\ny\n// end solution\n", (2, Slip::Nothing)),
+            ("\n// solution\n// starter: x\n", (2, MarkError::NotEnded)),
+            ("\n// end solution\n", (2, MarkError::NotStarted)),
+            (
+                "// solution\n// starter:\n// solution\n",
+                (3, MarkError::Nested),
+            ),
+            (
+                "x\n// solution\ny\n// end solution\n",
+                (2, MarkError::NoStarterLine),
+            ),
         ];
         for (source, slip) in cases {
             assert_eq!(project(source), Err(slip), "{source:?}");

@@ -39,7 +39,7 @@ fn write_to(out: &Path) -> Output {
 }
 
 #[test]
-fn the_same_tree_gives_the_same_bytes_and_they_unpack_to_the_same_files() {
+fn archives_are_reproducible_and_unpack_to_the_same_files() {
     let folder = TempDir::new().unwrap();
     let archive = folder.path().join("pathtracing.zip");
     let output = write_to(&archive);
@@ -50,12 +50,12 @@ fn the_same_tree_gives_the_same_bytes_and_they_unpack_to_the_same_files() {
 }
 
 #[test]
-fn nothing_in_it_is_secret() {
+fn the_bundle_holds_no_secret() {
     assert_eq!(secrets().search(&BUNDLE), []);
 }
 
 #[test]
-fn a_secret_of_each_kind_is_found_where_it_was_planted() {
+fn finds_an_inserted_secret_of_each_kind() {
     let planted = [
         (
             "reference/src/camera.rs",
@@ -84,7 +84,7 @@ fn a_secret_of_each_kind_is_found_where_it_was_planted() {
     ];
     for (source, line) in planted {
         let mut bundle = BUNDLE.clone();
-        bundle.put("scenes/notes.txt", format!("One\n\n\t{line}  \n"));
+        bundle.insert("scenes/notes.txt", format!("One\n\n\t{line}  \n"));
         let leaks = secrets().search(&bundle);
         let [
             Leak::Line {
@@ -109,11 +109,11 @@ fn line_with(path: &str, part: &str) -> String {
 }
 
 #[test]
-fn a_final_exam_is_found_whatever_it_is_called() {
-    let mut exam = exams::practice(&root()).unwrap();
+fn finds_a_final_exam_under_any_file_name() {
+    let mut exam = exams::load_practice(&root()).unwrap();
     exam.id = "final".to_owned();
     let mut bundle = BUNDLE.clone();
-    bundle.put(
+    bundle.insert(
         "grader/exams/practice.json",
         serde_json::to_vec(&exam).unwrap(),
     );
@@ -122,7 +122,7 @@ fn a_final_exam_is_found_whatever_it_is_called() {
 }
 
 #[test]
-fn its_starter_is_the_projected_one_whatever_lies_in_the_students_folder() {
+fn the_starter_comes_from_the_reference_not_from_the_students_folder() {
     let files = BUNDLE
         .files
         .keys()
@@ -135,7 +135,7 @@ fn its_starter_is_the_projected_one_whatever_lies_in_the_students_folder() {
 }
 
 #[test]
-fn a_built_book_goes_beside_its_sources() {
+fn a_built_book_is_added_beside_its_sources() {
     let book = TempDir::new().unwrap();
     fs::write(
         book.path().join("index.html"),
@@ -148,7 +148,7 @@ fn a_built_book_goes_beside_its_sources() {
 }
 
 #[test]
-fn its_lock_file_is_a_part_of_ours() {
+fn its_lock_file_is_a_subset_of_the_workspaces() {
     let ours = text("Cargo.lock");
     let theirs = BUNDLE.text("Cargo.lock").unwrap();
     // What a package is: name, version, source, checksum. What it depends on may be less.
@@ -169,7 +169,7 @@ fn its_lock_file_is_a_part_of_ours() {
 }
 
 #[test]
-fn a_folder_that_holds_something_is_left_alone() {
+fn refuses_to_write_into_a_folder_that_is_not_empty() {
     let folder = TempDir::new().unwrap();
     fs::create_dir(folder.path().join(".git")).unwrap();
     archive::write(&BUNDLE, folder.path()).expect("a fresh repository is empty enough");
@@ -182,8 +182,10 @@ fn a_folder_that_holds_something_is_left_alone() {
 }
 
 #[test]
-fn every_link_in_its_texts_leads_to_something_in_it() {
-    let pages = BUNDLE.texts().filter(|(path, _)| path.ends_with(".md"));
+fn every_link_in_its_documents_leads_to_a_bundled_file() {
+    let pages = BUNDLE
+        .text_files()
+        .filter(|(path, _)| path.ends_with(".md"));
     let mut count = 0;
     for (path, page) in pages {
         let links = page
@@ -217,8 +219,11 @@ fn resolved(page: &str, link: &str) -> String {
 }
 
 #[test]
-fn its_texts_name_no_command_that_students_do_not_have() {
-    for (path, text) in BUNDLE.texts().filter(|(path, _)| path.ends_with(".md")) {
+fn its_documents_name_no_staff_command() {
+    for (path, text) in BUNDLE
+        .text_files()
+        .filter(|(path, _)| path.ends_with(".md"))
+    {
         for command in [
             "cargo author",
             "cargo book",
@@ -231,7 +236,7 @@ fn its_texts_name_no_command_that_students_do_not_have() {
 }
 
 #[test]
-fn its_texts_name_the_version_of_rust_that_the_manifest_wants() {
+fn its_documents_name_the_rust_version_of_the_manifest() {
     let manifest = text("Cargo.toml");
     let version = manifest.split("rust-version = \"").nth(1).unwrap();
     let version = version.split('"').next().unwrap();
@@ -243,7 +248,7 @@ fn its_texts_name_the_version_of_rust_that_the_manifest_wants() {
 
 /// Cargo warns of each that is not there, at every command that a student types.
 #[test]
-fn its_profiles_name_no_package_that_it_does_not_have() {
+fn its_profiles_name_only_packages_that_it_has() {
     let manifest: toml::Table = BUNDLE.text("Cargo.toml").unwrap().parse().unwrap();
     let lock = BUNDLE.text("Cargo.lock").unwrap();
     let profiles = manifest["profile"].as_table().unwrap();
@@ -261,7 +266,7 @@ fn its_profiles_name_no_package_that_it_does_not_have() {
 }
 
 #[test]
-fn the_first_stub_is_in_the_line_that_the_first_page_says() {
+fn the_first_stub_is_on_the_line_that_the_first_page_names() {
     let page = BUNDLE.text("handout/src/start.md").unwrap();
     let line = page.split("(student/src/camera.rs:").nth(1).unwrap();
     let line: usize = line.split(')').next().unwrap().parse().unwrap();

@@ -11,7 +11,7 @@ fn table() -> String {
 }
 
 #[test]
-fn in_one_seed_all_margins_are_wide_enough() {
+fn all_margins_are_wide_enough_for_one_seed() {
     let before = table();
     let output = Command::new(env!("CARGO_BIN_EXE_author"))
         .args(["calibrate", "--check", "--seeds", "2..3", "--mistakes", "1"])
@@ -25,7 +25,7 @@ fn in_one_seed_all_margins_are_wide_enough() {
 }
 
 #[test]
-fn the_committed_table_is_of_several_seeds() {
+fn the_committed_table_covers_200_seeds() {
     let table = table();
     assert!(table.contains("of 200 seeds (0 to 199)"), "{table}");
 }

@@ -3,16 +3,16 @@
 
 mod builders;
 
-use author::items::build::{self, CONFUSED, HONEST, by_the_sweep};
-use author::oracle::buckets::{Buckets, Extent};
+use author::items::build::{self, MAX_CORRECT_COST, MIN_ADJACENT_COST, relative_cost};
+use author::oracle::buckets::{BucketExtent, BucketedBuilder};
 use author::seed::Seed;
-use grader::exam::{Asked, Item, Key};
+use grader::exam::{ExamQuestion, Item, Key};
 use protocol::Question;
 
 use crate::builders::Splitter;
 
 /// What bad ones must be above: the judge gives half marks up to 1.25.
-const BAD: f64 = 1.3;
+const MIN_BAD_RATIO: f64 = 1.3;
 
 const SEEDS: [u64; 4] = [2025, 1, 2, 3];
 
@@ -47,12 +47,12 @@ fn bucketed_builders_come_close_to_the_sweep() {
     for seed in SEEDS {
         for item in cost_items(seed) {
             for count in [8, 12, 16, 32] {
-                for extent in [Extent::Centers, Extent::Bounds] {
-                    let buckets = Buckets::honest(count, extent);
-                    let ratio = by_the_sweep(&item.questions[0], buckets);
+                for extent in [BucketExtent::Centers, BucketExtent::Bounds] {
+                    let buckets = BucketedBuilder::correct(count, extent);
+                    let ratio = relative_cost(&item.questions[0], buckets);
                     println!("{seed} {} {count} {extent:?}: {ratio:.3}", item.id);
                     assert!(
-                        ratio <= HONEST,
+                        ratio <= MAX_CORRECT_COST,
                         "{seed} {} {count} {extent:?}: {ratio}",
                         item.id
                     );
@@ -63,21 +63,26 @@ fn bucketed_builders_come_close_to_the_sweep() {
 }
 
 #[test]
-fn who_weighs_only_the_two_buckets_beside_a_plane_never_does() {
+fn weighing_only_the_two_buckets_beside_a_plane_is_not_enough() {
     for seed in SEEDS {
         for item in cost_items(seed) {
             for count in [8, 12, 16, 24, 32] {
-                let buckets = Buckets::confused(count, Extent::Centers);
-                let ratio = by_the_sweep(&item.questions[0], buckets);
+                let buckets =
+                    BucketedBuilder::with_adjacent_buckets_only(count, BucketExtent::Centers);
+                let ratio = relative_cost(&item.questions[0], buckets);
                 println!("{seed} {} {count}: {ratio:.3}", item.id);
-                assert!(ratio >= CONFUSED, "{seed} {} {count}: {ratio}", item.id);
+                assert!(
+                    ratio >= MIN_ADJACENT_COST,
+                    "{seed} {} {count}: {ratio}",
+                    item.id
+                );
             }
         }
     }
 }
 
 #[test]
-fn builders_that_ignore_the_areas_do_not() {
+fn ignoring_the_areas_is_not_enough() {
     for seed in SEEDS {
         for splitter in [Splitter::Middle, Splitter::Median] {
             let ratios = cost_items(seed)
@@ -85,7 +90,10 @@ fn builders_that_ignore_the_areas_do_not() {
                 .map(|item| ratio(item, splitter))
                 .collect::<Vec<_>>();
             println!("{seed} {splitter:?}: {ratios:.3?}");
-            let far_off = ratios.iter().filter(|ratio| **ratio >= BAD).count();
+            let far_off = ratios
+                .iter()
+                .filter(|ratio| **ratio >= MIN_BAD_RATIO)
+                .count();
             assert!(far_off >= 2, "{splitter:?}: {ratios:?}");
         }
     }
@@ -100,20 +108,20 @@ fn one_axis_alone_is_not_enough() {
                 .map(|item| ratio(item, Splitter::OneAxis(axis)))
                 .collect::<Vec<_>>();
             println!("{seed} axis {axis}: {ratios:.3?}");
-            assert!(ratios[0] >= BAD, "axis {axis}: {ratios:?}");
+            assert!(ratios[0] >= MIN_BAD_RATIO, "axis {axis}: {ratios:?}");
         }
     }
 }
 
 #[test]
-fn a_heuristic_that_is_wrong_is_not_enough() {
+fn a_wrong_heuristic_is_not_enough() {
     for seed in SEEDS {
         for splitter in [Splitter::AreaPerBucket, Splitter::Worst] {
             let items = cost_items(seed);
             let ratios: Vec<f64> = items.iter().map(|item| ratio(item, splitter)).collect();
             println!("{seed} {splitter:?}: {ratios:.3?}");
             assert!(
-                ratios.iter().any(|ratio| *ratio >= BAD),
+                ratios.iter().any(|ratio| *ratio >= MIN_BAD_RATIO),
                 "{splitter:?}: {ratios:?}"
             );
         }
@@ -121,7 +129,7 @@ fn a_heuristic_that_is_wrong_is_not_enough() {
 }
 
 /// The questions of one choice each.
-fn one_split(seed: u64) -> Vec<Asked> {
+fn one_split(seed: u64) -> Vec<ExamQuestion> {
     let items = build::items(Seed(seed));
     let item = items.into_iter().find(|item| item.id == "build.one_split");
     let mut questions = item.expect("it is one of them").questions;
@@ -130,13 +138,13 @@ fn one_split(seed: u64) -> Vec<Asked> {
 }
 
 #[test]
-fn eight_buckets_or_more_find_the_one_best_split_and_four_do_not() {
+fn eight_or_more_buckets_find_the_best_split_and_four_do_not() {
     for seed in SEEDS {
         let questions = one_split(seed);
-        for extent in [Extent::Centers, Extent::Bounds] {
+        for extent in [BucketExtent::Centers, BucketExtent::Bounds] {
             let ratios = |count: usize| -> Vec<f64> {
-                let buckets = Buckets::honest(count, extent);
-                let ratio = |asked| by_the_sweep(asked, buckets);
+                let buckets = BucketedBuilder::correct(count, extent);
+                let ratio = |asked| relative_cost(asked, buckets);
                 questions.iter().map(ratio).collect()
             };
             for count in [8, 9, 10, 11, 12, 13, 16, 20, 25, 32, 40, 64] {

@@ -22,7 +22,7 @@ fn root() -> PathBuf {
 }
 
 /// The starter's files in both of their places.
-fn starter() -> Vec<PathBuf> {
+fn starter_files() -> Vec<PathBuf> {
     ["student/src", "grader/starter"]
         .iter()
         .flat_map(|place| fs::read_dir(root().join(place)).expect("the starter is written"))
@@ -46,7 +46,7 @@ fn the_table_of_mistakes_is_in_sync() {
 }
 
 #[test]
-fn the_handout_is_in_sync_and_its_links_names_and_commands_are_there() {
+fn the_handout_is_in_sync_and_its_links_names_and_commands_exist() {
     assert_in_sync("handout");
 }
 
@@ -56,8 +56,8 @@ fn the_scenes_are_in_sync() {
 }
 
 #[test]
-fn the_starter_has_nine_files_in_each_place_and_no_mark_is_left() {
-    let files = starter();
+fn the_starter_has_nine_files_per_folder_and_no_marks() {
+    let files = starter_files();
     assert_eq!(files.len(), 18, "{files:?}");
     for file in files {
         let text = fs::read_to_string(&file).unwrap();
@@ -71,7 +71,7 @@ fn the_starter_has_nine_files_in_each_place_and_no_mark_is_left() {
 fn the_starter_is_formatted() {
     let check = Command::new("rustfmt")
         .args(["--check", "--edition", "2024"])
-        .args(starter())
+        .args(starter_files())
         .output();
     // Where Rust was installed without rustfmt there is nothing to ask.
     if let Ok(output) = check {

@@ -7,14 +7,14 @@ use std::collections::BTreeSet;
 use grader::exam::{Item, Key, Task};
 use protocol::{Question, Ray, Shape};
 
-use crate::exams::{SEEDS, exam_of, make};
+use crate::exams::{SEEDS, exam_of, make_exam};
 
 fn rays(question: &Question) -> Vec<Ray> {
     match question {
         Question::Shapes { rays, .. }
         | Question::Traverse { rays, .. }
         | Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
-        Question::BBox { shots, .. } => shots.iter().map(|(ray, _)| *ray).collect(),
+        Question::BBox { queries: shots, .. } => shots.iter().map(|(ray, _)| *ray).collect(),
         Question::Camera { .. }
         | Question::Build { .. }
         | Question::Radiance { .. }
@@ -23,7 +23,7 @@ fn rays(question: &Question) -> Vec<Ray> {
 }
 
 #[test]
-fn ids_are_unique_and_say_their_task() {
+fn ids_are_unique_and_begin_with_their_task() {
     let exam = exam_of(SEEDS[0]);
     let ids: BTreeSet<&String> = exam.items.iter().map(|item| &item.id).collect();
     assert_eq!(ids.len(), exam.items.len());
@@ -38,7 +38,7 @@ fn ids_are_unique_and_say_their_task() {
 }
 
 #[test]
-fn points_are_whole_and_add_up() {
+fn points_add_up_per_task() {
     let exam = exam_of(SEEDS[0]);
     for task in Task::ALL {
         let of_task = exam.items.iter().filter(|item| item.task == task);
@@ -49,7 +49,7 @@ fn points_are_whole_and_add_up() {
 }
 
 #[test]
-fn items_come_after_what_they_need_and_need_other_tasks_only() {
+fn items_come_after_their_dependencies_which_are_of_other_tasks() {
     let exam = exam_of(SEEDS[0]);
     for (place, item) in exam.items.iter().enumerate() {
         for needed in &item.needs {
@@ -61,7 +61,7 @@ fn items_come_after_what_they_need_and_need_other_tasks_only() {
 }
 
 #[test]
-fn titles_and_where_to_look_are_sentences_without_code() {
+fn titles_and_advice_are_sentences_without_code() {
     for item in &exam_of(SEEDS[0]).items {
         let (title, look) = (&item.title, &item.look);
         assert!(title.chars().count() <= 80, "{title}");
@@ -73,7 +73,7 @@ fn titles_and_where_to_look_are_sentences_without_code() {
 }
 
 #[test]
-fn rays_have_unit_length_and_an_exam_asks_few_enough() {
+fn rays_have_unit_length_and_exams_stay_within_the_budget() {
     for seed in SEEDS {
         let mut count = 0;
         for item in &exam_of(seed).items {
@@ -128,7 +128,7 @@ fn has_opposites(item: &Item) -> bool {
 }
 
 #[test]
-fn every_item_asks_for_opposite_answers() {
+fn every_item_has_opposite_answers() {
     for seed in SEEDS {
         for item in &exam_of(seed).items {
             assert!(has_opposites(item), "seed {seed}, {}", item.id);
@@ -173,8 +173,8 @@ fn materials_are_distinct_in_trees() {
 }
 
 #[test]
-fn another_seed_gives_another_exam_and_the_same_seed_the_same() {
-    assert!(make(SEEDS[0]) == *exam_of(SEEDS[0]));
+fn exams_are_determined_by_their_seed() {
+    assert!(make_exam(SEEDS[0]) == *exam_of(SEEDS[0]));
     let differs = |item: &Item| {
         let mut others = exam_of(SEEDS[1]).items.iter();
         others.find(|other| other.id == item.id) != Some(item)

@@ -4,7 +4,7 @@
 use std::process::Command;
 
 #[test]
-fn the_mutants_of_the_fast_part_are_caught_or_equivalent() {
+fn sampled_mutants_are_caught_or_equivalent() {
     let output = Command::new(env!("CARGO_BIN_EXE_author"))
         .args(["mutants", "--fast", "--check"])
         .output()

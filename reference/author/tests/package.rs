@@ -6,8 +6,8 @@ use std::sync::LazyLock;
 
 use author::bundle::secrets::Secrets;
 use author::bundle::{Bundle, archive};
-use author::package::{Course, NoPackage, Platform, collect};
-use grader::doctor::package::complaints;
+use author::package::{Course, PackageError, Platform, collect};
+use grader::doctor::package::problems;
 
 /// Stands for a final exam: the same, but for its name.
 static FINAL: LazyLock<Course> = LazyLock::new(|| {
@@ -26,12 +26,12 @@ fn without_exam() -> Course {
 }
 
 #[test]
-fn gradescopes_zip_is_whole_and_holds_no_more_than_is_needed() {
+fn the_gradescope_zip_is_complete_and_has_no_needless_files() {
     let package = collect(&root(), Platform::Gradescope, FINAL.clone()).unwrap();
     let folder = tempfile::TempDir::new().unwrap();
     let zip = folder.path().join("gradescope.zip");
-    std::fs::write(&zip, archive::zip_below(&package, "").unwrap()).unwrap();
-    assert_eq!(complaints(&zip).unwrap(), [""; 0]);
+    std::fs::write(&zip, archive::zip_with_prefix(&package, "").unwrap()).unwrap();
+    assert_eq!(problems(&zip).unwrap(), [""; 0]);
     for path in package.files.keys() {
         for staff in [
             "mistakes", "variants", "mutants", "author", "tests/", "handout/",
@@ -47,11 +47,11 @@ fn gradescopes_zip_is_whole_and_holds_no_more_than_is_needed() {
 }
 
 #[test]
-fn what_students_can_read_holds_no_solution_and_no_final_exam() {
+fn packages_that_students_can_read_hold_no_solution_and_no_final_exam() {
     for platform in [Platform::Classroom50, Platform::Github] {
         let refused = collect(&root(), platform, FINAL.clone());
         assert!(
-            matches!(refused, Err(NoPackage::NoSecret(_))),
+            matches!(refused, Err(PackageError::ExamNotSecret(_))),
             "{platform:?}"
         );
     }
@@ -65,7 +65,7 @@ fn what_students_can_read_holds_no_solution_and_no_final_exam() {
 }
 
 #[test]
-fn the_folders_are_whole_as_they_are_written() {
+fn written_folders_are_complete() {
     let folder = tempfile::TempDir::new().unwrap();
     for platform in ["classroom50", "github"] {
         let out = folder.path().join(platform);
@@ -75,12 +75,12 @@ fn the_folders_are_whole_as_they_are_written() {
             .output()
             .unwrap();
         assert!(output.status.success(), "{output:?}");
-        assert_eq!(complaints(&out).unwrap(), [""; 0], "{platform}");
+        assert_eq!(problems(&out).unwrap(), [""; 0], "{platform}");
     }
 }
 
 #[test]
-fn what_counts_on_gradescope_is_never_the_practice_exam_by_accident() {
+fn a_gradescope_package_needs_a_final_exam() {
     let refused = collect(&root(), Platform::Gradescope, without_exam());
-    assert!(matches!(refused, Err(NoPackage::NoExam)));
+    assert!(matches!(refused, Err(PackageError::MissingExam)));
 }

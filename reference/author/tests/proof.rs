@@ -7,29 +7,29 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
 
-use author::exams::practice;
+use author::exams::load_practice;
 use author::proof::catalogue::Change;
-use author::proof::exhibits::Exhibits;
 use author::proof::recognition::recognise;
+use author::proof::solutions::Solutions;
 use author::proof::variants::Variant;
 use author::proof::workbench::Workbench;
 use grader::exam::Exam;
 
-static EXHIBITS: LazyLock<Exhibits> = LazyLock::new(|| {
+static SOLUTIONS: LazyLock<Solutions> = LazyLock::new(|| {
     let workbench = Workbench::open().expect("a toolchain and the workspace");
-    Exhibits::prepare(workbench).expect("every mistake applies to the reference")
+    Solutions::load(workbench).expect("every mistake applies to the reference")
 });
 
 fn root() -> &'static Path {
-    EXHIBITS.workbench.root()
+    SOLUTIONS.workbench.root()
 }
 
 fn practice_exam() -> Exam {
-    practice(root()).expect("it is committed")
+    load_practice(root()).expect("it is committed")
 }
 
 #[test]
-fn some_seeds_are_proven() {
+fn a_few_seeds_are_proven() {
     let output = Command::new(env!("CARGO_BIN_EXE_author"))
         .args(["prove", "--seeds", "1..4", "--mistakes", "1"])
         .output()
@@ -41,29 +41,33 @@ fn some_seeds_are_proven() {
 }
 
 #[test]
-fn known_mistakes_are_recognised_and_strangers_mostly_get_no_hint() {
-    let found = recognise(&EXHIBITS, &practice_exam()).unwrap();
+fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
+    let found = recognise(&SOLUTIONS, &practice_exam()).unwrap();
     println!("{found}");
-    assert!(found.share() >= 0.95, "{found}");
+    assert!(found.recognised_share() >= 0.95, "{found}");
     // Many of these are true of both: they differ in how far they go.
     assert!(
-        found.mistaken.len() * 10 <= EXHIBITS.mistakes.len(),
+        found.confused_when_unknown.len() * 10 <= SOLUTIONS.mistakes.len(),
         "{found}"
     );
 }
 
 #[test]
-fn every_kind_of_task_has_mistakes_and_variants_enough() {
+fn there_are_enough_mistakes_and_variants() {
     assert!(
-        EXHIBITS.mistakes.len() >= 100,
+        SOLUTIONS.mistakes.len() >= 100,
         "{}",
-        EXHIBITS.mistakes.len()
+        SOLUTIONS.mistakes.len()
     );
-    assert!(EXHIBITS.variants.len() >= 25, "{}", EXHIBITS.variants.len());
+    assert!(
+        SOLUTIONS.variants.len() >= 25,
+        "{}",
+        SOLUTIONS.variants.len()
+    );
 }
 
 #[test]
-fn each_file_of_a_variant_is_in_the_list() {
+fn every_variant_file_is_listed() {
     let folder = root().join("reference/variants");
     let mut files = BTreeSet::new();
     for stem in ["camera", "triangle", "sphere", "bbox", "bvh"] {
@@ -72,7 +76,7 @@ fn each_file_of_a_variant_is_in_the_list() {
             files.insert(format!("{stem}.{}", name.trim_end_matches(".rs")));
         }
     }
-    let listed: BTreeSet<String> = EXHIBITS
+    let listed: BTreeSet<String> = SOLUTIONS
         .variants
         .iter()
         .map(|(v, _)| v.id.clone())
@@ -81,8 +85,8 @@ fn each_file_of_a_variant_is_in_the_list() {
 }
 
 #[test]
-fn a_mistake_that_is_none_is_complained_of() {
-    let (mut mistake, _) = EXHIBITS.mistakes[0].clone();
+fn reports_a_mistake_that_changes_nothing() {
+    let (mut mistake, _) = SOLUTIONS.mistakes[0].clone();
     let file = root().join("reference/src").join(mistake.task().file());
     let line = "//! Task 1: rays from the camera.";
     assert!(fs::read_to_string(file).unwrap().contains(line));
@@ -91,10 +95,10 @@ fn a_mistake_that_is_none_is_complained_of() {
         was: line.to_owned(),
         now: "//! Task 1.".to_owned(),
     }];
-    let reference = EXHIBITS.recorder.reference();
+    let reference = SOLUTIONS.recorder.reference();
     let sources = mistake.apply(reference).unwrap();
-    let tried = EXHIBITS
-        .tried(&mistake, &sources, &practice_exam())
+    let tried = SOLUTIONS
+        .grade_mistake(&mistake, &sources, &practice_exam())
         .unwrap();
     let problems = tried.problems();
     assert!(
@@ -105,10 +109,10 @@ fn a_mistake_that_is_none_is_complained_of() {
 }
 
 #[test]
-fn a_mistake_that_does_not_apply_any_more_says_so() {
-    let (mut mistake, _) = EXHIBITS.mistakes[0].clone();
+fn reports_a_mistake_that_no_longer_applies() {
+    let (mut mistake, _) = SOLUTIONS.mistakes[0].clone();
     mistake.changes[0].was = "no such text".to_owned();
-    let error = mistake.apply(EXHIBITS.recorder.reference()).unwrap_err();
+    let error = mistake.apply(SOLUTIONS.recorder.reference()).unwrap_err();
     let wanted = format!(
         "{} does not apply any more: its `was` stands 0 times in reference/src/camera.rs; adapt it \
          in reference/mistakes",
@@ -118,8 +122,8 @@ fn a_mistake_that_does_not_apply_any_more_says_so() {
 }
 
 #[test]
-fn a_variant_that_is_wrong_is_found() {
-    let (mistake, sources) = &EXHIBITS.mistakes[0];
+fn reports_a_wrong_variant() {
+    let (mistake, sources) = &SOLUTIONS.mistakes[0];
     let variant = Variant {
         id: mistake.id.clone(),
         title: String::new(),
@@ -127,6 +131,6 @@ fn a_variant_that_is_wrong_is_found() {
         may_lose: Vec::new(),
         crates: Vec::new(),
     };
-    let lost = EXHIBITS.variant_losses(&variant, sources, &practice_exam());
+    let lost = SOLUTIONS.variant_losses(&variant, sources, &practice_exam());
     assert!(!lost.unwrap().is_empty());
 }

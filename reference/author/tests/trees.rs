@@ -4,8 +4,8 @@ mod exams;
 
 use std::collections::BTreeSet;
 
-use author::oracle::{Beam, scan};
-use author::tree::{Tree, trap};
+use author::oracle::{Ray64, scan};
+use author::tree::{Tree, decoy};
 use grader::exam::{Exam, Task};
 use protocol::{Question, Ray, Rays};
 
@@ -45,22 +45,22 @@ fn trees(exam: &Exam) -> Vec<(&str, Tree, Vec<Ray>)> {
 }
 
 #[test]
-fn no_correct_walk_ever_comes_to_a_trap() {
+fn a_correct_traversal_never_reaches_a_decoy() {
     for seed in SEEDS {
         let exam = exam_of(seed);
         for (id, tree, rays) in trees(exam) {
-            assert!(trap::is_fair(&tree, &rays), "seed {seed}, {id}");
+            assert!(decoy::is_fair(&tree, &rays), "seed {seed}, {id}");
         }
     }
 }
 
 #[test]
-fn boxes_nest() {
+fn child_boxes_are_inside_their_parents_box() {
     for (id, tree, _) in trees(exam_of(SEEDS[0])) {
         if tree.nodes.is_empty() {
             continue;
         }
-        for place in tree.below(tree.root) {
+        for place in tree.subtree(tree.root) {
             let node = &tree.nodes[place];
             for child in [node.l, node.r].iter().filter(|_| !node.is_leaf()) {
                 let child = tree.bounds(*child as usize);
@@ -71,14 +71,14 @@ fn boxes_nest() {
 }
 
 #[test]
-fn a_linear_scan_is_wrong_in_every_item_about_walking() {
+fn a_linear_scan_fails_every_traversal_item() {
     for seed in SEEDS {
         let exam = exam_of(seed);
         let mut caught: BTreeSet<&str> = BTreeSet::new();
         for (id, tree, rays) in trees(exam) {
             let wrong = rays.iter().any(|ray| {
-                let beam = Beam::from(ray);
-                scan::closest(&beam, &tree.shapes) != tree.truth(&beam)
+                let beam = Ray64::from(ray);
+                scan::closest_hit(&beam, &tree.shapes) != tree.expected_hit(&beam)
             });
             if wrong {
                 caught.insert(id);

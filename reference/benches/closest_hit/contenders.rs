@@ -21,7 +21,7 @@ use crate::eight;
 use crate::embree::EmbreeScene;
 
 /// At most so many primitives in a leaf, of ours.
-pub const LEAF: usize = 4;
+pub const MAX_LEAF_SIZE: usize = 4;
 
 /// A tree that was built.
 pub trait Contender {
@@ -92,23 +92,23 @@ impl Contender for Obvhs {
 }
 
 /// The crate `bvh`. It offers two walks, of which now one is faster and now the other.
-pub struct OfCrate {
+pub struct CrateBvhTree {
     bvh: CrateBvh<f32, 3>,
     triangles: Vec<Corners>,
 }
 
-impl OfCrate {
+impl CrateBvhTree {
     pub fn build(corners: &[[Vec3; 3]]) -> Self {
         let corners = corners.iter().copied();
         let mut triangles: Vec<Corners> = corners
             .map(|corners| Corners { corners, node: 0 })
             .collect();
         let bvh = CrateBvh::build(&mut triangles);
-        OfCrate { bvh, triangles }
+        CrateBvhTree { bvh, triangles }
     }
 
     /// In order of distance, until a box begins beyond the closest hit.
-    fn nearest(&self, ray: &Ray) -> f32 {
+    fn closest_ordered(&self, ray: &Ray) -> f32 {
         let query = query(ray);
         let mut closest = f32::INFINITY;
         for triangle in self.bvh.nearest_traverse_iterator(&query, &self.triangles) {
@@ -122,7 +122,7 @@ impl OfCrate {
     }
 
     /// Every triangle whose box is met.
-    fn every(&self, ray: &Ray) -> f32 {
+    fn closest_of_all(&self, ray: &Ray) -> f32 {
         let query = query(ray);
         let met = self.bvh.traverse_iterator(&query, &self.triangles);
         met.map(|triangle| triangle.distance(ray))
@@ -131,20 +131,20 @@ impl OfCrate {
 }
 
 /// By its first walk.
-pub struct Nearest(pub Rc<OfCrate>);
+pub struct NearestTraversal(pub Rc<CrateBvhTree>);
 
-impl Contender for Nearest {
+impl Contender for NearestTraversal {
     fn distances(&self, rays: &[Ray]) -> Vec<f32> {
-        rays.iter().map(|ray| self.0.nearest(ray)).collect()
+        rays.iter().map(|ray| self.0.closest_ordered(ray)).collect()
     }
 }
 
 /// By its second.
-pub struct Every(pub Rc<OfCrate>);
+pub struct FullTraversal(pub Rc<CrateBvhTree>);
 
-impl Contender for Every {
+impl Contender for FullTraversal {
     fn distances(&self, rays: &[Ray]) -> Vec<f32> {
-        rays.iter().map(|ray| self.0.every(ray)).collect()
+        rays.iter().map(|ray| self.0.closest_of_all(ray)).collect()
     }
 }
 

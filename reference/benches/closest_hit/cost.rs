@@ -4,13 +4,13 @@ use std::time::Duration;
 
 /// What `work` returns, and how long it took.
 pub fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
-    let start = used();
+    let start = cpu_time();
     let result = work();
-    (result, used() - start)
+    (result, cpu_time() - start)
 }
 
 #[cfg(unix)]
-fn used() -> Duration {
+fn cpu_time() -> Duration {
     use rustix::time::{ClockId, clock_gettime};
 
     let time = clock_gettime(ClockId::ProcessCPUTime);

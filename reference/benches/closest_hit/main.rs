@@ -10,7 +10,9 @@ use reference::primitive::Primitive;
 // Under the names that the variant's file has for them.
 use reference::{bbox, primitive, triangle};
 
-use crate::contenders::{Contender, Every, LEAF, Nearest, Obvhs, OfCrate};
+use crate::contenders::{
+    Contender, CrateBvhTree, FullTraversal, MAX_LEAF_SIZE, NearestTraversal, Obvhs,
+};
 use crate::cost::timed;
 use crate::embree::Embree;
 use crate::mesh::{Mesh, meshes};
@@ -34,7 +36,7 @@ const ROUNDS: usize = 5;
 
 /// How many rays one is asked before it is the next one's turn: some milliseconds, so that a slow
 /// moment of the machine is everybody's, and yet enough that each finds its caches its own.
-const TURN: usize = 1 << 15;
+const RAYS_PER_TURN: usize = 1 << 15;
 
 fn main() {
     let rounds = std::env::var("ROUNDS").map_or(ROUNDS, |text| text.parse().expect("a number"));
@@ -49,11 +51,11 @@ fn main() {
             mesh.corners.len()
         );
         let mut report = Report::default();
-        let trees = build(&mesh, embree.as_ref(), rounds, &mut report);
-        let rays = rays::all(&mesh, &trees.reference);
+        let trees = build_trees(&mesh, embree.as_ref(), rounds, &mut report);
+        let rays = rays::all_kinds(&mesh, &trees.reference);
         let contenders = trees.contenders();
         for rays in &rays {
-            ask(&contenders, rays, rounds, &mut report);
+            measure_rays(&contenders, rays, rounds, &mut report);
         }
         println!("{report}");
     }
@@ -77,7 +79,7 @@ impl Trees<'_> {
 }
 
 /// Builds all trees, turn by turn.
-fn build<'a>(
+fn build_trees<'a>(
     mesh: &Mesh,
     embree: Option<&'a Embree>,
     rounds: usize,
@@ -90,19 +92,19 @@ fn build<'a>(
     for _ in 0..rounds {
         drop(trees.take());
         let (ours, wides) = (primitives.clone(), primitives.clone());
-        let (reference, time) = timed(|| Bvh::build(ours, LEAF));
+        let (reference, time) = timed(|| Bvh::build(ours, MAX_LEAF_SIZE));
         let mut round = vec![("reference", time)];
         let mut others: Vec<(&'static str, Box<dyn Contender>)> = Vec::new();
 
-        let (tree, time) = timed(|| eight::Bvh::build(wides, LEAF));
+        let (tree, time) = timed(|| eight::Bvh::build(wides, MAX_LEAF_SIZE));
         others.push(("wide", Box::new(tree)));
         round.push(("wide", time));
         let (tree, time) = timed(|| Obvhs::build(&triangles));
         others.push(("obvhs", Box::new(tree)));
         round.push(("obvhs", time));
-        let (tree, time) = timed(|| Rc::new(OfCrate::build(&mesh.corners)));
-        others.push(("bvh, nearest", Box::new(Nearest(Rc::clone(&tree)))));
-        others.push(("bvh, all", Box::new(Every(tree))));
+        let (tree, time) = timed(|| Rc::new(CrateBvhTree::build(&mesh.corners)));
+        others.push(("bvh, nearest", Box::new(NearestTraversal(Rc::clone(&tree)))));
+        others.push(("bvh, all", Box::new(FullTraversal(tree))));
         round.push(("bvh, nearest", time));
         if let Some(embree) = embree {
             let (tree, time) = timed(|| embree.build(mesh));
@@ -121,7 +123,7 @@ fn build<'a>(
 }
 
 /// Sends the same rays to all, turn by turn, and compares what they hit.
-fn ask(
+fn measure_rays(
     contenders: &[(&'static str, &dyn Contender)],
     rays: &Rays,
     rounds: usize,
@@ -131,7 +133,7 @@ fn ask(
     for _ in 0..rounds {
         let mut times = vec![Duration::ZERO; contenders.len()];
         let mut distances = vec![Vec::new(); contenders.len()];
-        for turn in rays.rays.chunks(TURN) {
+        for turn in rays.rays.chunks(RAYS_PER_TURN) {
             for (i, (_, contender)) in contenders.iter().enumerate() {
                 let (found, time) = timed(|| contender.distances(turn));
                 times[i] += time;
@@ -143,7 +145,7 @@ fn ask(
         }
         let (right, others) = distances.split_first().expect("the reference is there");
         for ((name, _), other) in contenders[1..].iter().zip(others) {
-            agree(name, rays.kind, right, other, report);
+            check_agreement(name, rays.kind, right, other, report);
         }
     }
     for ((name, _), speeds) in contenders.iter().zip(speeds) {
@@ -153,7 +155,13 @@ fn ask(
 
 /// Speed is worth nothing without right answers. The last bits may differ, and so may what happens
 /// exactly on an edge.
-fn agree(name: &'static str, kind: &str, right: &[f32], other: &[f32], report: &mut Report) {
+fn check_agreement(
+    name: &'static str,
+    kind: &str,
+    right: &[f32],
+    other: &[f32],
+    report: &mut Report,
+) {
     let same = |(a, b): &(&f32, &f32)| a == b || (**a - **b).abs() <= 1e-3 * a.max(1e-3);
     let differing = right.len() - right.iter().zip(other).filter(same).count();
     assert!(
@@ -161,5 +169,5 @@ fn agree(name: &'static str, kind: &str, right: &[f32], other: &[f32], report: &
         "{name}, {kind}: {differing} of {} rays hit something else",
         right.len()
     );
-    report.differing(name, differing as f64 / right.len() as f64);
+    report.record_mismatches(name, differing as f64 / right.len() as f64);
 }

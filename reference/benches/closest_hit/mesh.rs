@@ -34,7 +34,7 @@ pub fn meshes() -> Vec<Mesh> {
             .filter(|(name, _, _)| only.as_deref().is_none_or(|only| only == *name))
             .map(|(name, file, is_building)| {
                 let path = folder.join(file);
-                let corners = obj(&unpacked(&path), &path);
+                let corners = parse_obj(&read_gzip(&path), &path);
                 Mesh::new(name, corners, *is_building)
             })
             .collect(),
@@ -63,7 +63,7 @@ impl Mesh {
 
     /// As questions and scenes have them.
     pub fn shapes(&self) -> impl Iterator<Item = Shape> {
-        let shape = |(material, corners): (u32, &[Vec3; 3])| Shape::Facet {
+        let shape = |(material, corners): (u32, &[Vec3; 3])| Shape::FlatTriangle {
             corners: *corners,
             material,
         };
@@ -71,7 +71,7 @@ impl Mesh {
     }
 }
 
-fn unpacked(path: &Path) -> String {
+fn read_gzip(path: &Path) -> String {
     let file = File::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let mut text = String::new();
     let read = GzDecoder::new(BufReader::new(file)).read_to_string(&mut text);
@@ -80,7 +80,7 @@ fn unpacked(path: &Path) -> String {
 }
 
 /// Vertices and triangles of an OBJ file; whatever else may stand there does not matter here.
-fn obj(text: &str, path: &Path) -> Vec<[Vec3; 3]> {
+fn parse_obj(text: &str, path: &Path) -> Vec<[Vec3; 3]> {
     let number = |word: &str| word.parse::<f32>().expect("a coordinate");
     let place = |word: &str| {
         let place = word.split('/').next().unwrap_or_default();
@@ -108,6 +108,6 @@ fn gyroid() -> Vec<[Vec3; 3]> {
         [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
     };
     let text = fs::read_to_string(&path).expect("the mesh is part of the project");
-    let triangles = obj(&text, &path).into_iter();
+    let triangles = parse_obj(&text, &path).into_iter();
     triangles.flat_map(quarters).flat_map(quarters).collect()
 }

@@ -17,7 +17,7 @@ pub struct Rays {
 }
 
 /// All three.
-pub fn all(mesh: &Mesh, bvh: &Bvh) -> [Rays; 3] {
+pub fn all_kinds(mesh: &Mesh, bvh: &Bvh) -> [Rays; 3] {
     let primary = primary(mesh);
     let bounce = bounce(mesh, bvh, &primary);
     let random = random(mesh);
@@ -44,7 +44,7 @@ fn primary(mesh: &Mesh) -> Vec<Ray> {
 /// From where the others hit, anywhere into the hemisphere; and from where those hit, and again.
 fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
     let gap = 1e-4 * (mesh.bbox.max - mesh.bbox.min).length();
-    let mut numbers = Numbers(1);
+    let mut numbers = SplitMix64(1);
     let mut all = Vec::new();
     let mut last = primary.to_vec();
     while all.len() < (SIDE * SIDE) as usize && !last.is_empty() {
@@ -64,7 +64,7 @@ fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
 /// From a sphere around the mesh, or from inside a building, to anywhere in its box.
 fn random(mesh: &Mesh) -> Vec<Ray> {
     let (center, size) = (mesh.bbox.center(), mesh.bbox.max - mesh.bbox.min);
-    let mut numbers = Numbers(2);
+    let mut numbers = SplitMix64(2);
     let ray = |_| {
         let to = mesh.bbox.min + numbers.point() * size;
         let from = if mesh.is_building {
@@ -78,9 +78,9 @@ fn random(mesh: &Mesh) -> Vec<Ray> {
 }
 
 /// SplitMix64: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
-struct Numbers(u64);
+struct SplitMix64(u64);
 
-impl Numbers {
+impl SplitMix64 {
     fn unit(&mut self) -> f32 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;

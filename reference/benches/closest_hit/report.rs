@@ -13,7 +13,7 @@ pub struct Report {
     cells: Vec<(&'static str, &'static str, Vec<f64>)>,
     /// The largest share of rays that hit something else than the reference's.
     differing: f64,
-    of: &'static str,
+    most_differing: &'static str,
 }
 
 /// The kinds of rays.
@@ -31,10 +31,10 @@ impl Report {
         self.cells.push((name, column, rounds));
     }
 
-    pub fn differing(&mut self, name: &'static str, share: f64) {
+    pub fn record_mismatches(&mut self, name: &'static str, share: f64) {
         if share > self.differing {
             self.differing = share;
-            self.of = name;
+            self.most_differing = name;
         }
     }
 
@@ -58,7 +58,7 @@ impl Report {
     }
 
     /// How many times as fast, for each kind of rays. Of several others the fastest counts.
-    fn rays(&self, name: &str, others: &[&str]) -> Option<[f64; 3]> {
+    fn speedups(&self, name: &str, others: &[&str]) -> Option<[f64; 3]> {
         let mut ratios = [0.0; 3];
         for (ratio, kind) in ratios.iter_mut().zip(RAYS) {
             let others = others
@@ -97,7 +97,7 @@ impl fmt::Display for Report {
             f,
             "rays: millions a second, median (least–greatest); {:.4} % of {}'s differ at most\n",
             100.0 * self.differing,
-            self.of
+            self.most_differing
         )?;
         for (name, others) in [
             ("reference", &["obvhs"][..]),
@@ -105,7 +105,7 @@ impl fmt::Display for Report {
             ("wide", &["reference"]),
             ("wide", &["Embree"]),
         ] {
-            let Some(rays) = self.rays(name, others) else {
+            let Some(rays) = self.speedups(name, others) else {
                 continue;
             };
             let mean = rays.iter().product::<f64>().cbrt();

@@ -14,7 +14,7 @@ pub struct Count {
 }
 
 /// What `work` returns, and what was tested meanwhile.
-pub fn counted<T>(work: impl FnOnce() -> T) -> (T, Count) {
+pub fn count_tests<T>(work: impl FnOnce() -> T) -> (T, Count) {
     BOXES.set(0);
     PRIMITIVES.set(0);
     let result = work();
@@ -23,11 +23,11 @@ pub fn counted<T>(work: impl FnOnce() -> T) -> (T, Count) {
 }
 
 /// A ray is tested with a box.
-pub fn a_box() {
+pub fn count_box() {
     BOXES.set(BOXES.get() + 1);
 }
 
 /// A ray is tested with a primitive.
-pub fn a_primitive() {
+pub fn count_primitive() {
     PRIMITIVES.set(PRIMITIVES.get() + 1);
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use crate::bvh::{Bvh, Node};
-use crate::count::counted;
+use crate::count::count_tests;
 use crate::plot::plot;
 
 mod count;
@@ -30,11 +30,11 @@ mod sphere;
 #[allow(dead_code, unused_imports, reason = "its tests do not run here")]
 mod triangle;
 
-const MEND: &str = "cargo bench -p benches --bench scaling";
+const UPDATE_COMMAND: &str = "cargo bench -p benches --bench scaling";
 /// How many rays each mesh is asked.
 const RAYS: usize = 2000;
 /// At most so many triangles in a leaf.
-const LEAF: usize = 4;
+const MAX_LEAF_SIZE: usize = 4;
 /// Pieces along an edge of a cube, whose six faces make a mesh of 12 n² triangles: half a decade
 /// from one to the next.
 const PIECES: [u32; 9] = [3, 5, 9, 16, 29, 51, 91, 162, 289];
@@ -54,7 +54,7 @@ struct Row {
 
 fn main() -> ExitCode {
     println!("triangles   boxes a ray   triangles a ray   build calls   handled, each");
-    let rows: Vec<Row> = PIECES.into_iter().map(row).collect();
+    let rows: Vec<Row> = PIECES.into_iter().map(measure).collect();
     let svg = plot(&rows);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scaling.svg");
     if std::env::args().any(|argument| argument == "--check") {
@@ -62,7 +62,7 @@ fn main() -> ExitCode {
             return ExitCode::SUCCESS;
         }
         eprintln!(
-            "{} is not as counted: mend it with `{MEND}`",
+            "{} is not as counted: mend it with `{UPDATE_COMMAND}`",
             path.display()
         );
         return ExitCode::FAILURE;
@@ -76,12 +76,12 @@ fn main() -> ExitCode {
     }
 }
 
-fn row(pieces: u32) -> Row {
+fn measure(pieces: u32) -> Row {
     let shapes = mesh::bumpy_ball(pieces);
     let primitives = shapes.iter().map(primitive::Primitive::new).collect();
-    let bvh = Bvh::build(primitives, LEAF);
+    let bvh = Bvh::build(primitives, MAX_LEAF_SIZE);
     let rays = mesh::rays(RAYS);
-    let ((), count) = counted(|| {
+    let ((), count) = count_tests(|| {
         for ray in &rays {
             bvh.hit(ray);
         }
@@ -91,7 +91,7 @@ fn row(pieces: u32) -> Row {
         boxes: count.boxes as f64 / RAYS as f64,
         primitives: count.primitives as f64 / RAYS as f64,
         calls: bvh.nodes.len(),
-        handled: below(&bvh, &bvh.nodes[bvh.root]).handled as f64 / shapes.len() as f64,
+        handled: count_subtree(&bvh, &bvh.nodes[bvh.root]).handled as f64 / shapes.len() as f64,
     };
     let Row {
         triangles,
@@ -105,21 +105,21 @@ fn row(pieces: u32) -> Row {
 }
 
 /// What is below a node: how many triangles, and how many all the nodes there were made of.
-struct Below {
+struct SubtreeCounts {
     triangles: usize,
     handled: usize,
 }
 
-fn below(bvh: &Bvh, node: &Node) -> Below {
+fn count_subtree(bvh: &Bvh, node: &Node) -> SubtreeCounts {
     if node.is_leaf() {
-        return Below {
+        return SubtreeCounts {
             triangles: node.size,
             handled: node.size,
         };
     }
-    let [l, r] = [node.l, node.r].map(|child| below(bvh, &bvh.nodes[child]));
+    let [l, r] = [node.l, node.r].map(|child| count_subtree(bvh, &bvh.nodes[child]));
     let triangles = l.triangles + r.triangles;
-    Below {
+    SubtreeCounts {
         triangles,
         handled: triangles + l.handled + r.handled,
     }

@@ -21,7 +21,7 @@ pub fn bumpy_ball(pieces: u32) -> Vec<Shape> {
                 for j in 0..pieces {
                     let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
                     let [a, b, c, d] = corners.map(|(i, j)| point(i, j));
-                    shapes.extend([[a, b, c], [a, c, d]].map(|corners| Shape::Facet {
+                    shapes.extend([[a, b, c], [a, c, d]].map(|corners| Shape::FlatTriangle {
                         corners,
                         material: 0,
                     }));
@@ -39,7 +39,7 @@ fn bumpy(dir: Vec3) -> Vec3 {
 
 /// From a sphere around the ball to anywhere in it.
 pub fn rays(count: usize) -> Vec<Ray> {
-    let mut numbers = Numbers(1);
+    let mut numbers = SplitMix64(1);
     let ray = |_| {
         let origin = 3.0 * numbers.in_ball().normalize();
         Ray::new(origin, numbers.in_ball() - origin)
@@ -48,9 +48,9 @@ pub fn rays(count: usize) -> Vec<Ray> {
 }
 
 /// SplitMix64: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
-struct Numbers(u64);
+struct SplitMix64(u64);
 
-impl Numbers {
+impl SplitMix64 {
     fn unit(&mut self) -> f32 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;

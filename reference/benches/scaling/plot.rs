@@ -13,15 +13,15 @@ const HEIGHT: f64 = 260.0;
 /// Decades of triangles.
 const DECADES: std::ops::RangeInclusive<i32> = 2..=6;
 /// The upper end of the right panel.
-const MOST: f64 = 60.0;
+const MAX_COUNT: f64 = 60.0;
 
 /// A line, its colour, and what is written at its end.
-type Line<'a> = (&'a str, &'a str, fn(&Row) -> f64);
+type Curve<'a> = (&'a str, &'a str, fn(&Row) -> f64);
 
-const BRUTE: Line = ("#b3261e", "every triangle", |row| row.triangles as f64);
-const BOXES: Line = ("#1f5fa8", "boxes a ray", |row| row.boxes);
-const PRIMITIVES: Line = ("#2e7d32", "triangles a ray", |row| row.primitives);
-const HANDLED: Line = ("#8a5a00", "build calls it is in", |row| row.handled);
+const BRUTE: Curve = ("#b3261e", "every triangle", |row| row.triangles as f64);
+const BOXES: Curve = ("#1f5fa8", "boxes a ray", |row| row.boxes);
+const PRIMITIVES: Curve = ("#2e7d32", "triangles a ray", |row| row.primitives);
+const HANDLED: Curve = ("#8a5a00", "build calls it is in", |row| row.handled);
 
 /// All of it.
 pub fn plot(rows: &[Row]) -> String {
@@ -32,7 +32,7 @@ pub fn plot(rows: &[Row]) -> String {
          <rect width=\"880\" height=\"380\" fill=\"#fff\"/>\n",
     );
     let log = |value: f64| value.max(1.0).log10() / 6.0;
-    let linear = |value: f64| value / MOST;
+    let linear = |value: f64| value / MAX_COUNT;
     frame(
         &mut svg,
         LEFT[0],
@@ -79,7 +79,7 @@ fn frame(svg: &mut String, left: f64, title: &str, marks: impl Iterator<Item = (
         );
     }
     for decade in DECADES {
-        let x = left + WIDTH * across(10f64.powi(decade));
+        let x = left + WIDTH * x_fraction(10f64.powi(decade));
         _ = writeln!(svg, "<path d=\"M{x:.1} {bottom}v5\" stroke=\"#888\"/>");
         _ = writeln!(
             svg,
@@ -97,15 +97,15 @@ fn frame(svg: &mut String, left: f64, title: &str, marks: impl Iterator<Item = (
 }
 
 /// Where a number of triangles stands, from 0 to 1.
-fn across(triangles: f64) -> f64 {
+fn x_fraction(triangles: f64) -> f64 {
     let (first, last) = (f64::from(*DECADES.start()), f64::from(*DECADES.end()));
     (triangles.log10() - first) / (last - first)
 }
 
-fn curve(svg: &mut String, left: f64, rows: &[Row], line: Line, height: impl Fn(f64) -> f64) {
+fn curve(svg: &mut String, left: f64, rows: &[Row], line: Curve, height: impl Fn(f64) -> f64) {
     let (colour, name, value) = line;
     let point = |row: &Row| {
-        let x = left + WIDTH * across(row.triangles as f64);
+        let x = left + WIDTH * x_fraction(row.triangles as f64);
         (x, TOP + HEIGHT * (1.0 - height(value(row))))
     };
     let mut path = String::new();
@@ -127,13 +127,13 @@ fn curve(svg: &mut String, left: f64, rows: &[Row], line: Line, height: impl Fn(
             svg,
             "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"end\" fill=\"{colour}\">{name}: {}</text>",
             y - 9.0,
-            said(value(last))
+            format_count(value(last))
         );
     }
 }
 
 /// A count, to be read.
-fn said(value: f64) -> String {
+fn format_count(value: f64) -> String {
     if value < 1000.0 {
         format!("{value:.1}")
     } else {

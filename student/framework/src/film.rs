@@ -27,7 +27,7 @@ pub enum Tone {
 
 impl Film {
     /// The pixels row by row **from the top**, as files of pictures count.
-    pub fn from_the_top(&self) -> impl Iterator<Item = Vec3> {
+    pub fn pixels_top_down(&self) -> impl Iterator<Item = Vec3> {
         let width = self.size.x.max(1) as usize;
         self.pixels.chunks(width).rev().flatten().copied()
     }
@@ -35,7 +35,7 @@ impl Film {
 
 impl Tone {
     /// Three bytes for the screen. What is out of `[0, 1]` is clamped.
-    pub fn bytes(self, pixel: Vec3) -> [u8; 3] {
+    pub fn to_bytes(self, pixel: Vec3) -> [u8; 3] {
         let shown = match self {
             Tone::Light { stops } => (pixel * pow(2.0, stops)).to_array().map(srgb),
             Tone::Data => pixel.to_array(),
@@ -60,28 +60,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_begins_with_the_upper_row() {
+    fn top_down_order_starts_with_the_upper_row() {
         let film = Film {
             size: uvec2(2, 2),
             pixels: (0..4).map(|n| Vec3::splat(n as f32)).collect(),
         };
-        let reds: Vec<f32> = film.from_the_top().map(|pixel| pixel.x).collect();
+        let reds: Vec<f32> = film.pixels_top_down().map(|pixel| pixel.x).collect();
         assert_eq!(reds, [2.0, 3.0, 0.0, 1.0]);
     }
 
     #[test]
-    fn tones_follow_the_published_curve() {
+    fn tones_follow_the_srgb_curve() {
         let tone = Tone::Light { stops: 0.0 };
         // 18 % grey is byte 118; the ends are the ends, and nothing wraps beyond them.
         let pixel = Vec3::new(0.18, 0.0, 1.0);
-        assert_eq!(tone.bytes(pixel), [118, 0, 255]);
-        assert_eq!(tone.bytes(Vec3::new(17.0, -1.0, 0.5)), [255, 0, 188]);
-        assert_eq!(Tone::Data.bytes(Vec3::splat(0.5)), [128; 3]);
+        assert_eq!(tone.to_bytes(pixel), [118, 0, 255]);
+        assert_eq!(tone.to_bytes(Vec3::new(17.0, -1.0, 0.5)), [255, 0, 188]);
+        assert_eq!(Tone::Data.to_bytes(Vec3::splat(0.5)), [128; 3]);
     }
 
     #[test]
     fn a_stop_doubles_the_light() {
-        let dark = Tone::Light { stops: 1.0 }.bytes(Vec3::splat(0.09));
-        assert_eq!(dark, Tone::Light { stops: 0.0 }.bytes(Vec3::splat(0.18)));
+        let dark = Tone::Light { stops: 1.0 }.to_bytes(Vec3::splat(0.09));
+        assert_eq!(dark, Tone::Light { stops: 0.0 }.to_bytes(Vec3::splat(0.18)));
     }
 }

@@ -18,7 +18,7 @@ impl Frame {
     /// A frame around `z`, of length one.
     ///
     /// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
-    pub(crate) fn around(z: Vec3) -> Self {
+    pub(crate) fn from_z(z: Vec3) -> Self {
         let sign = 1.0_f32.copysign(z.z);
         let a = -1.0 / (sign + z.z);
         let b = z.x * z.y * a;
@@ -38,7 +38,7 @@ impl Frame {
 /// A direction around +z, the more likely the nearer: its density is its cosine, over π.
 ///
 /// Malley's method: an even disc, lifted to the hemisphere.
-pub(crate) fn cosine_hemisphere(place: Vec2) -> Vec3 {
+pub(crate) fn sample_cosine_hemisphere(place: Vec2) -> Vec3 {
     let radius = place.x.sqrt();
     let (sin, cos) = sin_cos(TAU * place.y);
     Vec3::new(radius * cos, radius * sin, (1.0 - place.x).sqrt())
@@ -52,7 +52,7 @@ mod tests {
     fn a_frame_is_right_handed_around_any_direction() {
         let slanted = Vec3::new(1.0, -2.0, -3.0).normalize();
         for z in [Vec3::Z, Vec3::NEG_Z, Vec3::X, Vec3::NEG_Y, slanted] {
-            let frame = Frame::around(z);
+            let frame = Frame::from_z(z);
             assert!((frame.x.cross(frame.y) - z).length() < 1e-6, "{frame:?}");
             assert!(frame.x.dot(frame.y).abs() < 1e-6 && frame.x.is_normalized());
         }
@@ -64,7 +64,7 @@ mod tests {
         let place = |n: u16| (f32::from(n) + 0.5) / f32::from(side);
         let mut mean = 0.0;
         for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
-            let direction = cosine_hemisphere(Vec2::new(place(i), place(j)));
+            let direction = sample_cosine_hemisphere(Vec2::new(place(i), place(j)));
             assert!(direction.is_normalized());
             mean += direction.z / f32::from(side * side);
         }

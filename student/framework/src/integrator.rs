@@ -16,7 +16,7 @@ use crate::submission::{Submission, World};
 
 /// How much work to put into a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sampling {
+pub struct RenderSettings {
     /// The number of pixels, across and up.
     pub film: UVec2,
     /// Paths for each pixel.
@@ -30,19 +30,19 @@ pub struct Sampling {
 
 /// What was done for a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
+pub struct RenderStats {
     /// Rays asked of the submission, shadow rays among them.
     pub rays: u64,
     /// Paths given up, and black, because an answer held NaN, infinity or an unknown material.
-    pub spoiled: u64,
+    pub invalid_paths: u64,
 }
 
-impl Tally {
+impl RenderStats {
     /// Both together.
-    pub fn and(self, other: Tally) -> Tally {
-        Tally {
+    pub fn merge(self, other: RenderStats) -> RenderStats {
+        RenderStats {
             rays: self.rays + other.rays,
-            spoiled: self.spoiled + other.spoiled,
+            invalid_paths: self.invalid_paths + other.invalid_paths,
         }
     }
 }
@@ -52,7 +52,7 @@ pub struct Integrator<'a> {
     scene: &'a Scene,
     world: &'a World,
     lights: Lights,
-    sampling: Sampling,
+    sampling: RenderSettings,
     /// No ray counts before this distance: see [`Integrator::new`].
     epsilon: f32,
 }
@@ -64,7 +64,7 @@ impl<'a> Integrator<'a> {
     /// bits, so a position is known to 6e-8 of the scene's largest coordinate, and the formulas
     /// for triangles and spheres lose some hundred times as much where the ray grazes. 1e-4 of
     /// that coordinate stays clear of it, and is less than a picture can show.
-    pub fn new(scene: &'a Scene, world: &'a World, sampling: Sampling) -> Self {
+    pub fn new(scene: &'a Scene, world: &'a World, sampling: RenderSettings) -> Self {
         Integrator {
             scene,
             world,
@@ -81,12 +81,12 @@ impl<'a> Integrator<'a> {
     }
 
     /// The mean of all paths through a pixel.
-    pub fn pixel(&self, pixel: UVec2, tally: &mut Tally) -> Vec3 {
+    pub fn pixel_radiance(&self, pixel: UVec2, tally: &mut RenderStats) -> Vec3 {
         let mut sum = Vec3::ZERO;
         for sample in 0..self.sampling.samples {
-            match self.path(pixel, sample, tally) {
+            match self.trace_path(pixel, sample, tally) {
                 Ok(light) => sum += light,
-                Err(path::Spoiled) => tally.spoiled += 1,
+                Err(path::InvalidSample) => tally.invalid_paths += 1,
             }
         }
         sum / self.sampling.samples.max(1) as f32
@@ -95,16 +95,20 @@ impl<'a> Integrator<'a> {
 
 /// The picture of a scene, in linear red, green and blue, row by row from the bottom, drawn by
 /// this thread alone.
-pub fn radiance(submission: &dyn Submission, scene: &Scene, sampling: &Sampling) -> Vec<Vec3> {
+pub fn render(submission: &dyn Submission, scene: &Scene, sampling: &RenderSettings) -> Vec<Vec3> {
     let scene = scene.on_film(sampling.film);
     let world = World::new(submission, &scene);
     let integrator = Integrator::new(&scene, &world, *sampling);
-    let mut tally = Tally::default();
+    let mut tally = RenderStats::default();
     let rows = 0..sampling.film.y;
     rows.flat_map(|y| (0..sampling.film.x).map(move |x| UVec2::new(x, y)))
-        .map(|pixel| integrator.pixel(pixel, &mut tally))
+        .map(|pixel| integrator.pixel_radiance(pixel, &mut tally))
         .collect()
 }
 
 #[cfg(test)]
 mod tests;
+
+// Former names, so that submissions written before they changed still compile.
+#[doc(hidden)]
+pub use self::{RenderSettings as Sampling, RenderStats as Tally, render as radiance};

@@ -6,8 +6,6 @@
 
 pub mod answer;
 pub mod attempt;
-#[cfg(test)]
-mod balls;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod film;
@@ -18,6 +16,8 @@ pub mod math;
 pub mod probe;
 pub mod sampler;
 pub mod scene;
+#[cfg(test)]
+mod sphere_submission;
 pub mod submission;
 mod system;
 #[cfg(feature = "cli")]

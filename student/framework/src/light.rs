@@ -3,24 +3,24 @@
 //! What is known of a lamp here comes from the scene, not from a submission's `hit`: only whether
 //! something stands between is asked of the submission.
 
-mod form;
+mod shape;
 
 use glam::{Vec2, Vec3};
 use protocol::Shape;
 
-use self::form::Form;
+use self::shape::LightShape;
 use crate::scene::Scene;
 
 /// All lamps of a scene, to be picked by power: the more light, the more often.
 pub struct Lights {
-    lamps: Vec<Lamp>,
+    lights: Vec<AreaLight>,
     /// The power of each lamp and all before it.
-    power: Vec<f32>,
+    cumulative_power: Vec<f32>,
 }
 
 /// A direction in which a lamp can be seen, unless something stands between.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Illumination {
+pub struct LightSample {
     /// Of length one.
     pub direction: Vec3,
     /// To the lamp.
@@ -30,9 +30,9 @@ pub struct Illumination {
     pub radiance: Vec3,
 }
 
-struct Lamp {
+struct AreaLight {
     radiance: Vec3,
-    form: Form,
+    shape: LightShape,
 }
 
 impl Lights {
@@ -41,44 +41,62 @@ impl Lights {
         let lamp = |shape: &Shape| {
             let material = scene.materials.get(shape.material() as usize)?;
             let radiance = material.emitted()?;
-            let form = Form::of(shape);
+            let form = LightShape::of(shape);
             // What has no power is never picked, and would divide by zero.
             let shines = radiance != Vec3::ZERO && form.area() > 0.0;
-            shines.then_some(Lamp { radiance, form })
+            shines.then_some(AreaLight {
+                radiance,
+                shape: form,
+            })
         };
-        let lamps: Vec<Lamp> = scene.shapes.iter().filter_map(lamp).collect();
-        let sum = |total: &mut f32, lamp: &Lamp| {
-            *total += lamp.form.area() * lamp.radiance.element_sum();
+        let lamps: Vec<AreaLight> = scene.shapes.iter().filter_map(lamp).collect();
+        let sum = |total: &mut f32, lamp: &AreaLight| {
+            *total += lamp.shape.area() * lamp.radiance.element_sum();
             Some(*total)
         };
         let power = lamps.iter().scan(0.0, sum).collect();
-        Lights { lamps, power }
+        Lights {
+            lights: lamps,
+            cumulative_power: power,
+        }
+    }
+
+    /// Former name of [`Lights::sample`].
+    #[doc(hidden)]
+    pub fn illuminate(&self, point: Vec3, choice: f32, place: Vec2) -> Option<LightSample> {
+        self.sample(point, choice, place)
     }
 
     /// How a point is lit by one lamp, picked by `choice`, from one place on it, picked by
     /// `place`; all in `[0, 1)`. `None` if there is no lamp, or that place does not shine on it.
-    pub fn illuminate(&self, point: Vec3, choice: f32, place: Vec2) -> Option<Illumination> {
-        let total = *self.power.last()?;
+    pub fn sample(&self, point: Vec3, choice: f32, place: Vec2) -> Option<LightSample> {
+        let total = *self.cumulative_power.last()?;
         let wanted = choice * total;
         // Rounding may take `wanted` up to `total`: then it is the last lamp.
-        let picked = self.power.partition_point(|&power| power <= wanted);
-        let picked = picked.min(self.lamps.len() - 1);
+        let picked = self
+            .cumulative_power
+            .partition_point(|&power| power <= wanted);
+        let picked = picked.min(self.lights.len() - 1);
         let before = if picked == 0 {
             0.0
         } else {
-            self.power[picked - 1]
+            self.cumulative_power[picked - 1]
         };
-        let probability = (self.power[picked] - before) / total;
+        let probability = (self.cumulative_power[picked] - before) / total;
 
-        let lamp = &self.lamps[picked];
-        let seen = lamp.form.pick(point, place)?;
-        Some(Illumination {
+        let lamp = &self.lights[picked];
+        let seen = lamp.shape.sample(point, place)?;
+        Some(LightSample {
             direction: seen.direction,
             distance: seen.distance,
             radiance: lamp.radiance * (seen.solid_angle / probability),
         })
     }
 }
+
+/// Former name of [`LightSample`].
+#[doc(hidden)]
+pub use self::LightSample as Illumination;
 
 #[cfg(test)]
 mod tests {
@@ -114,8 +132,8 @@ mod tests {
         for n in 0..count {
             let sampler = Sampler::new(0, Default::default(), n);
             let choice = sampler.one(0, Purpose::Light);
-            let place = sampler.pair(0, Purpose::PlaceOnLight);
-            if let Some(lit) = lights.illuminate(Vec3::ZERO, choice, place) {
+            let place = sampler.pair(0, Purpose::PointOnLight);
+            if let Some(lit) = lights.sample(Vec3::ZERO, choice, place) {
                 light += lit.radiance.x * lit.direction.y / count as f32;
                 overhead += u32::from(lit.distance < 2.0);
             }
@@ -124,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn two_lamps_give_what_each_gives_and_are_asked_by_power() {
+    fn two_lights_add_up_and_are_picked_by_power() {
         let (together, overhead) = irradiance(&lights(&format!("{OVERHEAD}, {ASIDE}, {DARK}")));
         let apart = irradiance(&lights(OVERHEAD)).0 + irradiance(&lights(ASIDE)).0;
         assert!(
@@ -136,10 +154,10 @@ mod tests {
     }
 
     #[test]
-    fn without_lamps_there_is_no_light() {
+    fn a_scene_without_lights_gives_no_sample() {
         assert!(
             lights(DARK)
-                .illuminate(Vec3::ZERO, 0.5, Vec2::splat(0.5))
+                .sample(Vec3::ZERO, 0.5, Vec2::splat(0.5))
                 .is_none()
         );
     }

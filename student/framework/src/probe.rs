@@ -18,7 +18,7 @@ use crate::system::{claim_standard_streams, end_with_the_grader};
 pub const STACK_BYTES: usize = 64 << 20;
 
 /// The longest question that is taken; the grader is trusted, so this only guards a slip.
-const LONGEST_QUESTION: usize = 256 << 20;
+const MAX_QUESTION_BYTES: usize = 256 << 20;
 
 /// Answers questions until there are no more.
 pub fn main(submission: &dyn Submission) -> ExitCode {
@@ -36,7 +36,7 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
             .name("submission".to_owned())
             .stack_size(STACK_BYTES)
             .spawn_scoped(scope, || serve(submission, questions, answers))
-            .map(|thread| thread.join().unwrap_or(Err(WireError::Ended)))
+            .map(|thread| thread.join().unwrap_or(Err(WireError::EndOfStream)))
     });
     match served {
         Ok(Ok(())) => ExitCode::SUCCESS,
@@ -64,11 +64,11 @@ fn serve(
         if questions.buffer().is_empty() {
             answers.flush()?;
         }
-        let frame = match wire::read(&mut questions, LONGEST_QUESTION) {
-            Err(WireError::Ended) => return Ok(()),
+        let frame = match wire::read(&mut questions, MAX_QUESTION_BYTES) {
+            Err(WireError::EndOfStream) => return Ok(()),
             read => read?,
         };
-        let answer = answer::question(submission, &frame.decode()?);
+        let answer = answer::answer_question(submission, &frame.decode()?);
         wire::write(&mut answers, frame.nonce, &answer)?;
     }
 }

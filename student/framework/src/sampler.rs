@@ -15,7 +15,7 @@ pub enum Purpose {
     /// Which light is asked.
     Light,
     /// The place on that light.
-    PlaceOnLight,
+    PointOnLight,
     /// The direction in which a matte surface scatters.
     Direction,
     /// Whether glass reflects or refracts.
@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_same_place_in_the_same_path_gets_the_same_numbers() {
+    fn the_same_arguments_give_the_same_numbers() {
         let sampler = Sampler::new(7, uvec2(3, 4), 5);
         let early = sampler.pair(2, Purpose::Direction);
         sampler.one(0, Purpose::Light);
@@ -83,20 +83,20 @@ mod tests {
     }
 
     #[test]
-    fn these_numbers_stay_the_same_for_good() {
+    fn numbers_match_those_in_recorded_exams() {
         // Keys of exams are recorded with them.
-        let pair = Sampler::new(1, uvec2(2, 3), 4).pair(5, Purpose::PlaceOnLight);
+        let pair = Sampler::new(1, uvec2(2, 3), 4).pair(5, Purpose::PointOnLight);
         assert_eq!(pair * 16_777_216.0, vec2(4_298_788.0, 7_366_984.0));
     }
 
     #[test]
-    fn the_hash_is_the_published_one() {
+    fn mix_matches_the_published_splitmix64() {
         // The first number of SplitMix64 from seed 0.
         assert_eq!(mix(0), 0xe220_a839_7b1d_cdaf);
     }
 
     #[test]
-    fn each_of_the_five_words_counts() {
+    fn every_argument_changes_the_numbers() {
         let base = Sampler::new(1, uvec2(2, 3), 4).pair(5, Purpose::Light);
         let others = [
             Sampler::new(2, uvec2(2, 3), 4).pair(5, Purpose::Light),

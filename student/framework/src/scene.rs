@@ -8,10 +8,10 @@ mod error;
 mod file;
 mod material;
 mod mesh;
-mod named;
 mod number;
 #[cfg(feature = "cli")]
 mod obj;
+mod ordered_map;
 mod polygon;
 mod read;
 mod subdivide;
@@ -23,15 +23,21 @@ use glam::{UVec2, Vec3};
 use protocol::Shape;
 
 pub use camera::{Camera, Placement};
-pub use error::{Place, Problem, SceneError};
+pub use error::{SceneError, SceneErrorKind, TextPosition};
 pub use material::Material;
+
+// Former names, so that submissions written before they changed still compile.
+#[doc(hidden)]
+pub use self::MAX_FILM_SIDE as LONGEST_SIDE;
+#[doc(hidden)]
+pub use error::{SceneErrorKind as Problem, TextPosition as Place};
 pub(crate) use material::checker;
 
 /// The most primitives in a leaf of the tree that is built for a picture.
 const MAX_LEAF_SIZE: usize = 4;
 
 /// The most pixels along one side of the film.
-pub const LONGEST_SIDE: u32 = 16_384;
+pub const MAX_FILM_SIDE: u32 = 16_384;
 
 /// All that is to be drawn.
 #[derive(Clone, Debug)]
@@ -56,7 +62,7 @@ impl Scene {
     /// # Errors
     /// If the text is no scene, or asks for a mesh's file.
     pub fn from_text(text: &str) -> Result<Scene, SceneError> {
-        read::scene(text, &mut |_| Err(Problem::MeshInText))
+        read::scene(text, &mut |_| Err(SceneErrorKind::MeshWithoutFolder))
     }
 
     /// The scene in a file; meshes are looked for beside it.
@@ -65,10 +71,10 @@ impl Scene {
     /// If a file can not be read or is no scene or mesh. The error begins with the file's name.
     #[cfg(feature = "cli")]
     pub fn load(path: &Path) -> Result<Scene, SceneError> {
-        let text = error::text_of(path)?;
+        let text = error::read_text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         read::scene(&text, &mut |file| obj::load(&folder.join(file)))
-            .map_err(|error| error.inside(path))
+            .map_err(|error| error.in_file(path))
     }
 
     /// The same scene on a film of another size. The sensor keeps the shape that the scene's
@@ -87,7 +93,7 @@ impl Scene {
                 .iter()
                 .map(|vertex| vertex.position.abs().max_element())
                 .fold(0.0, f32::max),
-            Shape::Facet { corners, .. } => corners
+            Shape::FlatTriangle { corners, .. } => corners
                 .iter()
                 .map(|corner| corner.abs().max_element())
                 .fold(0.0, f32::max),

@@ -16,16 +16,21 @@ pub trait Submission: Sync {
     fn camera(&self, lens: &PinholeCamera) -> Box<dyn CameraRays>;
 
     /// Primitives by themselves, without a tree.
-    fn list(&self, shapes: &[Shape]) -> Box<dyn Aggregate>;
+    fn primitive_list(&self, shapes: &[Shape]) -> Box<dyn Aggregate>;
 
     /// `BBox::hit`, of the box between these corners.
-    fn inside(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval>;
+    fn intersect_box(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval>;
 
     /// `Bvh::build`.
     fn build(&self, shapes: &[Shape], max_leaf_size: usize) -> Box<dyn Hierarchy>;
 
     /// `Bvh::from_nodes`.
-    fn planted(&self, shapes: &[Shape], nodes: &[TreeNode], root: usize) -> Box<dyn Hierarchy>;
+    fn prebuilt_tree(
+        &self,
+        shapes: &[Shape],
+        nodes: &[TreeNode],
+        root: usize,
+    ) -> Box<dyn Hierarchy>;
 }
 
 /// A submission's camera.
@@ -46,13 +51,13 @@ pub trait Hierarchy: Aggregate {
     fn root(&self) -> usize;
 
     /// How many nodes there are.
-    fn nodes(&self) -> usize;
+    fn node_count(&self) -> usize;
 
     /// One of them.
     fn node(&self, place: usize) -> TreeNode;
 
     /// How many primitives there are.
-    fn primitives(&self) -> usize;
+    fn primitive_count(&self) -> usize;
 
     /// The material of one of them, in the order that the leaves count.
     fn material(&self, place: usize) -> u32;
@@ -62,9 +67,11 @@ impl dyn Hierarchy {
     /// The same, as data.
     pub fn tree(&self) -> Tree {
         Tree {
-            nodes: (0..self.nodes()).map(|place| self.node(place)).collect(),
-            root: TreeNode::place(self.root()),
-            order: (0..self.primitives())
+            nodes: (0..self.node_count())
+                .map(|place| self.node(place))
+                .collect(),
+            root: TreeNode::saturating_index(self.root()),
+            order: (0..self.primitive_count())
                 .map(|place| self.material(place))
                 .collect(),
         }
@@ -81,7 +88,7 @@ impl World {
     /// The submission's own of this scene.
     pub fn new(submission: &dyn Submission, scene: &Scene) -> Self {
         World {
-            camera: submission.camera(&scene.camera.lens),
+            camera: submission.camera(&scene.camera.pinhole),
             bvh: submission.build(&scene.shapes, scene.max_leaf_size),
         }
     }

@@ -5,7 +5,7 @@ use protocol::{Trace, Tree};
 
 /// What a picture shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum View {
+pub enum ViewMode {
     /// The scene, lit.
     Shaded,
     /// `Trace::normal`: x, y, z from −1 to 1 as red, green, blue.
@@ -21,7 +21,7 @@ pub enum View {
 
 /// The picture of the first hits, pixel by pixel; `Shaded` has none of its own and is left black.
 /// What is missed, or is not finite, is black.
-pub fn picture(view: View, hits: &[Option<Trace>], tree: &Tree, epsilon: f32) -> Vec<Vec3> {
+pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, epsilon: f32) -> Vec<Vec3> {
     let each = |colour: &dyn Fn(&Trace) -> Vec3| {
         let pixel = |hit: &Option<Trace>| hit.as_ref().map_or(Vec3::ZERO, colour);
         let pixels = hits.iter().map(pixel);
@@ -29,10 +29,10 @@ pub fn picture(view: View, hits: &[Option<Trace>], tree: &Tree, epsilon: f32) ->
         pixels.map(finite).collect()
     };
     match view {
-        View::Shaded => vec![Vec3::ZERO; hits.len()],
-        View::Normals => each(&|hit| hit.normal.normalize() * 0.5 + 0.5),
-        View::Uv => each(&|hit| (hit.uv - hit.uv.floor()).extend(0.0)),
-        View::Depth => {
+        ViewMode::Shaded => vec![Vec3::ZERO; hits.len()],
+        ViewMode::Normals => each(&|hit| hit.normal.normalize() * 0.5 + 0.5),
+        ViewMode::Uv => each(&|hit| (hit.uv - hit.uv.floor()).extend(0.0)),
+        ViewMode::Depth => {
             let distances = hits.iter().flatten().map(|hit| hit.distance);
             let finite = distances.filter(|distance| distance.is_finite());
             let (near, far) = finite.fold((f32::INFINITY, 0.0_f32), |(near, far), distance| {
@@ -42,14 +42,20 @@ pub fn picture(view: View, hits: &[Option<Trace>], tree: &Tree, epsilon: f32) ->
             let span = (far - near).max(f32::MIN_POSITIVE);
             each(&|hit| Vec3::splat(1.0 - 0.95 * (hit.distance - near) / span))
         }
-        View::Bvh => {
-            let around: Vec<Around> = hits
+        ViewMode::Bvh => {
+            let around: Vec<TreeLocation> = hits
                 .iter()
-                .map(|hit| hit.map_or(Around::default(), |hit| around(tree, hit.position, epsilon)))
+                .map(|hit| {
+                    hit.map_or(TreeLocation::default(), |hit| {
+                        locate(tree, hit.position, epsilon)
+                    })
+                })
                 .collect();
             let most = around.iter().map(|around| around.boxes).max().unwrap_or(0);
-            let colour = |around: &Around| tint(around.leaf) * heat(around.boxes, most);
-            let show = |(hit, around): (&Option<Trace>, &Around)| match hit {
+            let colour = |around: &TreeLocation| {
+                leaf_brightness(around.leaf) * heat_colour(around.boxes, most)
+            };
+            let show = |(hit, around): (&Option<Trace>, &TreeLocation)| match hit {
                 Some(_) => colour(around),
                 None => Vec3::ZERO,
             };
@@ -60,7 +66,7 @@ pub fn picture(view: View, hits: &[Option<Trace>], tree: &Tree, epsilon: f32) ->
 
 /// What of a tree is around a point.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
-struct Around {
+struct TreeLocation {
     /// The nodes whose boxes hold the point.
     boxes: u32,
     /// The place of one of the leaves among them.
@@ -69,8 +75,8 @@ struct Around {
 
 /// Descends into each box that holds `point`, give or take `epsilon`. No ray is followed: that is
 /// for the submission to do. The tree may be nonsense; then as much of it is seen as can be.
-fn around(tree: &Tree, point: Vec3, epsilon: f32) -> Around {
-    let mut found = Around::default();
+fn locate(tree: &Tree, point: Vec3, epsilon: f32) -> TreeLocation {
+    let mut found = TreeLocation::default();
     let mut waiting = vec![tree.root];
     // In a tree each node is met once: whoever meets more has met a circle.
     for _ in 0..tree.nodes.len() {
@@ -94,7 +100,7 @@ fn around(tree: &Tree, point: Vec3, epsilon: f32) -> Around {
 }
 
 /// From blue, for few, over green to red, for the most.
-fn heat(count: u32, most: u32) -> Vec3 {
+fn heat_colour(count: u32, most: u32) -> Vec3 {
     const STOPS: [Vec3; 4] = [
         Vec3::new(0.15, 0.25, 0.85),
         Vec3::new(0.1, 0.75, 0.65),
@@ -108,7 +114,7 @@ fn heat(count: u32, most: u32) -> Vec3 {
 
 /// A brightness for each leaf that sets it off from its neighbours: steps of the golden ratio
 /// never come near each other soon.
-fn tint(leaf: u32) -> f32 {
+fn leaf_brightness(leaf: u32) -> f32 {
     let step = (f64::from(leaf) * 0.618_033_988_749_895).fract();
     0.55 + 0.45 * step as f32
 }
@@ -155,29 +161,32 @@ mod tests {
     }
 
     #[test]
-    fn boxes_around_a_point_are_counted() {
-        let boxes = |point: f32| around(&two_leaves(), Vec3::splat(point), 0.0).boxes;
+    fn counts_the_boxes_around_a_point() {
+        let boxes = |point: f32| locate(&two_leaves(), Vec3::splat(point), 0.0).boxes;
         assert_eq!(
             [boxes(1.0), boxes(2.5), boxes(3.5), boxes(5.0)],
             [2, 3, 2, 0]
         );
-        let leaf = |point: f32| around(&two_leaves(), Vec3::splat(point), 0.0).leaf;
+        let leaf = |point: f32| locate(&two_leaves(), Vec3::splat(point), 0.0).leaf;
         assert_eq!([leaf(1.0), leaf(3.5)], [2, 0]);
     }
 
     #[test]
-    fn a_tree_that_bites_its_tail_comes_to_an_end() {
+    fn terminates_on_a_cyclic_tree() {
         let mut tree = two_leaves();
         tree.nodes[0] = node(0.0, 9.0, 1, 1);
         tree.nodes[2] = node(0.0, 9.0, 1, 7);
-        assert!(around(&tree, Vec3::ONE, 0.0).boxes <= 3);
-        assert_eq!(around(&Tree::default(), Vec3::ONE, 0.0), Around::default());
+        assert!(locate(&tree, Vec3::ONE, 0.0).boxes <= 3);
+        assert_eq!(
+            locate(&Tree::default(), Vec3::ONE, 0.0),
+            TreeLocation::default()
+        );
     }
 
     #[test]
     fn the_nearest_is_white_and_a_miss_is_black() {
         let hits = [hit(2.0), None, hit(4.0), hit(f32::NAN)];
-        let pixels = picture(View::Depth, &hits, &Tree::default(), 0.0);
+        let pixels = picture(ViewMode::Depth, &hits, &Tree::default(), 0.0);
         assert_eq!(pixels[0], Vec3::ONE);
         assert_eq!(pixels[1], Vec3::ZERO);
         assert!(pixels[2].abs_diff_eq(Vec3::splat(0.05), 1e-6));
@@ -187,13 +196,13 @@ mod tests {
     #[test]
     fn normals_and_uv_become_colours() {
         let pixels = |view| picture(view, &[hit(1.0)], &Tree::default(), 0.0);
-        assert_eq!(pixels(View::Normals), [vec3(0.5, 1.0, 0.5)]);
-        assert_eq!(pixels(View::Uv), [vec3(0.25, 0.75, 0.0)]);
+        assert_eq!(pixels(ViewMode::Normals), [vec3(0.5, 1.0, 0.5)]);
+        assert_eq!(pixels(ViewMode::Uv), [vec3(0.25, 0.75, 0.0)]);
     }
 
     #[test]
-    fn without_a_tree_all_is_one_leaf() {
-        let pixels = picture(View::Bvh, &[hit(1.0), hit(2.0)], &Tree::default(), 0.0);
+    fn without_a_tree_every_hit_has_the_same_colour() {
+        let pixels = picture(ViewMode::Bvh, &[hit(1.0), hit(2.0)], &Tree::default(), 0.0);
         assert_eq!(pixels[0], pixels[1]);
         assert_ne!(pixels[0], Vec3::ZERO);
     }

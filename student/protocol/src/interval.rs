@@ -71,21 +71,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_ends_belong_to_it() {
+    fn includes_both_ends() {
         let interval = Interval::new(1.0, 2.0);
         assert!(interval.contains(1.0) && interval.contains(2.0));
         assert!(!interval.contains(0.999) && !interval.contains(2.001));
     }
 
     #[test]
-    fn nan_is_nowhere() {
+    fn nan_is_in_no_interval() {
         assert!(!Interval::AHEAD.contains(f32::NAN));
         assert!(Interval::new(f32::NAN, 1.0).is_empty());
         assert!(!Interval::new(1.0, 1.0).is_empty());
     }
 
     #[test]
-    fn an_unbounded_end_survives_json() {
+    fn an_unbounded_end_round_trips_through_json() {
         let text = serde_json::to_string(&Interval::AHEAD).unwrap();
         assert_eq!(text, "[0.0,null]");
         let back: Interval = serde_json::from_str(&text).unwrap();

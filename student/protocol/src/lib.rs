@@ -16,7 +16,7 @@ mod vertex;
 mod view;
 pub mod wire;
 
-pub use answer::{Answer, Outcome, Panic};
+pub use answer::{Answer, ElementOutcome, Panic};
 pub use interval::Interval;
 pub use question::Question;
 pub use ray::Ray;
@@ -24,4 +24,10 @@ pub use shape::Shape;
 pub use trace::Trace;
 pub use tree::{Tree, TreeNode};
 pub use vertex::Vertex;
-pub use view::{OFFSETS, PinholeCamera, Rays, Sample, Samples, View, every_pixel};
+pub use view::{ExamCamera, PIXEL_OFFSETS, PinholeCamera, Rays, Sample, Samples, every_pixel};
+
+// Former names, so that submissions written before they changed still compile.
+#[doc(hidden)]
+pub use answer::ElementOutcome as Outcome;
+#[doc(hidden)]
+pub use view::{ExamCamera as View, PIXEL_OFFSETS as OFFSETS};

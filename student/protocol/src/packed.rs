@@ -12,11 +12,11 @@ use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// The longest list that is written element by element in text.
-pub const PLAIN: usize = 32;
+pub const MAX_PLAIN_LEN: usize = 32;
 
 /// See the module's description.
 pub fn serialize<T: Serialize, S: Serializer>(list: &[T], out: S) -> Result<S::Ok, S::Error> {
-    if !out.is_human_readable() || list.len() <= PLAIN {
+    if !out.is_human_readable() || list.len() <= MAX_PLAIN_LEN {
         return list.serialize(out);
     }
     let bytes = postcard::to_stdvec(list).map_err(S::Error::custom)?;
@@ -111,12 +111,12 @@ mod tests {
     #[test]
     fn short_lists_stay_readable_and_long_ones_become_text() {
         assert!(serde_json::to_value(holder(2)).unwrap()["list"].is_array());
-        assert!(serde_json::to_value(holder(PLAIN + 1)).unwrap()["list"].is_string());
+        assert!(serde_json::to_value(holder(MAX_PLAIN_LEN + 1)).unwrap()["list"].is_string());
     }
 
     #[test]
-    fn both_forms_come_back_exactly() {
-        for n in [0, 2, PLAIN, PLAIN + 1] {
+    fn both_forms_round_trip_exactly() {
+        for n in [0, 2, MAX_PLAIN_LEN, MAX_PLAIN_LEN + 1] {
             let text = serde_json::to_string(&holder(n)).unwrap();
             assert_eq!(serde_json::from_str::<Holder>(&text).unwrap(), holder(n));
             let bytes = postcard::to_stdvec(&holder(n)).unwrap();
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_left_over_are_refused() {
+    fn rejects_trailing_bytes() {
         let mut bytes = postcard::to_stdvec(&vec![(1u32, 1f32)]).unwrap();
         bytes.push(0);
         let text = format!(r#"{{"list":"{}"}}"#, STANDARD_NO_PAD.encode(bytes));

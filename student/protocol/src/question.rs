@@ -39,7 +39,8 @@ pub enum Question {
         max: Vec3,
         /// The rays, each with the times that count.
         #[serde(with = "packed")]
-        shots: Vec<(Ray, Interval)>,
+        #[serde(alias = "shots")]
+        queries: Vec<(Ray, Interval)>,
     },
     /// `Bvh::build`: the whole tree is the answer.
     Build {
@@ -97,7 +98,7 @@ impl Question {
             Question::Shapes { rays, .. }
             | Question::Traverse { rays, .. }
             | Question::BuildAndTraverse { rays, .. } => rays.count(),
-            Question::BBox { shots, .. } => shots.len(),
+            Question::BBox { queries: shots, .. } => shots.len(),
             Question::Build { .. } | Question::Radiance { .. } => 1,
             Question::Done => 0,
         }
@@ -105,12 +106,12 @@ impl Question {
 
     /// The most nodes that are read of a tree over this many primitives: a binary tree with a
     /// primitive in each leaf needs `2n - 1`; the rest is room for nodes left unused.
-    pub fn most_nodes(primitives: usize) -> usize {
+    pub fn max_nodes(primitives: usize) -> usize {
         primitives.saturating_mul(4).saturating_add(64)
     }
 
     /// The most bytes that an honest answer takes on the wire.
-    pub fn largest_answer(&self) -> usize {
+    pub fn max_answer_bytes(&self) -> usize {
         // A Trace is 12 floats and a varint; a Panic is bounded text.
         const ELEMENT: usize = 64;
         const PANICS: usize = 16 * 1024;
@@ -122,7 +123,7 @@ impl Question {
             | Question::BBox { .. }
             | Question::Done => self.count(),
             Question::Build { shapes, .. } => {
-                Self::most_nodes(shapes.len()).saturating_add(shapes.len())
+                Self::max_nodes(shapes.len()).saturating_add(shapes.len())
             }
             Question::Radiance { film, .. } => (film.x as usize).saturating_mul(film.y as usize),
         };

@@ -15,7 +15,8 @@ pub enum Shape {
         material: u32,
     },
     /// A triangle given by its corners alone; see [`Shape::facet_vertices`].
-    Facet {
+    #[serde(alias = "facet")]
+    FlatTriangle {
         /// The corners p0, p1, p2.
         corners: [Vec3; 3],
         /// What its `Trace` shall name.
@@ -35,7 +36,7 @@ pub enum Shape {
 impl Shape {
     /// The vertices of a [`Shape::Facet`]: the face's normal (of `(p1 - p0) × (p2 - p0)`, or zero
     /// where the corners are in line) and the texture coordinates (0, 0), (1, 0), (0, 1).
-    pub fn facet_vertices(corners: [Vec3; 3]) -> [Vertex; 3] {
+    pub fn flat_triangle_vertices(corners: [Vec3; 3]) -> [Vertex; 3] {
         let [p0, p1, p2] = corners;
         let normal = (p1 - p0).cross(p2 - p0).normalize_or_zero();
         [
@@ -45,11 +46,17 @@ impl Shape {
         ]
     }
 
+    /// Former name of [`Shape::flat_triangle_vertices`].
+    #[doc(hidden)]
+    pub fn facet_vertices(corners: [Vec3; 3]) -> [Vertex; 3] {
+        Shape::flat_triangle_vertices(corners)
+    }
+
     /// What its `Trace` shall name; in questions about trees, distinct for each primitive.
     pub fn material(&self) -> u32 {
         match *self {
             Shape::Triangle { material, .. }
-            | Shape::Facet { material, .. }
+            | Shape::FlatTriangle { material, .. }
             | Shape::Sphere { material, .. } => material,
         }
     }

@@ -24,16 +24,22 @@ impl TreeNode {
         TreeNode {
             min,
             max,
-            start: TreeNode::place(start),
-            size: TreeNode::place(size),
-            l: TreeNode::place(l),
-            r: TreeNode::place(r),
+            start: TreeNode::saturating_index(start),
+            size: TreeNode::saturating_index(size),
+            l: TreeNode::saturating_index(l),
+            r: TreeNode::saturating_index(r),
         }
     }
 
     /// A place as it is told. What does not fit is out of range anyway, and must not wrap into range.
-    pub fn place(place: usize) -> u32 {
+    pub fn saturating_index(place: usize) -> u32 {
         u32::try_from(place).unwrap_or(u32::MAX)
+    }
+
+    /// Former name of [`TreeNode::saturating_index`].
+    #[doc(hidden)]
+    pub fn place(index: usize) -> u32 {
+        TreeNode::saturating_index(index)
     }
 
     /// Whether the node is a leaf.

@@ -26,7 +26,7 @@ pub struct Sample {
 }
 
 /// The five places of every pixel at which deterministic pictures are compared.
-pub const OFFSETS: [Vec2; 5] = [
+pub const PIXEL_OFFSETS: [Vec2; 5] = [
     vec2(0.5, 0.5),
     vec2(0.375, 0.125),
     vec2(0.875, 0.375),
@@ -46,7 +46,7 @@ pub enum Samples {
 
 impl Samples {
     /// Every place, in order.
-    pub fn on(&self, film: UVec2) -> Vec<Sample> {
+    pub fn to_vec(&self, film: UVec2) -> Vec<Sample> {
         match self {
             Samples::List(list) => list.clone(),
             Samples::EveryPixel => every_pixel(film).collect(),
@@ -60,7 +60,7 @@ impl Samples {
             // As many as there can be, where there are too many to be counted.
             Samples::EveryPixel => (film.x as usize)
                 .saturating_mul(film.y as usize)
-                .saturating_mul(OFFSETS.len()),
+                .saturating_mul(PIXEL_OFFSETS.len()),
         }
     }
 }
@@ -69,14 +69,14 @@ impl Samples {
 pub fn every_pixel(film: UVec2) -> impl Iterator<Item = Sample> {
     (0..film.y)
         .flat_map(move |y| (0..film.x).map(move |x| UVec2::new(x, y)))
-        .flat_map(|pixel| OFFSETS.map(|offset| Sample { pixel, offset }))
+        .flat_map(|pixel| PIXEL_OFFSETS.map(|offset| Sample { pixel, offset }))
 }
 
 /// A pinhole camera of the exam's own, so that a picture of shapes does not depend on the
 /// submission's camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct View {
+pub struct ExamCamera {
     /// Where every ray starts.
     pub eye: Vec3,
     /// From the eye to the middle of the film.
@@ -89,7 +89,7 @@ pub struct View {
     pub film: UVec2,
 }
 
-impl View {
+impl ExamCamera {
     /// The ray through a place on the film, with range `[0, ∞)`. The offset may leave `[0, 1)`.
     pub fn ray(&self, sample: Sample) -> Ray {
         let place = (sample.pixel.as_vec2() + sample.offset) / self.film.as_vec2() * 2.0 - 1.0;
@@ -107,7 +107,7 @@ pub enum Rays {
     /// These rays.
     List(#[serde(with = "packed")] Vec<Ray>),
     /// The rays of a picture, through the five [`OFFSETS`] of each pixel.
-    View(View),
+    View(ExamCamera),
 }
 
 impl Rays {

@@ -19,7 +19,7 @@ use crate::{Answer, Question};
 pub enum WireError {
     /// The stream ended, inside a frame or between two.
     #[error("the stream ended")]
-    Ended,
+    EndOfStream,
     /// The stream failed.
     #[error("the stream failed: {0}")]
     Io(io::Error),
@@ -36,13 +36,13 @@ pub enum WireError {
     Malformed(postcard::Error),
     /// The body goes on after its end.
     #[error("{0} bytes after the end of an answer")]
-    LeftOver(usize),
+    TrailingBytes(usize),
 }
 
 impl From<io::Error> for WireError {
     fn from(error: io::Error) -> Self {
         if error.kind() == io::ErrorKind::UnexpectedEof {
-            WireError::Ended
+            WireError::EndOfStream
         } else {
             WireError::Io(error)
         }
@@ -68,7 +68,7 @@ impl Frame {
     pub fn decode<T: DeserializeOwned>(&self) -> Result<T, WireError> {
         match postcard::take_from_bytes(&self.body).map_err(WireError::Malformed)? {
             (value, []) => Ok(value),
-            (_, rest) => Err(WireError::LeftOver(rest.len())),
+            (_, rest) => Err(WireError::TrailingBytes(rest.len())),
         }
     }
 }

@@ -4,8 +4,8 @@ use glam::{UVec2, Vec2, Vec3};
 use proptest::prelude::*;
 use protocol::wire::{self, WireError};
 use protocol::{
-    Answer, Interval, Outcome, Panic, PinholeCamera, Question, Ray, Rays, Sample, Samples, Shape,
-    Trace, Tree, TreeNode,
+    Answer, ElementOutcome, Interval, Panic, PinholeCamera, Question, Ray, Rays, Sample, Samples,
+    Shape, Trace, Tree, TreeNode,
 };
 
 fn vec3() -> impl Strategy<Value = Vec3> {
@@ -56,7 +56,7 @@ fn shape() -> impl Strategy<Value = Shape> {
             material,
         });
     let facet = (prop::array::uniform3(vec3()), any::<u32>())
-        .prop_map(|(corners, material)| Shape::Facet { corners, material });
+        .prop_map(|(corners, material)| Shape::FlatTriangle { corners, material });
     prop_oneof![sphere, facet]
 }
 
@@ -92,11 +92,14 @@ fn question() -> impl Strategy<Value = Question> {
 }
 
 fn answer() -> impl Strategy<Value = Answer> {
-    let panic = (".{0,30}", ".{0,30}").prop_map(|(message, place)| Panic { message, place });
+    let panic = (".{0,30}", ".{0,30}").prop_map(|(message, place)| Panic {
+        message,
+        location: place,
+    });
     let outcome = prop_oneof![
-        prop::option::of(trace()).prop_map(Outcome::Value),
-        panic.prop_map(Outcome::Panicked),
-        Just(Outcome::GivenUp),
+        prop::option::of(trace()).prop_map(ElementOutcome::Value),
+        panic.prop_map(ElementOutcome::Panicked),
+        Just(ElementOutcome::Skipped),
     ];
     let tree = (
         prop::collection::vec(node(), 0..9),
@@ -106,7 +109,7 @@ fn answer() -> impl Strategy<Value = Answer> {
         .prop_map(|(nodes, root, order)| Tree { nodes, root, order });
     prop_oneof![
         prop::collection::vec(outcome, 0..9).prop_map(Answer::Hits),
-        tree.prop_map(|tree| Answer::Tree(Outcome::Value(tree))),
+        tree.prop_map(|tree| Answer::Tree(ElementOutcome::Value(tree))),
     ]
 }
 
@@ -117,7 +120,7 @@ fn bytes<T: serde::Serialize>(value: &T) -> Vec<u8> {
 
 proptest! {
     #[test]
-    fn questions_come_back(question in question(), nonce: u64) {
+    fn questions_round_trip(question in question(), nonce: u64) {
         let sent = wire::encode(nonce, &question).unwrap();
         let frame = wire::read(&mut sent.as_slice(), sent.len()).unwrap();
         prop_assert_eq!(frame.nonce, nonce);
@@ -125,25 +128,25 @@ proptest! {
     }
 
     #[test]
-    fn answers_come_back(answer in answer()) {
+    fn answers_round_trip(answer in answer()) {
         let sent = bytes(&answer);
         let frame = wire::read(&mut sent.as_slice(), sent.len()).unwrap();
         prop_assert_eq!(bytes(&frame.decode::<Answer>().unwrap()), sent);
     }
 
     #[test]
-    fn an_answer_cut_short_or_gone_on_is_refused(answer in answer(), extra: u8) {
+    fn rejects_truncated_answers_and_trailing_bytes(answer in answer(), extra: u8) {
         let sent = bytes(&answer);
         let cut = wire::read(&mut &sent[..sent.len() - 1], sent.len());
-        prop_assert!(matches!(cut, Err(WireError::Ended)));
+        prop_assert!(matches!(cut, Err(WireError::EndOfStream)));
 
         let mut frame = wire::read(&mut sent.as_slice(), sent.len()).unwrap();
         frame.body.push(extra);
-        prop_assert!(matches!(frame.decode::<Answer>(), Err(WireError::LeftOver(1))));
+        prop_assert!(matches!(frame.decode::<Answer>(), Err(WireError::TrailingBytes(1))));
     }
 
     #[test]
-    fn noise_is_refused_or_read_but_never_a_panic(noise: Vec<u8>) {
+    fn random_bytes_never_cause_a_panic(noise: Vec<u8>) {
         if let Ok(frame) = wire::read(&mut noise.as_slice(), 1 << 16) {
             frame.decode::<Answer>().ok();
             frame.decode::<Question>().ok();
@@ -151,18 +154,18 @@ proptest! {
     }
 
     #[test]
-    fn honest_answers_stay_within_what_their_question_announces(
+    fn answers_fit_the_size_limit_of_their_question(
         rays in prop::collection::vec(ray(), 0..50),
         trace in trace(),
     ) {
-        let answer = Answer::Hits(vec![Outcome::Value(Some(trace)); rays.len()]);
+        let answer = Answer::Hits(vec![ElementOutcome::Value(Some(trace)); rays.len()]);
         let question = Question::Shapes { shapes: Vec::new(), rays: Rays::List(rays) };
-        prop_assert!(bytes(&answer).len() <= question.largest_answer());
+        prop_assert!(bytes(&answer).len() <= question.max_answer_bytes());
     }
 }
 
 #[test]
-fn a_frame_that_announces_too_much_is_refused_before_it_is_read() {
+fn rejects_an_oversized_frame_before_reading_its_body() {
     let mut header = u32::MAX.to_le_bytes().to_vec();
     header.extend([0; 8]);
     let refused = wire::read(&mut header.as_slice(), 1000);

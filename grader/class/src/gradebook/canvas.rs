@@ -4,18 +4,21 @@
 
 use std::path::Path;
 
-use super::{Filled, Key, Shape, column, fill, key, known, maximum_warning};
+use super::{
+    FilledGradebook, GradebookSpec, MatchKey, column_key, fill, maximum_warning, non_empty,
+    require_column,
+};
 use crate::entry::Person;
-use crate::model::Class;
-use crate::table::{BadTable, Table};
+use crate::model::GradedClass;
+use crate::table::{Table, TableError};
 
 const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and name that file";
 /// The last of the columns that are about people.
-const LAST: &str = "Section";
+const SECTION: &str = "Section";
 /// In whose row the maximum stands.
-const POSSIBLE: &str = "Points Possible";
+const POINTS_POSSIBLE: &str = "Points Possible";
 /// Titles with these are dropped by Canvas without a word.
-const DROPPED: [&str; 9] = [
+const IGNORED_TITLES: [&str; 9] = [
     "Current Score",
     "Current Points",
     "Current Grade",
@@ -28,38 +31,42 @@ const DROPPED: [&str; 9] = [
 ];
 
 /// The gradebook at `path`, with the class's points in the column that is meant.
-pub fn canvas(path: &Path, meant: Option<&str>, class: &Class) -> Result<Filled, BadTable> {
+pub fn fill_canvas(
+    path: &Path,
+    meant: Option<&str>,
+    class: &GradedClass,
+) -> Result<FilledGradebook, TableError> {
     let table = Table::read(path)?;
-    let student = column(&table, path, "Student", REMEDY)?;
-    let id = column(&table, path, "ID", REMEDY)?;
-    let section = column(&table, path, LAST, REMEDY)?;
-    let target = target(&table, section, path, meant)?;
+    let student = require_column(&table, path, "Student", REMEDY)?;
+    let id = require_column(&table, path, "ID", REMEDY)?;
+    let section = require_column(&table, path, SECTION, REMEDY)?;
+    let target = find_target(&table, section, path, meant)?;
     let title = table.header[target].clone();
     let columns: Vec<usize> = (0..=section).chain([target]).collect();
-    let table = table.only(&columns);
+    let table = table.select_columns(&columns);
     let target = columns.len() - 1;
 
     let possible = table
         .rows
         .iter()
-        .find(|row| row[student].trim() == POSSIBLE);
+        .find(|row| row[student].trim() == POINTS_POSSIBLE);
     let warning = possible.and_then(|row| maximum_warning(class, &row[target]));
     let sis = ["SIS User ID", "SIS Login ID"].map(|name| table.column(name));
-    let mut keys = vec![key(id, |person| known(&person.number))];
-    keys.extend(sis[0].map(|column| key(column, |person| known(&person.sid))));
-    keys.extend(sis[1].map(|column| key(column, logins)));
-    keys.push(Key {
-        of_row: Box::new(move |row| plain_name(&row[student])),
-        of_person: |person| known(&person.name),
+    let mut keys = vec![column_key(id, |person| non_empty(&person.number))];
+    keys.extend(sis[0].map(|column| column_key(column, |person| non_empty(&person.sid))));
+    keys.extend(sis[1].map(|column| column_key(column, logins)));
+    keys.push(MatchKey {
+        row_text: Box::new(move |row| given_name_first(&row[student])),
+        person_texts: |person| non_empty(&person.name),
     });
     let mut filled = fill(
-        Shape {
+        GradebookSpec {
             title: format!("Canvas, {title}"),
             table,
             target,
             keys,
             // Rows such as the maximum's have no number.
-            is_person: &|row| !row[id].trim().is_empty() && row[student].trim() != POSSIBLE,
+            is_person: &|row| !row[id].trim().is_empty() && row[student].trim() != POINTS_POSSIBLE,
             is_locked: &|_| false,
             name: &|row| row[student].clone(),
         },
@@ -70,26 +77,30 @@ pub fn canvas(path: &Path, meant: Option<&str>, class: &Class) -> Result<Filled,
 }
 
 /// The column that is meant; the only one there can be, if none is named.
-fn target(
+fn find_target(
     table: &Table,
     section: usize,
     path: &Path,
     meant: Option<&str>,
-) -> Result<usize, BadTable> {
+) -> Result<usize, TableError> {
     let names = table.header.iter().enumerate().skip(section + 1);
     let names: Vec<(usize, &str)> = names.map(|(place, name)| (place, name.trim())).collect();
-    let is_dropped = |name: &str| DROPPED.iter().any(|dropped| name.contains(dropped));
+    let is_dropped = |name: &str| IGNORED_TITLES.iter().any(|dropped| name.contains(dropped));
     let is_meant = |name: &str| match meant {
-        Some(meant) => name == meant || without_number(name) == meant || number(name) == meant,
-        None => !number(name).is_empty(),
+        Some(meant) => {
+            name == meant
+                || without_assignment_number(name) == meant
+                || assignment_number(name) == meant
+        }
+        None => !assignment_number(name).is_empty(),
     };
     let found: Vec<(usize, &str)> = names
         .into_iter()
         .filter(|(_, name)| is_meant(name))
         .collect();
-    let lacks = |remedy: String| BadTable::Lacks {
+    let lacks = |remedy: String| TableError::MissingColumn {
         path: path.to_owned(),
-        lacks: meant.unwrap_or("that must be the assignment's").to_owned(),
+        column: meant.unwrap_or("that must be the assignment's").to_owned(),
         remedy,
     };
     match found.as_slice() {
@@ -111,7 +122,7 @@ fn target(
 }
 
 /// `123456` of `Path Tracer (123456)`; nothing of other titles.
-fn number(title: &str) -> &str {
+fn assignment_number(title: &str) -> &str {
     let inner = title
         .strip_suffix(')')
         .and_then(|title| title.rsplit_once('('));
@@ -123,21 +134,21 @@ fn number(title: &str) -> &str {
 }
 
 /// `Path Tracer` of `Path Tracer (123456)`.
-fn without_number(title: &str) -> &str {
-    match number(title) {
+fn without_assignment_number(title: &str) -> &str {
+    match assignment_number(title) {
         "" => title,
         number => title[..title.len() - number.len() - 2].trim_end(),
     }
 }
 
 fn logins(person: &Person) -> Vec<String> {
-    let mut logins = known(&person.login);
-    logins.extend(known(&person.email));
+    let mut logins = non_empty(&person.login);
+    logins.extend(non_empty(&person.email));
     logins
 }
 
 /// `Jane Doe` of `Doe, Jane`.
-fn plain_name(name: &str) -> String {
+fn given_name_first(name: &str) -> String {
     match name.split_once(',') {
         Some((last, first)) => format!("{} {}", first.trim(), last.trim()),
         None => name.to_owned(),

@@ -3,18 +3,20 @@
 
 use std::path::Path;
 
-use super::{Filled, Shape, column, fill, key, known, maximum_warning};
-use crate::model::Class;
-use crate::table::{BadTable, Table};
+use super::{
+    FilledGradebook, GradebookSpec, column_key, fill, maximum_warning, non_empty, require_column,
+};
+use crate::model::GradedClass;
+use crate::table::{Table, TableError};
 
 const REMEDY: &str =
     "download the grades from the assignment's page (Review Grades, Download Grades)";
 
 /// The grades at `path`, with the class's points in the place of the total.
-pub fn gradescope(path: &Path, class: &Class) -> Result<Filled, BadTable> {
+pub fn fill_gradescope(path: &Path, class: &GradedClass) -> Result<FilledGradebook, TableError> {
     let table = Table::read(path)?;
-    let target = column(&table, path, "Total Score", REMEDY)?;
-    let email = column(&table, path, "Email", REMEDY)?;
+    let target = require_column(&table, path, "Total Score", REMEDY)?;
+    let email = require_column(&table, path, "Email", REMEDY)?;
     let names: Vec<usize> = ["First Name", "Last Name", "Name"]
         .iter()
         .filter_map(|name| table.column(name))
@@ -22,11 +24,11 @@ pub fn gradescope(path: &Path, class: &Class) -> Result<Filled, BadTable> {
     let maximum = table.column("Max Points");
     let maximum = maximum.and_then(|column| table.rows.first()?.get(column).cloned());
     let warning = maximum.and_then(|maximum| maximum_warning(class, &maximum));
-    let mut keys = vec![key(email, |person| known(&person.email))];
+    let mut keys = vec![column_key(email, |person| non_empty(&person.email))];
     let sid = table.column("SID");
-    keys.extend(sid.map(|column| key(column, |person| known(&person.sid))));
+    keys.extend(sid.map(|column| column_key(column, |person| non_empty(&person.sid))));
     let mut filled = fill(
-        Shape {
+        GradebookSpec {
             title: "Gradescope".to_owned(),
             table,
             target,

@@ -11,29 +11,29 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::entry::Person;
-use crate::model::{Class, Line};
-use crate::table::{BadTable, Table};
+use crate::model::{ClassRow, GradedClass};
+use crate::table::{Table, TableError};
 
-pub use canvas::canvas;
-pub use gradescope::gradescope;
-pub use moodle::moodle;
+pub use canvas::fill_canvas;
+pub use gradescope::fill_gradescope;
+pub use moodle::fill_moodle;
 
 /// A list with points in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Filled {
+pub struct FilledGradebook {
     /// What people call it.
     pub title: String,
     /// The list's copy.
     pub table: Table,
     /// What is not as it was.
-    pub changes: Vec<Change>,
+    pub changes: Vec<CellChange>,
     /// What a person has to see to.
     pub warnings: Vec<String>,
 }
 
 /// A cell that changes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Change {
+pub struct CellChange {
     /// Whose.
     pub who: String,
     /// What stood there.
@@ -43,13 +43,13 @@ pub struct Change {
 }
 
 /// How a list is read.
-struct Shape<'a> {
+struct GradebookSpec<'a> {
     title: String,
     table: Table,
     /// The column that is filled.
     target: usize,
     /// The columns that tell people apart, the surest first.
-    keys: Vec<Key<'a>>,
+    keys: Vec<MatchKey<'a>>,
     /// Which rows are people.
     is_person: &'a dyn Fn(&[String]) -> bool,
     /// Which rows the platform would not change.
@@ -59,27 +59,27 @@ struct Shape<'a> {
 }
 
 /// Two texts that mean the same person if they are the same: in a row, and of a person.
-struct Key<'a> {
-    of_row: Box<OfRow<'a>>,
-    of_person: fn(&Person) -> Vec<String>,
+struct MatchKey<'a> {
+    row_text: Box<RowText<'a>>,
+    person_texts: fn(&Person) -> Vec<String>,
 }
 
 /// What a row says under a key.
-type OfRow<'a> = dyn Fn(&[String]) -> String + 'a;
+type RowText<'a> = dyn Fn(&[String]) -> String + 'a;
 
 /// A column, and what it is of a person.
-fn key<'a>(column: usize, of_person: fn(&Person) -> Vec<String>) -> Key<'a> {
-    Key {
-        of_row: Box::new(move |row| row[column].clone()),
-        of_person,
+fn column_key<'a>(column: usize, of_person: fn(&Person) -> Vec<String>) -> MatchKey<'a> {
+    MatchKey {
+        row_text: Box::new(move |row| row[column].clone()),
+        person_texts: of_person,
     }
 }
 
 /// Cells that a teacher has set on purpose.
 const EXCUSED: &str = "EX";
 
-fn fill(shape: Shape, class: &Class) -> Filled {
-    let Shape {
+fn fill(shape: GradebookSpec, class: &GradedClass) -> FilledGradebook {
+    let GradebookSpec {
         title,
         mut table,
         target,
@@ -90,11 +90,11 @@ fn fill(shape: Shape, class: &Class) -> Filled {
     } = shape;
     let (places, mut warnings) = match_rows(&table, &keys, is_person, name, class);
     let mut changes = Vec::new();
-    let mut filled: BTreeMap<usize, &Line> = BTreeMap::new();
+    let mut filled: BTreeMap<usize, &ClassRow> = BTreeMap::new();
     for (line, place) in places {
         let who = name(&table.rows[place]);
         if let Some(other) = filled.insert(place, line) {
-            let (one, two) = (&other.row.id, &line.row.id);
+            let (one, two) = (&other.result.id, &line.result.id);
             warnings.push(format!(
                 "{who} has two submissions, {one} and {two}: keep one"
             ));
@@ -125,8 +125,8 @@ fn fill(shape: Shape, class: &Class) -> Filled {
             continue;
         }
         let now = counted.points.to_string();
-        if !is_same(cell, counted.points) {
-            changes.push(Change {
+        if !cell_equals(cell, counted.points) {
+            changes.push(CellChange {
                 who,
                 was: cell.clone(),
                 now: now.clone(),
@@ -134,7 +134,7 @@ fn fill(shape: Shape, class: &Class) -> Filled {
             *cell = now;
         }
     }
-    Filled {
+    FilledGradebook {
         title,
         table,
         changes,
@@ -145,18 +145,18 @@ fn fill(shape: Shape, class: &Class) -> Filled {
 /// The row of each line's people, and who has none.
 fn match_rows<'c>(
     table: &Table,
-    keys: &[Key],
+    keys: &[MatchKey],
     is_person: &dyn Fn(&[String]) -> bool,
     name: &dyn Fn(&[String]) -> String,
-    class: &'c Class,
-) -> (Vec<(&'c Line, usize)>, Vec<String>) {
+    class: &'c GradedClass,
+) -> (Vec<(&'c ClassRow, usize)>, Vec<String>) {
     // Of each key, the rows that have it: one, or nobody can be told by it.
     let indices: Vec<BTreeMap<String, Vec<usize>>> = keys
         .iter()
         .map(|key| {
             let mut index: BTreeMap<String, Vec<usize>> = BTreeMap::new();
             for (place, row) in table.rows.iter().enumerate() {
-                let text = folded(&(key.of_row)(row));
+                let text = normalise(&(key.row_text)(row));
                 if is_person(row) && !text.is_empty() {
                     index.entry(text).or_default().push(place);
                 }
@@ -165,11 +165,11 @@ fn match_rows<'c>(
         })
         .collect();
     let (mut places, mut warnings) = (Vec::new(), Vec::new());
-    for line in &class.lines {
-        for person in &line.row.about.people {
+    for line in &class.rows {
+        for person in &line.result.info.people {
             let found = keys.iter().zip(&indices).find_map(|(key, index)| {
-                let texts = (key.of_person)(person);
-                let mut texts = texts.iter().map(|text| folded(text));
+                let texts = (key.person_texts)(person);
+                let mut texts = texts.iter().map(|text| normalise(text));
                 texts.find_map(|text| index.get(&text))
             });
             match found.map(Vec::as_slice) {
@@ -181,11 +181,11 @@ fn match_rows<'c>(
                         .collect();
                     warnings.push(format!(
                         "{} could be any of {}: fill in by hand",
-                        person.words(),
+                        person.display_name(),
                         names.join(", ")
                     ));
                 }
-                None => warnings.push(format!("{} is not in this list", person.words())),
+                None => warnings.push(format!("{} is not in this list", person.display_name())),
             }
         }
     }
@@ -193,20 +193,20 @@ fn match_rows<'c>(
 }
 
 /// Without case and the space around.
-fn folded(text: &str) -> String {
+fn normalise(text: &str) -> String {
     text.trim().to_lowercase()
 }
 
-fn is_same(cell: &str, points: u32) -> bool {
+fn cell_equals(cell: &str, points: u32) -> bool {
     let number = cell.trim().replacen(',', ".", 1).parse::<f64>();
     number.is_ok_and(|number| number == f64::from(points))
 }
 
 /// What was graded for other than the list's maximum.
-fn maximum_warning(class: &Class, listed: &str) -> Option<String> {
-    let counted = class.lines.iter().find_map(|line| line.counted)?;
+fn maximum_warning(class: &GradedClass, listed: &str) -> Option<String> {
+    let counted = class.rows.iter().find_map(|line| line.counted)?;
     let listed = listed.trim();
-    (!listed.is_empty() && !is_same(listed, counted.max_points)).then(|| {
+    (!listed.is_empty() && !cell_equals(listed, counted.max_points)).then(|| {
         format!(
             "the list is out of {listed}, and these points are out of {}: set out_of in the policy",
             counted.max_points
@@ -215,16 +215,21 @@ fn maximum_warning(class: &Class, listed: &str) -> Option<String> {
 }
 
 /// The column of this name, or what to do.
-fn column(table: &Table, path: &Path, name: &str, remedy: &str) -> Result<usize, BadTable> {
-    table.column(name).ok_or_else(|| BadTable::Lacks {
+fn require_column(
+    table: &Table,
+    path: &Path,
+    name: &str,
+    remedy: &str,
+) -> Result<usize, TableError> {
+    table.column(name).ok_or_else(|| TableError::MissingColumn {
         path: path.to_owned(),
-        lacks: name.to_owned(),
+        column: name.to_owned(),
         remedy: remedy.to_owned(),
     })
 }
 
 /// Nothing in the place of nothing.
-fn known(text: &str) -> Vec<String> {
+fn non_empty(text: &str) -> Vec<String> {
     match text {
         "" => Vec::new(),
         text => vec![text.to_owned()],

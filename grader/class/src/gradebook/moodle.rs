@@ -3,37 +3,40 @@
 
 use std::path::Path;
 
-use super::{Filled, Key, Shape, column, fill, key, known, maximum_warning};
-use crate::model::Class;
-use crate::table::{BadTable, Table};
+use super::{
+    FilledGradebook, GradebookSpec, MatchKey, column_key, fill, maximum_warning, non_empty,
+    require_column,
+};
+use crate::model::GradedClass;
+use crate::table::{Table, TableError};
 
 const REMEDY: &str =
     "download the grading worksheet from the assignment's page (it must allow offline grading)";
 
 /// The worksheet at `path`, with the class's points.
-pub fn moodle(path: &Path, class: &Class) -> Result<Filled, BadTable> {
+pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, TableError> {
     let table = Table::read(path)?;
-    let identifier = column(&table, path, "Identifier", REMEDY)?;
-    let target = column(&table, path, "Grade", REMEDY)?;
+    let identifier = require_column(&table, path, "Identifier", REMEDY)?;
+    let target = require_column(&table, path, "Grade", REMEDY)?;
     let name = table.column("Full name");
     let locked = table.column("Grade can be changed");
     let maximum = table.column("Maximum Grade");
     let maximum = maximum.and_then(|column| table.rows.first()?.get(column).cloned());
     let warning = maximum.and_then(|maximum| maximum_warning(class, &maximum));
 
-    let mut keys = vec![Key {
-        of_row: Box::new(move |row| participant(&row[identifier])),
-        of_person: |person| known(&person.number),
+    let mut keys = vec![MatchKey {
+        row_text: Box::new(move |row| participant(&row[identifier])),
+        person_texts: |person| non_empty(&person.number),
     }];
     let id_number = table.column("ID number");
-    keys.extend(id_number.map(|column| key(column, |person| known(&person.sid))));
+    keys.extend(id_number.map(|column| column_key(column, |person| non_empty(&person.sid))));
     let email = table.column("Email address");
-    keys.extend(email.map(|column| key(column, |person| known(&person.email))));
-    keys.extend(name.map(|column| key(column, |person| known(&person.name))));
+    keys.extend(email.map(|column| column_key(column, |person| non_empty(&person.email))));
+    keys.extend(name.map(|column| column_key(column, |person| non_empty(&person.name))));
     let is_locked =
         |row: &[String]| locked.is_some_and(|column| row[column].trim().eq_ignore_ascii_case("no"));
     let mut filled = fill(
-        Shape {
+        GradebookSpec {
             title: "Moodle".to_owned(),
             table,
             target,

@@ -3,8 +3,8 @@
 use grader::policy::Policy;
 
 use super::*;
-use crate::entry::About;
-use crate::outcome::{Outcome, Row, Told};
+use crate::entry::EntryInfo;
+use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary};
 
 fn person(name: &str, email: &str, sid: &str, number: &str) -> Person {
     Person {
@@ -16,27 +16,27 @@ fn person(name: &str, email: &str, sid: &str, number: &str) -> Person {
     }
 }
 
-fn class(people: &[(&str, Person)]) -> Class {
+fn class(people: &[(&str, Person)]) -> GradedClass {
     let line = |(id, person): &(&str, Person)| {
-        let row = Row {
+        let row = EntryResult {
             id: (*id).to_owned(),
-            about: About {
+            info: EntryInfo {
                 people: vec![person.clone()],
-                ..About::default()
+                ..EntryInfo::default()
             },
-            outcome: Outcome::Graded(Box::new(Told {
+            outcome: EntryOutcome::Graded(Box::new(ScoreSummary {
                 points: 80,
                 max_points: 100,
                 tasks: Vec::new(),
             })),
         };
-        Line::of(row, &Policy::default())
+        ClassRow::new(row, &Policy::default())
     };
-    Class {
+    GradedClass {
         exam: String::new(),
         exam_hash: String::new(),
         isolation: String::new(),
-        lines: people.iter().map(line).collect(),
+        rows: people.iter().map(line).collect(),
         missing: Vec::new(),
     }
 }
@@ -54,17 +54,17 @@ const CANVAS: &str = "Student,ID,SIS User ID,SIS Login ID,Section,Path (7),Quiz 
 \"Lee, Ann\",7003,u3,ann2,B,,3
 ";
 
-fn cells(filled: &Filled) -> Vec<&str> {
+fn cells(filled: &FilledGradebook) -> Vec<&str> {
     let rows = filled.table.rows.iter();
     rows.map(|row| row.last().unwrap().as_str()).collect()
 }
 
 #[test]
-fn the_surest_key_decides_and_a_name_only_where_nothing_else_does() {
+fn the_most_reliable_key_wins_over_the_name() {
     let file = list(CANVAS);
     // The number is Jane's, whatever the name says.
     let class = class(&[("x", person("Ann Lee", "", "", "7001"))]);
-    let filled = canvas(file.path(), Some("7"), &class).unwrap();
+    let filled = fill_canvas(file.path(), Some("7"), &class).unwrap();
     assert_eq!(cells(&filled), ["100", "80", "", ""]);
     assert_eq!(
         filled.table.header.len(),
@@ -74,7 +74,7 @@ fn the_surest_key_decides_and_a_name_only_where_nothing_else_does() {
 }
 
 #[test]
-fn two_of_one_name_and_two_submissions_of_one_person_are_left_to_a_person() {
+fn ambiguous_people_and_duplicate_submissions_are_not_filled_in() {
     let file = list(CANVAS);
     let people = [
         ("a", person("Ann Lee", "", "", "")),
@@ -82,7 +82,7 @@ fn two_of_one_name_and_two_submissions_of_one_person_are_left_to_a_person() {
         ("c", person("Jane Doe", "", "", "")),
         ("d", person("Nobody", "", "", "")),
     ];
-    let filled = canvas(file.path(), Some("Path"), &class(&people)).unwrap();
+    let filled = fill_canvas(file.path(), Some("Path"), &class(&people)).unwrap();
     assert_eq!(cells(&filled), ["100", "", "", ""]);
     let wanted = [
         "Ann Lee could be any of Lee, Ann, Lee, Ann: fill in by hand",
@@ -93,11 +93,11 @@ fn two_of_one_name_and_two_submissions_of_one_person_are_left_to_a_person() {
 }
 
 #[test]
-fn a_column_is_named_where_there_are_several_and_one_that_canvas_drops_is_refused() {
+fn rejects_ambiguous_and_ignored_columns() {
     let file = list(CANVAS);
     let nobody = class(&[]);
     let error = |text: &str, meant: Option<&str>| {
-        canvas(list(text).path(), meant, &nobody)
+        fill_canvas(list(text).path(), meant, &nobody)
             .unwrap_err()
             .to_string()
     };
@@ -106,16 +106,16 @@ fn a_column_is_named_where_there_are_several_and_one_that_canvas_drops_is_refuse
     let dropped = CANVAS.replace("Path (7)", "Path Final Score (7)");
     assert!(error(&dropped, Some("7")).contains("Canvas ignores columns"));
     assert!(error("a,b\n", None).contains("export the gradebook from Canvas"));
-    assert!(canvas(file.path(), Some("Quiz (8)"), &nobody).is_ok());
+    assert!(fill_canvas(file.path(), Some("Quiz (8)"), &nobody).is_ok());
 }
 
 #[test]
-fn grades_that_are_right_already_are_no_change_in_whatever_form() {
+fn an_equal_grade_in_another_format_is_not_a_change() {
     let moodles = "Identifier;Full name;Grade;Maximum Grade\nTeilnehmer/in 5;Doe;80,00;50,00\n";
     let file = list(moodles);
-    let filled = moodle(file.path(), &class(&[("x", person("", "", "", "5"))])).unwrap();
+    let filled = fill_moodle(file.path(), &class(&[("x", person("", "", "", "5"))])).unwrap();
     assert!(filled.changes.is_empty());
-    assert_eq!(filled.table.text(), moodles);
+    assert_eq!(filled.table.to_csv(), moodles);
     let warning =
         "the list is out of 50,00, and these points are out of 100: set out_of in the policy";
     assert_eq!(filled.warnings, [warning]);

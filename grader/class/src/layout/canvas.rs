@@ -5,18 +5,18 @@
 
 use std::collections::BTreeMap;
 
-use super::{Entries, is_one_of_five, unmatched};
-use crate::entry::{About, Entry, Person, Source};
+use super::{LayoutContents, is_task_file, unmatched_path};
+use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
 /// Of somebody whose text or link is all there is.
-const TEXT: &str = "a text or a link was handed in, and no file";
+const TEXT_ONLY: &str = "a text or a link was handed in, and no file";
 /// Of a text of somebody who handed in files as well.
-const BESIDE: &str = "a text or a link, beside files: those are graded";
+const TEXT_BESIDE_FILES: &str = "a text or a link, beside files: those are graded";
 
 /// What a file's name tells.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Name<'a> {
+pub(super) struct CanvasName<'a> {
     who: String,
     late: bool,
     user: &'a str,
@@ -25,12 +25,12 @@ pub(super) struct Name<'a> {
 }
 
 /// None if it is not such a name.
-fn parse(name: &str) -> Option<Name<'_>> {
+fn parse(name: &str) -> Option<CanvasName<'_>> {
     let parts: Vec<&str> = name.split('_').collect();
     let place = (1..parts.len().saturating_sub(2))
         .find(|place| is_user(&parts, *place) && is_number(parts[place + 1]))?;
-    let (who, late) = who(&parts[..place]);
-    Some(Name {
+    let (who, late) = split_late(&parts[..place]);
+    Some(CanvasName {
         who,
         late,
         user: parts[place],
@@ -41,16 +41,16 @@ fn parse(name: &str) -> Option<Name<'_>> {
 
 /// Whether a name is one of Canvas's.
 pub(super) fn is_name(name: &str) -> bool {
-    parse(name).is_some() || text(name).is_some()
+    parse(name).is_some() || parse_text(name).is_some()
 }
 
 /// Of `doejane_7001_text.html`, and of `…_link.html`. None if it is not such a name.
-fn text(name: &str) -> Option<Name<'_>> {
+fn parse_text(name: &str) -> Option<CanvasName<'_>> {
     let parts: Vec<&str> = name.split('_').collect();
     let place = parts.len().checked_sub(2)?;
     let is_text = ["text.html", "link.html"].contains(&parts[place + 1]);
-    let (who, late) = who(&parts[..place]);
-    (is_text && place > 0 && is_user(&parts, place)).then(|| Name {
+    let (who, late) = split_late(&parts[..place]);
+    (is_text && place > 0 && is_user(&parts, place)).then(|| CanvasName {
         who,
         late,
         user: parts[place],
@@ -69,7 +69,7 @@ fn is_number(text: &str) -> bool {
 }
 
 /// The name, and whether it is late.
-fn who(parts: &[&str]) -> (String, bool) {
+fn split_late(parts: &[&str]) -> (String, bool) {
     let (late, names) = match parts {
         [names @ .., "LATE"] if !names.is_empty() => (true, names),
         names => (false, names),
@@ -77,42 +77,42 @@ fn who(parts: &[&str]) -> (String, bool) {
     (names.join("_"), late)
 }
 
-pub(super) fn read(root: &Node) -> Entries {
-    let mut users: BTreeMap<&str, Vec<(Name, &Node)>> = BTreeMap::new();
+pub(super) fn read(root: &Node) -> LayoutContents {
+    let mut users: BTreeMap<&str, Vec<(CanvasName, &Node)>> = BTreeMap::new();
     let mut texts = Vec::new();
     let mut others = Vec::new();
-    for node in root.nodes() {
-        match (parse(&node.name), text(&node.name)) {
+    for node in root.children() {
+        match (parse(&node.name), parse_text(&node.name)) {
             (Some(name), _) if !node.is_folder() => {
                 users.entry(name.user).or_default().push((name, node));
             }
             (_, Some(name)) => texts.push((name, node)),
             (Some(_) | None, None) => {
-                others.push(unmatched(node, "its name is not one of Canvas's"));
+                others.push(unmatched_path(node, "its name is not one of Canvas's"));
             }
         }
     }
-    let mut of_texts: BTreeMap<&str, (Name, &Node)> = BTreeMap::new();
+    let mut of_texts: BTreeMap<&str, (CanvasName, &Node)> = BTreeMap::new();
     for (name, node) in texts {
         match users.contains_key(name.user) {
-            true => others.push(unmatched(node, BESIDE)),
+            true => others.push(unmatched_path(node, TEXT_BESIDE_FILES)),
             false => _ = of_texts.insert(name.user, (name, node)),
         }
     }
     let of_texts = of_texts.into_values();
     let of_texts = of_texts.map(|(name, node)| {
-        let source = Source::Nothing(TEXT.to_owned());
+        let source = Source::Missing(TEXT_ONLY.to_owned());
         entry(&name, name.late, node.name.clone(), source)
     });
-    let entries = users.into_values().map(of_files).chain(of_texts);
+    let entries = users.into_values().map(entry_of_files).chain(of_texts);
     (entries.collect(), others)
 }
 
 /// All of one user's files.
-fn of_files(mut files: Vec<(Name, &Node)>) -> Entry {
+fn entry_of_files(mut files: Vec<(CanvasName, &Node)>) -> Entry {
     files.sort_by_key(|(name, _)| name.attachment);
     let (last, newest) = files.last().expect("a user is known by a file");
-    let is_one = |(name, _): &(Name, &Node)| is_one_of_five(&first_name(&name.file));
+    let is_one = |(name, _): &(CanvasName, &Node)| is_task_file(&original_name(&name.file));
     let archive = files.iter().rfind(|(_, node)| node.is_archive());
     // What lies open counts, as it does in a folder.
     let archive = archive.filter(|_| !files.iter().any(is_one));
@@ -122,7 +122,7 @@ fn of_files(mut files: Vec<(Name, &Node)>) -> Entry {
         None => Source::Files(
             files
                 .iter()
-                .map(|(name, node)| (first_name(&name.file), node.path.clone()))
+                .map(|(name, node)| (original_name(&name.file), node.path.clone()))
                 .collect(),
         ),
     };
@@ -134,10 +134,10 @@ fn of_files(mut files: Vec<(Name, &Node)>) -> Entry {
     entry(last, files.iter().any(|(name, _)| name.late), from, source)
 }
 
-fn entry(name: &Name, late: bool, from: String, source: Source) -> Entry {
+fn entry(name: &CanvasName, late: bool, from: String, source: Source) -> Entry {
     Entry {
         id: format!("{}_{}", name.who, name.user),
-        about: About {
+        info: EntryInfo {
             people: vec![Person {
                 name: match name.who.as_str() {
                     "anon" => format!("anon {}", name.user),
@@ -155,7 +155,7 @@ fn entry(name: &Name, late: bool, from: String, source: Source) -> Entry {
 }
 
 /// `camera.rs` of `camera-2.rs`: only of the five, whose names are known.
-fn first_name(name: &str) -> String {
+fn original_name(name: &str) -> String {
     let original = |file: &str| -> Option<String> {
         let (stem, end) = file.rsplit_once('.')?;
         let (stem, number) = stem.rsplit_once('-')?;
@@ -163,7 +163,7 @@ fn first_name(name: &str) -> String {
         is_number.then(|| format!("{stem}.{end}"))
     };
     original(name)
-        .filter(|name| is_one_of_five(name))
+        .filter(|name| is_task_file(name))
         .unwrap_or_else(|| name.to_owned())
 }
 
@@ -172,7 +172,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_tells_who_when_and_what() {
+    fn parses_user_lateness_and_file_name() {
         let name = parse("doejane_LATE_7001_9001_my_work-1.zip").unwrap();
         assert_eq!((name.who.as_str(), name.user), ("doejane", "7001"));
         assert!(name.late);
@@ -186,9 +186,9 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_canvas_are_taken_from_the_names_that_we_know() {
-        assert_eq!(first_name("camera-12.rs"), "camera.rs");
-        assert_eq!(first_name("camera-final.rs"), "camera-final.rs");
-        assert_eq!(first_name("scene-2.rs"), "scene-2.rs");
+    fn removes_canvas_numbers_from_task_file_names_only() {
+        assert_eq!(original_name("camera-12.rs"), "camera.rs");
+        assert_eq!(original_name("camera-final.rs"), "camera-final.rs");
+        assert_eq!(original_name("scene-2.rs"), "scene-2.rs");
     }
 }

@@ -2,31 +2,31 @@
 //! with the account's. GitHub Classroom put them into `ASSIGNMENT-submissions`; classroom50 lays
 //! `scores.csv` beside them.
 
-use super::{Entries, unmatched};
-use crate::entry::{About, Entry, Person, Source};
+use super::{LayoutContents, unmatched_path};
+use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
 /// The folder's name, as GitHub Classroom's tool gives it.
-const OF_CLASSROOM: &str = "-submissions";
+const SUBMISSIONS_SUFFIX: &str = "-submissions";
 /// What classroom50's tool lays beside the repositories: a line for each student and attempt.
-pub const OF_CLASSROOM50: &str = "scores.csv";
+pub const CLASSROOM50_SCORES: &str = "scores.csv";
 /// What its repositories hold beside the work.
-const RESULT: &str = "result.json";
+const CLASSROOM50_RESULT: &str = "result.json";
 
 /// What all repositories begin with. None if this is no such folder.
 pub(super) fn prefix(root: &Node) -> Option<String> {
-    if let Some(assignment) = root.name.strip_suffix(OF_CLASSROOM) {
+    if let Some(assignment) = root.name.strip_suffix(SUBMISSIONS_SUFFIX) {
         return Some(format!("{assignment}-"));
     }
-    let folders = || root.nodes().iter().filter(|node| node.is_folder());
-    let is_classroom50 = root.find(OF_CLASSROOM50).is_some()
-        || (folders().count() > 0 && folders().all(|node| node.find(RESULT).is_some()));
-    is_classroom50.then(|| common(folders().map(|node| node.name.as_str())))
+    let folders = || root.children().iter().filter(|node| node.is_folder());
+    let is_classroom50 = root.find(CLASSROOM50_SCORES).is_some()
+        || (folders().count() > 0 && folders().all(|node| node.find(CLASSROOM50_RESULT).is_some()));
+    is_classroom50.then(|| common_prefix(folders().map(|node| node.name.as_str())))
 }
 
 /// Up to the last `-` that all names share. Accounts may have `-` in them, and one account alone
 /// can not be told from the assignment: its whole name is kept.
-fn common<'a>(mut names: impl Iterator<Item = &'a str>) -> String {
+fn common_prefix<'a>(mut names: impl Iterator<Item = &'a str>) -> String {
     let Some(first) = names.next() else {
         return String::new();
     };
@@ -45,26 +45,26 @@ fn common<'a>(mut names: impl Iterator<Item = &'a str>) -> String {
     }
 }
 
-pub(super) fn read(root: &Node) -> Entries {
+pub(super) fn read(root: &Node) -> LayoutContents {
     let prefix = prefix(root).unwrap_or_default();
     let (mut entries, mut others) = (Vec::new(), Vec::new());
-    for node in root.nodes() {
+    for node in root.children() {
         if node.is_folder() {
             let login = node.name.strip_prefix(&prefix).unwrap_or(&node.name);
             entries.push(Entry {
                 id: login.to_owned(),
-                about: About {
+                info: EntryInfo {
                     people: vec![Person {
                         login: login.to_owned(),
                         ..Person::default()
                     }],
                     from: node.name.clone(),
-                    ..About::default()
+                    ..EntryInfo::default()
                 },
                 source: Source::Path(node.path.clone()),
             });
-        } else if node.name != OF_CLASSROOM50 {
-            others.push(unmatched(node, "it is no repository"));
+        } else if node.name != CLASSROOM50_SCORES {
+            others.push(unmatched_path(node, "it is no repository"));
         }
     }
     (entries, others)
@@ -75,13 +75,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn accounts_are_what_repositories_do_not_share() {
+    fn finds_the_common_prefix_of_repositories() {
         let names = [
             "cg-pathtracing-ann",
             "cg-pathtracing-ann-lee",
             "cg-pathtracing-bob",
         ];
-        assert_eq!(common(names.into_iter()), "cg-pathtracing-");
-        assert_eq!(common(names[..1].iter().copied()), "");
+        assert_eq!(common_prefix(names.into_iter()), "cg-pathtracing-");
+        assert_eq!(common_prefix(names[..1].iter().copied()), "");
     }
 }

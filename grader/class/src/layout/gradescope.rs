@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-use super::{Entries, unmatched};
-use crate::entry::{About, Entry, Person, Source};
+use super::{LayoutContents, unmatched_path};
+use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
 /// The file that says whose each folder is.
@@ -18,7 +18,7 @@ pub const METADATA: &str = "submission_metadata.yml";
 #[error(
     "{METADATA}: {0}; export the submissions again, or take the file away to go by folder names"
 )]
-pub struct BadMetadata(String);
+pub struct MetadataError(String);
 
 /// Of one submission. Whatever else stands there, such as earlier results, is passed over.
 #[derive(Debug, Deserialize)]
@@ -48,29 +48,32 @@ enum Scalar {
     Other(IgnoredAny),
 }
 
-pub(super) fn read(root: &Node, metadata: &str) -> Result<Entries, BadMetadata> {
+pub(super) fn read(root: &Node, metadata: &str) -> Result<LayoutContents, MetadataError> {
     let mut known = parse(metadata)?;
     let (mut entries, mut others) = (Vec::new(), Vec::new());
-    for node in root.nodes() {
+    for node in root.children() {
         match known.remove(&node.name) {
             Some(metadata) => entries.push(entry(node, metadata)),
             None if node.name == METADATA => {}
-            None => others.push(unmatched(node, "submission_metadata.yml does not know it")),
+            None => others.push(unmatched_path(
+                node,
+                "submission_metadata.yml does not know it",
+            )),
         }
     }
     for (name, metadata) in known {
-        let about = about(&name, metadata);
-        let source = Source::Nothing("its folder is not in the export".to_owned());
+        let about = entry_info(&name, metadata);
+        let source = Source::Missing("its folder is not in the export".to_owned());
         entries.push(Entry {
             id: name,
-            about,
+            info: about,
             source,
         });
     }
     Ok((entries, others))
 }
 
-fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, BadMetadata> {
+fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, MetadataError> {
     // The exports of big classes hold all that earlier graders said: more than strangers may send.
     let budget = serde_saphyr::budget! {
         max_reader_input_bytes: Some(256 << 20),
@@ -80,18 +83,18 @@ fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, BadMetadata> {
     };
     let options = serde_saphyr::options! { budget: budget };
     serde_saphyr::from_str_with_options(metadata, options)
-        .map_err(|error| BadMetadata(error.to_string()))
+        .map_err(|error| MetadataError(error.to_string()))
 }
 
 fn entry(node: &Node, metadata: Metadata) -> Entry {
     Entry {
         id: node.name.clone(),
-        about: about(&node.name, metadata),
+        info: entry_info(&node.name, metadata),
         source: Source::Path(node.path.clone()),
     }
 }
 
-fn about(name: &str, metadata: Metadata) -> About {
+fn entry_info(name: &str, metadata: Metadata) -> EntryInfo {
     let text = |scalar: Option<Scalar>| scalar.and_then(Scalar::text).unwrap_or_default();
     let person = |submitter: Submitter| Person {
         name: text(submitter.name),
@@ -103,7 +106,7 @@ fn about(name: &str, metadata: Metadata) -> About {
     if people.is_empty() {
         people.push(Person::named(name));
     }
-    About {
+    EntryInfo {
         people,
         late: false,
         submitted: metadata.created_at.and_then(Scalar::text),

@@ -11,28 +11,28 @@ mod plain;
 
 use std::collections::BTreeSet;
 
-use grader::given::TASK_FILES;
+use grader::given_files::TASK_FILES;
 
 use crate::entry::{Entry, folder_name};
 use crate::listing::Node;
 
-pub use github::OF_CLASSROOM50;
-pub use gradescope::{BadMetadata, METADATA};
+pub use github::CLASSROOM50_SCORES;
+pub use gradescope::{METADATA, MetadataError};
 
 /// A class, as it was found.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Found {
+pub struct RecognisedClass {
     /// What it looks like.
     pub layout: Layout,
     /// In the order of their ids.
     pub entries: Vec<Entry>,
     /// What belongs to nobody, and why.
-    pub unmatched: Vec<Unmatched>,
+    pub unmatched: Vec<UnmatchedPath>,
 }
 
 /// Something in the input that is no submission.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unmatched {
+pub struct UnmatchedPath {
     /// Its name.
     pub name: String,
     /// Why.
@@ -56,7 +56,7 @@ pub enum Layout {
 
 impl Layout {
     /// What people call it.
-    pub fn words(self) -> &'static str {
+    pub fn description(self) -> &'static str {
         match self {
             Layout::Gradescope => "a Gradescope export",
             Layout::Canvas => "a Canvas download",
@@ -68,13 +68,13 @@ impl Layout {
 }
 
 /// The class in this folder. `metadata` is the text of Gradescope's, where there is one.
-pub fn recognise(root: &Node, metadata: Option<&str>) -> Result<Found, BadMetadata> {
-    let root = unwrapped(root);
+pub fn recognise(root: &Node, metadata: Option<&str>) -> Result<RecognisedClass, MetadataError> {
+    let root = find_class_folder(root);
     let (layout, (mut entries, unmatched)) = if let Some(metadata) = metadata {
         (Layout::Gradescope, gradescope::read(root, metadata)?)
-    } else if most(root, |node| canvas::is_name(&node.name)) {
+    } else if is_majority(root, |node| canvas::is_name(&node.name)) {
         (Layout::Canvas, canvas::read(root))
-    } else if most(root, |node| moodle::parse(&node.name).is_some()) {
+    } else if is_majority(root, |node| moodle::parse(&node.name).is_some()) {
         (Layout::Moodle, moodle::read(root))
     } else if github::prefix(root).is_some() {
         (Layout::GitHub, github::read(root))
@@ -82,8 +82,8 @@ pub fn recognise(root: &Node, metadata: Option<&str>) -> Result<Found, BadMetada
         (Layout::Plain, plain::read(root))
     };
     entries.sort_by(|one, other| one.id.cmp(&other.id));
-    told_apart(&mut entries);
-    Ok(Found {
+    make_ids_unique(&mut entries);
+    Ok(RecognisedClass {
         layout,
         entries,
         unmatched,
@@ -91,19 +91,19 @@ pub fn recognise(root: &Node, metadata: Option<&str>) -> Result<Found, BadMetada
 }
 
 /// The folder itself, or the only one in it where that is but a wrapper around the class.
-pub fn unwrapped(root: &Node) -> &Node {
-    match root.nodes() {
-        [only] if only.is_folder() && !is_a_submission(only) => unwrapped(only),
+pub fn find_class_folder(root: &Node) -> &Node {
+    match root.children() {
+        [only] if only.is_folder() && !is_submission(only) => find_class_folder(only),
         _ => root,
     }
 }
 
-fn is_one_of_five(name: &str) -> bool {
+fn is_task_file(name: &str) -> bool {
     TASK_FILES.iter().any(|file| file.name == name)
 }
 
 /// Whether this one folder is somebody's work, and not a class.
-fn is_a_submission(node: &Node) -> bool {
+fn is_submission(node: &Node) -> bool {
     let is_moodles = moodle::parse(&node.name).is_some();
     let holds = |node: &Node| TASK_FILES.iter().any(|file| node.find(file.name).is_some());
     let below = node.find("src").is_some_and(holds);
@@ -112,13 +112,13 @@ fn is_a_submission(node: &Node) -> bool {
 }
 
 /// Whether more than half of what lies here is of a kind.
-fn most(root: &Node, is_one: impl Fn(&Node) -> bool) -> bool {
-    let count = root.nodes().iter().filter(|node| is_one(node)).count();
-    2 * count > root.nodes().len()
+fn is_majority(root: &Node, is_one: impl Fn(&Node) -> bool) -> bool {
+    let count = root.children().iter().filter(|node| is_one(node)).count();
+    2 * count > root.children().len()
 }
 
 /// Two ids that a file system may take for one get numbers.
-fn told_apart(entries: &mut [Entry]) {
+fn make_ids_unique(entries: &mut [Entry]) {
     let mut taken = BTreeSet::new();
     for entry in entries {
         let wished = folder_name(&entry.id);
@@ -133,11 +133,11 @@ fn told_apart(entries: &mut [Entry]) {
 }
 
 /// What a layout finds.
-type Entries = (Vec<Entry>, Vec<Unmatched>);
+type LayoutContents = (Vec<Entry>, Vec<UnmatchedPath>);
 
 /// Something that belongs to nobody.
-fn unmatched(node: &Node, why: &str) -> Unmatched {
-    Unmatched {
+fn unmatched_path(node: &Node, why: &str) -> UnmatchedPath {
+    UnmatchedPath {
         name: node.name.clone(),
         why: why.to_owned(),
     }

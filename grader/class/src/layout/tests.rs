@@ -8,13 +8,13 @@ fn file(name: &str) -> Node {
     Node {
         name: name.to_owned(),
         path: PathBuf::from(name),
-        inside: None,
+        children: None,
     }
 }
 
 fn folder(name: &str, inside: Vec<Node>) -> Node {
     Node {
-        inside: Some(inside),
+        children: Some(inside),
         ..file(name)
     }
 }
@@ -24,21 +24,21 @@ fn layout(root: &Node) -> Layout {
 }
 
 #[test]
-fn a_wrapper_is_looked_through_and_a_submission_is_not() {
+fn skips_wrapper_folders_but_not_submissions() {
     let class = folder("class", vec![folder("ann", vec![]), folder("bob", vec![])]);
     let wrapped = folder("download", vec![class.clone()]);
-    assert_eq!(unwrapped(&wrapped), &class);
+    assert_eq!(find_class_folder(&wrapped), &class);
     let one = folder("class", vec![folder("ann", vec![file("camera.rs")])]);
-    assert_eq!(unwrapped(&one), &one);
+    assert_eq!(find_class_folder(&one), &one);
     let moodle = folder(
         "class",
         vec![folder("Ann_1_assignsubmission_file_", vec![])],
     );
-    assert_eq!(unwrapped(&moodle), &moodle);
+    assert_eq!(find_class_folder(&moodle), &moodle);
 }
 
 #[test]
-fn most_of_the_names_decide() {
+fn the_majority_of_names_decides_the_layout() {
     let canvas = ["doe_1_2_a.zip", "lee_3_4_b.zip", "readme.txt"].map(file);
     assert_eq!(layout(&folder("x", canvas.to_vec())), Layout::Canvas);
     let plain = ["doe.zip", "lee_3_4_b.zip"].map(file);
@@ -52,7 +52,7 @@ fn most_of_the_names_decide() {
 }
 
 #[test]
-fn ids_that_a_file_system_takes_for_one_get_numbers() {
+fn ids_that_differ_only_in_case_get_numbers() {
     let names = ["Ann", "ann", "a/n"].map(|name| folder(name, vec![]));
     let found = recognise(&folder("x", names.to_vec()), None).unwrap();
     let ids: Vec<&str> = found

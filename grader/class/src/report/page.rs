@@ -3,34 +3,34 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use grader::tame::tame;
+use grader::sanitize::sanitize;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
-use crate::model::{Class, Line};
-use crate::outcome::Told;
-use crate::spread::Spread;
-use crate::summary::Summary;
+use crate::distribution::Distribution;
+use crate::model::{ClassRow, GradedClass};
+use crate::outcome::ScoreSummary;
+use crate::summary::ClassSummary;
 
 const STYLE: &str = include_str!("page.css");
 
 /// The page.
-pub fn page(class: &Class, summary: &Summary) -> String {
-    let title = format!("{} submissions, {} exam", class.lines.len(), class.exam);
+pub fn render_page(class: &GradedClass, summary: &ClassSummary) -> String {
+    let title = format!("{} submissions, {} exam", class.rows.len(), class.exam);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(policy());
+                meta http-equiv="Content-Security-Policy" content=(content_security_policy());
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
-                title { (said(&title)) }
+                title { (sanitized(&title)) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
                 header {
-                    h1 { (said(&title)) }
+                    h1 { (sanitized(&title)) }
                     p {
                         (summary.graded) " graded, " (summary.nothing_to_grade)
                         " with nothing to grade, " (summary.not_graded) " not graded, "
@@ -39,14 +39,14 @@ pub fn page(class: &Class, summary: &Summary) -> String {
                 }
                 main {
                     (distribution(summary))
-                    (lists(summary))
-                    (students(class))
+                    (mistake_sections(summary))
+                    (submissions_section(class))
                 }
                 footer {
                     p {
-                        "Exam " code { (said(&class.exam)) } ", "
-                        code { (said(class.exam_hash.get(..12).unwrap_or_default())) }
-                        "; isolation " code { (said(&class.isolation)) } ". For programs: "
+                        "Exam " code { (sanitized(&class.exam)) } ", "
+                        code { (sanitized(class.exam_hash.get(..12).unwrap_or_default())) }
+                        "; isolation " code { (sanitized(&class.isolation)) } ". For programs: "
                         code { "class.json" } ", " code { "grades.csv" } " beside this page."
                     }
                 }
@@ -57,12 +57,12 @@ pub fn page(class: &Class, summary: &Summary) -> String {
 }
 
 /// Nothing from elsewhere, no script, and this one style.
-fn policy() -> String {
+fn content_security_policy() -> String {
     let hash = STANDARD.encode(Sha256::digest(STYLE));
     format!("default-src 'none'; style-src 'sha256-{hash}'; base-uri 'none'; form-action 'none'")
 }
 
-fn distribution(summary: &Summary) -> Markup {
+fn distribution(summary: &ClassSummary) -> Markup {
     let all = summary.points.iter().map(|points| ("All tasks", points));
     let tasks = summary
         .tasks
@@ -85,7 +85,7 @@ fn distribution(summary: &Summary) -> Markup {
                 tbody {
                     @for (title, spread) in all.chain(tasks) {
                         tr {
-                            th scope="row" { (said(title)) }
+                            th scope="row" { (sanitized(title)) }
                             td { (bars(spread)) }
                             td .number { (format!("{:.1}", spread.mean)) }
                             td .number { (spread.median) }
@@ -99,7 +99,7 @@ fn distribution(summary: &Summary) -> Markup {
 }
 
 /// Ten columns, and in words the same.
-fn bars(spread: &Spread) -> Markup {
+fn bars(spread: &Distribution) -> Markup {
     let highest = spread.bins.iter().max().copied().unwrap_or(0).max(1);
     let counts: Vec<String> = spread.bins.iter().map(ToString::to_string).collect();
     let label = format!(
@@ -120,14 +120,14 @@ fn bars(spread: &Spread) -> Markup {
     }
 }
 
-fn lists(summary: &Summary) -> Markup {
+fn mistake_sections(summary: &ClassSummary) -> Markup {
     html! {
         section aria-labelledby="mistakes" {
             h2 #mistakes { "Most common mistakes" }
             @if summary.mistakes.is_empty() { p { "None was recognised." } }
             ul .counted {
                 @for mistake in &summary.mistakes {
-                    li { strong { (mistake.count) " × " } (said(&mistake.hint)) }
+                    li { strong { (mistake.count) " × " } (sanitized(&mistake.hint)) }
                 }
             }
         }
@@ -137,7 +137,7 @@ fn lists(summary: &Summary) -> Markup {
                 @for failed in &summary.failed_most {
                     li {
                         strong { (failed.count) " × " }
-                        (said(&failed.title)) " " code { (said(&failed.item)) }
+                        (sanitized(&failed.title)) " " code { (sanitized(&failed.item)) }
                     }
                 }
             }
@@ -147,7 +147,7 @@ fn lists(summary: &Summary) -> Markup {
                 h2 #look { "To be looked at" }
                 ul {
                     @for outlier in &summary.outliers {
-                        li { strong { (said(&outlier.id)) } ": " (said(&outlier.why)) }
+                        li { strong { (sanitized(&outlier.id)) } ": " (sanitized(&outlier.why)) }
                     }
                 }
             }
@@ -155,7 +155,7 @@ fn lists(summary: &Summary) -> Markup {
     }
 }
 
-fn students(class: &Class) -> Markup {
+fn submissions_section(class: &GradedClass) -> Markup {
     let first = class.scores().next();
     let tasks = first.map_or(&[][..], |(_, score)| score.tasks.as_slice());
     html! {
@@ -168,15 +168,15 @@ fn students(class: &Class) -> Markup {
                             th scope="col" { "Who" }
                             th scope="col" .number { "Counts" }
                             th scope="col" .number { "Points" }
-                            @for task in tasks { th scope="col" .number { (said(&task.title)) } }
+                            @for task in tasks { th scope="col" .number { (sanitized(&task.title)) } }
                             th scope="col" { "Notes" }
                         }
                     }
                     tbody {
-                        @for line in &class.lines { (student(line, tasks.len())) }
+                        @for line in &class.rows { (submission_row(line, tasks.len())) }
                         @for person in &class.missing {
                             tr {
-                                th scope="row" { (said(person.words())) }
+                                th scope="row" { (sanitized(person.display_name())) }
                                 td .number { "–" }
                                 td .number { "–" }
                                 @for _ in tasks { td {} }
@@ -190,29 +190,29 @@ fn students(class: &Class) -> Markup {
     }
 }
 
-fn student(line: &Line, tasks: usize) -> Markup {
-    let who = said(&line.row.about.words());
+fn submission_row(line: &ClassRow, tasks: usize) -> Markup {
+    let who = sanitized(&line.result.info.display_names());
     html! {
         tr {
-            @match line.row.score() {
-                Some(score) => (scored(line, score, who)),
+            @match line.result.score() {
+                Some(score) => (score_cells(line, score, who)),
                 None => {
                     th scope="row" { (who) }
                     td .number { "–" }
                     td .number { "–" }
                     @for _ in 0..tasks { td {} }
-                    td { strong { (line.status()) } ": " (said(line.why())) }
+                    td { strong { (line.status()) } ": " (sanitized(line.why())) }
                 },
             }
         }
     }
 }
 
-fn scored(line: &Line, score: &Told, who: Markup) -> Markup {
+fn score_cells(line: &ClassRow, score: &ScoreSummary, who: Markup) -> Markup {
     let late = line.counted.map_or(0, |counted| counted.late_days);
     let counts = line.counted.map_or(0, |counted| counted.points);
     html! {
-        th scope="row" { a href=(link(&line.row.id)) { (who) } }
+        th scope="row" { a href=(report_link(&line.result.id)) { (who) } }
         td .number { strong { (counts) } }
         td .number { (score.points) }
         @for task in &score.tasks {
@@ -223,7 +223,7 @@ fn scored(line: &Line, score: &Told, who: Markup) -> Markup {
 }
 
 /// An id has letters of any language, which a link must spell in bytes.
-fn link(id: &str) -> String {
+fn report_link(id: &str) -> String {
     let byte = |byte: u8| match byte {
         b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' => {
             char::from(byte).to_string()
@@ -235,6 +235,6 @@ fn link(id: &str) -> String {
 }
 
 /// What others have written, without power over what stands around it.
-fn said(text: &str) -> Markup {
-    html! { (tame(text, 300)) }
+fn sanitized(text: &str) -> Markup {
+    html! { (sanitize(text, 300)) }
 }

@@ -2,46 +2,46 @@
 
 use std::fmt::{self, Write};
 
-use grader::tame::tame;
+use grader::sanitize::sanitize;
 
 use crate::entry::{Entry, Person};
-use crate::input::collect;
-use crate::layout::{Found, Unmatched};
+use crate::input::collect_submission;
+use crate::layout::{RecognisedClass, UnmatchedPath};
 
 /// The most characters of a line's parts.
-const LONGEST: usize = 200;
+const MAX_CHARS: usize = 200;
 
 /// What was found, and what each would be graded from.
-pub fn preview(found: &Found, missing: &[Person]) -> String {
+pub fn render_preview(found: &RecognisedClass, missing: &[Person]) -> String {
     let mut text = String::new();
     write_preview(&mut text, found, missing).expect("text takes text");
     text
 }
 
-fn write_preview(out: &mut String, found: &Found, missing: &[Person]) -> fmt::Result {
+fn write_preview(out: &mut String, found: &RecognisedClass, missing: &[Person]) -> fmt::Result {
     writeln!(
         out,
         "\n  {} in {}\n",
-        count(found.entries.len()),
-        found.layout.words()
+        count_submissions(found.entries.len()),
+        found.layout.description()
     )?;
     let mut gradable = 0;
     for entry in &found.entries {
-        let what = what(entry);
+        let what = describe_files(entry);
         gradable += usize::from(what.is_ok());
-        let who = shown(&entry.about.words());
-        let late = if entry.about.late { ", late" } else { "" };
+        let who = sanitized(&entry.info.display_names());
+        let late = if entry.info.late { ", late" } else { "" };
         match what {
             Ok(files) => writeln!(out, "  {who}{late}: {files}")?,
-            Err(why) => writeln!(out, "  {who}{late}: nothing to grade: {}", shown(&why))?,
+            Err(why) => writeln!(out, "  {who}{late}: nothing to grade: {}", sanitized(&why))?,
         }
-        writeln!(out, "      {}", shown(&entry.about.from))?;
+        writeln!(out, "      {}", sanitized(&entry.info.from))?;
     }
-    write_doubts(out, found)?;
+    write_warnings(out, found)?;
     if !missing.is_empty() {
         writeln!(out, "\n  in the lists, and nothing handed in:")?;
         for person in missing {
-            writeln!(out, "      {}", shown(person.words()))?;
+            writeln!(out, "      {}", sanitized(person.display_name()))?;
         }
     }
     writeln!(
@@ -52,14 +52,14 @@ fn write_preview(out: &mut String, found: &Found, missing: &[Person]) -> fmt::Re
 }
 
 /// What a person has to see to: to be said as well where there are grades, which have no line for it.
-pub fn doubts(found: &Found) -> String {
+pub fn render_warnings(found: &RecognisedClass) -> String {
     let mut text = String::new();
-    write_doubts(&mut text, found).expect("text takes text");
+    write_warnings(&mut text, found).expect("text takes text");
     text
 }
 
-fn write_doubts(out: &mut String, found: &Found) -> fmt::Result {
-    for (one, other) in twice(&found.entries) {
+fn write_warnings(out: &mut String, found: &RecognisedClass) -> fmt::Result {
+    for (one, other) in duplicate_people(&found.entries) {
         writeln!(
             out,
             "\n  {one} and {other} are of the same person: keep the one that counts"
@@ -68,21 +68,21 @@ fn write_doubts(out: &mut String, found: &Found) -> fmt::Result {
     if !found.unmatched.is_empty() {
         writeln!(out, "\n  belongs to nobody:")?;
     }
-    for Unmatched { name, why } in &found.unmatched {
-        writeln!(out, "      {}: {}", shown(name), shown(why))?;
+    for UnmatchedPath { name, why } in &found.unmatched {
+        writeln!(out, "      {}: {}", sanitized(name), sanitized(why))?;
     }
     Ok(())
 }
 
-fn count(entries: usize) -> String {
+fn count_submissions(entries: usize) -> String {
     match entries {
         1 => "1 submission".to_owned(),
         several => format!("{several} submissions"),
     }
 }
 
-fn what(entry: &Entry) -> Result<String, String> {
-    let submission = collect(entry)?;
+fn describe_files(entry: &Entry) -> Result<String, String> {
+    let submission = collect_submission(entry)?;
     let lacks = submission.files.iter().filter(|(_, text)| text.is_err());
     let lacks: Vec<String> = lacks
         .filter_map(|(_, text)| text.as_ref().err().map(ToString::to_string))
@@ -98,13 +98,13 @@ fn what(entry: &Entry) -> Result<String, String> {
 }
 
 /// Pairs of entries that name the same person.
-fn twice(entries: &[Entry]) -> Vec<(&str, &str)> {
+fn duplicate_people(entries: &[Entry]) -> Vec<(&str, &str)> {
     let mut pairs = Vec::new();
     for (place, one) in entries.iter().enumerate() {
         for other in &entries[place + 1..] {
-            let same = |one: &Person, other: &Person| one.is(other) || one == other;
-            let mut people = one.about.people.iter();
-            if people.any(|one| other.about.people.iter().any(|other| same(one, other))) {
+            let same = |one: &Person, other: &Person| one.matches(other) || one == other;
+            let mut people = one.info.people.iter();
+            if people.any(|one| other.info.people.iter().any(|other| same(one, other))) {
                 pairs.push((one.id.as_str(), other.id.as_str()));
             }
         }
@@ -112,6 +112,6 @@ fn twice(entries: &[Entry]) -> Vec<(&str, &str)> {
     pairs
 }
 
-fn shown(text: &str) -> String {
-    tame(text, LONGEST).replace('\n', "\\n")
+fn sanitized(text: &str) -> String {
+    sanitize(text, MAX_CHARS).replace('\n', "\\n")
 }

@@ -4,29 +4,29 @@
 use std::fmt::{self, Write};
 
 use anstyle::Style;
-use grader::tame::tame;
+use grader::sanitize::sanitize;
 
+use crate::distribution::Distribution;
 use crate::drift::Drift;
-use crate::gradebook::Filled;
-use crate::spread::Spread;
-use crate::summary::Summary;
+use crate::gradebook::FilledGradebook;
+use crate::summary::ClassSummary;
 
 const STRONG: Style = Style::new().bold();
 const FAINT: Style = Style::new().dimmed();
 /// A column of so many points, from none to all.
 const COLUMNS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 /// The most lines of a gradebook's or a regrade's changes.
-const MOST: usize = 40;
+const MAX_LINES: usize = 40;
 
 /// The summary.
-pub fn summary(summary: &Summary) -> String {
+pub fn render_summary(summary: &ClassSummary) -> String {
     let mut text = String::new();
     write_summary(&mut text, summary).expect("text takes text");
     text
 }
 
-fn write_summary(out: &mut String, summary: &Summary) -> fmt::Result {
-    let Summary { graded, exam, .. } = summary;
+fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
+    let ClassSummary { graded, exam, .. } = summary;
     writeln!(out, "\n{STRONG}  {graded} graded, {exam} exam{STRONG:#}")?;
     let others = [
         (
@@ -48,34 +48,39 @@ fn write_summary(out: &mut String, summary: &Summary) -> fmt::Result {
     }
     if let Some(points) = &summary.points {
         writeln!(out)?;
-        spread(out, "all", points)?;
+        write_distribution(out, "all", points)?;
     }
     for task in &summary.tasks {
-        spread(out, &task.title, &task.points)?;
+        write_distribution(out, &task.title, &task.points)?;
     }
     let failed = summary.failed_most.iter();
     let failed = failed.map(|failed| (failed.count, format!("{}  {}", failed.item, failed.title)));
-    list(out, "failed most", failed)?;
+    write_counts(out, "failed most", failed)?;
     let mistakes = summary.mistakes.iter();
     let mistakes = mistakes.map(|mistake| (mistake.count, mistake.hint.clone()));
-    list(out, "made most", mistakes)?;
+    write_counts(out, "made most", mistakes)?;
     if !summary.outliers.is_empty() {
         writeln!(out, "\n{STRONG}  to be looked at{STRONG:#}")?;
     }
     for outlier in &summary.outliers {
-        writeln!(out, "  {}: {}", line(&outlier.id), line(&outlier.why))?;
+        writeln!(
+            out,
+            "  {}: {}",
+            one_line(&outlier.id),
+            one_line(&outlier.why)
+        )?;
     }
     writeln!(out)
 }
 
-fn spread(out: &mut String, title: &str, spread: &Spread) -> fmt::Result {
+fn write_distribution(out: &mut String, title: &str, spread: &Distribution) -> fmt::Result {
     let highest = spread.bins.iter().max().copied().unwrap_or(0).max(1);
     let column = |count: &usize| match count {
         0 => '·',
         count => COLUMNS[(8 * count).div_ceil(highest)],
     };
     let bars: String = spread.bins.iter().map(column).collect();
-    let Spread {
+    let Distribution {
         mean,
         of,
         lower_quartile,
@@ -89,7 +94,7 @@ fn spread(out: &mut String, title: &str, spread: &Spread) -> fmt::Result {
     )
 }
 
-fn list(
+fn write_counts(
     out: &mut String,
     title: &str,
     lines: impl Iterator<Item = (usize, String)>,
@@ -99,25 +104,25 @@ fn list(
         writeln!(out, "\n{STRONG}  {title}{STRONG:#}")?;
     }
     for (count, words) in lines {
-        writeln!(out, "  {count:>4}  {}", line(&words))?;
+        writeln!(out, "  {count:>4}  {}", one_line(&words))?;
     }
     Ok(())
 }
 
 /// What a list's copy changes, before it is written.
-pub fn filled(filled: &Filled) -> String {
-    let mut text = format!("\n{STRONG}  {}{STRONG:#}\n", line(&filled.title));
+pub fn render_gradebook(filled: &FilledGradebook) -> String {
+    let mut text = format!("\n{STRONG}  {}{STRONG:#}\n", one_line(&filled.title));
     let width = filled.changes.iter().map(|c| c.who.chars().count()).max();
     let width = width.unwrap_or(0);
-    for change in filled.changes.iter().take(MOST) {
+    for change in filled.changes.iter().take(MAX_LINES) {
         let was = match change.was.trim() {
             "" => "–",
             was => was,
         };
-        let who = line(&change.who);
-        text += &format!("  {who:width$}  {} → {}\n", line(was), change.now);
+        let who = one_line(&change.who);
+        text += &format!("  {who:width$}  {} → {}\n", one_line(was), change.now);
     }
-    let more = filled.changes.len().saturating_sub(MOST);
+    let more = filled.changes.len().saturating_sub(MAX_LINES);
     if more > 0 {
         text += &format!("  and {more} more\n");
     }
@@ -125,13 +130,13 @@ pub fn filled(filled: &Filled) -> String {
         text += "  nothing changes\n";
     }
     for warning in &filled.warnings {
-        text += &format!("  ! {}\n", line(warning));
+        text += &format!("  ! {}\n", one_line(warning));
     }
     text
 }
 
 /// What a regrade has changed; `because` is what is not as it was.
-pub fn drifts(drifts: &[Drift], because: &[&str]) -> String {
+pub fn render_drifts(drifts: &[Drift], because: &[&str]) -> String {
     let because = match because {
         [] => "of what scores follow from, nothing is different".to_owned(),
         because => format!("different now: {}", because.join(", ")),
@@ -141,22 +146,22 @@ pub fn drifts(drifts: &[Drift], because: &[&str]) -> String {
         count => format!("{count} changed"),
     };
     let mut text = format!("\n{STRONG}  regraded: {count}{STRONG:#} ({because})\n");
-    for drift in drifts.iter().take(MOST) {
+    for drift in drifts.iter().take(MAX_LINES) {
         let now = drift
             .now
             .map_or("no score".to_owned(), |now| now.to_string());
-        text += &format!("  {}: {} → {now}\n", line(&drift.id), drift.was);
+        text += &format!("  {}: {} → {now}\n", one_line(&drift.id), drift.was);
         let points = |points: Option<u32>| points.map_or("–".to_owned(), |p| p.to_string());
         for change in &drift.items {
             let (was, now) = (points(change.was), points(change.now));
             text += &format!(
                 "      {} {was} → {now}: {}\n",
                 change.item,
-                line(&change.why)
+                one_line(&change.why)
             );
         }
     }
-    let more = drifts.len().saturating_sub(MOST);
+    let more = drifts.len().saturating_sub(MAX_LINES);
     if more > 0 {
         text += &format!("  and {more} more, in drift.json\n");
     }
@@ -164,6 +169,6 @@ pub fn drifts(drifts: &[Drift], because: &[&str]) -> String {
 }
 
 /// One line, whatever stands in it.
-fn line(text: &str) -> String {
-    tame(text, 160).replace('\n', " ")
+fn one_line(text: &str) -> String {
+    sanitize(text, 160).replace('\n', " ")
 }

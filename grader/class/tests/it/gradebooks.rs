@@ -2,23 +2,23 @@
 
 use insta::assert_snapshot;
 
-use crate::harness::{Place, complaint, told};
+use crate::harness::{TestClass, exit_code_and_stderr, successful_stdout};
 
 #[test]
-fn a_list_that_can_not_be_filled_is_refused_before_anything_is_graded() {
-    let place = Place::named("class").with_reference("ann");
-    let exam = place.exam(&["camera.offset"]);
+fn rejects_an_ambiguous_gradebook_before_grading() {
+    let place = TestClass::named("class").with_reference("ann");
+    let exam = place.small_exam(&["camera.offset"]);
     let canvas = "Student,ID,SIS Login ID,Section,One (1),Two (2)\n";
-    let canvas = place.list("canvas-export.csv", canvas);
+    let canvas = place.write_beside("canvas-export.csv", canvas);
     let output = place.grade(&exam, &["--canvas", &canvas]);
-    let (code, error) = complaint(&output);
+    let (code, error) = exit_code_and_stderr(&output);
     assert_eq!(code, 2);
     assert!(error.contains("name it with --column"), "{error}");
     assert!(!place.out().exists(), "something was graded");
 }
 
 #[test]
-fn each_list_gets_its_points_and_says_what_changes_and_who_is_missing() {
+fn fills_each_gradebook_and_reports_changes_and_missing_people() {
     let metadata = "---
 submission_1:
   :submitters:
@@ -39,12 +39,12 @@ submission_3:
     :sid: u4
     :email: empty@example.edu
 ";
-    let place = Place::named("export")
+    let place = TestClass::named("export")
         .with("submission_metadata.yml", metadata)
         .with_reference("submission_1")
         .with_starter("submission_2")
         .with_folder("submission_3");
-    let canvas = place.list(
+    let canvas = place.write_beside(
         "canvas-export.csv",
         "Student,ID,SIS User ID,SIS Login ID,Section,Quiz (11),Path Tracer (4242),Final Score
     Points Possible,,,,,10,4,(read only)
@@ -54,21 +54,21 @@ submission_3:
 \"Missing, M\",7005,u5,missing,Lab 1,6,2,60
 ",
     );
-    let moodle = place.list(
+    let moodle = place.write_beside(
         "worksheet.csv",
         "\u{feff}Identifier,Full name,ID number,Email address,Status,Grade,Maximum Grade,Grade can be changed,Last modified (submission),Last modified (grade),Feedback comments
 Participant 301,José Núñez,u1,jose@example.edu,Submitted,,4.00,Yes,-,-,
 Participant 302,Ann Lee,u2,ann@example.edu,Submitted,\"2,00\",4.00,No,-,-,
 ",
     );
-    let gradescope = place.list(
+    let gradescope = place.write_beside(
         "grades.csv",
         "First Name,Last Name,SID,Email,Sections,Total Score,Max Points,Status
 José,Núñez,u1,jose@example.edu,,1.0,4.0,Graded
 Ann,Lee,u2,ann@example.edu,,4.0,4.0,Graded
 ",
     );
-    let exam = place.exam(&["camera.offset", "sphere.radius"]);
+    let exam = place.small_exam(&["camera.offset", "sphere.radius"]);
     let lists = [
         "--canvas",
         &canvas,
@@ -79,9 +79,9 @@ Ann,Lee,u2,ann@example.edu,,4.0,4.0,Graded
         "--gradescope",
         &gradescope,
     ];
-    let text = told(&place.grade(&exam, &lists));
+    let text = successful_stdout(&place.grade(&exam, &lists));
     let lists = text.split("Canvas, ").nth(1).unwrap();
-    let here = place.beside("");
+    let here = place.path_beside("");
     let lists = lists.replace(here.to_str().unwrap(), "HERE/");
     let copies = ["canvas.csv", "moodle.csv", "gradescope.csv"].map(|name| place.read(name));
     assert_snapshot!(format!("{lists}\n{}", copies.join("\n")));

@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use serde_json::Value;
 use tempfile::TempDir;
 
-pub const FIVE: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
+pub const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 
 /// The folder of the whole project.
 pub fn workspace() -> PathBuf {
@@ -16,15 +16,15 @@ pub fn workspace() -> PathBuf {
 }
 
 /// A folder for a class and what comes of it, which vanishes.
-pub struct Place {
+pub struct TestClass {
     folder: TempDir,
     pub name: String,
 }
 
-impl Place {
+impl TestClass {
     /// A class in a folder of this name.
     pub fn named(name: &str) -> Self {
-        let place = Place {
+        let place = TestClass {
             folder: TempDir::new().unwrap(),
             name: name.to_owned(),
         };
@@ -37,7 +37,7 @@ impl Place {
     }
 
     /// A path beside the class.
-    pub fn beside(&self, name: &str) -> PathBuf {
+    pub fn path_beside(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
@@ -50,8 +50,8 @@ impl Place {
     }
 
     /// Puts five files of one word each into the class, for whoever only looks.
-    pub fn with_five(self, folder: &str) -> Self {
-        FIVE.iter().fold(self, |place, file| {
+    pub fn with_minimal_submission(self, folder: &str) -> Self {
+        TASK_FILES.iter().fold(self, |place, file| {
             let path = match folder {
                 "" => (*file).to_owned(),
                 folder => format!("{folder}/{file}"),
@@ -71,7 +71,7 @@ impl Place {
     }
 
     fn with_files_of(self, source: &str, folder: &str) -> Self {
-        FIVE.iter().fold(self, |place, file| {
+        TASK_FILES.iter().fold(self, |place, file| {
             let text = fs::read(workspace().join(source).join(file)).unwrap();
             place.with(&format!("{folder}/{file}"), text)
         })
@@ -84,21 +84,21 @@ impl Place {
     }
 
     /// Replaces text that must be there.
-    pub fn changed(self, path: &str, from: &str, to: &str) -> Self {
+    pub fn with_replaced(self, path: &str, from: &str, to: &str) -> Self {
         let text = fs::read_to_string(self.input().join(path)).unwrap();
         assert!(text.contains(from), "{path} has no {from:?} any more");
         self.with(path, text.replace(from, to))
     }
 
     /// Writes a file beside the class.
-    pub fn list(&self, name: &str, text: &str) -> String {
-        let path = self.beside(name);
+    pub fn write_beside(&self, name: &str, text: &str) -> String {
+        let path = self.path_beside(name);
         fs::write(&path, text).unwrap();
         path.to_str().unwrap().to_owned()
     }
 
     /// An exam of these items of the practice exam alone: most tests need no more.
-    pub fn exam(&self, items: &[&str]) -> String {
+    pub fn small_exam(&self, items: &[&str]) -> String {
         let path = workspace().join("grader/exams/practice.json");
         let mut exam: Value = serde_json::from_slice(&fs::read(path).unwrap()).unwrap();
         let all = exam["items"].as_array_mut().unwrap();
@@ -112,7 +112,7 @@ impl Place {
             item["needs"] = Value::Array(Vec::new());
         }
         exam["id"] = "small".into();
-        self.list("exam.json", &exam.to_string())
+        self.write_beside("exam.json", &exam.to_string())
     }
 
     /// Who would be graded from what.
@@ -121,13 +121,13 @@ impl Place {
     }
 
     pub fn preview_of(&self, input: &Path, more: &[&str]) -> String {
-        let output = class()
+        let output = class_command()
             .arg(input)
             .arg("--dry-run")
             .args(more)
             .output()
             .unwrap();
-        told(&output);
+        successful_stdout(&output);
         String::from_utf8(output.stdout)
             .unwrap()
             .trim_matches('\n')
@@ -140,7 +140,7 @@ impl Place {
     }
 
     pub fn command(&self, exam: &str, more: &[&str]) -> Command {
-        let mut command = class();
+        let mut command = class_command();
         command
             .arg(self.input())
             .arg("--out")
@@ -152,7 +152,7 @@ impl Place {
     }
 
     pub fn out(&self) -> PathBuf {
-        self.beside("out")
+        self.path_beside("out")
     }
 
     pub fn read(&self, name: &str) -> String {
@@ -161,37 +161,37 @@ impl Place {
 }
 
 /// The program itself, run from the workspace's folder.
-pub fn class() -> Command {
+pub fn class_command() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_class"));
     command.current_dir(workspace());
     command
 }
 
 /// What a run said; it must have gone well.
-pub fn told(output: &Output) -> String {
+pub fn successful_stdout(output: &Output) -> String {
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{error}");
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
 /// What a run complained of, and its exit code.
-pub fn complaint(output: &Output) -> (i32, String) {
+pub fn exit_code_and_stderr(output: &Output) -> (i32, String) {
     let error = String::from_utf8_lossy(&output.stderr).into_owned();
     (output.status.code().unwrap(), error)
 }
 
 /// All files below a folder but for what no two runs have alike: how long it took.
-pub fn lasting(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+pub fn comparable_files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut files = BTreeMap::new();
-    gather(folder, folder, &mut files);
+    collect_files(folder, folder, &mut files);
     files
 }
 
-fn gather(root: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
+fn collect_files(root: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
-            gather(root, &path, files);
+            collect_files(root, &path, files);
             continue;
         }
         let mut bytes = fs::read(&path).unwrap();

@@ -8,12 +8,12 @@ use insta::assert_snapshot;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-use crate::harness::{FIVE, Place};
+use crate::harness::{TASK_FILES, TestClass};
 
 /// An archive of five files, in a folder of their own.
 fn archive() -> Vec<u8> {
     let mut writer = ZipWriter::new(std::io::Cursor::new(Vec::new()));
-    for file in FIVE {
+    for file in TASK_FILES {
         let path = format!("my work/src/{file}");
         writer
             .start_file(path, SimpleFileOptions::default())
@@ -88,39 +88,39 @@ submission_103:
   :created_at: 2026-11-20 12:00:00.000000000 Z
 ";
 
-fn gradescope() -> Place {
-    Place::named("assignment_55_export")
+fn gradescope() -> TestClass {
+    TestClass::named("assignment_55_export")
         .with("submission_metadata.yml", GRADESCOPE)
-        .with_five("submission_101")
-        .with_five("submission_102/student/src")
+        .with_minimal_submission("submission_101")
+        .with_minimal_submission("submission_102/student/src")
         .with("submission_102/student/Cargo.toml", "no")
-        .with_five("submission_104")
+        .with_minimal_submission("submission_104")
 }
 
 #[test]
-fn gradescopes_export_has_groups_and_says_whose_each_is() {
+fn reads_a_gradescope_export_with_groups() {
     assert_snapshot!(gradescope().preview());
 }
 
 #[test]
-fn an_export_is_the_same_in_its_archive() {
+fn an_archived_export_gives_the_same_preview() {
     let place = gradescope();
-    let file = place.beside("assignment_55_export.zip");
+    let file = place.path_beside("assignment_55_export.zip");
     zipped(&place.input(), &file);
     assert_eq!(place.preview_of(&file, &[]), place.preview());
 }
 
 #[test]
-fn what_one_student_packed_is_not_the_others_matter() {
-    let place = Place::named("beside");
-    let file = place.beside("class.zip");
+fn unusual_files_of_one_student_do_not_affect_the_others() {
+    let place = TestClass::named("beside");
+    let file = place.path_beside("class.zip");
     let mut writer = ZipWriter::new(File::create(&file).unwrap());
     let plain = SimpleFileOptions::default();
     let mut write = |path: &str, bytes: &[u8]| {
         writer.start_file(path, plain).unwrap();
         writer.write_all(bytes).unwrap();
     };
-    for five in FIVE {
+    for five in TASK_FILES {
         write(&format!("class/fine/{five}"), b"text");
     }
     write("class/long/camera.rs", &[b' '; (1 << 20) + 1]);
@@ -138,22 +138,22 @@ fn what_one_student_packed_is_not_the_others_matter() {
 }
 
 #[test]
-fn gradescopes_list_is_refused_with_place_and_remedy() {
-    let place = Place::named("export").with("submission_metadata.yml", "submission_1: [");
-    let output = crate::harness::class()
+fn reports_invalid_gradescope_metadata() {
+    let place = TestClass::named("export").with("submission_metadata.yml", "submission_1: [");
+    let output = crate::harness::class_command()
         .arg(place.input())
         .arg("--dry-run")
         .output()
         .unwrap();
-    let (code, error) = crate::harness::complaint(&output);
+    let (code, error) = crate::harness::exit_code_and_stderr(&output);
     assert_eq!(code, 2);
     assert!(error.contains("submission_metadata.yml"), "{error}");
     assert!(error.contains("export the submissions again"), "{error}");
 }
 
 #[test]
-fn canvass_files_are_sorted_by_user_and_the_newest_counts() {
-    let place = Place::named("submissions")
+fn groups_canvas_files_by_user_and_takes_the_newest() {
+    let place = TestClass::named("submissions")
         .with("doejane_7001_9001_hw.zip", archive())
         .with("doejane_7001_9005_hw-1.zip", archive())
         .with("nunezjose_LATE_7002_9010_camera.rs", "old")
@@ -168,11 +168,11 @@ fn canvass_files_are_sorted_by_user_and_the_newest_counts() {
 }
 
 #[test]
-fn one_of_a_group_hands_in_for_all_where_canvas_says_who_they_are() {
-    let place = Place::named("submissions")
+fn a_canvas_group_submission_counts_for_all_its_members() {
+    let place = TestClass::named("submissions")
         .with("doejane_7001_9001_hw.zip", archive())
         .with("oharabob_7003_9030_hw.zip", archive());
-    let groups = place.list(
+    let groups = place.write_beside(
         "groups.csv",
         "name,canvas_user_id,user_id,login_id,sections,group_name,canvas_group_id,group_id
 Jane Doe,7001,u1,jane,Lab 2,Team A,51,
@@ -195,9 +195,9 @@ Ann Lee,7004,u4,ann,Lab 1,Team B,52,
 }
 
 #[test]
-fn moodles_folders_hold_files_or_an_archive() {
-    let place = Place::named("CG-Path tracing-77")
-        .with_five("José Núñez_301_assignsubmission_file_")
+fn reads_moodle_folders_with_files_or_an_archive() {
+    let place = TestClass::named("CG-Path tracing-77")
+        .with_minimal_submission("José Núñez_301_assignsubmission_file_")
         .with(
             "Ann Lee, PhD_302_assignsubmission_file_/abgabe.zip",
             archive(),
@@ -217,11 +217,11 @@ fn moodles_folders_hold_files_or_an_archive() {
 }
 
 #[test]
-fn two_of_one_name_are_told_apart_by_moodles_numbers() {
-    let place = Place::named("moodle")
-        .with_five("Ann Lee_307_assignsubmission_file_")
-        .with_five("Ann Lee_308_assignsubmission_file_");
-    let worksheet = place.list(
+fn moodle_numbers_distinguish_people_of_the_same_name() {
+    let place = TestClass::named("moodle")
+        .with_minimal_submission("Ann Lee_307_assignsubmission_file_")
+        .with_minimal_submission("Ann Lee_308_assignsubmission_file_");
+    let worksheet = place.write_beside(
         "worksheet.csv",
         "Identifier,Full name,Email address,Grade
 Participant 307,Ann Lee,a@example.edu,
@@ -234,8 +234,8 @@ Participant 308,Ann Lee,b@example.edu,
 }
 
 #[test]
-fn moodles_flat_downloads_are_sorted_by_participant() {
-    let place = Place::named("flat")
+fn groups_flat_moodle_downloads_by_participant() {
+    let place = TestClass::named("flat")
         .with("Ann Lee_302_assignsubmission_file_camera.rs", "text")
         .with("Ann Lee_302_assignsubmission_file_my_notes.txt", "text")
         .with("Participant_303_assignsubmission_file_hw.tar.gz", "text")
@@ -247,12 +247,12 @@ fn moodles_flat_downloads_are_sorted_by_participant() {
 }
 
 #[test]
-fn clones_of_a_classroom_are_named_by_account_and_joined_with_the_roster() {
-    let place = Place::named("pathtracing-submissions")
-        .with_five("pathtracing-ann-lee/student/src")
-        .with_five("pathtracing-zoe/student/src")
+fn names_github_clones_by_account_and_joins_the_roster() {
+    let place = TestClass::named("pathtracing-submissions")
+        .with_minimal_submission("pathtracing-ann-lee/student/src")
+        .with_minimal_submission("pathtracing-zoe/student/src")
         .with("pathtracing-empty/README.md", "text");
-    let roster = place.list(
+    let roster = place.write_beside(
         "roster.csv",
         "name,email,github_username\n\"Lee, Ann\",ann@example.edu,Ann-Lee\nBob,bob@example.edu,bob\n",
     );
@@ -261,11 +261,11 @@ fn clones_of_a_classroom_are_named_by_account_and_joined_with_the_roster() {
 }
 
 #[test]
-fn classroom50s_clones_are_known_by_what_lies_beside_them() {
-    let place = Place::named("2026-11-20")
-        .with_five("cg-pathtracing-ann/student/src")
+fn recognises_classroom50_clones() {
+    let place = TestClass::named("2026-11-20")
+        .with_minimal_submission("cg-pathtracing-ann/student/src")
         .with("cg-pathtracing-ann/result.json", "{}")
-        .with_five("cg-pathtracing-bob/student/src")
+        .with_minimal_submission("cg-pathtracing-bob/student/src")
         .with("cg-pathtracing-bob/result.json", "{}")
         .with(
             "scores.csv",
@@ -280,30 +280,30 @@ dora,Dora,Y,dora@example.edu,,
 }
 
 #[test]
-fn a_plain_folder_holds_folders_and_archives_and_nothing_is_passed_over_in_silence() {
-    let place = Place::named("class")
-        .with_five("ann lee")
-        .with_five("ANN_LEE")
+fn reads_a_plain_folder_and_lists_everything_it_cannot_use() {
+    let place = TestClass::named("class")
+        .with_minimal_submission("ann lee")
+        .with_minimal_submission("ANN_LEE")
         .with("bob.zip", archive())
         .with("bob/notes.txt", "text")
         .with("carl.rar", "Rar!\x1a\x07\x01\x00")
         .with("dora.tar.gz", "not at all")
         .with("evil\u{202e}.zip", &archive()[..100])
         .with("grades.xlsx", "text")
-        .with_five("two/a")
-        .with_five("two/b");
+        .with_minimal_submission("two/a")
+        .with_minimal_submission("two/b");
     assert_snapshot!(place.preview());
 }
 
 #[test]
-fn one_submission_alone_is_not_a_class() {
-    let place = Place::named("student").with("camera.rs", "text");
-    let output = crate::harness::class()
+fn rejects_a_single_submission() {
+    let place = TestClass::named("student").with("camera.rs", "text");
+    let output = crate::harness::class_command()
         .arg(place.input())
         .arg("--dry-run")
         .output()
         .unwrap();
-    let (code, error) = crate::harness::complaint(&output);
+    let (code, error) = crate::harness::exit_code_and_stderr(&output);
     assert_eq!(code, 2);
     assert!(
         error.contains("one alone is graded by `cargo grade`"),

@@ -1,11 +1,11 @@
 //! The real binary on classes as platforms export them.
 
-mod disasters;
+mod faulty_submissions;
 mod gradebooks;
 mod harness;
+#[cfg(target_os = "linux")]
+mod large_class;
 mod layouts;
-mod our_faults;
+mod machine_faults;
 mod resuming;
 mod shards;
-#[cfg(target_os = "linux")]
-mod two_hundred;

@@ -7,30 +7,32 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-use crate::harness::{Place, class, complaint, lasting, told};
+use crate::harness::{
+    TestClass, class_command, comparable_files, exit_code_and_stderr, successful_stdout,
+};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 const KILLS: u32 = 20;
 
-fn four(name: &str) -> Place {
-    Place::named(name)
+fn sample_class(name: &str) -> TestClass {
+    TestClass::named(name)
         .with_reference("ann")
         .with_starter("bob")
         .with_reference("carl")
-        .changed("carl/sphere.rs", "self.radius", "1.0 * self.radius")
+        .with_replaced("carl/sphere.rs", "self.radius", "1.0 * self.radius")
         .with_reference("dora")
         .with("dora/bbox.rs", "fn (")
         .with("eve.zip", "PK\x03\x04")
 }
 
 #[test]
-fn killed_at_any_moment_and_started_again_it_ends_as_if_nothing_had_been() {
-    let place = four("class");
-    let exam = place.exam(&ITEMS);
+fn a_killed_run_resumes_to_the_same_results() {
+    let place = sample_class("class");
+    let exam = place.small_exam(&ITEMS);
     let began = Instant::now();
-    told(&place.grade(&exam, &[]));
+    successful_stdout(&place.grade(&exam, &[]));
     let whole = began.elapsed();
-    let wanted = lasting(&place.out());
+    let wanted = comparable_files(&place.out());
     fs::remove_dir_all(place.out()).unwrap();
 
     let mut killed = 0;
@@ -54,19 +56,19 @@ fn killed_at_any_moment_and_started_again_it_ends_as_if_nothing_had_been() {
         fs::create_dir_all(&folder).unwrap();
         fs::write(folder.join(".tmpZ81xPq"), "half of a f").unwrap();
     }
-    told(&place.grade(&exam, &[]));
-    assert_eq!(lasting(&place.out()), wanted);
+    successful_stdout(&place.grade(&exam, &[]));
+    assert_eq!(comparable_files(&place.out()), wanted);
 }
 
 #[test]
 fn only_what_changed_is_graded_again() {
-    let place = four("class");
-    let exam = place.exam(&ITEMS);
+    let place = sample_class("class");
+    let exam = place.small_exam(&ITEMS);
     let first = place.grade(&exam, &[]);
-    told(&first);
+    successful_stdout(&first);
     let place = place.with("bob/notes.rs", "").with_reference("zoë");
     let second = place.grade(&exam, &[]);
-    told(&second);
+    successful_stdout(&second);
     let lines = String::from_utf8(second.stderr).unwrap();
     let graded = |id: &str| {
         lines
@@ -82,21 +84,21 @@ fn only_what_changed_is_graded_again() {
 }
 
 #[test]
-fn scores_that_are_not_comparable_are_never_mixed_and_a_regrade_says_what_changed() {
-    let place = four("class");
-    let exam = place.exam(&ITEMS);
-    told(&place.grade(&exam, &[]));
+fn refuses_to_mix_incomparable_scores_and_regrade_reports_the_changes() {
+    let place = sample_class("class");
+    let exam = place.small_exam(&ITEMS);
+    successful_stdout(&place.grade(&exam, &[]));
 
-    let (worth, other) = revalued(&place, &exam, -1);
+    let (worth, other) = exam_with_changed_points(&place, &exam, -1);
 
-    let (code, error) = complaint(&place.grade(&other, &[]));
+    let (code, error) = exit_code_and_stderr(&place.grade(&other, &[]));
     assert_eq!(code, 2);
     assert!(
         error.contains("the exam changed; --regrade grades all again"),
         "{error}"
     );
 
-    let text = told(&place.grade(&other, &["--regrade"]));
+    let text = successful_stdout(&place.grade(&other, &["--regrade"]));
     assert!(
         text.contains("regraded: 3 changed (different now: the exam)"),
         "{text}"
@@ -107,14 +109,14 @@ fn scores_that_are_not_comparable_are_never_mixed_and_a_regrade_says_what_change
     );
     assert!(place.out().join("students/ann/previous.json").is_file());
     // A run that only goes on says the same, and grades nothing.
-    let again = told(&place.grade(&other, &[]));
+    let again = successful_stdout(&place.grade(&other, &[]));
     assert!(again.contains("regraded: 3 changed"), "{again}");
 
-    let (code, error) = complaint(
-        &class()
+    let (code, error) = exit_code_and_stderr(
+        &class_command()
             .arg(place.input())
             .args(["--regrade", "--isolation", "none", "--out"])
-            .arg(place.beside("nothing"))
+            .arg(place.path_beside("nothing"))
             .output()
             .unwrap(),
     );
@@ -123,31 +125,31 @@ fn scores_that_are_not_comparable_are_never_mixed_and_a_regrade_says_what_change
 }
 
 /// An exam whose camera's item is worth so much more or less, and what it was worth.
-fn revalued(place: &Place, exam: &str, by: i64) -> (i64, String) {
+fn exam_with_changed_points(place: &TestClass, exam: &str, by: i64) -> (i64, String) {
     let mut other: Value = serde_json::from_slice(&fs::read(exam).unwrap()).unwrap();
     let camera = &mut other["items"][0];
     assert_eq!(camera["id"], "camera.offset");
     let worth = camera["points"].as_i64().unwrap();
     camera["points"] = (worth + by).into();
     let name = format!("revalued-{by}.json");
-    (worth, place.list(&name, &other.to_string()))
+    (worth, place.write_beside(&name, &other.to_string()))
 }
 
 #[test]
-fn a_regrade_that_was_given_up_costs_no_old_score() {
-    let place = four("class");
-    let exam = place.exam(&ITEMS);
-    told(&place.grade(&exam, &[]));
-    let (_, wrong) = revalued(&place, &exam, 1);
-    told(&place.grade(&wrong, &["--regrade"]));
+fn an_abandoned_regrade_keeps_the_old_scores() {
+    let place = sample_class("class");
+    let exam = place.small_exam(&ITEMS);
+    successful_stdout(&place.grade(&exam, &[]));
+    let (_, wrong) = exam_with_changed_points(&place, &exam, 1);
+    successful_stdout(&place.grade(&wrong, &["--regrade"]));
     // As it is when whoever typed it has seen that it is the wrong exam.
     let run = place.out().join("run.json");
     let text = fs::read_to_string(&run).unwrap();
     let text = text.replace("inished\": true", "inished\": false");
     fs::write(&run, text).unwrap();
 
-    let (worth, right) = revalued(&place, &exam, -1);
-    let text = told(&place.grade(&right, &["--regrade"]));
+    let (worth, right) = exam_with_changed_points(&place, &exam, -1);
+    let text = successful_stdout(&place.grade(&right, &["--regrade"]));
     let change = format!("camera.offset {worth} → {}: pass", worth - 1);
     assert!(text.contains(&change), "{text}");
 }

@@ -5,21 +5,23 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use crate::harness::{Place, class, complaint, lasting, told, workspace};
+use crate::harness::{
+    TestClass, class_command, comparable_files, exit_code_and_stderr, successful_stdout, workspace,
+};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
 /// In a folder with a name such as Moodle gives.
-fn three() -> Place {
-    Place::named("CG-Path tracing (2)")
+fn three_submissions() -> TestClass {
+    TestClass::named("CG-Path tracing (2)")
         .with_reference("ann")
         .with_starter("bob")
         .with("carl.zip", "no archive")
 }
 
-fn shard(place: &Place, exam: &str, which: &str, more: &[&str]) -> String {
-    let out = place.beside(&format!("shard-{}", which.replace('/', "-")));
-    let output = class()
+fn grade_shard(place: &TestClass, exam: &str, which: &str, more: &[&str]) -> String {
+    let out = place.path_beside(&format!("shard-{}", which.replace('/', "-")));
+    let output = class_command()
         .arg(place.input())
         .args(["--exam", exam, "--no-reference", "--isolation", "none"])
         .args(["--shard", which])
@@ -28,45 +30,45 @@ fn shard(place: &Place, exam: &str, which: &str, more: &[&str]) -> String {
         .arg(&out)
         .output()
         .unwrap();
-    told(&output);
+    successful_stdout(&output);
     out.to_str().unwrap().to_owned()
 }
 
-fn merged(shards: &[&str], out: &Path) -> Output {
-    let mut merge = class();
+fn merge(shards: &[&str], out: &Path) -> Output {
+    let mut merge = class_command();
     merge.arg("merge").args(shards).arg("--out").arg(out);
     merge.output().unwrap()
 }
 
 #[test]
-fn merged_shards_are_the_class_that_one_machine_grades() {
-    let place = three();
-    let exam = place.exam(&ITEMS);
-    let policy = place.list("policy.toml", "[points]\nout_of = 7\n");
+fn merged_shards_equal_an_unsharded_run() {
+    let place = three_submissions();
+    let exam = place.small_exam(&ITEMS);
+    let policy = place.write_beside("policy.toml", "[points]\nout_of = 7\n");
     let more = ["--policy", policy.as_str()];
-    told(&place.grade(&exam, &more));
-    let shards = ["1/2", "2/2"].map(|which| shard(&place, &exam, which, &more));
+    successful_stdout(&place.grade(&exam, &more));
+    let shards = ["1/2", "2/2"].map(|which| grade_shard(&place, &exam, which, &more));
     let [one, two] = shards.each_ref().map(String::as_str);
-    let out = place.beside("merged");
-    told(&merged(&[one, two], &out));
+    let out = place.path_beside("merged");
+    successful_stdout(&merge(&[one, two], &out));
     // Without a word of the policy, which is theirs.
-    assert_eq!(lasting(&out), lasting(&place.out()));
+    assert_eq!(comparable_files(&out), comparable_files(&place.out()));
     assert!(place.read("grades.csv").contains("graded,7,"));
 
     let refused = |shards: &[&str], why: &str| {
-        let (code, error) = complaint(&merged(shards, &out));
+        let (code, error) = exit_code_and_stderr(&merge(shards, &out));
         assert_eq!(code, 2);
         assert!(error.contains(why), "{error}");
     };
     refused(&[one, two, one], "were both given the same --shard?");
     refused(&[one], "part 2/2 is not among them");
-    let other = place.list("other.toml", "[points]\nout_of = 8\n");
-    shard(&place, &exam, "2/2", &["--policy", &other]);
+    let other = place.write_beside("other.toml", "[points]\nout_of = 8\n");
+    grade_shard(&place, &exam, "2/2", &["--policy", &other]);
     refused(&[one, two], "different policies");
 }
 
 /// What the recipes call, in the place of `cargo class`.
-fn with_class(command: &mut Command, place: &Place, exam: &str) {
+fn set_recipe_variables(command: &mut Command, place: &TestClass, exam: &str) {
     command
         .current_dir(workspace())
         .env("CLASS", env!("CARGO_BIN_EXE_class"))
@@ -107,9 +109,9 @@ fi
 fn the_recipe_for_slurm_grades_and_merges_an_array() {
     use std::os::unix::fs::PermissionsExt;
 
-    let place = three();
-    let exam = place.exam(&ITEMS);
-    let bin = place.beside("bin");
+    let place = three_submissions();
+    let exam = place.small_exam(&ITEMS);
+    let bin = place.path_beside("bin");
     fs::create_dir(&bin).unwrap();
     fs::write(bin.join("sbatch"), SBATCH).unwrap();
     fs::set_permissions(bin.join("sbatch"), fs::Permissions::from_mode(0o755)).unwrap();
@@ -120,8 +122,8 @@ fn the_recipe_for_slurm_grades_and_merges_an_array() {
         .arg(recipe("slurm.sh"))
         .env("PATH", path)
         .env("SHARDS", "2");
-    with_class(&mut submit, &place, &exam);
-    told(&submit.output().unwrap());
+    set_recipe_variables(&mut submit, &place, &exam);
+    successful_stdout(&submit.output().unwrap());
     let grades = place.read("grades.csv");
     assert_eq!(grades.lines().count(), 4, "{grades}");
 }
@@ -133,16 +135,16 @@ fn the_recipe_for_gnu_parallel_grades_and_merges() {
         assert!(std::env::var_os("CI").is_none(), "GNU parallel is missing");
         return eprintln!("SKIPPED: there is no GNU parallel here");
     }
-    let place = three();
-    let exam = place.exam(&ITEMS);
+    let place = three_submissions();
+    let exam = place.small_exam(&ITEMS);
     let mut run = Command::new("bash");
     run.arg(recipe("parallel.sh")).env("SHARDS", "2");
-    with_class(&mut run, &place, &exam);
-    told(&run.output().unwrap());
+    set_recipe_variables(&mut run, &place, &exam);
+    successful_stdout(&run.output().unwrap());
     assert_eq!(place.read("grades.csv").lines().count(), 4);
 }
 
-mod read_strictly {
+mod recipe_schemas {
     use std::collections::BTreeMap;
 
     use serde::Deserialize;
@@ -204,7 +206,7 @@ mod read_strictly {
     }
 
     #[test]
-    fn the_job_for_kubernetes_is_an_indexed_one_of_as_many_parts_as_it_names() {
+    fn the_kubernetes_recipe_is_an_indexed_job_with_one_shard_per_completion() {
         let job: Job = read("kubernetes.yaml");
         assert_eq!(
             (job.api_version.as_str(), job.kind.as_str()),

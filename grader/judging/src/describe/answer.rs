@@ -1,13 +1,13 @@
 //! All of one answer, and all of what is right, in words.
 
-use protocol::{Answer, Outcome, Tree};
+use protocol::{Answer, ElementOutcome, Tree};
 
 use crate::describe::{number, point, ray, span, trace, uv};
-use crate::exam::{Asked, Hit, Key, Surface};
-use crate::tame::tame;
+use crate::exam::{ExamQuestion, ExpectedHit, Key, Surface};
+use crate::sanitize::sanitize;
 
 /// The most characters of a panic's words.
-const LONGEST: usize = 2_000;
+const MAX_PANIC_CHARS: usize = 2_000;
 
 /// What a submission answered to one element of a question.
 pub fn got(answer: &Answer, element: usize) -> String {
@@ -25,7 +25,7 @@ pub fn got(answer: &Answer, element: usize) -> String {
 }
 
 /// What is right for one element of a question; several, where each of them is.
-pub fn wanted(asked: &Asked, element: usize) -> Vec<String> {
+pub fn wanted(asked: &ExamQuestion, element: usize) -> Vec<String> {
     match &asked.key {
         Key::Rays { directions, .. } => {
             let toward = point(directions[element]);
@@ -34,14 +34,20 @@ pub fn wanted(asked: &Asked, element: usize) -> Vec<String> {
         Key::Hits { hits, .. } => {
             vec![hits[element].as_ref().map_or("no hit".to_owned(), hit)]
         }
-        Key::FirstHits { hits, also } => {
+        Key::FirstHits {
+            hits,
+            alternatives: also,
+        } => {
             let also = also.iter().filter(|(place, _)| *place as usize == element);
             let all = std::iter::once(&hits[element]).chain(also.map(|(_, answer)| answer));
             all.map(|answer| answer.as_ref().map_or("no hit".to_owned(), surface))
                 .collect()
         }
         Key::Spans { spans } => vec![span(spans[element])],
-        Key::Tree { judged, sweep_cost } => vec![format!(
+        Key::Tree {
+            checks: judged,
+            sweep_cost,
+        } => vec![format!(
             "a tree of which these hold: {judged:?}{}",
             sweep_cost.map_or(String::new(), |cost| format!("; SAH cost about {cost:.2}"))
         )],
@@ -49,14 +55,14 @@ pub fn wanted(asked: &Asked, element: usize) -> Vec<String> {
     }
 }
 
-fn outcome<T>(outcome: Option<&Outcome<T>>, show: impl Fn(&T) -> String) -> String {
+fn outcome<T>(outcome: Option<&ElementOutcome<T>>, show: impl Fn(&T) -> String) -> String {
     match outcome {
-        Some(Outcome::Value(value)) => show(value),
-        Some(Outcome::Panicked(panic)) => tame(
-            &format!("a panic at {}: {}", panic.place, panic.message),
-            LONGEST,
+        Some(ElementOutcome::Value(value)) => show(value),
+        Some(ElementOutcome::Panicked(panic)) => sanitize(
+            &format!("a panic at {}: {}", panic.location, panic.message),
+            MAX_PANIC_CHARS,
         ),
-        Some(Outcome::GivenUp) | None => "no answer".to_owned(),
+        Some(ElementOutcome::Skipped) | None => "no answer".to_owned(),
     }
 }
 
@@ -72,7 +78,7 @@ fn tree(tree: &Tree) -> String {
     format!("root {}{}", tree.root, nodes.collect::<String>())
 }
 
-fn hit(hit: &Hit) -> String {
+fn hit(hit: &ExpectedHit) -> String {
     format!(
         "distance {}, position {}, normal {}, uv {}, material {}",
         number(hit.distance),

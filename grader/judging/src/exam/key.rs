@@ -11,7 +11,8 @@ pub enum Key {
     /// To `Camera`: a ray for each sample.
     Rays {
         /// What is compared.
-        judged: Vec<RayPart>,
+        #[serde(alias = "judged")]
+        checks: Vec<RayCheck>,
         /// The direction of each; every ray starts at the origin, with range `[0, ∞)`.
         #[serde(with = "packed")]
         directions: Vec<Vec3>,
@@ -19,10 +20,11 @@ pub enum Key {
     /// To `Shapes`, `Traverse`, `BuildAndTraverse` with a list of rays: all must be right.
     Hits {
         /// What is compared, beside whether there is a hit at all.
-        judged: Vec<Part>,
+        #[serde(alias = "judged")]
+        checks: Vec<HitCheck>,
         /// For each ray.
         #[serde(with = "packed")]
-        hits: Vec<Option<Hit>>,
+        hits: Vec<Option<ExpectedHit>>,
     },
     /// To `BBox`: the times inside, for each shot.
     Spans {
@@ -33,7 +35,8 @@ pub enum Key {
     /// To `Build`: the tree's structure, and its cost if one is given.
     Tree {
         /// What is compared, beside that the nodes form a tree at all.
-        judged: Vec<TreePart>,
+        #[serde(alias = "judged")]
+        checks: Vec<TreeCheck>,
         /// Of the best partition at every node, by an exact sweep that stops at the same leaf
         /// size: C_trav = C_isect = 1, areas divided by the root's.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -47,7 +50,8 @@ pub enum Key {
         /// What is right as well, at positions where a neighbour less than 1/1000 of a pixel away
         /// sees something else.
         #[serde(with = "packed")]
-        also: Vec<(u32, Option<Surface>)>,
+        #[serde(alias = "also")]
+        alternatives: Vec<(u32, Option<Surface>)>,
     },
     /// To `Radiance`.
     Radiance {
@@ -55,14 +59,15 @@ pub enum Key {
         #[serde(with = "packed")]
         pixels: Vec<Vec3>,
         /// The most pixels that may be off by more than 1 %.
-        allowed: u32,
+        #[serde(alias = "allowed")]
+        max_wrong_pixels: u32,
     },
 }
 
 /// What can be compared of a camera's ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum RayPart {
+pub enum RayCheck {
     /// It starts at (0, 0, 0).
     Origin,
     /// It goes the right way, whatever its length.
@@ -76,7 +81,7 @@ pub enum RayPart {
 /// What can be compared of a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Part {
+pub enum HitCheck {
     /// `Trace::distance`
     Distance,
     /// `Trace::position`
@@ -97,7 +102,7 @@ pub enum Part {
 /// where it needs right ones, so that one mistake costs once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum TreePart {
+pub enum TreeCheck {
     /// Every primitive is in exactly one leaf.
     Partition,
     /// Every box holds all primitives below its node.
@@ -115,7 +120,7 @@ pub enum TreePart {
 /// The true answer to one ray of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Hit {
+pub struct ExpectedHit {
     /// Along the ray.
     pub distance: f32,
     /// The point there.

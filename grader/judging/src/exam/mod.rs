@@ -9,11 +9,11 @@ use std::fmt;
 use protocol::Question;
 use serde::{Deserialize, Serialize};
 
+use crate::drawing_data::DrawingData;
 use crate::section::Section;
-use crate::shown::Shown;
-use crate::tells::{KnownMistake, Tells};
+use crate::signatures::{KnownMistake, MistakeSignatures};
 
-pub use key::{Hit, Key, Part, RayPart, Surface, TreePart};
+pub use key::{ExpectedHit, HitCheck, Key, RayCheck, Surface, TreeCheck};
 
 /// The six things to write, in lecture order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -123,14 +123,14 @@ pub struct Exam {
 
 impl Exam {
     /// Some of its items, and those that they rest on.
-    pub fn with_what_it_needs(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
+    pub fn with_needed_items(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
         let needing = self.items.iter().filter(|item| wanted(item));
         let needed: Vec<&String> = needing.flat_map(|item| &item.needs).collect();
-        self.only(|item| wanted(item) || needed.contains(&&item.id))
+        self.filter_items(|item| wanted(item) || needed.contains(&&item.id))
     }
 
     /// Some of its items.
-    pub fn only(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
+    pub fn filter_items(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
         let items = self.items.iter().filter(|item| wanted(item));
         Exam {
             schema: self.schema,
@@ -162,10 +162,11 @@ pub struct Item {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub needs: Vec<String>,
     /// What is asked. Every one must be right: the item's points are those of the worst.
-    pub questions: Vec<Asked>,
+    pub questions: Vec<ExamQuestion>,
     /// What known mistakes answer.
-    #[serde(default, skip_serializing_if = "Tells::is_none")]
-    pub tells: Tells,
+    #[serde(default, skip_serializing_if = "MistakeSignatures::is_empty")]
+    #[serde(alias = "tells")]
+    pub signatures: MistakeSignatures,
 }
 
 impl Item {
@@ -201,23 +202,24 @@ impl Item {
 /// A question and its key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Asked {
+pub struct ExamQuestion {
     /// What the probe is told.
     pub question: Question,
     /// What it is never told.
     pub key: Key,
     /// The right way there, for a drawing; neither told nor judged by.
-    #[serde(default, skip_serializing_if = "Shown::is_nothing")]
-    pub shown: Shown,
+    #[serde(default, skip_serializing_if = "DrawingData::is_none")]
+    #[serde(alias = "shown")]
+    pub drawing_data: DrawingData,
 }
 
-impl Asked {
+impl ExamQuestion {
     /// Of which nothing is shown beside its key.
     pub fn new(question: Question, key: Key) -> Self {
-        Asked {
+        ExamQuestion {
             question,
             key,
-            shown: Shown::Nothing,
+            drawing_data: DrawingData::None,
         }
     }
 }

@@ -1,56 +1,57 @@
 //! Tables of hits.
 
-use protocol::{Outcome, Ray, Trace};
+use protocol::{ElementOutcome, Ray, Trace};
 
 use crate::describe;
-use crate::exam::{Hit, Part};
+use crate::exam::{ExpectedHit, HitCheck};
 use crate::judge::measure::{
     DIRECTION, LENGTH, direction_error, length_error, point_error, unit_error, uv_error,
 };
 use crate::judge::{
-    Comparison, Deviation, How, Judgement, Measured, Threshold, table, table_measured,
+    Comparison, Deviation, FailureKind, Judgement, Measurement, Threshold, judge_table,
+    measure_table,
 };
 
 /// Hits, of which every one must be right.
 pub(super) struct Hits<'a> {
-    pub(super) judged: &'a [Part],
+    pub(super) checks: &'a [HitCheck],
     pub(super) rays: Vec<Ray>,
-    pub(super) hits: &'a [Option<Hit>],
-    pub(super) answers: &'a [Outcome<Option<Trace>>],
+    pub(super) hits: &'a [Option<ExpectedHit>],
+    pub(super) answers: &'a [ElementOutcome<Option<Trace>>],
 }
 
 impl Comparison for Hits<'_> {
     fn judge(&self) -> Judgement {
-        table(self.answers, self.hits.len(), |element, got| {
+        judge_table(self.answers, self.hits.len(), |element, got| {
             match (got, &self.hits[element]) {
                 (None, None) => None,
-                (Some(trace), None) => Some(How::Wrong {
+                (Some(trace), None) => Some(FailureKind::Wrong {
                     what: "hit or miss".to_owned(),
                     got: describe::hit_at(trace.distance),
                     wanted: "no hit".to_owned(),
                 }),
-                (None, Some(hit)) => Some(How::Wrong {
+                (None, Some(hit)) => Some(FailureKind::Wrong {
                     what: "hit or miss".to_owned(),
                     got: "no hit".to_owned(),
                     wanted: describe::hit_at(hit.distance),
                 }),
                 (Some(trace), Some(hit)) => {
                     let ray = &self.rays[element];
-                    let mut judged = self.judged.iter();
-                    judged.find_map(|part| wrong_part(*part, ray, trace, hit))
+                    let mut judged = self.checks.iter();
+                    judged.find_map(|part| failed_check(*part, ray, trace, hit))
                 }
             }
         })
     }
 
-    fn measure(&self) -> Vec<Measured> {
-        table_measured(self.answers, self.hits.len(), |element, got| {
+    fn measure(&self) -> Vec<Measurement> {
+        measure_table(self.answers, self.hits.len(), |element, got| {
             match (got, &self.hits[element]) {
                 (None, None) => Vec::new(),
                 (Some(_), None) | (None, Some(_)) => vec![Deviation::WRONG],
                 (Some(trace), Some(hit)) => {
                     let ray = &self.rays[element];
-                    let judged = self.judged.iter();
+                    let judged = self.checks.iter();
                     judged
                         .map(|part| deviation(*part, ray, trace, hit))
                         .collect()
@@ -61,67 +62,72 @@ impl Comparison for Hits<'_> {
 }
 
 /// How far off one part of a hit is.
-fn deviation(part: Part, ray: &Ray, trace: &Trace, hit: &Hit) -> Deviation {
+fn deviation(part: HitCheck, ray: &Ray, trace: &Trace, hit: &ExpectedHit) -> Deviation {
     let (threshold, error) = match part {
-        Part::Distance => (
+        HitCheck::Distance => (
             Threshold::Distance,
             length_error(trace.distance, hit.distance, LENGTH),
         ),
-        Part::Position => (
+        HitCheck::Position => (
             Threshold::Position,
             point_error(trace.position, hit.position),
         ),
-        Part::Normal => (
+        HitCheck::Normal => (
             Threshold::Normal,
             direction_error(trace.normal, hit.normal, DIRECTION),
         ),
-        Part::UnitNormal => (Threshold::UnitLength, unit_error(trace.normal)),
-        Part::Uv => (Threshold::Uv, uv_error(trace.uv, hit.uv)),
-        Part::Origin => (Threshold::Origin, point_error(trace.origin, ray.origin)),
-        Part::Material => return Deviation::unless(trace.material == hit.material),
+        HitCheck::UnitNormal => (Threshold::UnitLength, unit_error(trace.normal)),
+        HitCheck::Uv => (Threshold::Uv, uv_error(trace.uv, hit.uv)),
+        HitCheck::Origin => (Threshold::Origin, point_error(trace.origin, ray.origin)),
+        HitCheck::Material => return Deviation::binary(trace.material == hit.material),
     };
-    Deviation::of(threshold, error)
+    Deviation::new(threshold, error)
 }
 
 /// What is wrong with one part of a hit, if anything is.
-fn wrong_part(part: Part, ray: &Ray, trace: &Trace, hit: &Hit) -> Option<How> {
+fn failed_check(
+    part: HitCheck,
+    ray: &Ray,
+    trace: &Trace,
+    hit: &ExpectedHit,
+) -> Option<FailureKind> {
     if deviation(part, ray, trace, hit).is_right() {
         return None;
     }
     let (what, got, wanted) = match part {
-        Part::Distance => (
+        HitCheck::Distance => (
             "distance",
             describe::number(trace.distance),
             describe::number(hit.distance),
         ),
-        Part::Position => (
+        HitCheck::Position => (
             "position",
             describe::point(trace.position),
             describe::point(hit.position),
         ),
-        Part::Normal => (
+        HitCheck::Normal => (
             "normal",
             describe::point(trace.normal),
             describe::point(hit.normal),
         ),
-        Part::UnitNormal => (
+        HitCheck::UnitNormal => (
             "length of the normal",
             describe::number(trace.normal.length()),
             describe::number(1.0),
         ),
-        Part::Uv => ("uv", describe::uv(trace.uv), describe::uv(hit.uv)),
-        Part::Origin => (
+        HitCheck::Uv => ("uv", describe::uv(trace.uv), describe::uv(hit.uv)),
+        HitCheck::Origin => (
             "origin",
             describe::point(trace.origin),
             describe::point(ray.origin),
         ),
-        Part::Material => (
+        HitCheck::Material => (
             "material",
             trace.material.to_string(),
             hit.material.to_string(),
         ),
     };
-    Some(How::Wrong {
+    Some(FailureKind::Wrong {
         what: what.to_owned(),
         got,
         wanted,

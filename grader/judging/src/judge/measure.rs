@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_is_told_in_multiples_of_what_is_tolerated() {
+    fn errors_are_multiples_of_the_tolerance() {
         let close = |got: f64, wanted: f64| (got - wanted).abs() < 1e-2 * wanted;
         assert_eq!(length_error(3.0, 3.0, LENGTH), 0.0);
         assert!(close(length_error(10.003, 10.0, LENGTH), 3.0));
@@ -84,13 +84,13 @@ mod tests {
     }
 
     #[test]
-    fn a_limit_of_nothing_allows_nothing_but_no_error() {
+    fn a_zero_limit_allows_only_a_zero_error() {
         assert_eq!(in_units_of(0.0, 0.0), 0.0);
         assert_eq!(in_units_of(0.0, 1e-30), f64::INFINITY);
     }
 
     #[test]
-    fn nothing_that_is_not_finite_is_the_same_as_anything() {
+    fn non_finite_values_are_infinitely_far_off() {
         const FAR: f64 = f64::INFINITY;
         for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
             assert_eq!(length_error(bad, 1.0, LENGTH), FAR);
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn u_goes_around_but_v_does_not() {
+    fn u_wraps_around_but_v_does_not() {
         assert!(uv_error(vec2(0.9995, 0.5), vec2(0.0005, 0.5)) <= 1.0);
         assert!(uv_error(vec2(0.5, 0.9995), vec2(0.5, 0.0005)) > 1.0);
     }

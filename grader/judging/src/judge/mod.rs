@@ -1,38 +1,38 @@
 //! Comparing answers with keys: pure, and the only way to points.
 
-mod blemish;
+mod credit;
 mod deviation;
 mod first_hits;
 mod hits;
 mod measure;
+mod mismatch;
 mod radiance;
 mod rays;
-mod share;
 mod spans;
 mod threshold;
 pub mod tree;
 
-use protocol::{Answer, Outcome, Panic, Samples};
+use protocol::{Answer, ElementOutcome, Panic, Samples};
 
-use crate::exam::{Asked, Key};
+use crate::exam::{ExamQuestion, Key};
 
 use first_hits::FirstHits;
 use hits::Hits;
 use radiance::Radiance;
 use rays::CameraRays;
 use spans::Spans;
-use tree::Built;
+use tree::TreeAnswer;
 
-pub use blemish::{Aspect, Blemish};
-pub use deviation::{Deviation, Measured};
-pub use share::Share;
+pub use credit::Credit;
+pub use deviation::{Deviation, Measurement};
+pub use mismatch::{Aspect, Mismatch};
 pub use threshold::Threshold;
 
 /// What became of one question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
     /// How much of the item's points it allows.
-    pub share: Share,
+    pub credit: Credit,
     /// What is wrong first, if anything is.
     pub failure: Option<Failure>,
 }
@@ -43,14 +43,14 @@ pub struct Failure {
     /// Which element of the question, counted from 0.
     pub element: usize,
     /// How.
-    pub how: How,
+    pub kind: FailureKind,
     /// How many elements are wrong, and of how many, where they were counted.
     pub count: Option<(usize, usize)>,
 }
 
 /// How an element went wrong.
 #[derive(Clone, Debug, PartialEq)]
-pub enum How {
+pub enum FailureKind {
     /// The answer is not right.
     Wrong {
         /// What of it: `distance`, `normal`, ...
@@ -68,13 +68,13 @@ pub enum How {
 
 impl Judgement {
     const RIGHT: Judgement = Judgement {
-        share: Share::ALL,
+        credit: Credit::FULL,
         failure: None,
     };
 
     fn wrong(failure: Failure) -> Self {
         Judgement {
-            share: Share::NONE,
+            credit: Credit::NONE,
             failure: Some(failure),
         }
     }
@@ -82,7 +82,7 @@ impl Judgement {
     fn protocol(why: &str) -> Self {
         Judgement::wrong(Failure {
             element: 0,
-            how: How::Protocol(why.to_owned()),
+            kind: FailureKind::Protocol(why.to_owned()),
             count: None,
         })
     }
@@ -95,17 +95,17 @@ trait Comparison {
 
     /// How far off it is, in all that it is judged by. All of it is right if and only if the
     /// judgement is that everything counts.
-    fn measure(&self) -> Vec<Measured>;
+    fn measure(&self) -> Vec<Measurement>;
 
     /// What is wrong at each position, if this is a picture: something at a position that costs,
     /// nothing at one that does not.
-    fn blemishes(&self) -> Option<Vec<Option<Blemish>>> {
+    fn mismatches(&self) -> Option<Vec<Option<Mismatch>>> {
         None
     }
 }
 
 /// Judges the answer to one question.
-pub fn judge(asked: &Asked, answer: &Answer) -> Judgement {
+pub fn judge(asked: &ExamQuestion, answer: &Answer) -> Judgement {
     match comparison(asked, answer) {
         Some(comparison) => comparison.judge(),
         None => Judgement::protocol("an answer of another kind"),
@@ -113,64 +113,89 @@ pub fn judge(asked: &Asked, answer: &Answer) -> Judgement {
 }
 
 /// How far off the answer to one question is: by the same numbers that decide in [`judge`].
-pub fn measure(asked: &Asked, answer: &Answer) -> Vec<Measured> {
+pub fn measure(asked: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
     match comparison(asked, answer) {
         Some(comparison) => comparison.measure(),
-        None => deviation::worst([Deviation::WRONG]),
+        None => deviation::worst_by_threshold([Deviation::WRONG]),
     }
 }
 
 /// What is wrong at each position of a picture, in the order of asking, by the same numbers that
 /// decide in [`judge`]. None where no picture was asked for, or none of its size came.
-pub fn blemishes(asked: &Asked, answer: &Answer) -> Option<Vec<Option<Blemish>>> {
-    comparison(asked, answer)?.blemishes()
+pub fn mismatches(asked: &ExamQuestion, answer: &Answer) -> Option<Vec<Option<Mismatch>>> {
+    comparison(asked, answer)?.mismatches()
 }
 
-fn comparison<'a>(asked: &'a Asked, answer: &'a Answer) -> Option<Box<dyn Comparison + 'a>> {
+fn comparison<'a>(asked: &'a ExamQuestion, answer: &'a Answer) -> Option<Box<dyn Comparison + 'a>> {
     use protocol::Question as Q;
 
     Some(match (&asked.key, answer, &asked.question) {
-        (Key::Rays { judged, directions }, Answer::Rays(rays), Q::Camera { samples, .. }) => {
-            Box::new(CameraRays {
-                judged,
-                directions,
-                rays,
-                counted: matches!(samples, Samples::EveryPixel),
-            })
-        }
         (
-            Key::Hits { judged, hits },
+            Key::Rays {
+                checks: judged,
+                directions,
+            },
+            Answer::Rays(rays),
+            Q::Camera { samples, .. },
+        ) => Box::new(CameraRays {
+            checks: judged,
+            directions,
+            rays,
+            is_picture: matches!(samples, Samples::EveryPixel),
+        }),
+        (
+            Key::Hits {
+                checks: judged,
+                hits,
+            },
             Answer::Hits(answers),
             Q::Shapes { rays, .. } | Q::Traverse { rays, .. } | Q::BuildAndTraverse { rays, .. },
         ) => Box::new(Hits {
-            judged,
+            checks: judged,
             rays: rays.to_vec(),
             hits,
             answers,
         }),
-        (Key::FirstHits { hits, also }, Answer::Hits(answers), _) => Box::new(FirstHits {
+        (
+            Key::FirstHits {
+                hits,
+                alternatives: also,
+            },
+            Answer::Hits(answers),
+            _,
+        ) => Box::new(FirstHits {
             hits,
-            also,
+            alternatives: also,
             answers,
         }),
         (Key::Spans { spans }, Answer::Spans(answers), _) => Box::new(Spans { spans, answers }),
         (
-            Key::Tree { judged, sweep_cost },
+            Key::Tree {
+                checks: judged,
+                sweep_cost,
+            },
             Answer::Tree(answer),
             Q::Build {
                 shapes,
                 max_leaf_size,
             },
-        ) => Box::new(Built {
-            judged,
+        ) => Box::new(TreeAnswer {
+            checks: judged,
             sweep_cost: *sweep_cost,
             shapes,
             max_leaf_size: *max_leaf_size,
             answer,
         }),
-        (Key::Radiance { pixels, allowed }, Answer::Picture(answer), _) => Box::new(Radiance {
+        (
+            Key::Radiance {
+                pixels,
+                max_wrong_pixels: allowed,
+            },
+            Answer::Picture(answer),
+            _,
+        ) => Box::new(Radiance {
             pixels,
-            allowed: *allowed,
+            max_wrong_pixels: *allowed,
             answer,
         }),
         // An exam whose key does not fit its question is refused when it is loaded.
@@ -189,10 +214,10 @@ fn comparison<'a>(asked: &'a Asked, answer: &'a Answer) -> Option<Box<dyn Compar
 
 /// Judges a table: every element must be right. `wrong` tells what is wrong with a value, given
 /// its place in the table.
-fn table<T>(
-    outcomes: &[Outcome<T>],
+fn judge_table<T>(
+    outcomes: &[ElementOutcome<T>],
     wanted: usize,
-    wrong: impl Fn(usize, &T) -> Option<How>,
+    wrong: impl Fn(usize, &T) -> Option<FailureKind>,
 ) -> Judgement {
     if outcomes.len() != wanted {
         return Judgement::protocol("another number of answers than of questions");
@@ -202,10 +227,10 @@ fn table<T>(
         .enumerate()
         .filter_map(|(element, outcome)| {
             let how = match outcome {
-                Outcome::Value(value) => wrong(element, value),
-                Outcome::Panicked(panic) => Some(How::Panicked(panic.clone())),
+                ElementOutcome::Value(value) => wrong(element, value),
+                ElementOutcome::Panicked(panic) => Some(FailureKind::Panicked(panic.clone())),
                 // Given up only after panics, which come first.
-                Outcome::GivenUp => Some(How::Protocol("given up".to_owned())),
+                ElementOutcome::Skipped => Some(FailureKind::Protocol("given up".to_owned())),
             };
             Some((element, how?))
         });
@@ -213,23 +238,23 @@ fn table<T>(
         None => Judgement::RIGHT,
         Some((element, how)) => Judgement::wrong(Failure {
             element,
-            how,
+            kind: how,
             count: Some((1 + failures.count(), wanted)),
         }),
     }
 }
 
 /// Measures a table: `of_value` tells how far off a value is, given its place in the table.
-fn table_measured<T>(
-    outcomes: &[Outcome<T>],
+fn measure_table<T>(
+    outcomes: &[ElementOutcome<T>],
     wanted: usize,
     of_value: impl Fn(usize, &T) -> Vec<Deviation>,
-) -> Vec<Measured> {
+) -> Vec<Measurement> {
     if outcomes.len() != wanted {
-        return deviation::worst([Deviation::WRONG]);
+        return deviation::worst_by_threshold([Deviation::WRONG]);
     }
     let elements = outcomes.iter().enumerate();
-    deviation::worst(elements.flat_map(|(element, outcome)| {
-        deviation::of_outcome(outcome, |value| of_value(element, value))
+    deviation::worst_by_threshold(elements.flat_map(|(element, outcome)| {
+        deviation::outcome_deviations(outcome, |value| of_value(element, value))
     }))
 }

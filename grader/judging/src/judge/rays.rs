@@ -1,85 +1,95 @@
 //! Rays from the camera.
 
 use glam::Vec3;
-use protocol::{Interval, Outcome, Ray};
+use protocol::{ElementOutcome, Interval, Ray};
 
 use crate::describe;
-use crate::exam::RayPart;
-use crate::judge::deviation::of_outcome;
+use crate::exam::RayCheck;
+use crate::judge::deviation::outcome_deviations;
 use crate::judge::measure::{
     DIRECTION, LENGTH, direction_error, length_error, point_error, unit_error,
 };
 use crate::judge::{
-    Aspect, Blemish, Comparison, Deviation, How, Judgement, Measured, Share, Threshold, table,
-    table_measured,
+    Aspect, Comparison, Credit, Deviation, FailureKind, Judgement, Measurement, Mismatch,
+    Threshold, judge_table, measure_table,
 };
 
 /// The camera's rays.
 pub(super) struct CameraRays<'a> {
-    pub(super) judged: &'a [RayPart],
+    pub(super) checks: &'a [RayCheck],
     pub(super) directions: &'a [Vec3],
-    pub(super) rays: &'a [Outcome<Ray>],
+    pub(super) rays: &'a [ElementOutcome<Ray>],
     /// A picture: partial credit by counting. Otherwise every ray must be right.
-    pub(super) counted: bool,
+    pub(super) is_picture: bool,
 }
 
 impl Comparison for CameraRays<'_> {
     fn judge(&self) -> Judgement {
         let judgement = self.judge_table();
-        if self.counted {
-            by_count(judgement)
+        if self.is_picture {
+            with_partial_credit(judgement)
         } else {
             judgement
         }
     }
 
-    fn measure(&self) -> Vec<Measured> {
-        if !self.counted || self.rays.len() != self.directions.len() {
-            return table_measured(self.rays, self.directions.len(), |element, ray| {
+    fn measure(&self) -> Vec<Measurement> {
+        if !self.is_picture || self.rays.len() != self.directions.len() {
+            return measure_table(self.rays, self.directions.len(), |element, ray| {
                 self.deviations(element, ray)
             });
         }
-        let allowed = Share::stragglers(self.rays.len());
+        let allowed = Credit::tolerated(self.rays.len());
         let count = Threshold::PicturePositions;
-        vec![Measured::counted(self.worst(), allowed, count)]
+        vec![Measurement::of_positions(
+            self.worst_deviations(),
+            allowed,
+            count,
+        )]
     }
 
-    fn blemishes(&self) -> Option<Vec<Option<Blemish>>> {
-        let blemish = |(outcome, worst): (&Outcome<Ray>, Deviation)| match outcome {
-            Outcome::Panicked(_) | Outcome::GivenUp => Some(Blemish::NO_ANSWER),
-            Outcome::Value(_) => (!worst.is_right()).then_some(Blemish {
+    fn mismatches(&self) -> Option<Vec<Option<Mismatch>>> {
+        let blemish = |(outcome, worst): (&ElementOutcome<Ray>, Deviation)| match outcome {
+            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => Some(Mismatch::NO_ANSWER),
+            ElementOutcome::Value(_) => (!worst.is_right()).then_some(Mismatch {
                 aspect: Aspect::Direction,
-                off: worst.value,
+                deviation: worst.value,
             }),
         };
-        let is_picture = self.counted && self.rays.len() == self.directions.len();
-        is_picture.then(|| self.rays.iter().zip(self.worst()).map(blemish).collect())
+        let is_picture = self.is_picture && self.rays.len() == self.directions.len();
+        is_picture.then(|| {
+            self.rays
+                .iter()
+                .zip(self.worst_deviations())
+                .map(blemish)
+                .collect()
+        })
     }
 }
 
 impl CameraRays<'_> {
     fn judge_table(&self) -> Judgement {
-        table(self.rays, self.directions.len(), |element, ray| {
+        judge_table(self.rays, self.directions.len(), |element, ray| {
             let wanted = self.directions[element];
-            let mut judged = self.judged.iter();
+            let mut judged = self.checks.iter();
             let part = judged.find(|part| !deviation(**part, ray, wanted).is_right())?;
             Some(match part {
-                RayPart::Origin => How::Wrong {
+                RayCheck::Origin => FailureKind::Wrong {
                     what: "origin".to_owned(),
                     got: describe::point(ray.origin),
                     wanted: describe::point(Vec3::ZERO),
                 },
-                RayPart::Direction => How::Wrong {
+                RayCheck::Direction => FailureKind::Wrong {
                     what: "direction".to_owned(),
                     got: describe::point(ray.dir),
                     wanted: describe::point(wanted),
                 },
-                RayPart::UnitLength => How::Wrong {
+                RayCheck::UnitLength => FailureKind::Wrong {
                     what: "length of the direction".to_owned(),
                     got: describe::number(ray.dir.length()),
                     wanted: describe::number(1.0),
                 },
-                RayPart::Range => How::Wrong {
+                RayCheck::Range => FailureKind::Wrong {
                     what: "range".to_owned(),
                     got: describe::interval(ray.range),
                     wanted: describe::interval(Interval::AHEAD),
@@ -89,10 +99,10 @@ impl CameraRays<'_> {
     }
 
     /// Of each ray, the part that is farthest off.
-    fn worst(&self) -> Vec<Deviation> {
+    fn worst_deviations(&self) -> Vec<Deviation> {
         let rays = self.rays.iter().enumerate();
         let worst = |(element, outcome)| {
-            let parts = of_outcome(outcome, |ray| self.deviations(element, ray));
+            let parts = outcome_deviations(outcome, |ray| self.deviations(element, ray));
             let worst = parts.into_iter().max_by(|a, b| a.value.total_cmp(&b.value));
             worst.unwrap_or(Deviation::RIGHT)
         };
@@ -101,34 +111,34 @@ impl CameraRays<'_> {
 
     fn deviations(&self, element: usize, ray: &Ray) -> Vec<Deviation> {
         let wanted = self.directions[element];
-        let judged = self.judged.iter();
+        let judged = self.checks.iter();
         judged.map(|part| deviation(*part, ray, wanted)).collect()
     }
 }
 
 /// The judgement of a picture, from that of a table.
-fn by_count(mut judgement: Judgement) -> Judgement {
+fn with_partial_credit(mut judgement: Judgement) -> Judgement {
     if let Some((wrong, of)) = judgement.failure.as_ref().and_then(|failure| failure.count) {
-        judgement.share = Share::by_count(wrong, of);
+        judgement.credit = Credit::by_count(wrong, of);
     }
-    if judgement.share == Share::ALL {
+    if judgement.credit == Credit::FULL {
         judgement.failure = None;
     }
     judgement
 }
 
-fn deviation(part: RayPart, ray: &Ray, wanted: Vec3) -> Deviation {
+fn deviation(part: RayCheck, ray: &Ray, wanted: Vec3) -> Deviation {
     match part {
-        RayPart::Origin => Deviation::of(Threshold::Origin, point_error(ray.origin, Vec3::ZERO)),
-        RayPart::Direction => {
+        RayCheck::Origin => Deviation::new(Threshold::Origin, point_error(ray.origin, Vec3::ZERO)),
+        RayCheck::Direction => {
             let error = direction_error(ray.dir, wanted, DIRECTION);
-            Deviation::of(Threshold::Direction, error)
+            Deviation::new(Threshold::Direction, error)
         }
-        RayPart::UnitLength => Deviation::of(Threshold::UnitLength, unit_error(ray.dir)),
-        RayPart::Range if ray.range.max != f32::INFINITY => Deviation::WRONG,
-        RayPart::Range => {
+        RayCheck::UnitLength => Deviation::new(Threshold::UnitLength, unit_error(ray.dir)),
+        RayCheck::Range if ray.range.max != f32::INFINITY => Deviation::WRONG,
+        RayCheck::Range => {
             let error = length_error(ray.range.min, 0.0, LENGTH);
-            Deviation::of(Threshold::Times, error)
+            Deviation::new(Threshold::Times, error)
         }
     }
 }

@@ -1,22 +1,23 @@
 //! Times inside a box.
 
-use protocol::{Interval, Outcome};
+use protocol::{ElementOutcome, Interval};
 
 use crate::describe;
 use crate::judge::measure::{LENGTH, length_error};
 use crate::judge::{
-    Comparison, Deviation, How, Judgement, Measured, Threshold, table, table_measured,
+    Comparison, Deviation, FailureKind, Judgement, Measurement, Threshold, judge_table,
+    measure_table,
 };
 
 /// The times of each shot, of which every one must be right.
 pub(super) struct Spans<'a> {
     pub(super) spans: &'a [Option<Interval>],
-    pub(super) answers: &'a [Outcome<Option<Interval>>],
+    pub(super) answers: &'a [ElementOutcome<Option<Interval>>],
 }
 
 impl Comparison for Spans<'_> {
     fn judge(&self) -> Judgement {
-        table(self.answers, self.spans.len(), |element, got| {
+        judge_table(self.answers, self.spans.len(), |element, got| {
             let wanted = self.spans[element];
             if deviation(*got, wanted).is_right() {
                 return None;
@@ -25,7 +26,7 @@ impl Comparison for Spans<'_> {
                 (Some(_), Some(_)) => "times inside the box",
                 (Some(_), None) | (None, Some(_)) | (None, None) => "hit or miss",
             };
-            Some(How::Wrong {
+            Some(FailureKind::Wrong {
                 what: what.to_owned(),
                 got: describe::span(*got),
                 wanted: describe::span(wanted),
@@ -33,8 +34,8 @@ impl Comparison for Spans<'_> {
         })
     }
 
-    fn measure(&self) -> Vec<Measured> {
-        table_measured(self.answers, self.spans.len(), |element, got| {
+    fn measure(&self) -> Vec<Measurement> {
+        measure_table(self.answers, self.spans.len(), |element, got| {
             vec![deviation(*got, self.spans[element])]
         })
     }
@@ -47,7 +48,7 @@ fn deviation(got: Option<Interval>, wanted: Option<Interval>) -> Deviation {
         (Some(got), Some(wanted)) => {
             let start = length_error(got.min, wanted.min, LENGTH);
             let end = length_error(got.max, wanted.max, LENGTH);
-            Deviation::of(Threshold::Times, start.max(end))
+            Deviation::new(Threshold::Times, start.max(end))
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Every number of the exam that stands between right and wrong.
 
+use super::credit::TOLERATED_POSITIONS;
 use super::first_hits::{DEPTH, NORMAL};
 use super::measure::{DIRECTION, LENGTH, UV};
-use super::radiance::RELATIVE;
-use super::share::STRAGGLERS;
-use super::tree::{FULL, LOOSE, ROUNDING};
+use super::radiance::RELATIVE_TOLERANCE;
+use super::tree::{CONTAIN_TOLERANCE, FULL_MARKS_RATIO, TIGHT_TOLERANCE};
 
 /// What an answer is held against. The steps of partial credit are not among them: they stand
 /// between wrong and wrong.
@@ -103,17 +103,17 @@ impl Threshold {
             Threshold::Uv | Threshold::PictureUv => format!("{UV:e}"),
             Threshold::PictureDepth => format!("{DEPTH:e}, relative above 1"),
             Threshold::PictureNormal => format!("{NORMAL:e}"),
-            Threshold::PicturePositions => format!("{STRAGGLERS}, or 1e-4 of all"),
-            Threshold::Radiance => format!("{RELATIVE}, relative"),
+            Threshold::PicturePositions => format!("{TOLERATED_POSITIONS}, or 1e-4 of all"),
+            Threshold::Radiance => format!("{RELATIVE_TOLERANCE}, relative"),
             Threshold::RadiancePixels => "as the key allows".to_owned(),
-            Threshold::SahCost => format!("{FULL} times the exact sweep's"),
-            Threshold::BoxTooLarge => format!("{LOOSE:e} diagonals"),
-            Threshold::BoxTooSmall => format!("{ROUNDING:e} diagonals"),
+            Threshold::SahCost => format!("{FULL_MARKS_RATIO} times the exact sweep's"),
+            Threshold::BoxTooLarge => format!("{TIGHT_TOLERANCE:e} diagonals"),
+            Threshold::BoxTooSmall => format!("{CONTAIN_TOLERANCE:e} diagonals"),
         }
     }
 
     /// Where it can be changed, below `grader/judging/src/judge`, or in an exam.
-    pub fn place(self) -> &'static str {
+    pub fn location(self) -> &'static str {
         match self {
             Threshold::Distance | Threshold::Position | Threshold::Times | Threshold::Origin => {
                 "measure.rs: LENGTH"

@@ -1,24 +1,24 @@
 //! Colours for what can not be seen by itself: depths, normals, texture coordinates, directions.
 
 use glam::{Vec2, Vec3};
-use protocol::{Answer, Outcome, Ray, Trace};
+use protocol::{Answer, ElementOutcome, Ray, Trace};
 
-use crate::exam::{Asked, Key, Surface};
-use crate::judge::{Aspect, Blemish};
+use crate::exam::{ExamQuestion, Key, Surface};
+use crate::judge::{Aspect, Mismatch};
 
 /// Red, green and blue, ready for a screen.
 pub type Colour = [u8; 3];
 
 /// Where nothing is hit.
-const NOTHING: Vec3 = Vec3::new(0.13, 0.13, 0.16);
+const MISS_COLOUR: Vec3 = Vec3::new(0.13, 0.13, 0.16);
 /// Where there is no answer, or none of numbers. No quantity has this colour.
-const NO_NUMBER: Vec3 = Vec3::new(1.0, 0.0, 1.0);
+const INVALID_COLOUR: Vec3 = Vec3::new(1.0, 0.0, 1.0);
 /// So much stronger than it is, a difference is painted.
-pub(super) const STRONGER: f32 = 4.0;
+pub(super) const DIFFERENCE_GAIN: f32 = 4.0;
 
 /// One quantity, a colour for each pixel: the mean over its positions.
 #[derive(Clone, Debug)]
-pub struct View {
+pub struct LayerComparison {
     /// What people call it.
     pub name: &'static str,
     /// What is right.
@@ -31,48 +31,50 @@ pub struct View {
 
 /// One quantity of what came alone.
 #[derive(Clone, Debug)]
-pub struct Plate {
+pub struct Layer {
     /// What people call it.
     pub name: &'static str,
     /// A colour for each pixel, the mean over its positions.
     pub pixels: Vec<Colour>,
 }
 
-impl Plate {
-    fn of(name: &'static str, pixels: Vec<Colour>) -> Self {
-        Plate { name, pixels }
+impl Layer {
+    fn new(name: &'static str, pixels: Vec<Colour>) -> Self {
+        Layer { name, pixels }
     }
 }
 
 /// One quantity, a colour for each position.
-struct Layer {
+struct LayerSamples {
     name: &'static str,
     wanted: Vec<Vec3>,
     got: Vec<Vec3>,
 }
 
 /// All views of a picture, the one that shows the gravest fault first.
-pub(super) fn views(
-    asked: &Asked,
+pub(super) fn compare_layers(
+    asked: &ExamQuestion,
     answer: &Answer,
-    blemishes: &[Option<Blemish>],
+    blemishes: &[Option<Mismatch>],
     per_pixel: usize,
-) -> Option<Vec<View>> {
+) -> Option<Vec<LayerComparison>> {
     let mut layers = match (&asked.key, answer) {
         (Key::FirstHits { hits, .. }, Answer::Hits(got)) => first_hits(hits, got),
-        (Key::Rays { directions, .. }, Answer::Rays(rays)) => vec![Layer {
+        (Key::Rays { directions, .. }, Answer::Rays(rays)) => vec![LayerSamples {
             name: "direction",
-            wanted: directions.iter().map(|dir| signed(*dir)).collect(),
+            wanted: directions.iter().map(|dir| signed_colour(*dir)).collect(),
             got: rays
                 .iter()
-                .map(|ray| of(ray, |ray| signed(ray.dir)))
+                .map(|ray| paint_outcome(ray, |ray| signed_colour(ray.dir)))
                 .collect(),
         }],
-        (Key::Radiance { pixels, .. }, Answer::Picture(Outcome::Value(got))) => vec![Layer {
-            name: "light",
-            wanted: pixels.iter().map(|pixel| screen(*pixel)).collect(),
-            got: got.iter().map(|pixel| screen(*pixel)).collect(),
-        }],
+        (Key::Radiance { pixels, .. }, Answer::Picture(ElementOutcome::Value(got))) => {
+            vec![LayerSamples {
+                name: "light",
+                wanted: pixels.iter().map(|pixel| srgb(*pixel)).collect(),
+                got: got.iter().map(|pixel| srgb(*pixel)).collect(),
+            }]
+        }
         (
             Key::Rays { .. }
             | Key::Hits { .. }
@@ -88,35 +90,40 @@ pub(super) fn views(
         .flatten()
         .map(|blemish| blemish.aspect)
         .min();
-    let shown = gravest.map_or("normal", shown_by);
+    let shown = gravest.map_or("normal", layer_showing);
     layers.sort_by_key(|layer| layer.name != shown);
-    let view = |layer: &Layer| view(layer, blemishes, per_pixel);
+    let view = |layer: &LayerSamples| compare_layer(layer, blemishes, per_pixel);
     Some(layers.iter().map(view).collect())
 }
 
 /// What came, quantity by quantity, as [`views`] paints it where nothing is wrong.
-pub(super) fn received(asked: &Asked, answer: &Answer, per_pixel: usize) -> Option<Vec<Plate>> {
+pub(super) fn submitted_layers(
+    asked: &ExamQuestion,
+    answer: &Answer,
+    per_pixel: usize,
+) -> Option<Vec<Layer>> {
     Some(match (&asked.key, answer) {
         (Key::FirstHits { hits, .. }, Answer::Hits(got)) => {
-            let grey = greys(hits);
+            let grey = depth_greys(hits);
             let paint = |colour: &dyn Fn(&Trace) -> Vec3| {
-                let hit = |hit: &Option<Trace>| hit.as_ref().map_or(NOTHING, colour);
-                means(got, per_pixel, |outcome| of(outcome, hit))
+                let hit = |hit: &Option<Trace>| hit.as_ref().map_or(MISS_COLOUR, colour);
+                means(got, per_pixel, |outcome| paint_outcome(outcome, hit))
             };
             vec![
-                Plate::of("normal", paint(&|hit| signed(hit.normal))),
-                Plate::of("depth", paint(&|hit| grey(hit.distance))),
-                Plate::of("uv", paint(&|hit| texture(hit.uv))),
+                Layer::new("normal", paint(&|hit| signed_colour(hit.normal))),
+                Layer::new("depth", paint(&|hit| grey(hit.distance))),
+                Layer::new("uv", paint(&|hit| uv_colour(hit.uv))),
             ]
         }
         (Key::Rays { .. }, Answer::Rays(rays)) => {
-            let direction = |ray: &Outcome<Ray>| of(ray, |ray| signed(ray.dir));
-            vec![Plate::of("direction", means(rays, per_pixel, direction))]
+            let direction =
+                |ray: &ElementOutcome<Ray>| paint_outcome(ray, |ray| signed_colour(ray.dir));
+            vec![Layer::new("direction", means(rays, per_pixel, direction))]
         }
-        (Key::Radiance { .. }, Answer::Picture(Outcome::Value(got))) => {
-            vec![Plate::of(
+        (Key::Radiance { .. }, Answer::Picture(ElementOutcome::Value(got))) => {
+            vec![Layer::new(
                 "light",
-                means(got, per_pixel, |pixel| screen(*pixel)),
+                means(got, per_pixel, |pixel| srgb(*pixel)),
             )]
         }
         (
@@ -132,7 +139,7 @@ pub(super) fn received(asked: &Asked, answer: &Answer, per_pixel: usize) -> Opti
 }
 
 /// Whether there is something to be seen at each position of the right picture.
-pub(super) fn something(asked: &Asked) -> Vec<bool> {
+pub(super) fn has_surface(asked: &ExamQuestion) -> Vec<bool> {
     match &asked.key {
         Key::FirstHits { hits, .. } => hits.iter().map(Option::is_some).collect(),
         Key::Rays { directions, .. } => vec![true; directions.len()],
@@ -142,7 +149,7 @@ pub(super) fn something(asked: &Asked) -> Vec<bool> {
 }
 
 /// The name of the view in which such a fault is seen.
-fn shown_by(aspect: Aspect) -> &'static str {
+fn layer_showing(aspect: Aspect) -> &'static str {
     match aspect {
         Aspect::NoAnswer | Aspect::HitOrMiss | Aspect::Normal => "normal",
         Aspect::Depth => "depth",
@@ -152,83 +159,93 @@ fn shown_by(aspect: Aspect) -> &'static str {
     }
 }
 
-fn first_hits(hits: &[Option<Surface>], got: &[Outcome<Option<Trace>>]) -> Vec<Layer> {
-    let grey = greys(hits);
-    let layer = |name, of_key: &dyn Fn(&Surface) -> Vec3, of_got: &dyn Fn(&Trace) -> Vec3| Layer {
-        name,
-        wanted: hits
-            .iter()
-            .map(|hit| hit.as_ref().map_or(NOTHING, of_key))
-            .collect(),
-        got: got
-            .iter()
-            .map(|outcome| of(outcome, |hit| hit.as_ref().map_or(NOTHING, of_got)))
-            .collect(),
-    };
+fn first_hits(
+    hits: &[Option<Surface>],
+    got: &[ElementOutcome<Option<Trace>>],
+) -> Vec<LayerSamples> {
+    let grey = depth_greys(hits);
+    let layer =
+        |name, of_key: &dyn Fn(&Surface) -> Vec3, of_got: &dyn Fn(&Trace) -> Vec3| LayerSamples {
+            name,
+            wanted: hits
+                .iter()
+                .map(|hit| hit.as_ref().map_or(MISS_COLOUR, of_key))
+                .collect(),
+            got: got
+                .iter()
+                .map(|outcome| {
+                    paint_outcome(outcome, |hit| hit.as_ref().map_or(MISS_COLOUR, of_got))
+                })
+                .collect(),
+        };
     vec![
-        layer("normal", &|hit| signed(hit.normal), &|hit| {
-            signed(hit.normal)
+        layer("normal", &|hit| signed_colour(hit.normal), &|hit| {
+            signed_colour(hit.normal)
         }),
         layer("depth", &|hit| grey(hit.depth), &|hit| grey(hit.distance)),
-        layer("uv", &|hit| texture(hit.uv), &|hit| texture(hit.uv)),
+        layer("uv", &|hit| uv_colour(hit.uv), &|hit| uv_colour(hit.uv)),
     ]
 }
 
 /// Depths, the nearest white.
-fn greys(hits: &[Option<Surface>]) -> impl Fn(f32) -> Vec3 {
+fn depth_greys(hits: &[Option<Surface>]) -> impl Fn(f32) -> Vec3 {
     let depths = hits.iter().flatten().map(|surface| surface.depth);
     let (near, far) = depths.fold((f32::INFINITY, 0.0), |(near, far), depth| {
         (depth.min(near), depth.max(far))
     });
     move |depth: f32| {
-        number(Vec3::splat(
+        valid_colour(Vec3::splat(
             1.0 - 0.8 * (depth - near) / (far - near).max(1e-6),
         ))
     }
 }
 
-fn of<T>(outcome: &Outcome<T>, paint: impl Fn(&T) -> Vec3) -> Vec3 {
+fn paint_outcome<T>(outcome: &ElementOutcome<T>, paint: impl Fn(&T) -> Vec3) -> Vec3 {
     match outcome {
-        Outcome::Value(value) => paint(value),
-        Outcome::Panicked(_) | Outcome::GivenUp => NO_NUMBER,
+        ElementOutcome::Value(value) => paint(value),
+        ElementOutcome::Panicked(_) | ElementOutcome::Skipped => INVALID_COLOUR,
     }
 }
 
 /// Components from -1 to 1.
-fn signed(vector: Vec3) -> Vec3 {
-    number(vector * 0.5 + 0.5)
+fn signed_colour(vector: Vec3) -> Vec3 {
+    valid_colour(vector * 0.5 + 0.5)
 }
 
-fn texture(uv: Vec2) -> Vec3 {
-    number(Vec3::new(uv.x, uv.y, 0.35))
+fn uv_colour(uv: Vec2) -> Vec3 {
+    valid_colour(Vec3::new(uv.x, uv.y, 0.35))
 }
 
 /// Light, as screens want it: IEC 61966-2-1.
-fn screen(light: Vec3) -> Vec3 {
+fn srgb(light: Vec3) -> Vec3 {
     let channel = |light: f32| match light {
         _ if light <= 0.003_130_8 => 12.92 * light,
         _ => 1.055 * light.powf(1.0 / 2.4) - 0.055,
     };
-    number(Vec3::from(number(light).to_array().map(channel)))
+    valid_colour(Vec3::from(valid_colour(light).to_array().map(channel)))
 }
 
-fn number(colour: Vec3) -> Vec3 {
+fn valid_colour(colour: Vec3) -> Vec3 {
     match colour.is_finite() {
         true => colour.clamp(Vec3::ZERO, Vec3::ONE),
-        false => NO_NUMBER,
+        false => INVALID_COLOUR,
     }
 }
 
-fn view(layer: &Layer, blemishes: &[Option<Blemish>], per_pixel: usize) -> View {
+fn compare_layer(
+    layer: &LayerSamples,
+    blemishes: &[Option<Mismatch>],
+    per_pixel: usize,
+) -> LayerComparison {
     let apart = layer.wanted.iter().zip(&layer.got).zip(blemishes);
     let apart: Vec<Vec3> = apart
         .map(|((wanted, got), blemish)| match blemish {
             // Where an edge runs through a position, what differs may be right as well.
             None => Vec3::ZERO,
-            Some(_) => ((*got - *wanted).abs() * STRONGER).min(Vec3::ONE),
+            Some(_) => ((*got - *wanted).abs() * DIFFERENCE_GAIN).min(Vec3::ONE),
         })
         .collect();
-    View {
+    LayerComparison {
         name: layer.name,
         wanted: pixels(&layer.wanted, per_pixel),
         got: pixels(&layer.got, per_pixel),

@@ -2,18 +2,18 @@
 
 use glam::{DVec2, dvec2};
 
-use super::Marked;
+use super::MarkedNode;
 use crate::drawing::canvas::{Anchor, Canvas, Mark, WIDTH};
-use crate::drawing::ink::{Fill, Ink, Line};
-use crate::drawing::sheet::{Sheet, Sign};
-use crate::shown::{LevelNode, Sweep};
+use crate::drawing::ink::{Fill, Ink, LineStyle};
+use crate::drawing::sheet::{Sheet, Symbol};
+use crate::drawing_data::{LevelNode, Sweep};
 
 /// The height of a level.
-const ROW: f64 = 19.0;
+const ROW_HEIGHT: f64 = 19.0;
 /// Right of it stand the costs.
 const RIGHT: f64 = WIDTH - 52.0;
 /// A level with more nodes is drawn without their borders.
-const MOST: usize = 2_000;
+const MAX_NODES: usize = 2_000;
 
 /// The levels of a tree over `all` primitives that costs `total`, if that is known. Returns with
 /// which sign the marked node is marked.
@@ -22,9 +22,9 @@ pub(super) fn draw(
     nodes: &[LevelNode],
     all: u32,
     total: f64,
-    mark: Marked,
-) -> Sign {
-    let mut sign = Sign::None;
+    mark: MarkedNode,
+) -> Symbol {
+    let mut sign = Symbol::None;
     let top = sheet.y;
     let x = |place: u32| RIGHT * f64::from(place) / f64::from(all.max(1));
     let canvas = &mut sheet.canvas;
@@ -37,11 +37,11 @@ pub(super) fn draw(
     let deepest = nodes.iter().map(|node| node.level).max().unwrap_or(0);
     let mut sum = 0.0;
     for level in 0..=deepest.min(Sweep::LEVELS - 1) {
-        let y = top + ROW * f64::from(level);
+        let y = top + ROW_HEIGHT * f64::from(level);
         let on_level = nodes.iter().filter(|node| node.level == level);
         let cost: f64 = on_level.clone().map(|node| f64::from(node.cost)).sum();
         sum += cost;
-        for node in on_level.take(MOST) {
+        for node in on_level.take(MAX_NODES) {
             draw_node(
                 canvas,
                 node,
@@ -53,20 +53,20 @@ pub(super) fn draw(
         canvas.text(at, Anchor::End, Ink::Text, &format!("{cost:.2}"));
     }
     if let Some((level, start, count)) = mark {
-        let y = top + ROW * f64::from(level.min(deepest));
+        let y = top + ROW_HEIGHT * f64::from(level.min(deepest));
         let (from, to) = (
             dvec2(x(start), y),
-            dvec2(x(start.saturating_add(count)), y + ROW - 3.0),
+            dvec2(x(start.saturating_add(count)), y + ROW_HEIGHT - 3.0),
         );
         if level <= deepest && to.x - from.x > 14.0 {
-            canvas.rectangle(from, to, Line::Wrong, Fill::None);
-            sign = Sign::Line(Line::Wrong);
+            canvas.rectangle(from, to, LineStyle::Wrong, Fill::None);
+            sign = Symbol::Line(LineStyle::Wrong);
         } else {
             canvas.mark(0.5 * (from + to), Mark::Wrong);
-            sign = Sign::Mark(Mark::Wrong);
+            sign = Symbol::Mark(Mark::Wrong);
         }
     }
-    sheet.take(ROW * f64::from(deepest + 1));
+    sheet.advance(ROW_HEIGHT * f64::from(deepest + 1));
     let rest = total - sum;
     if rest > 0.005 {
         let y = sheet.y + 13.5;
@@ -78,35 +78,35 @@ pub(super) fn draw(
             Ink::Text,
             &format!("{rest:.2}"),
         );
-        sheet.take(ROW);
+        sheet.advance(ROW_HEIGHT);
     }
-    sheet.take(4.0);
+    sheet.advance(4.0);
     sign
 }
 
 fn draw_node(canvas: &mut Canvas, node: &LevelNode, [from, to]: [f64; 2], y: f64) {
     /// So wide a number is.
-    const DIGIT: f64 = 8.0;
+    const DIGIT_WIDTH: f64 = 8.0;
 
     let times = if node.is_leaf { node.count.max(1) } else { 1 };
     let area = f64::from(node.cost) / f64::from(times);
     let area = if area.is_finite() { area } else { 0.0 };
     let height = if node.is_leaf {
-        0.5 * (ROW - 3.0)
+        0.5 * (ROW_HEIGHT - 3.0)
     } else {
-        ROW - 3.0
+        ROW_HEIGHT - 3.0
     };
     // A gap between neighbours, as far as there is room for one.
     let gap = (0.1 * (to - from)).min(1.0);
     let (low, high): (DVec2, DVec2) = (dvec2(from, y), dvec2(to - gap, y + height));
-    let fill = Fill::Of(Ink::Text, 0.1 + 0.75 * area.sqrt());
+    let fill = Fill::Tint(Ink::Text, 0.1 + 0.75 * area.sqrt());
     if to - from > 6.0 {
-        canvas.rectangle(low, high, Line::Grid, fill);
+        canvas.rectangle(low, high, LineStyle::Grid, fill);
     } else {
         canvas.area(low, high, fill);
     }
     let words = node.count.to_string();
-    if to - from > DIGIT * (words.len() as f64 + 0.5) {
+    if to - from > DIGIT_WIDTH * (words.len() as f64 + 0.5) {
         let at = dvec2(0.5 * (from + to), y + 13.0);
         canvas.text(at, Anchor::Middle, Ink::Text, &words);
     }

@@ -2,50 +2,50 @@
 //! split at every node, which the exam tells.
 
 mod flaw;
+mod geometry;
 mod levels;
-mod placed;
-mod solids;
+mod node_positions;
 
-use protocol::{Answer, Outcome, Shape, Tree};
+use protocol::{Answer, ElementOutcome, Shape, Tree};
 
 use super::Drawing;
 use super::ink::{Fill, Ink};
-use super::sheet::{Sheet, Sign};
-use super::words::short;
-use crate::exam::TreePart;
+use super::numbers::short;
+use super::sheet::{Sheet, Symbol};
+use crate::drawing_data::{DrawingData, LevelNode, Sweep};
+use crate::exam::TreeCheck;
 use crate::judge::tree;
-use crate::judge::tree::cells::cells;
-use crate::shown::{LevelNode, Shown, Sweep};
+use crate::judge::tree::reached_nodes::reached_nodes;
 
 use flaw::Flaw;
-use placed::Placed;
+use node_positions::NodePosition;
 
 /// What was asked, and what is judged of it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Task<'a> {
+pub(super) struct BuildCase<'a> {
     /// The primitives.
     pub(super) shapes: &'a [Shape],
     /// The most of them in a leaf.
     pub(super) max_leaf_size: u32,
     /// What must hold.
-    pub(super) judged: &'a [TreePart],
+    pub(super) judged: &'a [TreeCheck],
     /// The cost of the sweep's tree, where that of the submission's is judged.
     pub(super) sweep_cost: Option<f64>,
     /// The sweep's tree, if it is told.
-    pub(super) shown: &'a Shown,
+    pub(super) shown: &'a DrawingData,
 }
 
 const TITLE: &str = "The tree by levels, each node as wide as its share of the primitives";
 
 /// The drawing.
-pub(super) fn draw(task: &Task, answer: Option<&Answer>) -> Option<Drawing> {
-    let tree = tree(answer)?;
+pub(super) fn draw(task: &BuildCase, answer: Option<&Answer>) -> Option<Drawing> {
+    let tree = tree_answer(answer)?;
     let sweep = match task.shown {
-        Shown::Sweep(sweep) => Some(sweep),
-        Shown::Nothing | Shown::Slabs(_) | Shown::Walks(_) => None,
+        DrawingData::Sweep(sweep) => Some(sweep),
+        DrawingData::None | DrawingData::Slabs(_) | DrawingData::Traversals(_) => None,
     };
-    let cells = match cells(task.shapes, tree) {
-        Ok(cells) => cells,
+    let reached = match reached_nodes(task.shapes, tree) {
+        Ok(nodes) => nodes,
         Err(mistake) => {
             let mut sheet = Sheet::default();
             draw_sweep(&mut sheet, sweep?);
@@ -53,30 +53,30 @@ pub(super) fn draw(task: &Task, answer: Option<&Answer>) -> Option<Drawing> {
             return Some(sheet.finish(TITLE, caption));
         }
     };
-    let placed = placed::all(&cells);
+    let placed = node_positions::positions(&reached);
     let root = placed.first()?;
     let flaw = flaw::find(task, &placed);
 
     let mut sheet = Sheet::default();
-    solids::draw(&mut sheet, task, sweep, &placed, &flaw);
+    geometry::draw(&mut sheet, task, sweep, &placed, &flaw);
     sheet.title("your tree");
     let mark = flaw
         .node()
         .map(|node| (node.level, node.start, node.cell.count as u32));
-    let own = placed::upper(&placed);
-    let total = tree::cost(&cells);
+    let own = node_positions::upper_levels(&placed);
+    let total = tree::cost(&reached);
     let sign = levels::draw(&mut sheet, &own, root.cell.count as u32, total, mark);
     if let Some(sweep) = sweep {
         draw_sweep(&mut sheet, sweep);
     }
-    explain(&mut sheet, task, &flaw, sign, total);
-    Some(sheet.finish(TITLE, flaw.sentence(task)))
+    draw_legend(&mut sheet, task, &flaw, sign, total);
+    Some(sheet.finish(TITLE, flaw.caption(task)))
 }
 
-fn tree(answer: Option<&Answer>) -> Option<&Tree> {
+fn tree_answer(answer: Option<&Answer>) -> Option<&Tree> {
     match answer? {
-        Answer::Tree(Outcome::Value(tree)) => Some(tree),
-        Answer::Tree(Outcome::Panicked(_) | Outcome::GivenUp)
+        Answer::Tree(ElementOutcome::Value(tree)) => Some(tree),
+        Answer::Tree(ElementOutcome::Panicked(_) | ElementOutcome::Skipped)
         | Answer::Rays(_)
         | Answer::Hits(_)
         | Answer::Spans(_)
@@ -96,18 +96,18 @@ fn draw_sweep(sheet: &mut Sheet, sweep: &Sweep) {
     levels::draw(sheet, &sweep.nodes, all, total, None);
 }
 
-fn explain(sheet: &mut Sheet, task: &Task, flaw: &Flaw, sign: Sign, cost: f64) {
-    let interior = Fill::Of(Ink::Text, 0.5);
-    sheet.explain(
-        Sign::Area(interior),
+fn draw_legend(sheet: &mut Sheet, task: &BuildCase, flaw: &Flaw, sign: Symbol, cost: f64) {
+    let interior = Fill::Tint(Ink::Text, 0.5);
+    sheet.add_legend(
+        Symbol::Area(interior),
         "a split node; the stronger, the larger its box",
     );
-    sheet.explain(
-        Sign::Area(Fill::None),
+    sheet.add_legend(
+        Symbol::Area(Fill::None),
         "half as high: a leaf; numbers: primitives",
     );
     if flaw.node().is_some() {
-        sheet.explain(sign, flaw.label());
+        sheet.add_legend(sign, flaw.label());
     }
     match task.sweep_cost {
         Some(sweep) => {
@@ -116,22 +116,22 @@ fn explain(sheet: &mut Sheet, task: &Task, flaw: &Flaw, sign: Sign, cost: f64) {
                 short(cost),
                 short(sweep)
             );
-            sheet.explain(Sign::None, &words);
+            sheet.add_legend(Symbol::None, &words);
         }
-        None => sheet.explain(Sign::None, "right: what each level adds to the SAH cost"),
+        None => sheet.add_legend(Symbol::None, "right: what each level adds to the SAH cost"),
     }
 }
 
 /// A node that is marked: its level, and the primitives to the left of it and below it.
-type Marked = Option<(u32, u32, u32)>;
+type MarkedNode = Option<(u32, u32, u32)>;
 
 /// The places of the primitives below a node.
-fn below(placed: &[Placed], node: &Placed) -> Vec<usize> {
-    let inside = |other: &&Placed| {
+fn primitives_below(placed: &[NodePosition], node: &NodePosition) -> Vec<usize> {
+    let inside = |other: &&NodePosition| {
         let range = node.start..node.start.saturating_add(node.cell.count as u32);
         other.level >= node.level && range.contains(&other.start)
     };
     let leaves = placed.iter().filter(inside);
-    let leaves = leaves.filter_map(|leaf| leaf.cell.leaf.as_deref());
+    let leaves = leaves.filter_map(|leaf| leaf.cell.leaf_primitives.as_deref());
     leaves.flatten().copied().collect()
 }

@@ -6,7 +6,7 @@ mod sensor;
 mod side;
 
 use glam::{DVec2, DVec3};
-use protocol::{Answer, Outcome, PinholeCamera, Ray, Sample};
+use protocol::{Answer, ElementOutcome, PinholeCamera, Ray, Sample};
 
 use super::Drawing;
 
@@ -14,7 +14,7 @@ use sensor::Sensor;
 
 /// One place on a camera's film.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Aim {
+pub(super) struct CameraQuery {
     /// The camera.
     pub(super) camera: PinholeCamera,
     /// The place.
@@ -24,17 +24,17 @@ pub(super) struct Aim {
 }
 
 /// The drawing.
-pub(super) fn draw(aim: &Aim, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
-    let got = got(element, answer);
-    let sensor = Sensor::of(&aim.camera)?;
-    let wanted = crossing(aim.wanted)?;
+pub(super) fn draw(aim: &CameraQuery, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
+    let got = ray_answer(element, answer);
+    let sensor = Sensor::new(&aim.camera)?;
+    let wanted = sensor_crossing(aim.wanted)?;
     if let Some(ray) = got.filter(|ray| is_direction_right(ray, aim.wanted)) {
         return Some(side::draw(aim, &ray, &sensor));
     }
     Some(front::draw(aim, &sensor, wanted, got))
 }
 
-fn got(element: usize, answer: Option<&Answer>) -> Option<Ray> {
+fn ray_answer(element: usize, answer: Option<&Answer>) -> Option<Ray> {
     let outcome = match answer {
         Some(Answer::Rays(rays)) => rays.get(element),
         Some(
@@ -47,13 +47,13 @@ fn got(element: usize, answer: Option<&Answer>) -> Option<Ray> {
         | None => None,
     };
     match outcome {
-        Some(Outcome::Value(ray)) => Some(*ray),
-        Some(Outcome::Panicked(_) | Outcome::GivenUp) | None => None,
+        Some(ElementOutcome::Value(ray)) => Some(*ray),
+        Some(ElementOutcome::Panicked(_) | ElementOutcome::Skipped) | None => None,
     }
 }
 
 /// Where what goes this way crosses the plane z = -1; nowhere if it does not go forward.
-fn crossing(dir: DVec3) -> Option<DVec2> {
+fn sensor_crossing(dir: DVec3) -> Option<DVec2> {
     let place = dir.truncate() / -dir.z;
     (dir.z < 0.0 && place.is_finite()).then_some(place)
 }

@@ -3,18 +3,18 @@
 use glam::{DVec2, DVec3, dvec2};
 use protocol::{Interval, Ray};
 
-use super::Aim;
+use super::CameraQuery;
 use super::sensor::Sensor;
 use crate::describe;
 use crate::drawing::Drawing;
-use crate::drawing::bars::{self, Bar, Row};
+use crate::drawing::bars::{self, BarRow, BarStyle};
 use crate::drawing::canvas::{Anchor, Canvas, Mark};
-use crate::drawing::ink::{Ink, Line};
-use crate::drawing::sheet::{Sheet, Sign};
+use crate::drawing::ink::{Ink, LineStyle};
+use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
 
 /// The drawing, in the plane of -z and the wanted ray.
-pub(super) fn draw(aim: &Aim, ray: &Ray, sensor: &Sensor) -> Drawing {
+pub(super) fn draw(aim: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {
     let lateral = aim.wanted.truncate().try_normalize().unwrap_or(DVec2::Y);
     let see = |point: DVec3| dvec2(-point.z, point.truncate().dot(lateral));
     let (start, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
@@ -34,22 +34,22 @@ pub(super) fn draw(aim: &Aim, ray: &Ray, sensor: &Sensor) -> Drawing {
 
     let canvas = &mut sheet.canvas;
     let half = 0.5 * sensor.size.max_element();
-    if let Some((from, to)) = window.clipped(dvec2(1.0, -half), dvec2(1.0, half)) {
-        canvas.line(from, to, Line::Outline);
+    if let Some((from, to)) = window.clip_segment(dvec2(1.0, -half), dvec2(1.0, half)) {
+        canvas.line(from, to, LineStyle::Outline);
         let at = from.max(to) + dvec2(4.0, -4.0);
         canvas.text(at, Anchor::Start, Ink::Faint, "z = -1");
     }
-    arc(canvas, &window);
+    draw_unit_arc(canvas, &window);
     let mut arrow = |from: DVec2, to: DVec2, line, ink| {
-        if let Some((from, to)) = window.clipped(from, to) {
+        if let Some((from, to)) = window.clip_segment(from, to) {
             canvas.arrow(from, to, line, ink);
         }
     };
-    arrow(DVec2::ZERO, see(aim.wanted), Line::Right, Ink::Right);
-    arrow(see(start), tip, Line::Wrong, Ink::Wrong);
-    canvas.mark(window.page(DVec2::ZERO), Mark::Origin);
+    arrow(DVec2::ZERO, see(aim.wanted), LineStyle::Right, Ink::Right);
+    arrow(see(start), tip, LineStyle::Wrong, Ink::Wrong);
+    canvas.mark(window.to_page(DVec2::ZERO), Mark::Origin);
     if see(start).length() > 1e-4
-        && let Some((at, _)) = window.pinned(see(start))
+        && let Some((at, _)) = window.pin_to_border(see(start))
     {
         canvas.mark(at, Mark::Wrong);
     }
@@ -58,12 +58,12 @@ pub(super) fn draw(aim: &Aim, ray: &Ray, sensor: &Sensor) -> Drawing {
         sheet.y = bars::draw(
             &mut sheet.canvas,
             sheet.y,
-            &ranges(ray.range),
+            &range_rows(ray.range),
             range_ends(ray.range),
         );
     }
-    sheet.explain(
-        Sign::Line(Line::Right),
+    sheet.add_legend(
+        Symbol::Line(LineStyle::Right),
         "wanted: from (0, 0, 0), length 1, range [0, ∞]",
     );
     let words = format!(
@@ -72,38 +72,38 @@ pub(super) fn draw(aim: &Aim, ray: &Ray, sensor: &Sensor) -> Drawing {
         describe::number(length as f32),
         describe::interval(ray.range)
     );
-    sheet.explain(Sign::Line(Line::Wrong), &words);
-    sheet.explain(
-        Sign::Line(Line::Behind),
+    sheet.add_legend(Symbol::Line(LineStyle::Wrong), &words);
+    sheet.add_legend(
+        Symbol::Line(LineStyle::Behind),
         "all directions of length 1 end here",
     );
-    sheet.explain(Sign::Mark(Mark::Origin), "the camera, at (0, 0, 0)");
+    sheet.add_legend(Symbol::Mark(Mark::Origin), "the camera, at (0, 0, 0)");
     let title = "The camera's ray from the side";
-    sheet.finish(title, side_sentence(ray, length))
+    sheet.finish(title, caption(ray, length))
 }
 
 /// The unit circle, as far as it is before the camera.
-fn arc(canvas: &mut Canvas, window: &Window) {
+fn draw_unit_arc(canvas: &mut Canvas, window: &Window) {
     const STEPS: i32 = 24;
 
     let at = |step: i32| DVec2::from_angle(f64::from(step) / f64::from(STEPS) * 1.4);
     for step in -STEPS..STEPS {
-        if let Some((from, to)) = window.clipped(at(step), at(step + 1)) {
-            canvas.line(from, to, Line::Behind);
+        if let Some((from, to)) = window.clip_segment(at(step), at(step + 1)) {
+            canvas.line(from, to, LineStyle::Behind);
         }
     }
 }
 
-fn ranges(range: Interval) -> [Row; 2] {
-    let row = |name, bar, span| Row {
+fn range_rows(range: Interval) -> [BarRow; 2] {
+    let row = |name, bar, span| BarRow {
         name,
-        bar,
+        style: bar,
         span: Some(span),
-        otherwise: describe::interval(span),
+        empty_text: describe::interval(span),
     };
     [
-        row("wanted", Bar::Right, Interval::AHEAD),
-        row("got", Bar::Wrong, range),
+        row("wanted", BarStyle::Right, Interval::AHEAD),
+        row("got", BarStyle::Wrong, range),
     ]
 }
 
@@ -111,7 +111,7 @@ fn range_ends(range: Interval) -> [f64; 4] {
     [0.0, 1.0, range.min.into(), range.max.into()]
 }
 
-fn side_sentence(ray: &Ray, length: f64) -> String {
+fn caption(ray: &Ray, length: f64) -> String {
     let start = ray.origin.as_dvec3().length();
     if is_off(start, 0.0) {
         let origin = describe::point(ray.origin);

@@ -4,18 +4,18 @@ mod rays;
 mod trees;
 
 use glam::{Vec3, vec2, vec3};
-use protocol::{Answer, Outcome, Ray, Shape, Trace};
+use protocol::{Answer, ElementOutcome, Ray, Shape, Trace};
 
-use super::of;
-use crate::exam::{Asked, Hit};
+use super::draw;
+use crate::exam::{ExamQuestion, ExpectedHit};
 
-fn caption(asked: &Asked, answer: Answer) -> String {
-    let drawing = of(asked, 0, Some(&answer));
+fn caption(asked: &ExamQuestion, answer: Answer) -> String {
+    let drawing = draw(asked, 0, Some(&answer));
     drawing.map_or("(nothing)".to_owned(), |drawing| drawing.caption)
 }
 
 /// A line for each answer.
-fn captions(asked: &Asked, answers: impl IntoIterator<Item = Answer>) -> String {
+fn captions(asked: &ExamQuestion, answers: impl IntoIterator<Item = Answer>) -> String {
     let answers = answers.into_iter();
     let lines: Vec<String> = answers.map(|answer| caption(asked, answer)).collect();
     lines.join("\n")
@@ -33,8 +33,8 @@ fn ahead(min: f32, max: f32) -> Ray {
     Ray::new(Vec3::ZERO, Vec3::NEG_Z).within(min, max)
 }
 
-fn hit(distance: f32) -> Hit {
-    Hit {
+fn hit(distance: f32) -> ExpectedHit {
+    ExpectedHit {
         distance,
         position: vec3(0.0, 0.0, -distance),
         normal: Vec3::Z,
@@ -56,5 +56,5 @@ fn trace(distance: f32) -> Trace {
 }
 
 fn hits(trace: Option<Trace>) -> Answer {
-    Answer::Hits(vec![Outcome::Value(trace)])
+    Answer::Hits(vec![ElementOutcome::Value(trace)])
 }

@@ -3,30 +3,34 @@
 use glam::{UVec2, Vec2, Vec3, vec2, vec3};
 use insta::assert_snapshot;
 use protocol::{
-    Answer, Interval, Outcome, PinholeCamera, Question, Ray, Rays, Sample, Samples, Trace,
+    Answer, ElementOutcome, Interval, PinholeCamera, Question, Ray, Rays, Sample, Samples, Trace,
 };
 
 use super::{ahead, ball, caption, captions, hit, hits, trace};
-use crate::exam::{Asked, Hit, Key, Part, RayPart};
-use crate::shown::Shown;
+use crate::drawing_data::DrawingData;
+use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, RayCheck};
 
-fn sphere(ray: Ray, judged: Part, hit: Option<Hit>) -> Asked {
+fn sphere(ray: Ray, judged: HitCheck, hit: Option<ExpectedHit>) -> ExamQuestion {
     let question = Question::Shapes {
         shapes: vec![ball(0.0, 7)],
         rays: Rays::List(vec![ray]),
     };
     let key = Key::Hits {
-        judged: vec![judged],
+        checks: vec![judged],
         hits: vec![hit],
     };
-    Asked::new(question, key)
+    ExamQuestion::new(question, key)
 }
 
 #[test]
-fn a_hit_is_missing_or_elsewhere() {
-    let near = sphere(ahead(0.0, f32::INFINITY), Part::Distance, Some(hit(4.0)));
-    let far = sphere(ahead(4.5, 9.0), Part::Distance, Some(hit(6.0)));
-    let none = sphere(ahead(0.0, 3.0), Part::Distance, None);
+fn captions_of_missing_or_misplaced_hits() {
+    let near = sphere(
+        ahead(0.0, f32::INFINITY),
+        HitCheck::Distance,
+        Some(hit(4.0)),
+    );
+    let far = sphere(ahead(4.5, 9.0), HitCheck::Distance, Some(hit(6.0)));
+    let none = sphere(ahead(0.0, 3.0), HitCheck::Distance, None);
     let of_near = [
         None,
         Some(trace(6.0)),
@@ -35,7 +39,7 @@ fn a_hit_is_missing_or_elsewhere() {
     ];
     let lines = [
         captions(&near, of_near.map(hits)),
-        caption(&near, Answer::Hits(vec![Outcome::GivenUp])),
+        caption(&near, Answer::Hits(vec![ElementOutcome::Skipped])),
         captions(&far, [None, Some(trace(4.0))].map(hits)),
         captions(&none, [Some(trace(4.0))].map(hits)),
     ];
@@ -43,7 +47,7 @@ fn a_hit_is_missing_or_elsewhere() {
 }
 
 #[test]
-fn a_hit_is_wrong_in_something_else() {
+fn captions_of_hits_with_another_wrong_field() {
     let with = |change: fn(&mut Trace)| {
         let mut trace = trace(4.0);
         change(&mut trace);
@@ -52,42 +56,54 @@ fn a_hit_is_wrong_in_something_else() {
     let ray = ahead(0.0, f32::INFINITY);
     let asked = |part| sphere(ray, part, Some(hit(4.0)));
     let lines = [
-        caption(&asked(Part::Position), with(|trace| trace.position.z = 4.0)),
         caption(
-            &asked(Part::Normal),
+            &asked(HitCheck::Position),
+            with(|trace| trace.position.z = 4.0),
+        ),
+        caption(
+            &asked(HitCheck::Normal),
             with(|trace| trace.normal = Vec3::NEG_Z),
         ),
         caption(
-            &asked(Part::Normal),
+            &asked(HitCheck::Normal),
             with(|trace| trace.normal = vec3(0.0, 1.0, 1.0)),
         ),
         caption(
-            &asked(Part::Normal),
+            &asked(HitCheck::Normal),
             with(|trace| trace.normal = Vec3::ZERO),
         ),
-        caption(&asked(Part::UnitNormal), with(|trace| trace.normal *= 2.0)),
-        caption(&asked(Part::Uv), with(|trace| trace.uv = vec2(0.5, 0.25))),
-        caption(&asked(Part::Origin), with(|trace| trace.origin = Vec3::ONE)),
-        caption(&asked(Part::Material), with(|trace| trace.material = 0)),
+        caption(
+            &asked(HitCheck::UnitNormal),
+            with(|trace| trace.normal *= 2.0),
+        ),
+        caption(
+            &asked(HitCheck::Uv),
+            with(|trace| trace.uv = vec2(0.5, 0.25)),
+        ),
+        caption(
+            &asked(HitCheck::Origin),
+            with(|trace| trace.origin = Vec3::ONE),
+        ),
+        caption(&asked(HitCheck::Material), with(|trace| trace.material = 0)),
     ];
     assert_snapshot!(lines.join("\n"));
 }
 
 #[test]
-fn times_in_a_box() {
+fn captions_of_box_intervals() {
     let question = Question::BBox {
         min: vec3(2.0, -1.0, -1.0),
         max: vec3(4.0, 1.0, 1.0),
-        shots: vec![(Ray::new(Vec3::ZERO, Vec3::X), Interval::AHEAD)],
+        queries: vec![(Ray::new(Vec3::ZERO, Vec3::X), Interval::AHEAD)],
     };
     let always = Interval::new(f32::NEG_INFINITY, f32::INFINITY);
-    let asked = |span| Asked {
+    let asked = |span| ExamQuestion {
         question: question.clone(),
         key: Key::Spans { spans: vec![span] },
-        shown: Shown::Slabs(vec![[Interval::new(2.0, 4.0), always, always]]),
+        drawing_data: DrawingData::Slabs(vec![[Interval::new(2.0, 4.0), always, always]]),
     };
     let span = |min, max| Some(Interval::new(min, max));
-    let answer = |span| Answer::Spans(vec![Outcome::Value(span)]);
+    let answer = |span| Answer::Spans(vec![ElementOutcome::Value(span)]);
     let lines = [
         captions(
             &asked(span(2.0, 4.0)),
@@ -99,7 +115,7 @@ fn times_in_a_box() {
 }
 
 #[test]
-fn a_ray_of_the_camera() {
+fn captions_of_camera_rays() {
     let camera = PinholeCamera {
         vertical_fov: 90.0,
         aspect_ratio: 1.0,
@@ -109,13 +125,13 @@ fn a_ray_of_the_camera() {
         pixel: UVec2::new(2, 2),
         offset: Vec2::ZERO,
     };
-    let asked = Asked::new(
+    let asked = ExamQuestion::new(
         Question::Camera {
             camera,
             samples: Samples::List(vec![sample]),
         },
         Key::Rays {
-            judged: vec![RayPart::Direction, RayPart::UnitLength],
+            checks: vec![RayCheck::Direction, RayCheck::UnitLength],
             directions: vec![Vec3::NEG_Z],
         },
     );
@@ -140,6 +156,6 @@ fn a_ray_of_the_camera() {
         },
         ray.within(0.0, 1.0),
     ];
-    let answers = rays.map(|ray| Answer::Rays(vec![Outcome::Value(ray)]));
+    let answers = rays.map(|ray| Answer::Rays(vec![ElementOutcome::Value(ray)]));
     assert_snapshot!(captions(&asked, answers));
 }

@@ -2,11 +2,11 @@
 
 use glam::vec3;
 use insta::assert_snapshot;
-use protocol::{Answer, Interval, Outcome, Question, Rays, Trace, Tree, TreeNode};
+use protocol::{Answer, ElementOutcome, Interval, Question, Rays, Trace, Tree, TreeNode};
 
 use super::{ahead, ball, caption, captions, hit, hits, trace};
-use crate::exam::{Asked, Hit, Key, Part, TreePart};
-use crate::shown::{Shown, Step};
+use crate::drawing_data::{DrawingData, TraversalStep};
+use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, TreeCheck};
 
 fn node(x: [f32; 2], leaf: Option<[u32; 2]>, [l, r]: [u32; 2]) -> TreeNode {
     let [start, size] = leaf.unwrap_or_default();
@@ -21,7 +21,7 @@ fn node(x: [f32; 2], leaf: Option<[u32; 2]>, [l, r]: [u32; 2]) -> TreeNode {
 }
 
 /// Two balls, far apart, in a leaf each.
-fn two() -> Vec<TreeNode> {
+fn two_leaf_tree() -> Vec<TreeNode> {
     vec![
         node([-1.0, 11.0], None, [1, 2]),
         node([-1.0, 1.0], Some([0, 1]), [0, 0]),
@@ -30,25 +30,31 @@ fn two() -> Vec<TreeNode> {
 }
 
 #[test]
-fn a_tree_that_was_built() {
-    let asked = |judged: &[TreePart], max_leaf_size, sweep_cost| {
+fn captions_of_built_trees() {
+    let asked = |judged: &[TreeCheck], max_leaf_size, sweep_cost| {
         let question = Question::Build {
             shapes: vec![ball(0.0, 0), ball(10.0, 1)],
             max_leaf_size,
         };
         let judged = judged.to_vec();
-        Asked::new(question, Key::Tree { judged, sweep_cost })
+        ExamQuestion::new(
+            question,
+            Key::Tree {
+                checks: judged,
+                sweep_cost,
+            },
+        )
     };
     let tree = |nodes: Vec<TreeNode>| {
         let order = vec![0, 1];
-        Answer::Tree(Outcome::Value(Tree {
+        Answer::Tree(ElementOutcome::Value(Tree {
             nodes,
             root: 0,
             order,
         }))
     };
     let with = |place: usize, node: TreeNode| {
-        let mut nodes = two();
+        let mut nodes = two_leaf_tree();
         nodes[place] = node;
         tree(nodes)
     };
@@ -58,31 +64,31 @@ fn a_tree_that_was_built() {
     let twice = || with(2, node([-1.0, 1.0], Some([0, 1]), [0, 0]));
     let circle = || with(2, node([9.0, 11.0], None, [0, 1]));
     let lines = [
-        caption(&asked(&[TreePart::Contains], 1, None), half()),
-        caption(&asked(&[TreePart::Tight], 1, None), wide()),
-        caption(&asked(&[TreePart::Partition], 1, None), twice()),
-        caption(&asked(&[TreePart::LeafSize], 1, None), one_leaf()),
-        caption(&asked(&[TreePart::Split], 1, None), one_leaf()),
-        caption(&asked(&[TreePart::Stops], 2, None), tree(two())),
-        caption(&asked(&[], 1, Some(1.0)), tree(two())),
+        caption(&asked(&[TreeCheck::Contains], 1, None), half()),
+        caption(&asked(&[TreeCheck::Tight], 1, None), wide()),
+        caption(&asked(&[TreeCheck::Partition], 1, None), twice()),
+        caption(&asked(&[TreeCheck::LeafSize], 1, None), one_leaf()),
+        caption(&asked(&[TreeCheck::Split], 1, None), one_leaf()),
+        caption(&asked(&[TreeCheck::Stops], 2, None), tree(two_leaf_tree())),
+        caption(&asked(&[], 1, Some(1.0)), tree(two_leaf_tree())),
         caption(&asked(&[], 1, None), circle()),
     ];
     assert_snapshot!(lines.join("\n"));
 }
 
 #[test]
-fn a_walk_through_a_tree() {
+fn captions_of_traversals() {
     // The leaf to the right holds what is before the ray as well, and the ray misses its box.
-    let mut nodes = two();
+    let mut nodes = two_leaf_tree();
     nodes[2].size = 2;
     let span = |min, max| Some(Interval::new(min, max));
     let asked = |third: Option<Interval>| {
-        let step = |node, is_entered, span| Step {
+        let step = |node, is_entered, span| TraversalStep {
             node,
             is_entered,
             span,
         };
-        Asked {
+        ExamQuestion {
             question: Question::Traverse {
                 shapes: (0..4).map(|i| ball(10.0 * i as f32, i)).collect(),
                 nodes: nodes.clone(),
@@ -90,13 +96,13 @@ fn a_walk_through_a_tree() {
                 rays: Rays::List(vec![ahead(0.0, f32::INFINITY)]),
             },
             key: Key::Hits {
-                judged: vec![Part::Distance],
-                hits: vec![Some(Hit {
+                checks: vec![HitCheck::Distance],
+                hits: vec![Some(ExpectedHit {
                     material: 0,
                     ..hit(4.0)
                 })],
             },
-            shown: Shown::Walks(vec![vec![
+            drawing_data: DrawingData::Traversals(vec![vec![
                 step(0, true, span(4.0, 6.0)),
                 step(1, true, span(4.0, 6.0)),
                 step(2, false, third),

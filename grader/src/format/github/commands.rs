@@ -7,32 +7,32 @@ use std::fmt::Write;
 pub fn command(name: &str, properties: &[(&str, String)], message: &str) -> String {
     let properties = properties.iter();
     let properties: Vec<String> = properties
-        .map(|(key, value)| format!("{key}={}", in_property(value)))
+        .map(|(key, value)| format!("{key}={}", escape_property(value)))
         .collect();
     format!(
         "::{name} {}::{}\n",
         properties.join(","),
-        in_message(message)
+        escape_message(message)
     )
 }
 
-fn in_message(text: &str) -> String {
+fn escape_message(text: &str) -> String {
     text.replace('%', "%25")
         .replace('\r', "%0D")
         .replace('\n', "%0A")
 }
 
-fn in_property(text: &str) -> String {
-    in_message(text).replace(':', "%3A").replace(',', "%2C")
+fn escape_property(text: &str) -> String {
+    escape_message(text).replace(':', "%3A").replace(',', "%2C")
 }
 
 /// A text in which the runner sees no commands: only this token ends its deafness.
-pub fn silenced(text: &str, token: &str) -> String {
+pub fn with_commands_stopped(text: &str, token: &str) -> String {
     format!("::stop-commands::{token}\n{text}\n::{token}::\n")
 }
 
 /// A token that nobody can guess.
-pub fn token() -> Result<String, getrandom::Error> {
+pub fn random_token() -> Result<String, getrandom::Error> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes)?;
     let mut token = String::new();
@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_text_ends_its_command_or_begins_another() {
+    fn no_text_can_end_its_command_or_start_another() {
         let file = [("file", "a,b:c.rs".to_owned())];
         let line = command("error", &file, "100%\r\n::set-output name=x::y");
         assert_eq!(
@@ -59,7 +59,7 @@ mod tests {
 
     #[test]
     fn tokens_are_long_and_differ() {
-        let (one, other) = (token().unwrap(), token().unwrap());
+        let (one, other) = (random_token().unwrap(), random_token().unwrap());
         assert!(one.len() == 32 && one != other);
     }
 }

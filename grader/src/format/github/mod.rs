@@ -6,5 +6,5 @@ mod commands;
 mod summary;
 
 pub use annotations::annotations;
-pub use commands::{silenced, token};
+pub use commands::{random_token, with_commands_stopped};
 pub use summary::summary;

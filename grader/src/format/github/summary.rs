@@ -2,39 +2,48 @@
 
 use std::fmt::{self, Write};
 
-use crate::format::said::{headline, of_files, said};
-use crate::format::size::{cut, within};
-use crate::format::{Around, Seen};
+use crate::format::item_text::{build_report, headline, item_text};
+use crate::format::size::{fit, truncate};
+use crate::format::{FormatContext, StudentView};
 use crate::score::{ItemScore, TaskScore};
 
 /// What a step's summary may hold, in bytes.
-const MOST: usize = 1 << 20;
+const MAX_BYTES: usize = 1 << 20;
 
 /// The whole text.
-pub fn summary(seen: &Seen, around: &Around) -> String {
-    within(MOST, |longest| {
+pub fn summary(seen: &StudentView, around: &FormatContext) -> String {
+    fit(MAX_BYTES, |longest| {
         let mut text = String::new();
         write_summary(&mut text, seen, around, longest).expect("text takes text");
         text
     })
 }
 
-fn write_summary(out: &mut String, seen: &Seen, around: &Around, longest: usize) -> fmt::Result {
-    writeln!(out, "## {}\n", escaped(&headline(seen)))?;
-    if let Some(unfinished) = seen.unfinished() {
-        writeln!(out, "**{}**\n", escaped(&unfinished))?;
+fn write_summary(
+    out: &mut String,
+    seen: &StudentView,
+    around: &FormatContext,
+    longest: usize,
+) -> fmt::Result {
+    writeln!(out, "## {}\n", escape_markdown(&headline(seen)))?;
+    if let Some(unfinished) = seen.unfinished_notice() {
+        writeln!(out, "**{}**\n", escape_markdown(&unfinished))?;
     }
     writeln!(out, "| task | points | of |\n|---|---:|---:|")?;
-    for task in &seen.now.tasks {
+    for task in &seen.visible.tasks {
         let TaskScore {
             title,
             points,
             max_points,
             ..
         } = task;
-        writeln!(out, "| {} | {points} | {max_points} |", escaped(title))?;
+        writeln!(
+            out,
+            "| {} | {points} | {max_points} |",
+            escape_markdown(title)
+        )?;
     }
-    for task in &seen.now.tasks {
+    for task in &seen.visible.tasks {
         let lost = task
             .items
             .iter()
@@ -43,17 +52,17 @@ fn write_summary(out: &mut String, seen: &Seen, around: &Around, longest: usize)
         if lost.is_empty() {
             continue;
         }
-        writeln!(out, "\n### {}\n", escaped(&task.title))?;
+        writeln!(out, "\n### {}\n", escape_markdown(&task.title))?;
         for item in lost {
             write_item(out, seen, item, around, longest)?;
         }
     }
-    let files = of_files(seen);
+    let files = build_report(seen);
     if !files.is_empty() {
         writeln!(
             out,
             "\n### The files\n\n{}",
-            fenced(&cut(&files, 4 * longest))
+            fence(&truncate(&files, 4 * longest))
         )?;
     }
     Ok(())
@@ -61,33 +70,33 @@ fn write_summary(out: &mut String, seen: &Seen, around: &Around, longest: usize)
 
 fn write_item(
     out: &mut String,
-    seen: &Seen,
+    seen: &StudentView,
     item: &ItemScore,
-    around: &Around,
+    around: &FormatContext,
     longest: usize,
 ) -> fmt::Result {
-    let (title, words) = (escaped(&item.title), item.verdict.words());
+    let (title, words) = (escape_markdown(&item.title), item.verdict.label());
     let (points, of) = (item.points, item.max_points);
-    let said = said(seen, item, around);
-    if said.is_empty() {
+    let text = item_text(seen, item, around);
+    if text.is_empty() {
         return writeln!(out, "- {title}: {words}, {points} of {of}");
     }
     writeln!(
         out,
         "<details><summary>{title}: {words}, {points} of {of}</summary>\n\n{}\n\n</details>",
-        fenced(&cut(&said, longest))
+        fence(&truncate(&text, longest))
     )
 }
 
 /// Text as it stands, in a block that no line of it can end.
-fn fenced(text: &str) -> String {
+fn fence(text: &str) -> String {
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let fence = "`".repeat((longest + 1).max(3));
     format!("{fence}text\n{text}\n{fence}")
 }
 
 /// Text without meaning for Markdown, in one line.
-fn escaped(text: &str) -> String {
+fn escape_markdown(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {
         match c {
@@ -107,11 +116,11 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{escaped, fenced};
+    use super::{escape_markdown, fence};
 
     #[test]
-    fn no_text_leaves_its_block_or_its_cell() {
-        assert_eq!(fenced("a\n````\n# b"), "`````text\na\n````\n# b\n`````");
-        assert_eq!(escaped("a|<b>\n# c"), "a\\|&lt;b&gt; \\# c");
+    fn no_text_can_leave_its_block_or_cell() {
+        assert_eq!(fence("a\n````\n# b"), "`````text\na\n````\n# b\n`````");
+        assert_eq!(escape_markdown("a|<b>\n# c"), "a\\|&lt;b&gt; \\# c");
     }
 }

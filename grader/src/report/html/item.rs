@@ -2,42 +2,42 @@
 
 use maud::{Markup, PreEscaped, html};
 
+use super::elements::{command, evidence_table, plain_text};
 use super::pictures;
 use super::prose::prose;
-use super::said::{command, rows, said};
-use crate::again::Again;
 use crate::describe;
 use crate::drawing;
 use crate::exam::Item;
-use crate::exhibit::Exhibits;
+use crate::report_answers::ReportAnswers;
+use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Verdict};
 
 /// An item that lacks points: what happened, where to look, how to ask again.
 pub(super) fn failing(
     score: &ItemScore,
     item: Option<&Item>,
-    exhibits: &Exhibits,
-    again: Option<&Again>,
+    exhibits: &ReportAnswers,
+    again: Option<&RerunCommand>,
     is_open: bool,
 ) -> Markup {
     html! {
         details .item id=(score.id) open[is_open] {
             summary {
-                h3 { (said(&score.title)) }
+                h3 { (plain_text(&score.title)) }
                 span .facts {
                     (verdict(score))
                     span .points { (score.points) " / " (score.max_points) }
-                    code { (said(&score.id)) }
+                    code { (plain_text(&score.id)) }
                 }
             }
             div .body {
-                @if !score.message.is_empty() { p { (said(&score.message)) } }
-                (three(score, item))
-                (drawn(score, item, exhibits))
+                @if !score.message.is_empty() { p { (plain_text(&score.message)) } }
+                (evidence(score, item))
+                (figure(score, item, exhibits))
                 (look(score))
                 (hints(score))
                 @if let Some(again) = again {
-                    p .again { "Ask it again: " (command(&score.again(again))) }
+                    p .again { "Ask it again: " (command(&score.rerun_command(again))) }
                     @if let Some(item) = item { (pictures::failing(item, exhibits, again)) }
                 }
             }
@@ -46,12 +46,12 @@ pub(super) fn failing(
 }
 
 /// An item with all of its points.
-pub(super) fn passed(score: &ItemScore, item: Option<&Item>, exhibits: &Exhibits) -> Markup {
+pub(super) fn passed(score: &ItemScore, item: Option<&Item>, exhibits: &ReportAnswers) -> Markup {
     html! {
-        (said(&score.title)) " "
+        (plain_text(&score.title)) " "
         span .facts {
             span .points { (score.points) " / " (score.max_points) } " "
-            code { (said(&score.id)) }
+            code { (plain_text(&score.id)) }
         }
         @if let Some(item) = item { (pictures::passed(item, exhibits)) }
     }
@@ -72,24 +72,24 @@ fn verdict(score: &ItemScore) -> Markup {
         Verdict::Unimplemented | Verdict::Blocked { .. } | Verdict::Pending => ("none", "–"),
     };
     html! {
-        span class=(format!("verdict {class}")) { (sign) " " (score.verdict.words()) }
+        span class=(format!("verdict {class}")) { (sign) " " (score.verdict.label()) }
     }
 }
 
 /// Asked, got, wanted. Nothing of an item that its reader is not to know.
-fn three(score: &ItemScore, item: Option<&Item>) -> Markup {
+fn evidence(score: &ItemScore, item: Option<&Item>) -> Markup {
     match (&score.evidence, item) {
-        (Some(evidence), _) => rows(&evidence.asked, &evidence.got, &evidence.wanted),
+        (Some(evidence), _) => evidence_table(&evidence.asked, &evidence.got, &evidence.wanted),
         (None, Some(item)) => {
-            let (asked, got, wanted) = without_evidence(score, item);
-            rows(&asked, &got, &wanted)
+            let (asked, got, wanted) = missing_evidence(score, item);
+            evidence_table(&asked, &got, &wanted)
         }
         (None, None) => html! {},
     }
 }
 
 /// Where there is no evidence, the three say why.
-fn without_evidence(score: &ItemScore, item: &Item) -> (String, String, String) {
+fn missing_evidence(score: &ItemScore, item: &Item) -> (String, String, String) {
     let count = item.count();
     let first = item.questions.first();
     let first = first.filter(|asked| asked.question.count() > 0);
@@ -144,7 +144,7 @@ fn look(score: &ItemScore) -> Markup {
             p .look { strong { "Look: " } (prose(look)) }
         }
         @if let Some(section) = &score.section {
-            p .look { strong { "Read: " } (said(&section.words())) }
+            p .look { strong { "Read: " } (plain_text(&section.location())) }
         }
     }
 }
@@ -169,7 +169,7 @@ fn hints(score: &ItemScore) -> Markup {
 
 /// The question that went wrong, drawn, where it can be. Of what is not written yet, the first one:
 /// that is what is to be written.
-fn drawn(score: &ItemScore, item: Option<&Item>, exhibits: &Exhibits) -> Markup {
+fn figure(score: &ItemScore, item: Option<&Item>, exhibits: &ReportAnswers) -> Markup {
     let number = match (&score.evidence, &score.verdict) {
         (Some(evidence), _) => Some(evidence.number),
         (None, Verdict::Unimplemented) => Some(1),
@@ -178,14 +178,14 @@ fn drawn(score: &ItemScore, item: Option<&Item>, exhibits: &Exhibits) -> Markup 
     let drawing = number.zip(item).and_then(|(number, item)| {
         let (question, element) = item.element(number)?;
         let answer = exhibits.answer(&item.id, question);
-        drawing::of(&item.questions[question], element, answer)
+        drawing::draw(&item.questions[question], element, answer)
     });
     html! {
         @if let Some(drawing) = drawing {
             figure .drawing {
                 // It holds numbers and our own words only.
                 (PreEscaped(drawing.svg))
-                figcaption { (said(&drawing.caption)) }
+                figcaption { (plain_text(&drawing.caption)) }
             }
         }
     }

@@ -5,14 +5,14 @@ use glam::UVec2;
 
 use super::png::data_uri;
 use crate::judge::Aspect;
-use crate::picture::{Cell, Colour, Picture};
+use crate::picture::{Colour, MaskPixel, Picture};
 
 /// The width of a mask on the screen, in pixels of the screen.
 const WIDTH: u32 = 256;
 /// A pattern repeats after so many pixels of the screen.
-const PATTERN: u32 = 4;
+const PATTERN_PERIOD: u32 = 4;
 /// The width of a patch of the legend.
-const PATCH: u32 = 16;
+const PATCH_WIDTH: u32 = 16;
 
 const EMPTY: Colour = [40, 40, 44];
 const RIGHT: Colour = [104, 104, 108];
@@ -26,9 +26,9 @@ pub(super) fn mask(picture: &Picture) -> String {
         let pixel = place / block;
         let cell = picture.mask[(pixel.y * picture.film.x + pixel.x) as usize];
         match cell {
-            Cell::Empty => EMPTY,
-            Cell::Right => RIGHT,
-            Cell::Wrong(aspect) => pattern(aspect, place),
+            MaskPixel::Empty => EMPTY,
+            MaskPixel::Right => RIGHT,
+            MaskPixel::Wrong(aspect) => pattern(aspect, place),
         }
     };
     paint(size, colour)
@@ -36,11 +36,11 @@ pub(super) fn mask(picture: &Picture) -> String {
 
 /// A patch of the legend.
 pub(super) fn patch(aspect: Aspect) -> String {
-    paint(UVec2::splat(PATCH), |place| pattern(aspect, place))
+    paint(UVec2::splat(PATCH_WIDTH), |place| pattern(aspect, place))
 }
 
 /// What people call it.
-pub(super) fn title(aspect: Aspect) -> &'static str {
+pub(super) fn aspect_name(aspect: Aspect) -> &'static str {
     match aspect {
         Aspect::NoAnswer => "no answer",
         Aspect::HitOrMiss => "hit or miss",
@@ -59,7 +59,7 @@ fn paint(size: UVec2, colour: impl Fn(UVec2) -> Colour) -> String {
 
 /// The colour of one place of a pattern.
 fn pattern(aspect: Aspect, place: UVec2) -> Colour {
-    let UVec2 { x, y } = place % PATTERN;
+    let UVec2 { x, y } = place % PATTERN_PERIOD;
     let (colour, is_on) = match aspect {
         // Vermillion, full.
         Aspect::HitOrMiss | Aspect::Direction | Aspect::Radiance => ([213, 94, 0], true),
@@ -70,7 +70,7 @@ fn pattern(aspect: Aspect, place: UVec2) -> Colour {
         // Bluish green, dots.
         Aspect::Uv => ([0, 158, 115], x < 2 && y < 2),
         // Reddish purple, crosses.
-        Aspect::NoAnswer => ([204, 121, 167], x == y || x + y == PATTERN - 1),
+        Aspect::NoAnswer => ([204, 121, 167], x == y || x + y == PATTERN_PERIOD - 1),
     };
     if is_on { colour } else { BLACK }
 }
@@ -92,7 +92,8 @@ mod tests {
             Aspect::Uv,
         ];
         let shape = |aspect: Aspect| -> Vec<bool> {
-            let places = (0..PATTERN * PATTERN).map(|i| UVec2::new(i % PATTERN, i / PATTERN));
+            let places = (0..PATTERN_PERIOD * PATTERN_PERIOD)
+                .map(|i| UVec2::new(i % PATTERN_PERIOD, i / PATTERN_PERIOD));
             places
                 .map(|place| pattern(aspect, place) != BLACK)
                 .collect()

@@ -5,31 +5,31 @@
 //! Whatever a submission has said is text here: `maud` escapes it, `said` makes it harmless to
 //! the eye, and the page's policy runs no script and no style but our own, by their hashes.
 
+mod elements;
 mod item;
 mod mask;
 mod pictures;
 mod png;
 mod prose;
-mod said;
 mod summary;
 mod task;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::again::Again;
 use crate::exam::Exam;
-use crate::exhibit::Exhibits;
+use crate::report_answers::ReportAnswers;
+use crate::rerun_command::RerunCommand;
 use crate::score::Score;
 
-use said::said;
+use elements::plain_text;
 
 /// The exam that students have.
 const PRACTICE: &str = "practice";
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 /// Their names in the page's policy, which a test compares with them: who changes one, changes both.
-const STYLE_NAME: &str = "sha256-/lbG4HpSq0TpA9Rxa1PxYKdeL7k9uqdzE1cca+RblDk=";
-const SCRIPT_NAME: &str = "sha256-0oikulJCHOGL54fs8bQIl7TMm4IEIqSTIjoUg+OJhos=";
+const STYLE_HASH: &str = "sha256-/lbG4HpSq0TpA9Rxa1PxYKdeL7k9uqdzE1cca+RblDk=";
+const SCRIPT_HASH: &str = "sha256-0oikulJCHOGL54fs8bQIl7TMm4IEIqSTIjoUg+OJhos=";
 
 /// Whether an open page looks for a newer one in its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,12 +37,12 @@ pub enum Reload {
     /// It stays as it is.
     Never,
     /// Every moment, but while its reader is at it.
-    WhileAway,
+    WhileUnfocused,
 }
 
 /// The page. `exam` is what the score is of; `exhibits` are the answers worth a look.
-pub fn page(score: &Score, exam: &Exam, exhibits: &Exhibits, reload: Reload) -> String {
-    whole(score, exam, exhibits, Some(&score.again), reload)
+pub fn page(score: &Score, exam: &Exam, exhibits: &ReportAnswers, reload: Reload) -> String {
+    render_page(score, exam, exhibits, Some(&score.rerun_command), reload)
 }
 
 /// The page for students of an exam that they do not have: what this score says, which is to be what
@@ -54,15 +54,21 @@ pub fn feedback(score: &Score) -> String {
         mistakes: Vec::new(),
         items: Vec::new(),
     };
-    whole(score, &unseen, &Exhibits::default(), None, Reload::Never)
+    render_page(
+        score,
+        &unseen,
+        &ReportAnswers::default(),
+        None,
+        Reload::Never,
+    )
 }
 
 /// `again` is how to ask the same once more, for whoever can.
-fn whole(
+fn render_page(
     score: &Score,
     exam: &Exam,
-    exhibits: &Exhibits,
-    again: Option<&Again>,
+    exhibits: &ReportAnswers,
+    again: Option<&RerunCommand>,
     reload: Reload,
 ) -> String {
     let title = format!(
@@ -74,17 +80,17 @@ fn whole(
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(policy());
+                meta http-equiv="Content-Security-Policy" content=(content_security_policy());
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
-                title { (said(&title)) }
+                title { (plain_text(&title)) }
                 style { (PreEscaped(STYLE)) }
             }
-            body data-reload[reload == Reload::WhileAway] {
+            body data-reload[reload == Reload::WhileUnfocused] {
                 a .skip href="#next" { "Skip to what to do next" }
                 (summary::header(score))
                 main {
-                    (summary::next(score, again))
+                    (summary::next_step(score, again))
                     (task::files(score))
                     @for task in &score.tasks {
                         (task::section(task, exam, exhibits, again))
@@ -101,20 +107,20 @@ fn whole(
 }
 
 /// Nothing from elsewhere, and of scripts and styles only these two.
-fn policy() -> String {
+fn content_security_policy() -> String {
     format!(
-        "default-src 'none'; img-src data:; style-src '{STYLE_NAME}'; script-src '{SCRIPT_NAME}'; \
+        "default-src 'none'; img-src data:; style-src '{STYLE_HASH}'; script-src '{SCRIPT_HASH}'; \
          base-uri 'none'; form-action 'none'"
     )
 }
 
-fn footer(score: &Score, again: Option<&Again>) -> Markup {
+fn footer(score: &Score, again: Option<&RerunCommand>) -> Markup {
     html! {
         footer {
             @if again.is_some() {
                 p {
-                    "Exam " code { (said(&score.exam.id)) } ", "
-                    code { (said(score.exam.hash.get(..12).unwrap_or_default())) } ". "
+                    "Exam " code { (plain_text(&score.exam.id)) } ", "
+                    code { (plain_text(score.exam.hash.get(..12).unwrap_or_default())) } ". "
                     "The same, for programs: " code { "score.json" } " beside this page."
                 }
             }

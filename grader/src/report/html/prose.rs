@@ -2,17 +2,17 @@
 
 use maud::{Markup, html};
 
-use super::said::said;
+use super::elements::plain_text;
 
 /// The text, with those two marks shown as what they mean. Odd ones stand for themselves.
 pub(super) fn prose(text: &str) -> Markup {
     html! {
         @for (place, part) in parts(text, '`').into_iter().enumerate() {
             @if place % 2 == 1 {
-                code { (said(part)) }
+                code { (plain_text(part)) }
             } @else {
                 @for (place, part) in parts(part, '*').into_iter().enumerate() {
-                    @if place % 2 == 1 { em { (said(part)) } } @else { (said(part)) }
+                    @if place % 2 == 1 { em { (plain_text(part)) } } @else { (plain_text(part)) }
                 }
             }
         }
@@ -35,7 +35,7 @@ mod tests {
     use super::prose;
 
     #[test]
-    fn pairs_of_marks_are_shown_and_others_stand_for_themselves() {
+    fn renders_paired_marks_and_leaves_others_alone() {
         let shown = |text| prose(text).into_string();
         assert_eq!(
             shown("the *last* of `times`, <b>"),

@@ -2,9 +2,9 @@
 
 use maud::{Markup, PreEscaped, html};
 
+use super::elements::{command, plain_text};
 use super::prose::prose;
-use super::said::{command, said};
-use crate::again::Again;
+use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
 
@@ -12,10 +12,10 @@ use crate::score::{ItemScore, Score, TaskScore, Verdict};
 pub(super) fn header(score: &Score) -> Markup {
     html! {
         header {
-            h1 { span .said { (said(&score.submission)) } }
+            h1 { span .said { (plain_text(&score.submission)) } }
             p .total {
                 strong { (score.points) " of " (score.max_points) }
-                " points, " (said(&score.exam.id)) " exam"
+                " points, " (plain_text(&score.exam.id)) " exam"
                 @if score.isolation > Isolation::None {
                     ", kept apart: " (score.isolation.name())
                 }
@@ -71,20 +71,20 @@ fn bar(task: &TaskScore) -> Markup {
 }
 
 /// The one thing to do: the first item in lecture order that fails.
-pub(super) fn next(score: &Score, again: Option<&Again>) -> Markup {
+pub(super) fn next_step(score: &Score, again: Option<&RerunCommand>) -> Markup {
     let fails = |item: &&ItemScore| item.points < item.max_points;
     html! {
         section aria-labelledby="next" {
             h2 #next { "What to do next" }
             @match score.items().find(fails) {
-                None => (nothing(score)),
-                Some(item) => (mend(item, again)),
+                None => (all_passed(score)),
+                Some(item) => (first_failure(item, again)),
             }
         }
     }
 }
 
-fn nothing(score: &Score) -> Markup {
+fn all_passed(score: &Score) -> Markup {
     html! {
         p {
             "Nothing: all that this exam asks is right."
@@ -95,28 +95,28 @@ fn nothing(score: &Score) -> Markup {
     }
 }
 
-fn mend(item: &ItemScore, again: Option<&Again>) -> Markup {
+fn first_failure(item: &ItemScore, again: Option<&RerunCommand>) -> Markup {
     let place = format!("#{}", item.id);
     html! {
         p {
-            a href=(place) { (said(&item.title)) }
-            " (" code { (said(&item.id)) } ")"
+            a href=(place) { (plain_text(&item.title)) }
+            " (" code { (plain_text(&item.id)) } ")"
         }
         @match &item.verdict {
             Verdict::Pending => p { "It was not asked yet." },
-            Verdict::Unimplemented => p { "Write this method first: " (said(&item.message)) "." },
+            Verdict::Unimplemented => p { "Write this method first: " (plain_text(&item.message)) "." },
             Verdict::NotCompiled => {
-                p { "Mend the file first: " (said(&item.message)) ". " a href="#files" { "The compiler’s words" } }
+                p { "Mend the file first: " (plain_text(&item.message)) ". " a href="#files" { "The compiler’s words" } }
             },
             Verdict::Pass | Verdict::Partial | Verdict::Wrong | Verdict::Panicked
             | Verdict::TimedOut | Verdict::OutOfMemory | Verdict::Crashed | Verdict::Protocol
-            | Verdict::Blocked { .. } => p { (said(&item.message)) },
+            | Verdict::Blocked { .. } => p { (plain_text(&item.message)) },
         }
         @if let Some(look) = &item.look {
             p { (prose(look)) }
         }
         @if let Some(again) = again {
-            p .again { "Ask it again: " (command(&item.again(again))) }
+            p .again { "Ask it again: " (command(&item.rerun_command(again))) }
         }
     }
 }

@@ -2,16 +2,16 @@
 
 use maud::{Markup, html};
 
+use super::elements::plain_text;
 use super::item;
-use super::said::said;
-use crate::again::Again;
 use crate::exam::{Exam, Item};
-use crate::exhibit::Exhibits;
 use crate::picture;
+use crate::report_answers::ReportAnswers;
+use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore};
 
 /// So many failing items of a task are unfolded from the start, and those with pictures.
-const UNFOLDED: usize = 3;
+const MAX_OPEN_ITEMS: usize = 3;
 
 /// What did not compile, and what is worth knowing. Nothing, where there is nothing to say.
 pub(super) fn files(score: &Score) -> Markup {
@@ -23,12 +23,12 @@ pub(super) fn files(score: &Score) -> Markup {
         section aria-labelledby="files" {
             h2 #files { "Your files" }
             @for file in &build.not_compiled {
-                h3 { code { (said(&file.file)) } " was not used" }
-                pre { (said(&file.message)) }
+                h3 { code { (plain_text(&file.file)) } " was not used" }
+                pre { (plain_text(&file.message)) }
             }
             @if !build.notes.is_empty() {
                 ul .notes {
-                    @for note in &build.notes { li { (said(note)) } }
+                    @for note in &build.notes { li { (plain_text(note)) } }
                 }
             }
         }
@@ -39,8 +39,8 @@ pub(super) fn files(score: &Score) -> Markup {
 pub(super) fn section(
     task: &TaskScore,
     exam: &Exam,
-    exhibits: &Exhibits,
-    again: Option<&Again>,
+    exhibits: &ReportAnswers,
+    again: Option<&RerunCommand>,
 ) -> Markup {
     let is_failing = |item: &&ItemScore| item.points < item.max_points;
     let (failing, passed): (Vec<&ItemScore>, Vec<&ItemScore>) =
@@ -53,13 +53,13 @@ pub(super) fn section(
                 span .points { " " (task.points) " / " (task.max_points) }
             }
             @for (place, score) in failing.iter().enumerate() {
-                @let is_open = is_unfolded(place, score, asked(score));
+                @let is_open = starts_open(place, score, asked(score));
                 (item::failing(score, asked(score), exhibits, again, is_open))
             }
             @if let Some(printed) = &task.printed {
                 details #(format!("{}-printed", task.id)) .printed {
                     summary { "What your code printed meanwhile" }
-                    pre { (said(printed)) }
+                    pre { (plain_text(printed)) }
                 }
             }
             @if !passed.is_empty() {
@@ -76,7 +76,7 @@ pub(super) fn section(
     }
 }
 
-fn is_unfolded(place: usize, score: &ItemScore, item: Option<&Item>) -> bool {
-    let has_picture = item.is_some_and(|item| item.questions.iter().any(picture::is_asked));
-    place == 0 || (score.evidence.is_some() && (place < UNFOLDED || has_picture))
+fn starts_open(place: usize, score: &ItemScore, item: Option<&Item>) -> bool {
+    let has_picture = item.is_some_and(|item| item.questions.iter().any(picture::asks_for_picture));
+    place == 0 || (score.evidence.is_some() && (place < MAX_OPEN_ITEMS || has_picture))
 }

@@ -1,14 +1,14 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use protocol::{Answer, Outcome, Panic};
+use protocol::{Answer, ElementOutcome, Panic};
 use sha2::{Digest, Sha256};
 
 use super::Reload;
 use crate::exam::Exam;
 use crate::exam_file::{self, ExamName};
-use crate::exhibit::Exhibits;
+use crate::report_answers::ReportAnswers;
 use crate::score::{Evidence, FileReport, Hint, Score, Verdict};
-use crate::verdict::unasked;
+use crate::verdict::pending_score;
 
 /// All that a submission can say, it says with this.
 const HOSTILE: &str =
@@ -18,24 +18,24 @@ fn exam() -> Exam {
     exam_file::load(None).expect("the practice exam").exam
 }
 
-fn unjudged(exam: &Exam, submission: &str) -> Score {
+fn sample_pending_score(exam: &Exam, submission: &str) -> Score {
     let name = ExamName {
         id: exam.id.clone(),
         hash: "0123456789abcdef".to_owned(),
     };
-    unasked(exam, name, submission)
+    pending_score(exam, name, submission)
 }
 
 /// The page but for its own style and script.
-fn page(score: &Score, exam: &Exam, exhibits: &Exhibits) -> String {
+fn page(score: &Score, exam: &Exam, exhibits: &ReportAnswers) -> String {
     let page = super::page(score, exam, exhibits, Reload::Never);
     page.replace(super::STYLE, "").replace(super::SCRIPT, "")
 }
 
 /// With everything passed but the item that `change` is about.
-fn all_but(id: &str, change: impl Fn(&mut crate::score::ItemScore)) -> (Exam, Score) {
+fn all_passed_except(id: &str, change: impl Fn(&mut crate::score::ItemScore)) -> (Exam, Score) {
     let exam = exam();
-    let mut score = unjudged(&exam, "alice");
+    let mut score = sample_pending_score(&exam, "alice");
     score.complete = true;
     for item in score.tasks.iter_mut().flat_map(|task| &mut task.items) {
         (item.points, item.verdict) = (item.max_points, Verdict::Pass);
@@ -44,14 +44,14 @@ fn all_but(id: &str, change: impl Fn(&mut crate::score::ItemScore)) -> (Exam, Sc
             change(item);
         }
     }
-    score.total();
+    score.update_totals();
     (exam, score)
 }
 
 #[test]
-fn nothing_that_a_submission_says_is_more_than_text() {
+fn escapes_everything_that_a_submission_can_write() {
     let exam = exam();
-    let mut score = unjudged(&exam, HOSTILE);
+    let mut score = sample_pending_score(&exam, HOSTILE);
     score.exam.id = HOSTILE.to_owned();
     score.build.notes.push(HOSTILE.to_owned());
     score.build.not_compiled.push(FileReport {
@@ -59,11 +59,11 @@ fn nothing_that_a_submission_says_is_more_than_text() {
         line: None,
         message: HOSTILE.to_owned(),
     });
-    let panic = Outcome::Panicked(Panic {
+    let panic = ElementOutcome::Panicked(Panic {
         message: HOSTILE.to_owned(),
-        place: HOSTILE.to_owned(),
+        location: HOSTILE.to_owned(),
     });
-    let mut exhibits = Exhibits::default();
+    let mut exhibits = ReportAnswers::default();
     for task in &mut score.tasks {
         task.printed = Some(HOSTILE.to_owned());
         for line in &mut task.items {
@@ -85,7 +85,7 @@ fn nothing_that_a_submission_says_is_more_than_text() {
                 .questions
                 .iter()
                 .map(|asked| Answer::Hits(vec![panic.clone(); asked.question.count()]));
-            exhibits.keep(item, line, answers.collect());
+            exhibits.record(item, line, answers.collect());
         }
     }
     let page = page(&score, &exam, &exhibits);
@@ -98,17 +98,17 @@ fn nothing_that_a_submission_says_is_more_than_text() {
 }
 
 #[test]
-fn what_is_for_staff_is_not_on_the_page() {
-    let (exam, score) = all_but("sphere.normal", |item| {
+fn hides_staff_notes() {
+    let (exam, score) = all_passed_except("sphere.normal", |item| {
         item.verdict = Verdict::Wrong;
         item.staff = Some("answers like sphere.inward".to_owned());
     });
-    let page = page(&score, &exam, &Exhibits::default());
+    let page = page(&score, &exam, &ReportAnswers::default());
     assert!(page.contains("sphere.normal") && !page.contains("sphere.inward"));
 }
 
 #[test]
-fn an_item_without_evidence_has_the_same_three_rows_and_says_why() {
+fn explains_missing_evidence_in_the_same_three_rows() {
     for (verdict, why) in [
         (Verdict::Unimplemented, "it is not written yet"),
         (Verdict::NotCompiled, "a file that compiles"),
@@ -120,11 +120,11 @@ fn an_item_without_evidence_has_the_same_three_rows_and_says_why() {
             "triangle.inside first",
         ),
     ] {
-        let (exam, score) = all_but("bbox.flat", |item| {
+        let (exam, score) = all_passed_except("bbox.flat", |item| {
             item.verdict = verdict.clone();
             item.message = "stopped".to_owned();
         });
-        let page = page(&score, &exam, &Exhibits::default());
+        let page = page(&score, &exam, &ReportAnswers::default());
         assert_eq!(page.matches("<table class=\"rows\">").count(), 1);
         for row in ["asked", "got", "wanted"] {
             assert!(
@@ -137,9 +137,9 @@ fn an_item_without_evidence_has_the_same_three_rows_and_says_why() {
 }
 
 #[test]
-fn the_first_item_that_fails_is_what_to_do_next() {
-    let (exam, score) = all_but("sphere.far_root", |item| item.verdict = Verdict::Wrong);
-    let page = page(&score, &exam, &Exhibits::default());
+fn suggests_the_first_failing_item() {
+    let (exam, score) = all_passed_except("sphere.far_root", |item| item.verdict = Verdict::Wrong);
+    let page = page(&score, &exam, &ReportAnswers::default());
     let next = page.split("What to do next").nth(1).unwrap();
     assert!(
         next.trim_start_matches("</h2><p>")
@@ -149,9 +149,9 @@ fn the_first_item_that_fails_is_what_to_do_next() {
 }
 
 #[test]
-fn full_points_in_the_practice_exam_promise_nothing_of_the_final_one() {
-    let (exam, score) = all_but("none of them", |_| {});
-    let page = page(&score, &exam, &Exhibits::default());
+fn full_practice_points_promise_nothing_about_the_final_exam() {
+    let (exam, score) = all_passed_except("none of them", |_| {});
+    let page = page(&score, &exam, &ReportAnswers::default());
     assert!(page.contains("all that this exam asks is right"));
     assert!(page.contains("with other numbers"));
 }
@@ -159,18 +159,18 @@ fn full_points_in_the_practice_exam_promise_nothing_of_the_final_one() {
 #[test]
 fn an_unfinished_page_says_so() {
     let exam = exam();
-    let mut score = unjudged(&exam, "alice");
+    let mut score = sample_pending_score(&exam, "alice");
     let is_unfinished =
-        |score: &Score| page(score, &exam, &Exhibits::default()).contains("Not finished");
+        |score: &Score| page(score, &exam, &ReportAnswers::default()).contains("Not finished");
     assert!(is_unfinished(&score));
     score.complete = true;
     assert!(!is_unfinished(&score));
 }
 
 #[test]
-fn nothing_on_the_page_leads_elsewhere() {
-    let (exam, score) = all_but("none of them", |_| {});
-    let page = super::page(&score, &exam, &Exhibits::default(), Reload::Never);
+fn refers_to_no_other_site() {
+    let (exam, score) = all_passed_except("none of them", |_| {});
+    let page = super::page(&score, &exam, &ReportAnswers::default(), Reload::Never);
     for elsewhere in ["http://", "https://", "url(", "@import", "//cdn"] {
         assert!(!page.contains(elsewhere), "{elsewhere}");
     }
@@ -178,22 +178,22 @@ fn nothing_on_the_page_leads_elsewhere() {
 
 #[test]
 fn only_a_watched_page_reloads_itself() {
-    let (exam, score) = all_but("none of them", |_| {});
-    let page = |reload| super::page(&score, &exam, &Exhibits::default(), reload);
-    assert!(page(Reload::WhileAway).contains("<body data-reload>"));
+    let (exam, score) = all_passed_except("none of them", |_| {});
+    let page = |reload| super::page(&score, &exam, &ReportAnswers::default(), reload);
+    assert!(page(Reload::WhileUnfocused).contains("<body data-reload>"));
     assert!(page(Reload::Never).contains("<body>"));
 }
 
 #[test]
-fn the_policy_names_the_style_and_the_script_that_the_page_has() {
+fn the_content_security_policy_has_the_hashes_of_style_and_script() {
     let name = |text: &str| format!("sha256-{}", STANDARD.encode(Sha256::digest(text)));
     assert_eq!(
-        super::STYLE_NAME,
+        super::STYLE_HASH,
         name(super::STYLE),
         "of page.css, in mod.rs"
     );
     assert_eq!(
-        super::SCRIPT_NAME,
+        super::SCRIPT_HASH,
         name(super::SCRIPT),
         "of page.js, in mod.rs"
     );

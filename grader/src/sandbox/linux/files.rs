@@ -9,21 +9,21 @@ use landlock::{
 };
 
 use super::super::isolation::Isolation;
-use super::super::order::{Order, Profile};
+use super::super::launch_request::{LaunchRequest, Profile};
 use super::start::Program;
 use super::while_doing;
 
 /// The newest that this code was tried with; of an older kernel's, all that it has is used.
-const TRIED: ABI = ABI::V6;
+const LANDLOCK_ABI: ABI = ABI::V6;
 
 /// What makes a folder writable. No links, devices, sockets or pipes.
-const WRITE: BitFlags<AccessFs> = make_bitflags!(AccessFs::{
+const WRITE_ACCESS: BitFlags<AccessFs> = make_bitflags!(AccessFs::{
     WriteFile | RemoveFile | RemoveDir | MakeReg | MakeDir | Refer | Truncate
 });
 
 /// Closes all files but those of the profile, all TCP ports, and signals to other processes.
-pub(super) fn close(order: &Order, program: &Program) -> io::Result<()> {
-    let rules = allow(order, program).map_err(while_doing("set up Landlock"))?;
+pub(super) fn restrict(order: &LaunchRequest, program: &Program) -> io::Result<()> {
+    let rules = ruleset(order, program).map_err(while_doing("set up Landlock"))?;
     let status = rules.restrict_self().map_err(while_doing("use Landlock"))?;
     // Behind namespaces there are no other files: there it is a second lock.
     if status.ruleset == RulesetStatus::NotEnforced && order.level < Isolation::Full {
@@ -35,11 +35,14 @@ pub(super) fn close(order: &Order, program: &Program) -> io::Result<()> {
     Ok(())
 }
 
-fn allow(order: &Order, program: &Program) -> Result<RulesetCreated, Box<dyn std::error::Error>> {
+fn ruleset(
+    order: &LaunchRequest,
+    program: &Program,
+) -> Result<RulesetCreated, Box<dyn std::error::Error>> {
     let mut rules = Ruleset::default()
-        .handle_access(AccessFs::from_all(TRIED))?
-        .handle_access(AccessNet::from_all(TRIED))?
-        .scope(Scope::from_all(TRIED))?
+        .handle_access(AccessFs::from_all(LANDLOCK_ABI))?
+        .handle_access(AccessNet::from_all(LANDLOCK_ABI))?
+        .scope(Scope::from_all(LANDLOCK_ABI))?
         .create()?;
     match &order.profile {
         Profile::Probe => {
@@ -48,17 +51,21 @@ fn allow(order: &Order, program: &Program) -> Result<RulesetCreated, Box<dyn std
         }
         Profile::Compiler { readable, writable } => {
             for path in readable {
-                rules = add(rules, path, AccessFs::from_read(TRIED))?;
+                rules = add_rule(rules, path, AccessFs::from_read(LANDLOCK_ABI))?;
             }
             let null = AccessFs::ReadFile | AccessFs::WriteFile;
-            rules = add(rules, Path::new("/dev/null"), null)?;
-            rules = add(rules, writable, AccessFs::from_read(TRIED) | WRITE)?;
+            rules = add_rule(rules, Path::new("/dev/null"), null)?;
+            rules = add_rule(
+                rules,
+                writable,
+                AccessFs::from_read(LANDLOCK_ABI) | WRITE_ACCESS,
+            )?;
         }
     }
     Ok(rules)
 }
 
-fn add(
+fn add_rule(
     rules: RulesetCreated,
     path: &Path,
     access: BitFlags<AccessFs>,
@@ -66,7 +73,7 @@ fn add(
     // Rights to folders mean nothing for a file, and Landlock says so.
     let access = match path.is_dir() {
         true => access,
-        false => access & AccessFs::from_file(TRIED),
+        false => access & AccessFs::from_file(LANDLOCK_ABI),
     };
     Ok(rules.add_rule(PathBeneath::new(PathFd::new(path)?, access))?)
 }

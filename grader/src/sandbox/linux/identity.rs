@@ -11,17 +11,17 @@ use rustix::thread::{
 };
 
 use super::super::isolation::Isolation;
-use super::super::order::{Order, Profile};
+use super::super::launch_request::{LaunchRequest, Profile};
 use super::while_doing;
 
 /// Far above what any machine gives to people or services.
-const FAR: u32 = 0x7000_0000;
+const HIGH_UID_BASE: u32 = 0x7000_0000;
 /// Where so many do not exist, as in most containers without root outside: 500 ids that systemd
 /// keeps free of use (`systemd.io/UIDS-GIDS`).
-const NEAR: (u32, u32) = (60_600, 500);
+const LOW_UIDS: (u32, u32) = (60_600, 500);
 
 /// Becomes a user of its own if it may, and gives up all rights that go beyond that user's.
-pub(super) fn give_up(order: &Order, own_user: Option<u32>) -> io::Result<()> {
+pub(super) fn drop_privileges(order: &LaunchRequest, own_user: Option<u32>) -> io::Result<()> {
     if let Some(user) = own_user {
         let switch = || while_doing("become another user, which root needs CAP_SETUID for");
         let (uid, gid) = (Uid::from_raw(user), Gid::from_raw(user));
@@ -45,7 +45,7 @@ pub(super) fn give_up(order: &Order, own_user: Option<u32>) -> io::Result<()> {
 /// The id of the user that nobody else is. A process's number makes it one that no other program
 /// has at the same time. None where we are not root, or the program could not be read by it: the
 /// toolchain may lie in root's home, which only namespaces open.
-pub(super) fn own_user(order: &Order) -> Option<u32> {
+pub(super) fn dedicated_user(order: &LaunchRequest) -> Option<u32> {
     let is_reachable = match order.profile {
         Profile::Probe => true,
         Profile::Compiler { .. } => order.level == Isolation::Full,
@@ -55,13 +55,13 @@ pub(super) fn own_user(order: &Order) -> Option<u32> {
     }
     let process = std::process::id();
     Some(match fs::read_to_string("/proc/self/uid_map") {
-        Ok(map) if exists(&map, FAR) => FAR + process,
-        Ok(_) | Err(_) => NEAR.0 + process % NEAR.1,
+        Ok(map) if is_mapped(&map, HIGH_UID_BASE) => HIGH_UID_BASE + process,
+        Ok(_) | Err(_) => LOW_UIDS.0 + process % LOW_UIDS.1,
     })
 }
 
 /// Whether the map, of lines `first there count`, knows this user.
-fn exists(map: &str, user: u32) -> bool {
+fn is_mapped(map: &str, user: u32) -> bool {
     map.lines().any(|line| {
         let mut numbers = line.split_whitespace().map(str::parse::<u64>);
         match (numbers.next(), numbers.next(), numbers.next()) {
@@ -78,10 +78,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn users_far_away_are_used_only_where_there_are_so_many() {
-        assert!(exists("         0          0 4294967295\n", FAR));
-        assert!(!exists("0 100000 65536\n", FAR));
-        assert!(exists("0 100000 65536\n", NEAR.0));
-        assert!(!exists("no map", NEAR.0));
+    fn high_user_ids_are_used_only_where_they_are_mapped() {
+        assert!(is_mapped(
+            "         0          0 4294967295\n",
+            HIGH_UID_BASE
+        ));
+        assert!(!is_mapped("0 100000 65536\n", HIGH_UID_BASE));
+        assert!(is_mapped("0 100000 65536\n", LOW_UIDS.0));
+        assert!(!is_mapped("no map", LOW_UIDS.0));
     }
 }

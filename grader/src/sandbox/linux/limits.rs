@@ -4,9 +4,9 @@ use std::io;
 
 use rustix::process::{Resource, Rlimit, setrlimit};
 
-use super::super::order::{Order, Profile};
+use super::super::launch_request::{LaunchRequest, Profile};
 use super::while_doing;
-use crate::system::GRACE;
+use crate::system::CPU_GRACE_SECONDS;
 
 /// Threads of a probe beside its own two. A user of its own is counted alone.
 const PROBE_THREADS: u64 = 34;
@@ -17,7 +17,7 @@ const STACK: u64 = 8 << 20;
 
 /// Sets them, once and for all: soft and hard alike, but for CPU time. There the hard one kills as
 /// the system does when it runs out of memory; the soft one comes first, and by a signal of its own.
-pub(super) fn set(order: &Order, own_user: Option<u32>) -> io::Result<()> {
+pub(super) fn set(order: &LaunchRequest, own_user: Option<u32>) -> io::Result<()> {
     let limits = order.limits;
     let (processes, open_files) = match order.profile {
         Profile::Probe => (PROBE_THREADS, 16),
@@ -38,7 +38,13 @@ pub(super) fn set(order: &Order, own_user: Option<u32>) -> io::Result<()> {
     for (resource, most) in all.into_iter().chain(processes) {
         let limit = Rlimit {
             current: Some(most),
-            maximum: Some(most + if resource == Resource::Cpu { GRACE } else { 0 }),
+            maximum: Some(
+                most + if resource == Resource::Cpu {
+                    CPU_GRACE_SECONDS
+                } else {
+                    0
+                },
+            ),
         };
         setrlimit(resource, limit).map_err(while_doing("set a limit"))?;
     }

@@ -6,13 +6,13 @@
 //! which ends those rights; then limits; Landlock, which no file can be opened after; and last the
 //! list of system calls, on which none of the calls before stands.
 
-mod calls;
 mod descriptors;
 mod files;
 mod identity;
 mod limits;
 mod namespaces;
 mod start;
+mod syscalls;
 
 use std::ffi::OsString;
 use std::fmt::Display;
@@ -23,7 +23,7 @@ use rustix::fs::Mode;
 use rustix::process::{setsid, umask};
 
 use super::isolation::Isolation;
-use super::order::{Order, Profile, READY};
+use super::launch_request::{LaunchRequest, Profile, READY};
 use start::Program;
 
 /// Confines itself as it was ordered, and becomes the program after the order.
@@ -36,12 +36,12 @@ pub(super) fn launch(mut arguments: impl Iterator<Item = OsString>) -> io::Resul
     confine(&order, command)
 }
 
-fn confine(order: &Order, command: Command) -> io::Result<ExitCode> {
+fn confine(order: &LaunchRequest, command: Command) -> io::Result<ExitCode> {
     // No terminal, and a group that can be ended as one.
     setsid().map_err(while_doing("leave the session"))?;
     descriptors::close_inherited()?;
 
-    let own_user = identity::own_user(order);
+    let own_user = identity::dedicated_user(order);
     let program = Program::open(command, order)?;
     let program = match order.level {
         Isolation::Full => namespaces::enter(&order.profile, program)?,
@@ -49,24 +49,24 @@ fn confine(order: &Order, command: Command) -> io::Result<ExitCode> {
     };
     // Not earlier: the folders of the new root are for everyone.
     umask(Mode::RWXG | Mode::RWXO);
-    identity::give_up(order, own_user)?;
+    identity::drop_privileges(order, own_user)?;
     limits::set(order, own_user)?;
     match order.profile {
-        Profile::Probe => start::end_with_the_grader(order.grader)?,
+        Profile::Probe => start::die_with_grader(order.grader)?,
         Profile::Compiler { .. } => {}
     }
     if order.level >= Isolation::NoNamespaces {
-        files::close(order, &program)?;
+        files::restrict(order, &program)?;
     }
-    calls::close(&order.profile)?;
+    syscalls::restrict(&order.profile)?;
     match order.profile {
-        Profile::Probe => program.become_it(),
-        Profile::Compiler { .. } => program.stay_beside_it(order.limits.cpu),
+        Profile::Probe => program.exec(),
+        Profile::Compiler { .. } => program.supervise(order.limits.cpu),
     }
 }
 
 /// Tells the grader that all is in place.
-fn ready() -> io::Result<()> {
+fn signal_ready() -> io::Result<()> {
     let mut stdout = io::stdout();
     stdout.write_all(&[READY])?;
     stdout.flush()

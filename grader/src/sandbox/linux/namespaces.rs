@@ -13,24 +13,24 @@ use rustix::mount::{
 use rustix::process::{getegid, geteuid, pivot_root};
 use rustix::thread::{UnshareFlags, unshare_unsafe};
 
-use super::super::order::Profile;
+use super::super::launch_request::Profile;
 use super::start::Program;
 use super::while_doing;
 
 /// Where the new root is put together. Any folder does that everyone has.
-const STAGE: &str = "/tmp";
+const NEW_ROOT: &str = "/tmp";
 /// Where the machine's own root is to be found meanwhile.
-const HOST: &str = "/host";
+const OLD_ROOT: &str = "/host";
 /// Where a probe is to be found from then on.
-const PROBE: &str = "/probe";
+const PROBE_PATH: &str = "/probe";
 
 /// Enters it; returns the program as it is found there.
 pub(super) fn enter(profile: &Profile, program: Program) -> io::Result<Program> {
     let (program, shown) = match profile {
         Profile::Probe => {
-            let shown = Shown::read_only(program.path(), PathBuf::from(PROBE));
+            let shown = BindMount::read_only(program.path(), PathBuf::from(PROBE_PATH));
             (
-                Program::at(program.into_command(), PROBE.into()),
+                Program::with_path(program.into_command(), PROBE_PATH.into()),
                 vec![shown?],
             )
         }
@@ -38,11 +38,11 @@ pub(super) fn enter(profile: &Profile, program: Program) -> io::Result<Program> 
             let null = Path::new("/dev/null");
             let mut shown = readable
                 .iter()
-                .map(|path| Shown::read_only(path, path.clone()))
+                .map(|path| BindMount::read_only(path, path.clone()))
                 .collect::<io::Result<Vec<_>>>()?;
             for path in [null, writable.as_path()] {
-                let with_writing = Shown::read_only(path, path.to_owned())?;
-                shown.push(Shown {
+                let with_writing = BindMount::read_only(path, path.to_owned())?;
+                shown.push(BindMount {
                     is_writable: true,
                     ..with_writing
                 });
@@ -51,7 +51,7 @@ pub(super) fn enter(profile: &Profile, program: Program) -> io::Result<Program> 
         }
     };
     unshare(profile)?;
-    new_root(&shown)?;
+    switch_root(&shown)?;
     // Relative arguments are meant from here.
     let folder = match profile {
         Profile::Probe => Path::new("/"),
@@ -62,7 +62,7 @@ pub(super) fn enter(profile: &Profile, program: Program) -> io::Result<Program> 
 }
 
 /// A file or folder of the machine that is there in the new root as well.
-struct Shown {
+struct BindMount {
     /// Where it is, without symbolic links: those would be followed in the new root.
     source: PathBuf,
     target: PathBuf,
@@ -72,12 +72,12 @@ struct Shown {
     is_noexec: bool,
 }
 
-impl Shown {
+impl BindMount {
     fn read_only(source: &Path, target: PathBuf) -> io::Result<Self> {
         let source =
             fs::canonicalize(source).map_err(while_doing(&format!("find {}", source.display())))?;
         let flags = rustix::fs::statvfs(&source)?.f_flag;
-        Ok(Shown {
+        Ok(BindMount {
             source,
             target,
             is_writable: false,
@@ -122,14 +122,14 @@ fn unshare(profile: &Profile) -> io::Result<()> {
     Ok(())
 }
 
-fn new_root(shown: &[Shown]) -> io::Result<()> {
+fn switch_root(shown: &[BindMount]) -> io::Result<()> {
     let private = MountPropagationFlags::PRIVATE | MountPropagationFlags::REC;
     mount_change("/", private).map_err(while_doing("keep mounts to itself"))?;
     let safe = MountFlags::NOSUID | MountFlags::NODEV;
-    mount("tmpfs", STAGE, "tmpfs", safe, c"size=1m,mode=755")
+    mount("tmpfs", NEW_ROOT, "tmpfs", safe, c"size=1m,mode=755")
         .map_err(while_doing("mount a tmpfs"))?;
-    let stage = Path::new(STAGE);
-    let host = stage.join(HOST.trim_start_matches('/'));
+    let stage = Path::new(NEW_ROOT);
+    let host = stage.join(OLD_ROOT.trim_start_matches('/'));
     fs::create_dir(&host)?;
     pivot_root(stage, &host).map_err(while_doing("change the root"))?;
     std::env::set_current_dir("/")?;
@@ -142,20 +142,20 @@ fn new_root(shown: &[Shown]) -> io::Result<()> {
         {
             continue;
         }
-        show(shown).map_err(while_doing(&format!("show {}", shown.target.display())))?;
+        bind(shown).map_err(while_doing(&format!("show {}", shown.target.display())))?;
         if shown.target.is_dir() {
             folders.push(&shown.target);
         }
     }
 
-    unmount(HOST, UnmountFlags::DETACH).map_err(while_doing("leave the old root"))?;
-    fs::remove_dir(HOST)?;
+    unmount(OLD_ROOT, UnmountFlags::DETACH).map_err(while_doing("leave the old root"))?;
+    fs::remove_dir(OLD_ROOT)?;
     let read_only = MountFlags::BIND | MountFlags::RDONLY | safe;
     mount_remount("/", read_only, c"").map_err(while_doing("close the new root"))
 }
 
-fn show(shown: &Shown) -> io::Result<()> {
-    let source = Path::new(HOST).join(shown.source.strip_prefix("/").unwrap_or(&shown.source));
+fn bind(shown: &BindMount) -> io::Result<()> {
+    let source = Path::new(OLD_ROOT).join(shown.source.strip_prefix("/").unwrap_or(&shown.source));
     let target = shown.target.as_path();
     if source.is_dir() {
         fs::create_dir_all(target)?;

@@ -16,11 +16,11 @@ use rustix::process::{
     set_parent_process_death_signal,
 };
 
-use super::super::order::{Order, Profile};
-use super::{ready, while_doing};
+use super::super::launch_request::{LaunchRequest, Profile};
+use super::{signal_ready, while_doing};
 
 /// How often a program is tried that somebody still holds open for writing, a millisecond apart.
-const PATIENCE: u32 = 1_000;
+const MAX_EXEC_RETRIES: u32 = 1_000;
 
 /// The program, with its arguments.
 pub(super) struct Program {
@@ -32,7 +32,7 @@ pub(super) struct Program {
 
 impl Program {
     /// Opens a probe while it can still be found: it may lie in a folder of root's.
-    pub(super) fn open(command: Command, order: &Order) -> io::Result<Self> {
+    pub(super) fn open(command: Command, order: &LaunchRequest) -> io::Result<Self> {
         let path = PathBuf::from(command.get_program());
         match order.profile {
             Profile::Compiler { .. } => Ok(Program {
@@ -43,7 +43,7 @@ impl Program {
             Profile::Probe => {
                 let file = File::open(&path).map_err(while_doing("open the program"))?;
                 let path = PathBuf::from(format!("/proc/self/fd/{}", file.as_raw_fd()));
-                let program = Program::at(command, path);
+                let program = Program::with_path(command, path);
                 Ok(Program {
                     _file: Some(file),
                     ..program
@@ -53,7 +53,7 @@ impl Program {
     }
 
     /// The same program, found elsewhere.
-    pub(super) fn at(command: Command, path: PathBuf) -> Self {
+    pub(super) fn with_path(command: Command, path: PathBuf) -> Self {
         let mut moved = Command::new(&path);
         moved.args(command.get_args());
         Program {
@@ -75,10 +75,10 @@ impl Program {
 
     /// Turns into it, and so keeps the process number: what the grader measures and ends is the
     /// program itself. When the grader ends, however it ends, the system ends the program.
-    pub(super) fn become_it(mut self) -> io::Result<ExitCode> {
-        ready()?;
+    pub(super) fn exec(mut self) -> io::Result<ExitCode> {
+        signal_ready()?;
         let mut error = self.command.exec();
-        for _ in 0..PATIENCE {
+        for _ in 0..MAX_EXEC_RETRIES {
             // Another thread of the grader has just forked while the program was being written.
             if error.kind() != io::ErrorKind::ExecutableFileBusy {
                 break;
@@ -91,8 +91,8 @@ impl Program {
 
     /// Starts it, and stays beside it: it starts others, which must all end with it. `cpu` is its
     /// limit.
-    pub(super) fn stay_beside_it(mut self, cpu: Duration) -> io::Result<ExitCode> {
-        ready()?;
+    pub(super) fn supervise(mut self, cpu: Duration) -> io::Result<ExitCode> {
+        signal_ready()?;
         let mut child = self.command.stdin(Stdio::null()).spawn()?;
         let pid = i32::try_from(child.id()).ok().and_then(Pid::from_raw);
         let pid = pid.ok_or_else(|| io::Error::other("the compiler has no number"))?;
@@ -111,7 +111,7 @@ impl Program {
         if let Some(signal) = status.signal().and_then(Signal::from_named_raw) {
             // The first process of a namespace is spared the signal of the CPU time's soft limit, and
             // ended at the hard one by a signal that says that memory ran out. It did not.
-            let signal = match signal == Signal::KILL && used_by_children()? >= cpu {
+            let signal = match signal == Signal::KILL && children_cpu_time()? >= cpu {
                 true => Signal::XCPU,
                 false => signal,
             };
@@ -125,7 +125,7 @@ impl Program {
 
 /// The CPU time of all that this process has started and has seen end.
 #[allow(unsafe_code, reason = "there is no safe word for this call")]
-fn used_by_children() -> io::Result<Duration> {
+fn children_cpu_time() -> io::Result<Duration> {
     // SAFETY: a value of plain numbers, which may all be zero.
     let mut usage: libc::rusage = unsafe { mem::zeroed() };
     // SAFETY: it writes one such value, into ours.
@@ -141,7 +141,7 @@ fn used_by_children() -> io::Result<Duration> {
 }
 
 /// Asks the system to end this process when the grader ends, and makes sure that it has not yet.
-pub(super) fn end_with_the_grader(grader: u32) -> io::Result<()> {
+pub(super) fn die_with_grader(grader: u32) -> io::Result<()> {
     set_parent_process_death_signal(Some(Signal::KILL))
         .map_err(while_doing("be ended with the grader"))?;
     let parent = getppid().map_or(0, |pid| pid.as_raw_nonzero().get());

@@ -7,11 +7,14 @@ use std::path::{Path, PathBuf};
 use flate2::read::MultiGzDecoder;
 use tar::{Archive, EntryType};
 
-use super::stream::Allowance;
-use super::{Listing, MOST_MEMBERS, Member, Refused, Stream, io, shown, tidy};
+use super::limited_reader::ByteBudget;
+use super::{
+    ArchiveError, LimitedReader, Listing, MAX_MEMBERS, Member, display_name, io_error,
+    normalize_path,
+};
 
 /// How much may come out of it, wanted or not, in bytes.
-const MOST: u64 = 256 << 20;
+const MAX_BYTES: u64 = 256 << 20;
 /// Where a header says that it is one, and with what.
 const MAGIC: (usize, &[u8]) = (257, b"ustar");
 
@@ -22,49 +25,49 @@ pub(super) struct Tarball {
 }
 
 impl Tarball {
-    pub(super) fn open(path: &Path) -> Result<Self, Refused> {
+    pub(super) fn open(path: &Path) -> Result<Self, ArchiveError> {
         let tarball = Tarball {
             path: path.to_owned(),
         };
-        let (stream, _) = tarball.stream()?;
+        let (stream, _) = tarball.reader()?;
         let mut head = Vec::new();
         let read = stream.take(512).read_to_end(&mut head);
         let (place, magic) = MAGIC;
         match (read, head.get(place..place + magic.len())) {
-            (Err(error), _) => Err(Refused::Damaged(shown(&error.to_string()))),
+            (Err(error), _) => Err(ArchiveError::Damaged(display_name(&error.to_string()))),
             (Ok(_), Some(found)) if found == magic => Ok(tarball),
             // So does a tar of nothing look.
-            (Ok(512), _) if head.iter().all(|byte| *byte == 0) => Err(Refused::Empty),
-            (Ok(_), _) => Err(Refused::NotAnArchive),
+            (Ok(512), _) if head.iter().all(|byte| *byte == 0) => Err(ArchiveError::Empty),
+            (Ok(_), _) => Err(ArchiveError::NotAnArchive),
         }
     }
 
-    fn stream(&self) -> Result<(Stream<Box<dyn Read>>, Allowance), Refused> {
-        let file = || File::open(&self.path).map(BufReader::new).map_err(io);
+    fn reader(&self) -> Result<(LimitedReader<Box<dyn Read>>, ByteBudget), ArchiveError> {
+        let file = || File::open(&self.path).map(BufReader::new).map_err(io_error);
         let mut magic = [0; 2];
         // A shorter file is no archive, which its magic number will tell.
-        let _ = file()?.read(&mut magic).map_err(io)?;
+        let _ = file()?.read(&mut magic).map_err(io_error)?;
         let inner: Box<dyn Read> = match magic {
             [0x1f, 0x8b] => Box::new(MultiGzDecoder::new(file()?)),
             _ => Box::new(file()?),
         };
-        Ok(Stream::new(inner, MOST))
+        Ok(LimitedReader::new(inner, MAX_BYTES))
     }
 
-    pub(super) fn listing(&mut self) -> Result<Listing, Refused> {
+    pub(super) fn listing(&mut self) -> Result<Listing, ArchiveError> {
         let mut listing = Listing::default();
         let mut count = 0;
-        self.walk(|place, kind, path, _| {
+        self.for_each_member(|place, kind, path, _| {
             count = place + 1;
-            if count > MOST_MEMBERS {
-                return Err(Refused::TooMany);
+            if count > MAX_MEMBERS {
+                return Err(ArchiveError::TooManyFiles);
             }
-            match tidy(path) {
-                Err(why) => listing.refused.push(why),
-                Ok(path) if is_link_or_device(kind) => listing.special(&path),
+            match normalize_path(path) {
+                Err(why) => listing.errors.push(why),
+                Ok(path) if is_link_or_device(kind) => listing.add_special(&path),
                 Ok(path) if kind.is_dir() => listing.folders.push(path),
                 Ok(path) if kind.is_file() || kind.is_contiguous() || kind.is_gnu_sparse() => {
-                    listing.members.push(Member { path, place });
+                    listing.members.push(Member { path, index: place });
                 }
                 // What headers say of all files, such as Git's commit.
                 Ok(_) => {}
@@ -72,7 +75,7 @@ impl Tarball {
             Ok(())
         })?;
         match count {
-            0 => Err(Refused::Empty),
+            0 => Err(ArchiveError::Empty),
             _ => Ok(listing),
         }
     }
@@ -81,13 +84,13 @@ impl Tarball {
         &mut self,
         wanted: &[&Member],
         longest: u64,
-    ) -> Result<Vec<Vec<u8>>, Refused> {
+    ) -> Result<Vec<Vec<u8>>, ArchiveError> {
         let mut all = vec![Vec::new(); wanted.len()];
-        self.walk(|place, _, _, entry| {
-            let slot = wanted.iter().position(|member| member.place == place);
+        self.for_each_member(|place, _, _, entry| {
+            let slot = wanted.iter().position(|member| member.index == place);
             if let Some(slot) = slot {
                 let read = entry.take(longest + 1).read_to_end(&mut all[slot]);
-                read.map_err(|error| Refused::Damaged(shown(&error.to_string())))?;
+                read.map_err(|error| ArchiveError::Damaged(display_name(&error.to_string())))?;
             }
             Ok(())
         })?;
@@ -95,14 +98,14 @@ impl Tarball {
     }
 
     /// Calls `each` with every member: place, kind, path as it stands there, and content.
-    fn walk(
+    fn for_each_member(
         &self,
-        mut each: impl FnMut(usize, EntryType, &str, &mut dyn Read) -> Result<(), Refused>,
-    ) -> Result<(), Refused> {
-        let (stream, allowance) = self.stream()?;
-        let damaged = |error: system::Error| match allowance.is_used_up() {
-            true => Refused::TooMuch(MOST),
-            false => Refused::Damaged(shown(&error.to_string())),
+        mut each: impl FnMut(usize, EntryType, &str, &mut dyn Read) -> Result<(), ArchiveError>,
+    ) -> Result<(), ArchiveError> {
+        let (stream, allowance) = self.reader()?;
+        let damaged = |error: system::Error| match allowance.is_exhausted() {
+            true => ArchiveError::TooLarge(MAX_BYTES),
+            false => ArchiveError::Damaged(display_name(&error.to_string())),
         };
         let mut archive = Archive::new(stream);
         for (place, entry) in archive.entries().map_err(damaged)?.enumerate() {

@@ -58,33 +58,33 @@ fn gzip(bytes: &[u8]) -> Vec<u8> {
     encoder.finish().unwrap()
 }
 
-struct Kept {
+struct TempArchive {
     _folder: TempDir,
     path: PathBuf,
 }
 
-fn kept(name: &str, bytes: &[u8]) -> Kept {
+fn write_archive(name: &str, bytes: &[u8]) -> TempArchive {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).unwrap();
-    Kept {
+    TempArchive {
         _folder: folder,
         path,
     }
 }
 
-fn collected(name: &str, bytes: &[u8]) -> Result<Submission, NoSubmission> {
-    Submission::collect(&kept(name, bytes).path)
+fn collect(name: &str, bytes: &[u8]) -> Result<Submission, SubmissionError> {
+    Submission::collect(&write_archive(name, bytes).path)
 }
 
-fn refused(bytes: &[u8]) -> Refused {
-    match collected("alice.zip", bytes) {
-        Err(NoSubmission::Refused { why, .. }) => why,
+fn collect_error(bytes: &[u8]) -> ArchiveError {
+    match collect("alice.zip", bytes) {
+        Err(SubmissionError::Archive { why, .. }) => why,
         other => panic!("{other:?}"),
     }
 }
 
-fn text<'a>(submission: &'a Submission, name: &str) -> &'a Result<String, Unreadable> {
+fn text<'a>(submission: &'a Submission, name: &str) -> &'a Result<String, TaskFileError> {
     let mut files = submission.files.iter();
     let (_, text) = files.find(|(file, _)| file.name == name).unwrap();
     text
@@ -98,13 +98,13 @@ const FILES: Files = &[
 ];
 
 #[test]
-fn a_zip_a_tar_and_a_compressed_tar_are_one_submission() {
+fn reads_zip_tar_and_tar_gz_alike() {
     let all = [
-        collected("alice.zip", &zip(FILES)),
-        collected("alice.TAR", &tar(FILES)),
-        collected("alice.tar.gz", &gzip(&tar(FILES))),
+        collect("alice.zip", &zip(FILES)),
+        collect("alice.TAR", &tar(FILES)),
+        collect("alice.tar.gz", &gzip(&tar(FILES))),
         // What it is, its bytes say.
-        collected("alice.tgz", &zip(FILES)),
+        collect("alice.tgz", &zip(FILES)),
     ];
     for submission in all {
         let submission = submission.unwrap();
@@ -112,7 +112,7 @@ fn a_zip_a_tar_and_a_compressed_tar_are_one_submission() {
         assert_eq!(*text(&submission, "bvh.rs"), Ok("tree".to_owned()));
         assert_eq!(
             *text(&submission, "camera.rs"),
-            Err(Unreadable::Missing("camera.rs"))
+            Err(TaskFileError::Missing("camera.rs"))
         );
         let notes = [
             "helper.rs is not one of the five files: ignored",
@@ -123,13 +123,13 @@ fn a_zip_a_tar_and_a_compressed_tar_are_one_submission() {
 }
 
 #[test]
-fn separators_of_windows_are_separators() {
-    let submission = collected("a.zip", &zip(&[(r"alice\src\bvh.rs", b"tree")])).unwrap();
+fn accepts_windows_path_separators() {
+    let submission = collect("a.zip", &zip(&[(r"alice\src\bvh.rs", b"tree")])).unwrap();
     assert_eq!(*text(&submission, "bvh.rs"), Ok("tree".to_owned()));
 }
 
 #[test]
-fn a_path_that_leads_outside_is_refused_and_named_harmlessly() {
+fn rejects_paths_outside_the_archive_and_escapes_them() {
     for path in [
         "../bvh.rs",
         "/bvh.rs",
@@ -139,18 +139,21 @@ fn a_path_that_leads_outside_is_refused_and_named_harmlessly() {
     ] {
         let shown = path.replace('\\', "/");
         assert_eq!(
-            refused(&zip(&[(path, b"")])),
-            Refused::Outside(shown.clone())
+            collect_error(&zip(&[(path, b"")])),
+            ArchiveError::PathOutside(shown.clone())
         );
         let tarred = tar_with(path, EntryType::Regular, b"");
-        assert_eq!(refused(&tarred), Refused::Outside(shown));
+        assert_eq!(collect_error(&tarred), ArchiveError::PathOutside(shown));
     }
-    let odd = refused(&zip(&[("../\u{1b}[2J\n\u{202e}x", b"")]));
-    assert_eq!(odd, Refused::Outside(r"../\u{1b}[2J\n\u{202e}x".to_owned()));
+    let odd = collect_error(&zip(&[("../\u{1b}[2J\n\u{202e}x", b"")]));
+    assert_eq!(
+        odd,
+        ArchiveError::PathOutside(r"../\u{1b}[2J\n\u{202e}x".to_owned())
+    );
 }
 
 #[test]
-fn a_link_or_a_device_is_refused_but_where_cargo_makes_links() {
+fn rejects_links_and_devices_except_under_target() {
     let kinds = [
         EntryType::Symlink,
         EntryType::Link,
@@ -159,10 +162,10 @@ fn a_link_or_a_device_is_refused_but_where_cargo_makes_links() {
         EntryType::Fifo,
     ];
     for kind in kinds {
-        let why = Refused::Special("bvh.rs".to_owned());
-        assert_eq!(refused(&tar_with("bvh.rs", kind, b"")), why);
+        let why = ArchiveError::NotRegular("bvh.rs".to_owned());
+        assert_eq!(collect_error(&tar_with("bvh.rs", kind, b"")), why);
     }
-    let built = kept(
+    let built = write_archive(
         "a.tar",
         &tar_with("hw/target/debug/hw", EntryType::Link, b""),
     );
@@ -177,72 +180,90 @@ fn a_link_or_a_device_is_refused_but_where_cargo_makes_links() {
         .add_symlink("bvh.rs", "/etc/passwd", options)
         .unwrap();
     let zip = writer.finish().unwrap().into_inner();
-    assert_eq!(refused(&zip), Refused::Special("bvh.rs".to_owned()));
-}
-
-#[test]
-fn what_is_no_archive_is_told_by_what_it_is() {
-    assert_eq!(refused(b""), Refused::Empty);
-    assert_eq!(refused(&zip(&[])), Refused::Empty);
-    assert_eq!(refused(&[0; 1024]), Refused::Empty);
-    assert_eq!(refused(b"Rar!\x1a\x07\x01\x00"), Refused::OtherKind(".rar"));
     assert_eq!(
-        refused(b"7z\xbc\xaf\x27\x1c\x00\x04"),
-        Refused::OtherKind(".7z")
+        collect_error(&zip),
+        ArchiveError::NotRegular("bvh.rs".to_owned())
     );
-    assert_eq!(refused(b"%PDF-1.7"), Refused::NotAnArchive);
-    assert_eq!(refused(&gzip(b"pub struct Sphere")), Refused::NotAnArchive);
+}
+
+#[test]
+fn reports_what_is_wrong_with_an_unusable_archive() {
+    assert_eq!(collect_error(b""), ArchiveError::Empty);
+    assert_eq!(collect_error(&zip(&[])), ArchiveError::Empty);
+    assert_eq!(collect_error(&[0; 1024]), ArchiveError::Empty);
+    assert_eq!(
+        collect_error(b"Rar!\x1a\x07\x01\x00"),
+        ArchiveError::UnsupportedKind(".rar")
+    );
+    assert_eq!(
+        collect_error(b"7z\xbc\xaf\x27\x1c\x00\x04"),
+        ArchiveError::UnsupportedKind(".7z")
+    );
+    assert_eq!(collect_error(b"%PDF-1.7"), ArchiveError::NotAnArchive);
+    assert_eq!(
+        collect_error(&gzip(b"pub struct Sphere")),
+        ArchiveError::NotAnArchive
+    );
     assert!(matches!(
-        collected("a.zip", &zip(&[("a/b/c/d.rs", b"")])),
-        Err(NoSubmission::NoneOfFive(_))
+        collect("a.zip", &zip(&[("a/b/c/d.rs", b"")])),
+        Err(SubmissionError::NoTaskFiles(_))
     ));
     assert!(matches!(
-        collected("a.zip", &zip(&[("a/bvh.rs", b""), ("b/bvh.rs", b"")])),
-        Err(NoSubmission::Several { .. })
+        collect("a.zip", &zip(&[("a/bvh.rs", b""), ("b/bvh.rs", b"")])),
+        Err(SubmissionError::Ambiguous { .. })
     ));
 }
 
 #[test]
-fn wherever_an_archive_is_cut_it_is_damaged_or_lacks_files_and_nothing_worse() {
+fn truncated_archives_are_damaged_or_lack_files() {
     for whole in [zip(FILES), tar(FILES), gzip(&tar(FILES))] {
         for length in (0..whole.len()).step_by(7) {
-            match collected("a", &whole[..length]) {
+            match collect("a", &whole[..length]) {
                 Ok(submission) => assert_eq!(submission.files.len(), 5),
-                Err(NoSubmission::Refused { .. } | NoSubmission::NoneOfFive(_)) => {}
+                Err(SubmissionError::Archive { .. } | SubmissionError::NoTaskFiles(_)) => {}
                 Err(other) => panic!("{length}: {other}"),
             }
         }
     }
-    assert!(matches!(refused(&zip(FILES)[..200]), Refused::Damaged(_)));
+    assert!(matches!(
+        collect_error(&zip(FILES)[..200]),
+        ArchiveError::Damaged(_)
+    ));
 }
 
 #[test]
-fn a_bomb_goes_off_in_none_of_them() {
+fn limits_how_much_an_archive_bomb_inflates() {
     let zeros = vec![0; 64 << 20];
     let files: Files = &[("bvh.rs", &zeros), ("sphere.rs", b"fine")];
     for bomb in [zip(files), gzip(&tar(files))] {
-        let submission = collected("bomb", &bomb).unwrap();
+        let submission = collect("bomb", &bomb).unwrap();
         assert_eq!(
             *text(&submission, "bvh.rs"),
-            Err(Unreadable::TooLong("bvh.rs"))
+            Err(TaskFileError::TooLong("bvh.rs"))
         );
         assert_eq!(*text(&submission, "sphere.rs"), Ok("fine".to_owned()));
     }
     // Of members that nobody wants, a tar inflates all the same.
     let many: Vec<(&str, &[u8])> = vec![("film.mp4", zeros.as_slice()); 5];
-    assert_eq!(refused(&gzip(&tar(&many))), Refused::TooMuch(256 << 20));
+    assert_eq!(
+        collect_error(&gzip(&tar(&many))),
+        ArchiveError::TooLarge(256 << 20)
+    );
 }
 
 #[test]
-fn of_too_many_files_none_is_read() {
-    let names: Vec<String> = (0..=MOST_MEMBERS).map(|n| format!("{n}")).collect();
+fn rejects_archives_with_too_many_files() {
+    let names: Vec<String> = (0..=MAX_MEMBERS).map(|n| format!("{n}")).collect();
     let files: Vec<(&str, &[u8])> = names.iter().map(|name| (name.as_str(), &b""[..])).collect();
-    assert_eq!(refused(&gzip(&tar(&files))), Refused::TooMany);
-    assert_eq!(refused(&zip(&files)), Refused::TooMany);
+    assert_eq!(
+        collect_error(&gzip(&tar(&files))),
+        ArchiveError::TooManyFiles
+    );
+    assert_eq!(collect_error(&zip(&files)), ArchiveError::TooManyFiles);
 }
 
 #[test]
-fn a_password_is_asked_for_by_name() {
+fn reports_the_name_of_an_encrypted_file() {
     // The bit that says so, in both headers of the only member.
     let mut bytes = zip(&[("bvh.rs", b"tree")]);
     let directory = bytes
@@ -251,5 +272,8 @@ fn a_password_is_asked_for_by_name() {
         .unwrap();
     bytes[6] |= 1;
     bytes[directory + 8] |= 1;
-    assert_eq!(refused(&bytes), Refused::Encrypted("bvh.rs".to_owned()));
+    assert_eq!(
+        collect_error(&bytes),
+        ArchiveError::Encrypted("bvh.rs".to_owned())
+    );
 }

@@ -10,8 +10,8 @@ use seccompiler::{
 };
 use serde_json::Value;
 
-use super::workspace::Copy;
-use crate::harness::{FULL, Submission, grader};
+use super::workspace::WorkspaceCopy;
+use crate::harness::{FULL_POINTS, Submission, grader};
 
 /// Mounts a disk of a size at a place, runs what follows, and prints the score that is on the disk.
 const SCRIPT: &str = r#"
@@ -23,10 +23,14 @@ const SCRIPT: &str = r#"
     cat "$disk/out/score.json" 2>/dev/null
     exit $code"#;
 /// Its exit code where nothing can be mounted.
-const NO_MOUNT: i32 = 99;
+const MOUNT_FAILED: i32 = 99;
 
 /// Grades on a disk of this size, in kilobytes. `None` where this system does not let us mount one.
-fn graded_on(kilobytes: usize, workspace: &Copy, submission: &Submission) -> Option<Output> {
+fn grade_on_disk(
+    kilobytes: usize,
+    workspace: &WorkspaceCopy,
+    submission: &Submission,
+) -> Option<Output> {
     let disk = workspace.path().join("target/grade/work");
     fs::create_dir_all(&disk).unwrap();
     let mut command = Command::new("unshare");
@@ -50,7 +54,7 @@ fn graded_on(kilobytes: usize, workspace: &Copy, submission: &Submission) -> Opt
     let output = command.current_dir(workspace.path()).output();
     let output = output.ok().filter(|output| {
         let refused = String::from_utf8_lossy(&output.stderr).contains("unshare: ");
-        output.status.code() != Some(NO_MOUNT) && !refused
+        output.status.code() != Some(MOUNT_FAILED) && !refused
     });
     if output.is_none() {
         assert!(std::env::var_os("CI").is_none(), "no disk can be mounted");
@@ -61,18 +65,25 @@ fn graded_on(kilobytes: usize, workspace: &Copy, submission: &Submission) -> Opt
 
 /// From one that holds nothing to one that holds all: wherever it is full, that is no student's fault.
 #[test]
-fn on_a_full_disk_there_is_a_reason_and_no_score() {
-    let (workspace, submission) = (Copy::prepared(), Submission::reference("any"));
+fn a_full_disk_is_reported_and_gives_no_score() {
+    let (workspace, submission) = (
+        WorkspaceCopy::with_dependencies(),
+        Submission::reference("any"),
+    );
     let mut whole = Vec::new();
     for kilobytes in [4, 1_000, 3_000, 200_000] {
-        let Some(output) = graded_on(kilobytes, &workspace, &submission) else {
+        let Some(output) = grade_on_disk(kilobytes, &workspace, &submission) else {
             return;
         };
         let error = String::from_utf8_lossy(&output.stderr);
         let score: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
         match output.status.code() {
             Some(0) => {
-                assert_eq!(score["points"], FULL.iter().sum::<u64>(), "{kilobytes} kB");
+                assert_eq!(
+                    score["points"],
+                    FULL_POINTS.iter().sum::<u64>(),
+                    "{kilobytes} kB"
+                );
                 whole.push(kilobytes);
             }
             code => {
@@ -95,7 +106,7 @@ fn on_a_full_disk_there_is_a_reason_and_no_score() {
 }
 
 /// Refuses to mount what lies in memory, from here on for this thread and all that it starts.
-fn without_tmpfs() {
+fn deny_tmpfs_mounts() {
     // These flags and no others: what the sandbox says of its new root.
     let flags = libc::MS_NOSUID | libc::MS_NODEV;
     let asked = SeccompCondition::new(3, SeccompCmpArgLen::Qword, SeccompCmpOp::Eq, flags);
@@ -111,17 +122,17 @@ fn without_tmpfs() {
 }
 
 #[test]
-fn without_disks_in_memory_the_best_level_is_not_reached_and_nothing_is_graded() {
+fn without_tmpfs_full_isolation_is_refused_and_nothing_is_graded() {
     let submission = Submission::reference("any");
     let out = submission.path().join("out");
     let mut command = grader();
     command.arg(submission.path()).arg("--out").arg(&out);
     command.args(["--no-reference", "--isolation", "full"]);
     let graded = thread::spawn(move || {
-        without_tmpfs();
+        deny_tmpfs_mounts();
         command.output().unwrap()
     });
-    super::is_our_fault(
+    super::assert_grader_fault(
         &graded.join().unwrap(),
         &out,
         "isolation full is not reached",

@@ -11,9 +11,9 @@ use serde_json::Value;
 use crate::harness::{Submission, grader};
 
 #[cfg(target_os = "linux")]
-use super::processes::{child_called, eventually, is_running};
+use super::processes::{child_named, eventually, is_running};
 #[cfg(target_os = "linux")]
-use super::workspace::Copy;
+use super::workspace::WorkspaceCopy;
 
 /// A grader of the reference, into this folder.
 fn start(submission: &Submission, out: &Path) -> Child {
@@ -24,7 +24,7 @@ fn start(submission: &Submission, out: &Path) -> Child {
     command.spawn().unwrap()
 }
 
-fn lasting(out: &Path) -> Option<Value> {
+fn read_score(out: &Path) -> Option<Value> {
     let text = fs::read(out.join("score.json")).ok()?;
     let mut score: Value = serde_json::from_slice(&text).expect("a score is whole, or not there");
     score.as_object_mut().unwrap().remove("timings");
@@ -32,7 +32,7 @@ fn lasting(out: &Path) -> Option<Value> {
 }
 
 /// Panics where what a platform reads is there in part.
-fn read_as_a_platform(out: &Path) {
+fn assert_outputs_parse(out: &Path) {
     if let Ok(text) = fs::read(out.join("gradescope.json")) {
         serde_json::from_slice::<Value>(&text).expect("results are whole, or not there");
     }
@@ -42,7 +42,7 @@ fn read_as_a_platform(out: &Path) {
 }
 
 /// Kills the grader at so many moments, spread over a run.
-fn killed_at_any_moment(times: u32) {
+fn kill_at_moments(times: u32) {
     let submission = Submission::reference("killed");
     let out = submission.path().join("undisturbed");
     // Whatever is compiled once is compiled here.
@@ -50,7 +50,7 @@ fn killed_at_any_moment(times: u32) {
     let began = Instant::now();
     start(&submission, &out).wait().unwrap();
     let took = began.elapsed();
-    let undisturbed = lasting(&out).expect("a score");
+    let undisturbed = read_score(&out).expect("a score");
 
     let mut partial = 0;
     for time in 0..times {
@@ -61,8 +61,8 @@ fn killed_at_any_moment(times: u32) {
         thread::sleep(moment);
         grader.kill().unwrap();
         grader.wait().unwrap();
-        read_as_a_platform(&out);
-        if let Some(score) = lasting(&out) {
+        assert_outputs_parse(&out);
+        if let Some(score) = read_score(&out) {
             assert!(
                 score["complete"] == false || score == undisturbed,
                 "at {moment:?}"
@@ -71,32 +71,36 @@ fn killed_at_any_moment(times: u32) {
         }
         if time % 10 == 0 {
             start(&submission, &out).wait().unwrap();
-            assert_eq!(lasting(&out).as_ref(), Some(&undisturbed), "at {moment:?}");
+            assert_eq!(
+                read_score(&out).as_ref(),
+                Some(&undisturbed),
+                "at {moment:?}"
+            );
         }
     }
     eprintln!("killed {times} times in {took:?}, {partial} times with some points");
 }
 
 #[test]
-fn of_a_run_that_was_killed_nothing_is_taken_for_whole() {
-    killed_at_any_moment(6);
+fn a_killed_run_leaves_no_incomplete_file_that_looks_complete() {
+    kill_at_moments(6);
 }
 
 #[test]
 #[ignore = "takes minutes: `cargo test -p grader --test it -- --ignored killed`"]
-fn of_runs_killed_at_two_hundred_moments_nothing_is_taken_for_whole() {
-    killed_at_any_moment(200);
+fn two_hundred_killed_runs_leave_no_incomplete_file_that_looks_complete() {
+    kill_at_moments(200);
 }
 
 /// A submission that hangs, whose grader is killed in the middle of it.
 #[cfg(target_os = "linux")]
 #[test]
-fn no_process_outlives_a_grader_that_was_killed() {
+fn no_process_outlives_a_killed_grader() {
     Submission::reference("first").grade();
     let submission = Submission::case("looping");
     let out = submission.path().join("out");
     let mut grader = start(&submission, &out);
-    let probe = eventually(|| child_called("probe", grader.id()));
+    let probe = eventually(|| child_named("probe", grader.id()));
     grader.kill().unwrap();
     grader.wait().unwrap();
     eventually(|| (!is_running(probe)).then_some(()));
@@ -106,9 +110,9 @@ fn no_process_outlives_a_grader_that_was_killed() {
 /// something of its own.
 #[cfg(target_os = "linux")]
 #[test]
-fn neither_does_the_cargo_that_prepares_for_it() {
-    let workspace = Copy::new();
-    let cargo = workspace.cargo("sleep 600 &\necho $! > slept\nwait\n");
+fn cargo_does_not_outlive_a_killed_grader() {
+    let workspace = WorkspaceCopy::new();
+    let cargo = workspace.fake_cargo("sleep 600 &\necho $! > slept\nwait\n");
     let submission = Submission::reference("any");
     let mut grader = grader();
     let grader = grader.arg(submission.path()).env("CARGO", cargo);
@@ -146,7 +150,7 @@ impl Drop for Load {
 }
 
 /// Grades right and wrong work while every core is busy, over and over.
-fn graded_under_load(times: usize) {
+fn grade_under_load(times: usize) {
     let _load = Load::start();
     let points = || {
         let work = [
@@ -166,6 +170,6 @@ fn graded_under_load(times: usize) {
 #[cfg(unix)]
 #[test]
 #[ignore = "takes minutes: `cargo test -p grader --test it -- --ignored load`"]
-fn no_verdict_of_twenty_depends_on_load() {
-    graded_under_load(20);
+fn twenty_runs_under_load_give_the_same_points() {
+    grade_under_load(20);
 }

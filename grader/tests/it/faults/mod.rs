@@ -17,7 +17,7 @@ use std::process::Output;
 
 use crate::harness::{Submission, grader, workspace};
 
-fn is_our_fault(output: &Output, out: &Path, why: &str) {
+fn assert_grader_fault(output: &Output, out: &Path, why: &str) {
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{error}");
     assert!(error.contains(why), "{error}");
@@ -31,7 +31,7 @@ fn without_a_compiler_there_is_no_score() {
     let mut command = grader();
     command.arg(submission.path()).arg("--out").arg(&out);
     command.env_remove("CARGO").env("PATH", "/nonexistent");
-    is_our_fault(&command.output().unwrap(), &out, "install Rust");
+    assert_grader_fault(&command.output().unwrap(), &out, "install Rust");
 }
 
 /// With a linker on the PATH that always fails.
@@ -56,7 +56,7 @@ fn without_a_linker_there_is_no_score() {
     let mut command = grader();
     command.arg(submission.path()).arg("--out").arg(&out);
     command.arg("--no-reference").env("PATH", path);
-    is_our_fault(
+    assert_grader_fault(
         &command.output().unwrap(),
         &out,
         "not even the files that were handed out",
@@ -66,19 +66,19 @@ fn without_a_linker_there_is_no_score() {
 /// The device that is always full.
 #[cfg(target_os = "linux")]
 #[test]
-fn where_nothing_can_be_written_there_is_no_score() {
+fn without_a_writable_disk_there_is_no_score() {
     let submission = Submission::reference("any");
     let out = Path::new("/dev/full/out");
     let mut command = grader();
     command.arg(submission.path()).arg("--out").arg(out);
     command.arg("--no-reference");
-    is_our_fault(&command.output().unwrap(), out, "can not write /dev/full");
+    assert_grader_fault(&command.output().unwrap(), out, "can not write /dev/full");
 }
 
 /// A clock that jumps changes nothing: times are taken from one that only runs forward. The one use of
 /// the other is a file's age, compared with itself.
 #[test]
-fn nothing_asks_what_time_of_day_it_is() {
+fn no_source_reads_the_wall_clock() {
     fn sources(folder: &Path, found: &mut Vec<String>) {
         for entry in fs::read_dir(folder).unwrap().flatten() {
             let path = entry.path();

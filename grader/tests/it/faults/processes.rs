@@ -25,7 +25,7 @@ fn stat(process: u32) -> Option<(String, String, u32)> {
     Some((name.split_once('(')?.1.to_owned(), state, parent))
 }
 
-pub fn child_called(name: &str, parent: u32) -> Option<u32> {
+pub fn child_named(name: &str, parent: u32) -> Option<u32> {
     let processes = fs::read_dir("/proc").unwrap().flatten();
     let mut numbers = processes.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
     numbers.find(|number| {

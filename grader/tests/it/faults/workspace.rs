@@ -9,13 +9,13 @@ use tempfile::TempDir;
 use crate::harness::{self, Submission};
 
 /// Vanishes when dropped.
-pub struct Copy {
+pub struct WorkspaceCopy {
     folder: TempDir,
 }
 
-impl Copy {
+impl WorkspaceCopy {
     pub fn new() -> Self {
-        let copy = Copy {
+        let copy = WorkspaceCopy {
             folder: TempDir::new().unwrap(),
         };
         let original = harness::workspace().canonicalize().unwrap();
@@ -25,9 +25,9 @@ impl Copy {
     }
 
     /// With what submissions are built with, as the project itself has it.
-    pub fn prepared() -> Self {
+    pub fn with_dependencies() -> Self {
         Submission::reference("first").grade();
-        let copy = Copy::new();
+        let copy = WorkspaceCopy::new();
         let original = harness::workspace().canonicalize().unwrap();
         fs::create_dir_all(copy.path().join("target/grade")).unwrap();
         let dependencies = "target/grade/dependencies";
@@ -40,7 +40,7 @@ impl Copy {
     }
 
     /// A toolchain whose cargo is this script, run in this folder.
-    pub fn cargo(&self, script: &str) -> PathBuf {
+    pub fn fake_cargo(&self, script: &str) -> PathBuf {
         let tools = self.path().join("tools");
         fs::create_dir(&tools).unwrap();
         for (name, script) in [("rustc", ""), ("cargo", script)] {

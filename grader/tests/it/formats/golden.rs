@@ -3,11 +3,11 @@
 
 use insta::assert_snapshot;
 
-use crate::formats::{FORMATS, exam, forging, models, written};
+use crate::formats::{FORMATS, grade_in_all_formats, hostile_submission, models, small_exam};
 use crate::harness::Submission;
 
-fn snapshots(case: &str, submission: &Submission, arguments: &[&str]) {
-    let written = written(submission, &exam("practice"), arguments);
+fn assert_snapshots(case: &str, submission: &Submission, arguments: &[&str]) {
+    let written = grade_in_all_formats(submission, &small_exam("practice"), arguments);
     for (format, _) in FORMATS {
         models::check(format, &written[format]);
     }
@@ -22,12 +22,15 @@ fn snapshots(case: &str, submission: &Submission, arguments: &[&str]) {
             let text = models::readable(format, &written[format]);
             assert_snapshot!(format!("{format}-{case}"), text);
         }
-        assert_snapshot!(format!("annotations-{case}"), annotations(&written["log"]));
+        assert_snapshot!(
+            format!("annotations-{case}"),
+            runner_commands(&written["log"])
+        );
     });
 }
 
 /// What the runner takes as commands: what stands outside of the silence.
-fn annotations(log: &str) -> String {
+fn runner_commands(log: &str) -> String {
     let mut silence: Option<&str> = None;
     let mut commands = Vec::new();
     for line in log.lines() {
@@ -45,30 +48,30 @@ fn annotations(log: &str) -> String {
 }
 
 #[test]
-fn of_a_perfect_submission() {
-    snapshots("perfect", &Submission::reference("perfect"), &[]);
+fn renders_a_perfect_submission() {
+    assert_snapshots("perfect", &Submission::reference("perfect"), &[]);
 }
 
 #[test]
-fn of_the_starter() {
-    snapshots("starter", &Submission::starter("starter"), &[]);
+fn renders_the_starter() {
+    assert_snapshots("starter", &Submission::starter("starter"), &[]);
 }
 
 #[test]
-fn of_a_known_mistake() {
+fn renders_a_known_mistake() {
     let partial = Submission::reference("partial");
-    let partial = partial.changed("sphere.rs", "[near, far]", "[far, near]");
-    snapshots("partial", &partial, &[]);
+    let partial = partial.with_replaced("sphere.rs", "[near, far]", "[far, near]");
+    assert_snapshots("partial", &partial, &[]);
 }
 
 #[test]
-fn of_a_file_that_does_not_compile() {
-    snapshots("not-compiling", &Submission::case("not_compiling"), &[]);
+fn renders_a_file_that_does_not_compile() {
+    assert_snapshots("not-compiling", &Submission::case("not_compiling"), &[]);
 }
 
 #[test]
-fn of_an_endless_loop() {
-    snapshots(
+fn renders_an_endless_loop() {
+    assert_snapshots(
         "hanging",
         &Submission::case("looping"),
         &["--cpu-limit", "1"],
@@ -76,12 +79,12 @@ fn of_an_endless_loop() {
 }
 
 #[test]
-fn of_words_that_attack_their_readers() {
-    snapshots("forging", &forging(), &[]);
+fn renders_hostile_text_harmlessly() {
+    assert_snapshots("forging", &hostile_submission(), &[]);
 }
 
 #[test]
-fn only_what_stands_outside_of_the_silence_is_a_command() {
+fn ignores_lines_while_commands_are_stopped() {
     let log = "::stop-commands::t\n::error::x\n::u::\n::t::\n::error::ours";
-    assert_eq!(annotations(log), "::error::ours");
+    assert_eq!(runner_commands(log), "::error::ours");
 }

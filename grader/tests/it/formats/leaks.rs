@@ -5,11 +5,13 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::formats::{FORMATS, Written, exam, forging, models, written};
+use crate::formats::{
+    FORMATS, FormatTexts, grade_in_all_formats, hostile_submission, models, small_exam,
+};
 use crate::harness::Submission;
 
 /// All that students get to read: every format, and the log.
-fn readable(written: &Written) -> String {
+fn student_text(written: &FormatTexts) -> String {
     let formats = FORMATS
         .iter()
         .map(|(format, _)| models::readable(format, &written[format]));
@@ -17,7 +19,7 @@ fn readable(written: &Written) -> String {
 }
 
 /// What the score file says of an item, for staff.
-fn secrets(written: &Written) -> Vec<String> {
+fn secrets(written: &FormatTexts) -> Vec<String> {
     let score: Value = serde_json::from_str(&written["json"]).unwrap();
     let mut secrets = vec![score["exam"]["hash"].as_str().unwrap().to_owned()];
     for task in score["tasks"].as_array().unwrap() {
@@ -39,11 +41,11 @@ fn policy(submission: Submission, text: &str) -> (Submission, String) {
 }
 
 #[test]
-fn no_format_tells_a_final_exams_questions_and_answers() {
-    let far = Submission::reference("far").changed("sphere.rs", "[near, far]", "[far, near]");
-    for submission in [far, forging()] {
-        let written = written(&submission, &exam("final"), &[]);
-        let (read, secrets) = (readable(&written), secrets(&written));
+fn no_format_reveals_a_final_exams_questions_and_answers() {
+    let far = Submission::reference("far").with_replaced("sphere.rs", "[near, far]", "[far, near]");
+    for submission in [far, hostile_submission()] {
+        let written = grade_in_all_formats(&submission, &small_exam("final"), &[]);
+        let (read, secrets) = (student_text(&written), secrets(&written));
         assert!(secrets.len() > 2, "there is something to keep");
         for secret in secrets {
             assert!(!read.contains(&secret), "{secret:?} is told");
@@ -56,10 +58,10 @@ fn no_format_tells_a_final_exams_questions_and_answers() {
 }
 
 #[test]
-fn the_search_finds_what_is_told() {
-    let far = Submission::reference("far").changed("sphere.rs", "[near, far]", "[far, near]");
-    let written = written(&far, &exam("practice"), &[]);
-    let read = readable(&written);
+fn the_search_finds_revealed_text() {
+    let far = Submission::reference("far").with_replaced("sphere.rs", "[near, far]", "[far, near]");
+    let written = grade_in_all_formats(&far, &small_exam("practice"), &[]);
+    let read = student_text(&written);
     let secrets = secrets(&written);
     let told = secrets.iter().filter(|secret| read.contains(*secret));
     assert!(
@@ -74,13 +76,13 @@ fn the_search_finds_what_is_told() {
 }
 
 #[test]
-fn hidden_items_are_hidden_or_counted_together() {
-    let far = Submission::reference("far").changed("sphere.rs", "[near, far]", "[far, near]");
+fn hidden_items_are_left_out_or_summed_up() {
+    let far = Submission::reference("far").with_replaced("sphere.rs", "[near, far]", "[far, near]");
     let (far, path) = policy(
         far,
         "[visibility.items]\nsphere = 'after_due'\ncamera = 'points'\n'camera.corners' = 'hidden'",
     );
-    let written = written(&far, &exam("practice"), &["--policy", &path]);
+    let written = grade_in_all_formats(&far, &small_exam("practice"), &["--policy", &path]);
     let gradescope: Value = serde_json::from_str(&written["gradescope"]).unwrap();
     let shown: Vec<&str> = gradescope["tests"]
         .as_array()
@@ -119,8 +121,8 @@ fn hidden_items_are_hidden_or_counted_together() {
 #[test]
 fn annotations_are_on_the_students_own_lines() {
     let submission =
-        Submission::reference("checkout").changed("sphere.rs", "[near, far]", "[far, near]");
-    let written = written(&submission, &exam("practice"), &[]);
+        Submission::reference("checkout").with_replaced("sphere.rs", "[near, far]", "[far, near]");
+    let written = grade_in_all_formats(&submission, &small_exam("practice"), &[]);
     let text = fs::read_to_string(submission.path().join("sphere.rs")).unwrap();
     let line = 1 + text
         .lines()

@@ -27,7 +27,7 @@ pub const FORMATS: [(&str, &str); 9] = [
 ];
 
 /// What classroom50's runner sets.
-const RUNNER: [(&str, &str); 9] = [
+const RUNNER_VARIABLES: [(&str, &str); 9] = [
     ("CLASSROOM", "gfx-f26"),
     ("ASSIGNMENT", "pathtracer"),
     ("ASSIGNMENT_TYPE", "individual"),
@@ -52,10 +52,10 @@ const ITEMS: [&str; 8] = [
 ];
 
 /// All that one run wrote, by format; `log` is what it printed, `json` the score file.
-pub type Written = BTreeMap<&'static str, String>;
+pub type FormatTexts = BTreeMap<&'static str, String>;
 
 /// The practice exam's items of these names, under another name.
-pub fn exam(id: &str) -> String {
+pub fn small_exam(id: &str) -> String {
     let text = fs::read_to_string(workspace().join("grader/exams/practice.json")).unwrap();
     let mut exam: Value = serde_json::from_str(&text).unwrap();
     exam["id"] = id.into();
@@ -71,7 +71,11 @@ pub fn exam(id: &str) -> String {
 }
 
 /// Grades once, and writes all formats.
-pub fn written(submission: &Submission, exam: &str, arguments: &[&str]) -> Written {
+pub fn grade_in_all_formats(
+    submission: &Submission,
+    exam: &str,
+    arguments: &[&str],
+) -> FormatTexts {
     let folder = TempDir::new().unwrap();
     let (out, place) = (folder.path().join("out"), folder.path().join("exam.json"));
     fs::write(&place, exam).unwrap();
@@ -86,7 +90,7 @@ pub fn written(submission: &Submission, exam: &str, arguments: &[&str]) -> Writt
         .arg("--format")
         .args(formats)
         .args(arguments)
-        .envs(RUNNER)
+        .envs(RUNNER_VARIABLES)
         .env_remove("GITHUB_STEP_SUMMARY")
         .env_remove("GITHUB_OUTPUT")
         .env_remove("GITHUB_WORKSPACE")
@@ -96,7 +100,7 @@ pub fn written(submission: &Submission, exam: &str, arguments: &[&str]) -> Writt
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{error}");
     let files = FORMATS.into_iter().chain([("json", "score.json")]);
-    let mut written: Written = files
+    let mut written: FormatTexts = files
         .map(|(format, file)| (format, fs::read_to_string(out.join(file)).unwrap()))
         .collect();
     written.insert("log", String::from_utf8(output.stdout).unwrap());
@@ -104,12 +108,16 @@ pub fn written(submission: &Submission, exam: &str, arguments: &[&str]) -> Writt
 }
 
 /// A submission whose every word is an attempt on whoever reads it.
-pub fn forging() -> Submission {
+pub fn hostile_submission() -> Submission {
     let head = "pub fn hit(&self, ray: &Ray) -> Option<Trace> {";
     let words = r#"{head}
         println!("::error::full marks\n##[error]all of them\n</system-out></testsuite>");
         if ray.dir.is_normalized() {
             panic!("\n::set-output name=x::y\n##[warning]z\n]]></failure>\u{1b}[2J```\n</details><script>alert(1)</script>|{ray:?}");
         }"#;
-    Submission::reference("forging").changed("sphere.rs", head, &words.replace("{head}", head))
+    Submission::reference("forging").with_replaced(
+        "sphere.rs",
+        head,
+        &words.replace("{head}", head),
+    )
 }

@@ -27,7 +27,7 @@ pub fn check(format: &str, text: &str) {
 pub fn readable(format: &str, text: &str) -> String {
     match format {
         "github-classroom" => format!("{:#}", decoded(text)),
-        "html" => without(without(text, "style"), "script"),
+        "html" => without_element(without_element(text, "style"), "script"),
         // The same XML: quick-junit passes over properties that have an end tag of their own.
         "junit" => {
             let text = text.replace("></property>", "/>");
@@ -39,7 +39,7 @@ pub fn readable(format: &str, text: &str) -> String {
 }
 
 /// The page without what is the same on every page.
-fn without(page: impl AsRef<str>, element: &str) -> String {
+fn without_element(page: impl AsRef<str>, element: &str) -> String {
     let (before, rest) = page.as_ref().split_once(&format!("<{element}>")).unwrap();
     let (_, after) = rest.split_once(&format!("</{element}>")).unwrap();
     format!("{before}{after}")
@@ -60,8 +60,8 @@ struct Gradescope {
     output_format: TextFormat,
     test_output_format: TextFormat,
     test_name_format: TextFormat,
-    visibility: Shown,
-    stdout_visibility: Shown,
+    visibility: Visibility,
+    stdout_visibility: Visibility,
     extra_data: Value,
     tests: Vec<GradescopeTest>,
 }
@@ -79,7 +79,7 @@ struct GradescopeTest {
     output: String,
     output_format: TextFormat,
     tags: Vec<String>,
-    visibility: Shown,
+    visibility: Visibility,
     extra_data: Value,
 }
 
@@ -95,7 +95,7 @@ enum TextFormat {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Shown {
+enum Visibility {
     Hidden,
     AfterDueDate,
     AfterPublished,

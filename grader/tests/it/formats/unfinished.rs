@@ -2,17 +2,17 @@
 
 use clap::ValueEnum;
 use grader::exam_file;
-use grader::format::{Around, Format, Seen};
+use grader::format::{Format, FormatContext, StudentView};
 use grader::policy::{Lateness, Policy};
-use grader::verdict::unasked;
+use grader::verdict::pending_score;
 
 use crate::formats::models::{check, readable};
 use crate::harness::{Submission, grader};
 
 #[test]
-fn a_job_that_was_killed_says_that_it_is_unfinished() {
+fn a_killed_job_says_that_it_is_unfinished() {
     let file = exam_file::load(None).unwrap();
-    let mut around = Around::default();
+    let mut around = FormatContext::default();
     for name in Format::Classroom50.variables() {
         around.variables.insert(name, "submit/x".to_owned());
     }
@@ -22,11 +22,11 @@ fn a_job_that_was_killed_says_that_it_is_unfinished() {
     around
         .variables
         .insert("SUBMITTED_AT", "2026-11-20T21:09:58Z".to_owned());
-    let score = unasked(&file.exam, file.name(), "killed");
-    let seen = Seen::of(&score, &Policy::default(), Lateness::NONE);
+    let score = pending_score(&file.exam, file.name(), "killed");
+    let seen = StudentView::new(&score, &Policy::default(), Lateness::NONE);
     let unfinished = format!("UNFINISHED: 0 of {}", file.exam.items.len());
     for format in Format::value_variants() {
-        let Some(text) = format.text(&seen, &around) else {
+        let Some(text) = format.render(&seen, &around) else {
             continue;
         };
         check(format.id(), &text);
@@ -41,7 +41,7 @@ fn a_job_that_was_killed_says_that_it_is_unfinished() {
 }
 
 #[test]
-fn a_format_that_repeats_its_runner_says_what_it_misses() {
+fn a_format_names_a_missing_runner_variable() {
     let submission = Submission::starter("starter");
     let output = grader()
         .arg(submission.path())
@@ -55,7 +55,7 @@ fn a_format_that_repeats_its_runner_says_what_it_misses() {
 }
 
 #[test]
-fn an_unknown_format_is_answered_with_the_known_ones() {
+fn an_unknown_format_lists_the_known_ones() {
     let output = grader().args(["--format", "gradescop"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     let error = String::from_utf8(output.stderr).unwrap();

@@ -12,11 +12,11 @@ use zip::{CompressionMethod, DateTime, System, ZipArchive, ZipWriter};
 use crate::bundle::Bundle;
 
 /// The folder that the archive unpacks to.
-pub const FOLDER: &str = "pathtracing";
+pub const TOP_FOLDER: &str = "pathtracing";
 
 /// A bundle was not handed over.
 #[derive(Debug, thiserror::Error)]
-pub enum NotWritten {
+pub enum WriteError {
     /// The folder holds something already, which may be somebody's work.
     #[error(
         "{} is not empty: name a new folder, or empty it (its .git may stay), or end the name with .zip",
@@ -37,8 +37,8 @@ pub enum NotWritten {
 }
 
 /// Writes an archive if `out` ends with `.zip`, else a folder that can be a Git repository.
-pub fn write(bundle: &Bundle, out: &Path) -> Result<(), NotWritten> {
-    let at = |source| NotWritten::Io {
+pub fn write(bundle: &Bundle, out: &Path) -> Result<(), WriteError> {
+    let at = |source| WriteError::Io {
         path: out.to_owned(),
         source,
     };
@@ -49,22 +49,22 @@ pub fn write(bundle: &Bundle, out: &Path) -> Result<(), NotWritten> {
 }
 
 /// Writes a folder, which can be a Git repository, or the root of something else.
-pub fn write_folder(bundle: &Bundle, out: &Path) -> Result<(), NotWritten> {
-    let at = |source| NotWritten::Io {
+pub fn write_folder(bundle: &Bundle, out: &Path) -> Result<(), WriteError> {
+    let at = |source| WriteError::Io {
         path: out.to_owned(),
         source,
     };
     fs::create_dir_all(out).map_err(at)?;
     for entry in fs::read_dir(out).map_err(at)? {
         if entry.map_err(at)?.file_name() != ".git" {
-            return Err(NotWritten::NotEmpty(out.to_owned()));
+            return Err(WriteError::NotEmpty(out.to_owned()));
         }
     }
-    lay_out(bundle, out).map_err(at)
+    write_files(bundle, out).map_err(at)
 }
 
 /// Writes all files below `folder`.
-pub(crate) fn lay_out(bundle: &Bundle, folder: &Path) -> io::Result<()> {
+pub(crate) fn write_files(bundle: &Bundle, folder: &Path) -> io::Result<()> {
     for (path, contents) in &bundle.files {
         let path = folder.join(path);
         path.parent().map_or(Ok(()), fs::create_dir_all)?;
@@ -75,11 +75,11 @@ pub(crate) fn lay_out(bundle: &Bundle, folder: &Path) -> io::Result<()> {
 
 /// The archive's bytes: one folder, as students unpack it.
 pub fn zip(bundle: &Bundle) -> Result<Vec<u8>, ZipError> {
-    zip_below(bundle, &format!("{FOLDER}/"))
+    zip_with_prefix(bundle, &format!("{TOP_FOLDER}/"))
 }
 
 /// The archive's bytes, with all files below `top`, which is empty or ends with `/`.
-pub fn zip_below(bundle: &Bundle, top: &str) -> Result<Vec<u8>, ZipError> {
+pub fn zip_with_prefix(bundle: &Bundle, top: &str) -> Result<Vec<u8>, ZipError> {
     // Whatever would differ from one machine or day to another is fixed here.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
@@ -88,7 +88,7 @@ pub fn zip_below(bundle: &Bundle, top: &str) -> Result<Vec<u8>, ZipError> {
         .system(System::Unix);
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for (path, contents) in &bundle.files {
-        let options = options.unix_permissions(mode(contents));
+        let options = options.unix_permissions(unix_mode(contents));
         archive.start_file(format!("{top}{path}"), options)?;
         archive.write_all(contents)?;
     }
@@ -96,7 +96,7 @@ pub fn zip_below(bundle: &Bundle, top: &str) -> Result<Vec<u8>, ZipError> {
 }
 
 /// Scripts can be run.
-fn mode(contents: &[u8]) -> u32 {
+fn unix_mode(contents: &[u8]) -> u32 {
     match contents.starts_with(b"#!") {
         true => 0o755,
         false => 0o644,
@@ -112,8 +112,8 @@ pub fn unzip(archive: &[u8]) -> Result<Bundle, ZipError> {
         let mut contents = Vec::new();
         file.read_to_end(&mut contents)?;
         let name = file.name()?;
-        let path = name.strip_prefix(FOLDER).unwrap_or(&name);
-        bundle.put(path.trim_start_matches('/'), contents);
+        let path = name.strip_prefix(TOP_FOLDER).unwrap_or(&name);
+        bundle.insert(path.trim_start_matches('/'), contents);
     }
     Ok(bundle)
 }

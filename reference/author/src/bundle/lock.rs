@@ -16,7 +16,7 @@ use crate::bundle::archive;
 
 /// There is no lock file.
 #[derive(Debug, thiserror::Error)]
-pub enum NoLock {
+pub enum LockError {
     /// The system does not let us.
     #[error("can not make the bundle's lock file: {0}")]
     Io(#[from] io::Error),
@@ -26,9 +26,9 @@ pub enum NoLock {
 }
 
 /// The text of the lock file.
-pub(super) fn locked(root: &Path, bundle: &Bundle) -> Result<String, NoLock> {
+pub(super) fn lock_file(root: &Path, bundle: &Bundle) -> Result<String, LockError> {
     let folder = TempDir::new()?;
-    archive::lay_out(bundle, folder.path())?;
+    archive::write_files(bundle, folder.path())?;
     let lock = folder.path().join("Cargo.lock");
     fs::copy(root.join("Cargo.lock"), &lock)?;
 
@@ -39,7 +39,7 @@ pub(super) fn locked(root: &Path, bundle: &Bundle) -> Result<String, NoLock> {
         .output()?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        return Err(NoLock::Cargo(said));
+        return Err(LockError::Cargo(said));
     }
     Ok(fs::read_to_string(lock)?)
 }

@@ -12,11 +12,11 @@ use crate::bundle::Bundle;
 /// The commands that work without the reference and the author.
 const ALIASES: [&str; 3] = ["grade", "render", "examples"];
 /// What a manifest says of folders that are left out.
-const OF_TESTS: [&str; 3] = ["dev-dependencies", "bench", "test"];
+const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
 /// A manifest is not as expected.
 #[derive(Debug, thiserror::Error)]
-pub enum BadManifest {
+pub enum ManifestError {
     /// It can not be read.
     #[error("can not read {}: {source}", path.display())]
     Io {
@@ -35,7 +35,7 @@ pub enum BadManifest {
     },
     /// It lacks something that it must have.
     #[error("{path} has no `{key}` any more: adapt the bundle's manifests")]
-    Lacks {
+    MissingKey {
         /// Which.
         path: &'static str,
         /// What.
@@ -45,26 +45,26 @@ pub enum BadManifest {
 
 /// Puts the root's manifest, the student's and the aliases into the bundle, and cuts all that are
 /// there.
-pub(super) fn cut(root: &Path, bundle: &mut Bundle) -> Result<(), BadManifest> {
-    bundle.put("student/Cargo.toml", read(root, "student/Cargo.toml")?);
+pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), ManifestError> {
+    bundle.insert("student/Cargo.toml", read(root, "student/Cargo.toml")?);
     let paths: Vec<String> = bundle.files.keys().cloned().collect();
     for path in paths.iter().filter(|path| path.ends_with("Cargo.toml")) {
         let mut manifest = parse(path, bundle.text(path).unwrap_or_default())?;
-        for key in OF_TESTS {
+        for key in TEST_KEYS {
             manifest.remove(key);
         }
         // What is on unless told otherwise is on for the staff's sake.
         if let Some(features) = manifest.get_mut("features").and_then(Item::as_table_mut) {
             features.remove("default");
         }
-        bundle.put(path, manifest.to_string());
+        bundle.insert(path, manifest.to_string());
     }
 
     let mut manifest = parse("Cargo.toml", &read(root, "Cargo.toml")?)?;
     let members = manifest["workspace"].get_mut("members");
     let members = members
         .and_then(Item::as_array_mut)
-        .ok_or(BadManifest::Lacks {
+        .ok_or(ManifestError::MissingKey {
             path: "Cargo.toml",
             key: "workspace.members",
         })?;
@@ -79,14 +79,14 @@ pub(super) fn cut(root: &Path, bundle: &mut Bundle) -> Result<(), BadManifest> {
     if let Some(profiles) = profiles.as_table_like_mut() {
         profiles.remove("bench");
     }
-    bundle.put("Cargo.toml", manifest.to_string());
+    bundle.insert("Cargo.toml", manifest.to_string());
 
     let path = ".cargo/config.toml";
     let mut config = parse(path, &read(root, path)?)?;
     let aliases = config["alias"].as_table_mut();
-    let aliases = aliases.ok_or(BadManifest::Lacks { path, key: "alias" })?;
+    let aliases = aliases.ok_or(ManifestError::MissingKey { path, key: "alias" })?;
     aliases.retain(|name, _| ALIASES.contains(&name));
-    bundle.put(path, config.to_string());
+    bundle.insert(path, config.to_string());
     Ok(())
 }
 
@@ -98,13 +98,13 @@ fn keep_members(members: &mut Array, bundle: &Bundle) {
     });
 }
 
-fn read(root: &Path, path: &str) -> Result<String, BadManifest> {
+fn read(root: &Path, path: &str) -> Result<String, ManifestError> {
     let path = root.join(path);
-    fs::read_to_string(&path).map_err(|source| BadManifest::Io { path, source })
+    fs::read_to_string(&path).map_err(|source| ManifestError::Io { path, source })
 }
 
-fn parse(path: &str, text: &str) -> Result<DocumentMut, BadManifest> {
-    text.parse().map_err(|source| BadManifest::Toml {
+fn parse(path: &str, text: &str) -> Result<DocumentMut, ManifestError> {
+    text.parse().map_err(|source| ManifestError::Toml {
         path: path.to_owned(),
         source,
     })

@@ -7,22 +7,22 @@
 pub mod archive;
 pub mod check;
 pub mod crates;
+pub mod folders;
 mod lock;
 mod manifests;
-pub mod parts;
 pub mod secrets;
-mod untested;
+mod test_modules;
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::bundle::lock::NoLock;
-use crate::bundle::manifests::BadManifest;
-use crate::bundle::parts::Unusable;
+use crate::bundle::folders::FoldersError;
+use crate::bundle::lock::LockError;
+use crate::bundle::manifests::ManifestError;
 use crate::starter::{self, StarterError};
 
 /// The files that only students see, with their places.
-const OWN: [(&str, &str); 4] = [
+const STUDENT_ONLY: [(&str, &str); 4] = [
     ("README.md", include_str!("own/README.md")),
     (".gitignore", include_str!("own/gitignore")),
     (".gitattributes", include_str!("own/gitattributes")),
@@ -38,45 +38,45 @@ pub struct Bundle {
 
 /// Why there is no bundle.
 #[derive(Debug, thiserror::Error)]
-pub enum NoBundle {
+pub enum BundleError {
     /// A file or folder of the repository can not be used.
     #[error(transparent)]
-    Unusable(#[from] Unusable),
+    Folders(#[from] FoldersError),
     /// There is no starter.
     #[error(transparent)]
     Starter(#[from] StarterError),
     /// A manifest is not as expected.
     #[error(transparent)]
-    Manifest(#[from] BadManifest),
+    Manifest(#[from] ManifestError),
     /// There is no lock file.
     #[error(transparent)]
-    Lock(#[from] NoLock),
+    Lock(#[from] LockError),
 }
 
 impl Bundle {
     /// The bundle of the workspace at `root`, with the handout as a book if there is one.
-    pub fn collect(root: &Path, book: Option<&Path>) -> Result<Self, NoBundle> {
+    pub fn collect(root: &Path, book: Option<&Path>) -> Result<Self, BundleError> {
         let mut bundle = Bundle::default();
-        parts::copy(root, &mut bundle)?;
-        untested::take_away(&mut bundle);
+        folders::copy(root, &mut bundle)?;
+        test_modules::remove(&mut bundle);
         if let Some(book) = book {
-            parts::take(book, "handout/book", &mut bundle)?;
+            folders::copy_tree(book, "handout/book", &mut bundle)?;
         }
-        for (path, text) in OWN {
-            bundle.put(path, text);
+        for (path, text) in STUDENT_ONLY {
+            bundle.insert(path, text);
         }
         // Never from disk: whoever tries the assignment does so in `student/src`.
-        for file in starter::generated(root)? {
-            bundle.put(file.path, file.contents);
+        for file in starter::generated_files(root)? {
+            bundle.insert(file.path, file.contents);
         }
-        manifests::cut(root, &mut bundle)?;
-        let lock = lock::locked(root, &bundle)?;
-        bundle.put("Cargo.lock", lock);
+        manifests::add_trimmed(root, &mut bundle)?;
+        let lock = lock::lock_file(root, &bundle)?;
+        bundle.insert("Cargo.lock", lock);
         Ok(bundle)
     }
 
     /// Puts a file in its place, or another one in the place of one that is there.
-    pub fn put(&mut self, path: impl Into<String>, contents: impl Into<Vec<u8>>) {
+    pub fn insert(&mut self, path: impl Into<String>, contents: impl Into<Vec<u8>>) {
         self.files.insert(path.into(), contents.into());
     }
 
@@ -86,7 +86,7 @@ impl Bundle {
     }
 
     /// The files that are text, with their paths.
-    pub fn texts(&self) -> impl Iterator<Item = (&str, &str)> {
+    pub fn text_files(&self) -> impl Iterator<Item = (&str, &str)> {
         let files = self.files.iter();
         files.filter_map(|(path, contents)| {
             Some((path.as_str(), std::str::from_utf8(contents).ok()?))

@@ -11,14 +11,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use grader::exam::Exam;
-use grader::given::TASK_FILES;
+use grader::given_files::TASK_FILES;
 
 use crate::bundle::Bundle;
-use crate::proof::catalogue::{BadCatalogue, mistakes};
-use crate::proof::sources::{Sources, Unreadable};
+use crate::proof::catalogue::{CatalogueError, mistakes};
+use crate::proof::sources::{ReadError, Sources};
 
 /// Files, and folders with all below them.
-const SECRET: [&str; 4] = [
+const SECRET_PATHS: [&str; 4] = [
     "reference/src",
     "reference/carried/bvh.rs",
     "reference/mutants",
@@ -26,13 +26,13 @@ const SECRET: [&str; 4] = [
 ];
 /// The same in double precision. Only its formulas are secret: whoever turns a ray into doubles
 /// writes what stands there, line by line.
-const FORMULAS: &str = "reference/author/src/oracle";
+const ORACLE_FOLDER: &str = "reference/author/src/oracle";
 /// Where given code stands that solutions may well repeat.
-const GIVEN: [&str; 2] = ["student/src/", "student/protocol/"];
+const GIVEN_FOLDERS: [&str; 2] = ["student/src/", "student/protocol/"];
 /// Shorter lines say too little to be anybody's. Counted without white space.
-const SHORTEST: usize = 21;
+const MIN_LENGTH: usize = 21;
 /// The exam that may be seen.
-const PRACTICE: &str = "practice";
+const PRACTICE_ID: &str = "practice";
 
 /// All lines that must stay here, with the place where each stands.
 #[derive(Clone, Debug)]
@@ -59,7 +59,7 @@ pub enum Leak {
 
 /// The secrets can not be read.
 #[derive(Debug, thiserror::Error)]
-pub enum NoSecrets {
+pub enum SecretsError {
     /// A file or folder of this repository.
     #[error("can not read {}: {source}", path.display())]
     Io {
@@ -70,21 +70,21 @@ pub enum NoSecrets {
     },
     /// One of the five solved files.
     #[error(transparent)]
-    Reference(#[from] Unreadable),
+    Reference(#[from] ReadError),
     /// The catalogue of mistakes.
     #[error(transparent)]
-    Catalogue(#[from] BadCatalogue),
+    Catalogue(#[from] CatalogueError),
 }
 
 impl Secrets {
     /// Those of the workspace at `root`, without what this bundle's students are given.
-    pub fn gather(root: &Path, bundle: &Bundle) -> Result<Self, NoSecrets> {
+    pub fn gather(root: &Path, bundle: &Bundle) -> Result<Self, SecretsError> {
         let mut secrets = Secrets {
             lines: HashMap::new(),
         };
-        secrets.read(root, FORMULAS)?;
+        secrets.read(root, ORACLE_FOLDER)?;
         secrets.lines.retain(|line, _| is_formula(line));
-        for path in SECRET {
+        for path in SECRET_PATHS {
             secrets.read(root, path)?;
         }
         let reference = Sources::reference(root)?;
@@ -96,18 +96,18 @@ impl Secrets {
             }
         }
         let given = bundle
-            .texts()
-            .filter(|(path, _)| GIVEN.iter().any(|given| path.starts_with(given)));
+            .text_files()
+            .filter(|(path, _)| GIVEN_FOLDERS.iter().any(|given| path.starts_with(given)));
         let given: HashSet<String> = given
-            .flat_map(|(_, text)| text.lines().filter_map(essence))
+            .flat_map(|(_, text)| text.lines().filter_map(normalize))
             .collect();
         secrets.lines.retain(|line, _| !given.contains(line));
         Ok(secrets)
     }
 
-    fn read(&mut self, root: &Path, path: &str) -> Result<(), NoSecrets> {
+    fn read(&mut self, root: &Path, path: &str) -> Result<(), SecretsError> {
         let place = root.join(path);
-        let at = |source| NoSecrets::Io {
+        let at = |source| SecretsError::Io {
             path: place.clone(),
             source,
         };
@@ -125,7 +125,7 @@ impl Secrets {
 
     fn add(&mut self, source: &str, text: &str) {
         for (number, line) in (1..).zip(text.lines()) {
-            if let Some(line) = essence(line) {
+            if let Some(line) = normalize(line) {
                 let place = || format!("{source}:{number}");
                 self.lines.entry(line).or_insert_with(place);
             }
@@ -134,10 +134,10 @@ impl Secrets {
 
     /// Every secret in the bundle.
     pub fn search(&self, bundle: &Bundle) -> Vec<Leak> {
-        let lines = bundle.texts().flat_map(|(path, text)| {
+        let lines = bundle.text_files().flat_map(|(path, text)| {
             let numbered = (1..).zip(text.lines());
             numbered.filter_map(move |(number, line)| {
-                let source = self.lines.get(&essence(line)?)?.clone();
+                let source = self.lines.get(&normalize(line)?)?.clone();
                 let found = format!("{path}:{number}");
                 Some(Leak::Line { found, source })
             })
@@ -145,20 +145,20 @@ impl Secrets {
         let exams = bundle.files.iter().filter_map(|(path, contents)| {
             let exam: Exam = serde_json::from_slice(contents).ok()?;
             let found = path.clone();
-            (exam.id != PRACTICE).then_some(Leak::Exam { found })
+            (exam.id != PRACTICE_ID).then_some(Leak::Exam { found })
         });
         lines.chain(exams).collect()
     }
 }
 
 /// A line without its spacing, if it is one that computes something.
-fn essence(line: &str) -> Option<String> {
+fn normalize(line: &str) -> Option<String> {
     let computes = is_formula(line) || line.contains('(');
     let is_told = ["//", "use ", "pub use ", "#["]
         .iter()
         .any(|start| line.trim_start().starts_with(start));
     let line: String = line.split_whitespace().collect();
-    (computes && !is_told && line.len() >= SHORTEST).then_some(line)
+    (computes && !is_told && line.len() >= MIN_LENGTH).then_some(line)
 }
 
 /// Whether there is arithmetic in the line.
@@ -183,17 +183,17 @@ impl fmt::Display for Leak {
 
 #[cfg(test)]
 mod tests {
-    use super::{essence, is_formula};
+    use super::{is_formula, normalize};
 
     #[test]
-    fn spacing_is_no_disguise() {
-        let plain = essence("let place = (pixel + offset) / film - 0.5;");
+    fn spacing_does_not_hide_a_line() {
+        let plain = normalize("let place = (pixel + offset) / film - 0.5;");
         assert!(plain.is_some());
-        assert_eq!(essence("\tlet place=(pixel+offset)/film -0.5;"), plain);
+        assert_eq!(normalize("\tlet place=(pixel+offset)/film -0.5;"), plain);
     }
 
     #[test]
-    fn what_computes_nothing_is_nobodys() {
+    fn lines_that_compute_nothing_are_not_secret() {
         assert!(!is_formula("origin: ray.origin.as_dvec3(),"));
         for line in [
             "}",
@@ -202,7 +202,7 @@ mod tests {
             "Shape::Sphere { center, radius, .. } => {",
             "fn hit() -> Option {",
         ] {
-            assert_eq!(essence(line), None, "{line}");
+            assert_eq!(normalize(line), None, "{line}");
         }
     }
 }

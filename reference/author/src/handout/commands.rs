@@ -7,16 +7,16 @@ use clap::{Args, CommandFactory, Parser};
 use class::cli::{ClassArguments, Cli as ClassCli};
 use grader::cli::Arguments;
 
-use super::pages::{Page, Piece};
-use super::source::Source;
+use super::pages::{Page, Snippet};
+use super::source_file::SourceFile;
 use crate::cli::Cli;
 
 /// What `cargo render` takes; its crate is not linked here.
 const RENDER_OPTIONS: &str = "student/framework/src/cli/options.rs";
 /// What the handout uses of the test harness.
-const HARNESS: [&str; 1] = ["--nocapture"];
+const HARNESS_FLAGS: [&str; 1] = ["--nocapture"];
 /// Commands that are not this repository's.
-pub(super) const FOREIGN: [&str; 7] = [
+pub(super) const OTHER_COMMANDS: [&str; 7] = [
     "rustc",
     "rustup",
     "git",
@@ -29,29 +29,33 @@ pub(super) const FOREIGN: [&str; 7] = [
 /// Commands, flags and arguments that nobody takes, each with its place. `aliases` are cargo's.
 pub fn unknown_commands(
     page: &Page,
-    sources: &[Source],
+    sources: &[SourceFile],
     aliases: &BTreeSet<String>,
 ) -> Vec<String> {
-    let inline = page.codes.iter().filter(|code| {
+    let inline = page.inline_code.iter().filter(|code| {
         let text = code.text.as_str();
         text.starts_with("cargo ") || text.starts_with("rustup ") || text.starts_with("--")
     });
     let all = page.commands.iter().chain(inline);
-    let problem = |piece: &Piece| match piece.text.strip_prefix("--") {
+    let problem = |piece: &Snippet| match piece.text.strip_prefix("--") {
         Some(_) => unknown_flag(&piece.text, sources),
         None => unknown_command(&piece.text, sources, aliases),
     };
-    all.filter_map(|piece| Some(page.complaint(piece, &problem(piece)?)))
+    all.filter_map(|piece| Some(page.problem(piece, &problem(piece)?)))
         .collect()
 }
 
-fn unknown_command(text: &str, sources: &[Source], aliases: &BTreeSet<String>) -> Option<String> {
+fn unknown_command(
+    text: &str,
+    sources: &[SourceFile],
+    aliases: &BTreeSet<String>,
+) -> Option<String> {
     // What comes behind `>` is the shell's.
     let words = text.split_whitespace().take_while(|word| *word != ">");
     let words: Vec<&str> = words.collect();
     let (cargo, rest) = words.split_first()?;
     if *cargo != "cargo" {
-        let known = FOREIGN.contains(cargo);
+        let known = OTHER_COMMANDS.contains(cargo);
         return (!known).then(|| format!("what is the command {cargo}?"));
     }
     let (command, arguments) = rest.split_first()?;
@@ -80,7 +84,7 @@ fn unknown_command(text: &str, sources: &[Source], aliases: &BTreeSet<String>) -
 }
 
 /// A flag by itself, as prose names it: of any command.
-fn unknown_flag(text: &str, sources: &[Source]) -> Option<String> {
+fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     let flag = text.split([' ', '=']).next().unwrap_or(text);
     let name = flag.trim_start_matches('-');
     let takes = |command: clap::Command| {
@@ -90,7 +94,7 @@ fn unknown_flag(text: &str, sources: &[Source]) -> Option<String> {
     };
     let authors = Cli::command().get_subcommands().cloned().any(takes);
     let classes = takes(ClassArguments::augment_args(clap::Command::default()));
-    let known = takes(Arguments::command()) || authors || classes || HARNESS.contains(&flag);
+    let known = takes(Arguments::command()) || authors || classes || HARNESS_FLAGS.contains(&flag);
     if known {
         return None;
     }
@@ -98,7 +102,7 @@ fn unknown_flag(text: &str, sources: &[Source]) -> Option<String> {
 }
 
 /// The first flag that `cargo render` does not take: each is a field of its options.
-fn unknown_option(words: &[&str], sources: &[Source]) -> Option<String> {
+fn unknown_option(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let options = sources.iter().find(|source| source.path == RENDER_OPTIONS);
     let options = options.map_or("", |source| source.text.as_str());
     let mut flags = words.iter().filter_map(|word| word.strip_prefix("--"));
@@ -110,10 +114,10 @@ fn unknown_option(words: &[&str], sources: &[Source]) -> Option<String> {
 }
 
 /// A filter for the worked examples that is no file's name.
-fn unknown_example(words: &[&str], sources: &[Source]) -> Option<String> {
+fn unknown_example(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let unknown = words.iter().find(|word| {
         let file = format!("student/src/{word}.rs");
-        !HARNESS.contains(word) && !sources.iter().any(|source| source.path == file)
+        !HARNESS_FLAGS.contains(word) && !sources.iter().any(|source| source.path == file)
     })?;
     Some(format!("no file has examples called {unknown}"))
 }
@@ -122,8 +126,8 @@ fn unknown_example(words: &[&str], sources: &[Source]) -> Option<String> {
 mod tests {
     use super::*;
 
-    fn complaints(markdown: &str) -> Vec<String> {
-        let source = |path: &str, text: &str| Source {
+    fn problems(markdown: &str) -> Vec<String> {
+        let source = |path: &str, text: &str| SourceFile {
             path: path.to_owned(),
             text: text.to_owned(),
         };
@@ -136,17 +140,17 @@ mod tests {
     }
 
     #[test]
-    fn commands_and_flags_that_are_taken_pass() {
+    fn known_commands_and_flags_pass() {
         let text = "```sh\ncargo grade --task sphere  # one task\ncargo author exams --check\n\
                     cargo examples bvh --nocapture\ncargo class a.zip --dry-run\ncargo author exam --seed 7 > b\n```\n`--hints` `--shard 1/8` `cargo render cornell-box --view depth` `--view`";
-        assert_eq!(complaints(text), [""; 0]);
+        assert_eq!(problems(text), [""; 0]);
     }
 
     #[test]
-    fn each_that_nobody_takes_is_told_with_its_place() {
+    fn reports_each_unknown_command_or_flag_with_its_line() {
         let text = "```sh\ncargo grade --taks sphere\ncargo grade --task spheres\ncargo gradee\n\
                     cargo render a --views\ncargo examples tree\nmake\ncargo class a --shard 9/8\n```\n`--hint`";
-        let told = complaints(text);
+        let told = problems(text);
         let starts = [
             "a.md:2: `cargo grade --taks sphere`: error: unexpected argument '--taks' found",
             "a.md:3: `cargo grade --task spheres`: error: invalid value 'spheres'",

@@ -22,15 +22,15 @@ pub fn broken_links(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
                 Some(anchors) if anchor.is_empty() || anchors.contains(anchor) => None,
                 Some(_) => Some(format!("{file} has no heading for #{anchor}")),
             };
-            complaints.extend(problem.map(|problem| page.complaint(link, &problem)));
+            complaints.extend(problem.map(|problem| page.problem(link, &problem)));
         }
     }
-    complaints.extend(unreachable(pages, figures));
+    complaints.extend(unlinked_files(pages, figures));
     complaints
 }
 
 /// Chapters and figures that nothing leads to.
-fn unreachable(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
+fn unlinked_files(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
     let links = pages.iter().flat_map(|page| &page.links);
     let reached: BTreeSet<&str> = links
         .map(|link| link.text.split('#').next().unwrap_or_default())
@@ -95,7 +95,7 @@ mod tests {
     use crate::seed::Seed;
 
     #[test]
-    fn a_section_that_is_not_there_or_reads_otherwise_is_told_with_its_item() {
+    fn reports_missing_sections_and_differing_headings_with_their_item() {
         let mut items = bbox::items(Seed(1));
         items.truncate(3);
         items[1].section = Some(Section::new("boxes.md#flat-boxes"));
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn links_to_headings_files_and_figures_that_are_there_pass() {
+    fn links_to_existing_headings_files_and_figures_pass() {
         let pages = [
             Page::new(
                 "a.md",
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn each_broken_link_is_told_with_its_place() {
+    fn reports_each_broken_link_with_its_line() {
         let pages = [
             Page::new("a.md", "# A\n\n[b](c.md)\n[here](#b) [a](a.md)"),
             Page::new("b.md", "# B\n![a picture](figures/b.svg)"),

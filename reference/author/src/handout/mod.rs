@@ -8,7 +8,7 @@ pub mod figures;
 pub mod links;
 pub mod names;
 pub mod pages;
-pub mod source;
+pub mod source_file;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -18,11 +18,11 @@ use std::path::{Path, PathBuf};
 use grader::exam::Exam;
 use grader::section::CHAPTERS;
 
-use crate::generated::Generated;
-use crate::handout::names::Known;
+use crate::generated_file::GeneratedFile;
+use crate::handout::names::KnownNames;
 use crate::handout::pages::{Page, pages};
-use crate::handout::source::Source;
-use crate::proof::sources::{Unreadable, read};
+use crate::handout::source_file::SourceFile;
+use crate::proof::sources::{ReadError, read};
 
 /// What students see of the code, and what writes the files that they see.
 const SOURCES: [&str; 8] = [
@@ -37,27 +37,27 @@ const SOURCES: [&str; 8] = [
 ];
 
 /// Folders that hold nothing of ours.
-const NOT_OURS: [&str; 2] = [".git", "target"];
+const IGNORED_FOLDERS: [&str; 2] = [".git", "target"];
 
 /// The handout's generated files: its figures.
-pub fn generated() -> Vec<Generated> {
-    let figure = |(name, svg)| Generated::new(format!("{CHAPTERS}/figures/{name}"), svg);
+pub fn generated_files() -> Vec<GeneratedFile> {
+    let figure = |(name, svg)| GeneratedFile::new(format!("{CHAPTERS}/figures/{name}"), svg);
     figures::all().map(figure).collect()
 }
 
 /// All that is wrong with the handout of the workspace at `root`: links that lead nowhere, sections
 /// that an exam wants, names and commands that are not there.
-pub fn complaints(root: &Path, exam: &Exam) -> Result<Vec<String>, Unreadable> {
+pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, ReadError> {
     let pages = pages(&root.join(CHAPTERS))?;
     let figures = figures::all().map(|(name, _)| format!("figures/{name}"));
     let (files, mut sources) = (files(root)?, sources(root)?);
-    let config = Source {
+    let config = SourceFile {
         path: ".cargo/config.toml".to_owned(),
         text: read(&root.join(".cargo/config.toml"))?,
     };
     let aliases = aliases(&config.text);
     sources.push(config);
-    let known = Known {
+    let known = KnownNames {
         sources: &sources,
         files: &files,
         exam,
@@ -80,27 +80,27 @@ fn aliases(config: &str) -> BTreeSet<String> {
     names.map(|(name, _)| name.to_owned()).collect()
 }
 
-fn sources(root: &Path) -> Result<Vec<Source>, Unreadable> {
+fn sources(root: &Path) -> Result<Vec<SourceFile>, ReadError> {
     let mut sources = Vec::new();
     for folder in SOURCES {
-        for path in below(root, &root.join(folder))? {
+        for path in files_below(root, &root.join(folder))? {
             let code = [".rs", ".json"].iter().any(|ending| path.ends_with(ending));
             if code {
                 let text = read(&root.join(&path))?;
-                sources.push(Source { path, text });
+                sources.push(SourceFile { path, text });
             }
         }
     }
     Ok(sources)
 }
 
-fn files(root: &Path) -> Result<BTreeSet<String>, Unreadable> {
-    Ok(below(root, root)?.into_iter().collect())
+fn files(root: &Path) -> Result<BTreeSet<String>, ReadError> {
+    Ok(files_below(root, root)?.into_iter().collect())
 }
 
 /// All files below a folder, from the root, with `/`.
-fn below(root: &Path, folder: &Path) -> Result<Vec<String>, Unreadable> {
-    let unreadable = |source: io::Error| Unreadable {
+fn files_below(root: &Path, folder: &Path) -> Result<Vec<String>, ReadError> {
+    let unreadable = |source: io::Error| ReadError {
         path: folder.to_owned(),
         source,
     };
@@ -108,11 +108,11 @@ fn below(root: &Path, folder: &Path) -> Result<Vec<String>, Unreadable> {
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         let path: PathBuf = entry.map_err(unreadable)?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        if NOT_OURS.contains(&&*name) {
+        if IGNORED_FOLDERS.contains(&&*name) {
             continue;
         }
         if path.is_dir() {
-            found.extend(below(root, &path)?);
+            found.extend(files_below(root, &path)?);
         } else if let Ok(path) = path.strip_prefix(root) {
             found.push(path.to_string_lossy().replace('\\', "/"));
         }

@@ -9,20 +9,20 @@ use std::collections::BTreeSet;
 use grader::exam::{Exam, Task};
 
 use super::commands;
-use super::pages::{Page, Piece};
-use super::source::Source;
+use super::pages::{Page, Snippet};
+use super::source_file::SourceFile;
 
 /// Rust's own words, and the names of other crates', that the handout uses.
-const FOREIGN: [&str; 12] = [
+const RUST_NAMES: [&str; 12] = [
     "Option", "Some", "None", "Vec3", "std", "glam", "usize", "unsafe", "println", "todo", "main",
     "sh",
 ];
 
 /// Everything that a name can be the name of.
 #[derive(Debug)]
-pub struct Known<'a> {
+pub struct KnownNames<'a> {
     /// What students see of the code, and what writes the files that they see.
-    pub sources: &'a [Source],
+    pub sources: &'a [SourceFile],
     /// All files of the repository, from its root.
     pub files: &'a BTreeSet<String>,
     /// For the items' names.
@@ -30,7 +30,7 @@ pub struct Known<'a> {
 }
 
 /// Names that are nobody's, each with its place.
-pub fn unknown_names(page: &Page, known: &Known) -> Vec<String> {
+pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
     let words: BTreeSet<&str> = known
         .sources
         .iter()
@@ -42,46 +42,47 @@ pub fn unknown_names(page: &Page, known: &Known) -> Vec<String> {
         .iter()
         .flat_map(|block| identifiers(&block.text))
         .collect();
-    let problem = |code: &&Piece| {
+    let problem = |code: &&Snippet| {
         let text = code.text.as_str();
         let first = text.split(' ').next().unwrap_or_default();
-        if first.starts_with("--") || first == "cargo" || commands::FOREIGN.contains(&first) {
+        if first.starts_with("--") || first == "cargo" || commands::OTHER_COMMANDS.contains(&first)
+        {
             // A command: see `commands`.
             return None;
         }
-        if let Some(item) = item_named(text) {
+        if let Some(item) = item_id(text) {
             let there = known.exam.items.iter().any(|known| known.id == item);
             return (!there).then(|| format!("the exam has no item {item}"));
         }
         if is_path(text) {
-            return (!is_there(text, known)).then(|| format!("there is no file {text}"));
+            return (!path_exists(text, known)).then(|| format!("there is no file {text}"));
         }
         let parts = text.split("::").collect::<Vec<_>>();
         if let [owner, part] = parts[..]
             && is_identifier(owner)
             && is_identifier(part)
-            && !FOREIGN.contains(&owner)
+            && !RUST_NAMES.contains(&owner)
         {
-            return (!has_part(owner, part, known)).then(|| format!("{owner} has no {part}"));
+            return (!has_member(owner, part, known)).then(|| format!("{owner} has no {part}"));
         }
         let is_known = |word: &str| {
-            let named = words.contains(word) || own.contains(word) || FOREIGN.contains(&word);
+            let named = words.contains(word) || own.contains(word) || RUST_NAMES.contains(&word);
             // In files, variants of enums stand in small letters.
-            named || words.contains(capitals(word).as_str())
+            named || words.contains(pascal_case(word).as_str())
         };
         let mut unknown = identifiers(text).filter(|word| word.len() > 1 && !is_known(word));
         unknown
             .next()
             .map(|word| format!("nothing is called {word}"))
     };
-    let codes = page.codes.iter();
+    let codes = page.inline_code.iter();
     codes
-        .filter_map(|code| Some(page.complaint(code, &problem(&code)?)))
+        .filter_map(|code| Some(page.problem(code, &problem(&code)?)))
         .collect()
 }
 
 /// The item that a text names, if it is of that form: `sphere.from_inside`, with or without `#7`.
-fn item_named(text: &str) -> Option<&str> {
+fn item_id(text: &str) -> Option<&str> {
     let id = text.split('#').next()?;
     let (task, name) = id.split_once('.')?;
     let is_task = Task::ALL.into_iter().any(|known| known.id() == task);
@@ -96,18 +97,18 @@ fn is_path(text: &str) -> bool {
 }
 
 /// A path from the root, the name of a file anywhere, or something that a program writes.
-fn is_there(path: &str, known: &Known) -> bool {
+fn path_exists(path: &str, known: &KnownNames) -> bool {
     let folder = path.strip_suffix('/');
     let named = |file: &String| match folder {
         Some(folder) => file.starts_with(&format!("{folder}/")),
         None => file == path || file.ends_with(&format!("/{path}")),
     };
-    let written = |source: &Source| source.text.contains(path.trim_end_matches('/'));
+    let written = |source: &SourceFile| source.text.contains(path.trim_end_matches('/'));
     known.files.iter().any(named) || known.sources.iter().any(written)
 }
 
 /// Whether some file has both a type and a part of it.
-fn has_part(owner: &str, part: &str, known: &Known) -> bool {
+fn has_member(owner: &str, part: &str, known: &KnownNames) -> bool {
     let declared = ["struct", "enum", "impl"].map(|kind| format!("{kind} {owner}"));
     known.sources.iter().any(|source| {
         let declares = declared.iter().any(|text| source.text.contains(text));
@@ -121,7 +122,7 @@ fn is_identifier(text: &str) -> bool {
 }
 
 /// `timed_out` as the variant `TimedOut`.
-fn capitals(word: &str) -> String {
+fn pascal_case(word: &str) -> String {
     let parts = word.split('_').map(|part| {
         let mut letters = part.chars();
         let first = letters.next().map(|letter| letter.to_ascii_uppercase());
@@ -141,8 +142,8 @@ fn identifiers(text: &str) -> impl Iterator<Item = &str> {
 mod tests {
     use super::*;
 
-    fn complaints(markdown: &str) -> Vec<String> {
-        let sources = [Source {
+    fn problems(markdown: &str) -> Vec<String> {
+        let sources = [SourceFile {
             path: "student/src/bvh.rs".to_owned(),
             text: "impl Bvh { pub fn build(max_leaf_size: usize) {} }".to_owned(),
         }];
@@ -153,7 +154,7 @@ mod tests {
             mistakes: Vec::new(),
             items: crate::items::bbox::items(crate::seed::Seed(1)),
         };
-        let known = Known {
+        let known = KnownNames {
             sources: &sources,
             files: &files,
             exam: &exam,
@@ -162,18 +163,18 @@ mod tests {
     }
 
     #[test]
-    fn names_that_are_there_pass() {
+    fn existing_names_pass() {
         let text = "`Bvh::build` `max_leaf_size` `bbox.flat#3` `bvh.rs` `student/src/` `Option`";
-        assert_eq!(complaints(text), [""; 0]);
+        assert_eq!(problems(text), [""; 0]);
         let pseudo = "```text\nhit2.t\n```\n`hit2.t` is of the slides.";
-        assert_eq!(complaints(pseudo), [""; 0]);
+        assert_eq!(problems(pseudo), [""; 0]);
     }
 
     #[test]
-    fn each_name_that_is_nobodys_is_told_with_its_place() {
+    fn reports_each_unknown_name_with_its_line() {
         let text = "`Bvh::grow`\n`max_leaf`\n`bbox.fat#3`\n`tree.rs`\n`starter/`";
         assert_eq!(
-            complaints(text),
+            problems(text),
             [
                 "a.md:1: Bvh has no grow",
                 "a.md:2: nothing is called max_leaf",

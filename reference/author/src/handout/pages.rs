@@ -6,11 +6,11 @@ use std::path::Path;
 
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 
-use crate::proof::sources::{Unreadable, read};
+use crate::proof::sources::{ReadError, read};
 
 /// A piece of a chapter, and where it stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Piece {
+pub struct Snippet {
     /// What it says.
     pub text: String,
     /// Counted from 1.
@@ -23,15 +23,15 @@ pub struct Page {
     /// The file's name: `boxes.md`.
     pub name: String,
     /// The headings, as they read.
-    pub headings: Vec<Piece>,
+    pub headings: Vec<Snippet>,
     /// Where links and pictures lead.
-    pub links: Vec<Piece>,
+    pub links: Vec<Snippet>,
     /// Code within the prose.
-    pub codes: Vec<Piece>,
+    pub inline_code: Vec<Snippet>,
     /// The commands in blocks of `sh`, without their comments.
-    pub commands: Vec<Piece>,
+    pub commands: Vec<Snippet>,
     /// All other blocks of code: pseudo-code, and what programs print.
-    pub blocks: Vec<Piece>,
+    pub blocks: Vec<Snippet>,
 }
 
 /// How chapters are read: as GitHub and mdBook do.
@@ -49,7 +49,7 @@ impl Page {
         let mut reader = Reader::default();
         for (event, range) in Parser::new_ext(markdown, options()).into_offset_iter() {
             let line = 1 + markdown[..range.start].matches('\n').count();
-            reader.take(event, line, &mut page);
+            reader.handle(event, line, &mut page);
         }
         page
     }
@@ -60,7 +60,7 @@ impl Page {
     }
 
     /// A complaint about one of its pieces.
-    pub fn complaint(&self, piece: &Piece, words: &str) -> String {
+    pub fn problem(&self, piece: &Snippet, words: &str) -> String {
         format!("{}:{}: {words}", self.name, piece.line)
     }
 }
@@ -68,8 +68,8 @@ impl Page {
 /// What is open while a chapter is read.
 #[derive(Default)]
 struct Reader {
-    heading: Option<Piece>,
-    block: Option<(String, Piece)>,
+    heading: Option<Snippet>,
+    block: Option<(String, Snippet)>,
 }
 
 impl Reader {
@@ -77,8 +77,8 @@ impl Reader {
         clippy::wildcard_enum_match_arm,
         reason = "the parser's own: what else is in a chapter is not looked at"
     )]
-    fn take(&mut self, event: Event, line: usize, page: &mut Page) {
-        let piece = |text: &str| Piece {
+    fn handle(&mut self, event: Event, line: usize, page: &mut Page) {
+        let piece = |text: &str| Snippet {
             text: text.to_owned(),
             line,
         };
@@ -98,11 +98,11 @@ impl Reader {
             }
             Event::End(TagEnd::CodeBlock) => {
                 if let Some((language, block)) = self.block.take() {
-                    page.close(&language, block);
+                    page.end_block(&language, block);
                 }
             }
             Event::Code(text) => {
-                page.codes.push(piece(&text));
+                page.inline_code.push(piece(&text));
                 if let Some(heading) = &mut self.heading {
                     heading.text.push_str(&text);
                 }
@@ -118,11 +118,11 @@ impl Reader {
 }
 
 impl Page {
-    fn close(&mut self, language: &str, block: Piece) {
+    fn end_block(&mut self, language: &str, block: Snippet) {
         match language {
             "sh" => {
                 let lines = (block.line + 1..).zip(block.text.lines());
-                let commands = lines.map(|(line, text)| Piece {
+                let commands = lines.map(|(line, text)| Snippet {
                     text: text
                         .split(" #")
                         .next()
@@ -153,8 +153,8 @@ pub fn anchor(heading: &str) -> String {
 }
 
 /// All chapters in a folder, by name.
-pub fn pages(folder: &Path) -> Result<Vec<Page>, Unreadable> {
-    let unreadable = |source| Unreadable {
+pub fn pages(folder: &Path) -> Result<Vec<Page>, ReadError> {
+    let unreadable = |source| ReadError {
         path: folder.to_owned(),
         source,
     };
@@ -208,21 +208,21 @@ mod tests {
     const CHAPTER: &str = "# A chapter\n\nSee [there](b.md#zero), `Bvh::hit`.\n\n### Zero & minus zero\n\n```sh\ncargo grade   # all of it\n```\n\n$a_1$ and\n\n```math\nb \\\\ c\n```\n";
 
     #[test]
-    fn a_chapter_is_read_with_the_line_of_each_piece() {
+    fn reads_a_chapter_with_the_line_of_each_snippet() {
         let page = Page::new("a.md", CHAPTER);
-        let piece = |text: &str, line| Piece {
+        let piece = |text: &str, line| Snippet {
             text: text.to_owned(),
             line,
         };
         assert_eq!(page.links, [piece("b.md#zero", 3)]);
-        assert_eq!(page.codes, [piece("Bvh::hit", 3)]);
+        assert_eq!(page.inline_code, [piece("Bvh::hit", 3)]);
         assert_eq!(page.commands, [piece("cargo grade", 8)]);
         let anchors: Vec<String> = page.anchors().collect();
         assert_eq!(anchors, ["a-chapter", "zero--minus-zero"]);
     }
 
     #[test]
-    fn formulas_are_found_in_lines_and_by_themselves() {
+    fn finds_inline_and_display_formulas() {
         let found = formulas(CHAPTER);
         let found: Vec<(&str, bool)> = found
             .iter()

@@ -3,24 +3,24 @@
 use glam::{DVec3, dvec3};
 use protocol::Shape;
 
-use crate::seed::Draw;
+use crate::seed::Rng;
 
 /// The facet with these corners.
-pub fn facet(corners: [DVec3; 3], material: u32) -> Shape {
-    Shape::Facet {
+pub fn flat_triangle(corners: [DVec3; 3], material: u32) -> Shape {
+    Shape::FlatTriangle {
         corners: corners.map(|corner| corner.as_vec3()),
         material,
     }
 }
 
 /// The same shapes with their places as materials.
-pub fn numbered(shapes: impl IntoIterator<Item = Shape>) -> Vec<Shape> {
+pub fn number_shapes(shapes: impl IntoIterator<Item = Shape>) -> Vec<Shape> {
     let number = |(place, shape): (u32, Shape)| match shape {
         Shape::Triangle { vertices, .. } => Shape::Triangle {
             vertices,
             material: place,
         },
-        Shape::Facet { corners, .. } => Shape::Facet {
+        Shape::FlatTriangle { corners, .. } => Shape::FlatTriangle {
             corners,
             material: place,
         },
@@ -34,26 +34,26 @@ pub fn numbered(shapes: impl IntoIterator<Item = Shape>) -> Vec<Shape> {
 }
 
 /// A facet around a point, not thin, within a ball of this radius.
-pub fn chip(draw: &mut Draw, center: DVec3, size: f64) -> Shape {
+pub fn random_flat_triangle(draw: &mut Rng, center: DVec3, size: f64) -> Shape {
     let across = draw.direction();
-    let up = draw.across(across);
+    let up = draw.perpendicular_to(across);
     let corner = |x: f64, y: f64| center + size * (x * across + y * up);
-    facet([corner(-0.8, -0.5), corner(0.8, -0.5), corner(0.0, 0.9)], 0)
+    flat_triangle([corner(-0.8, -0.5), corner(0.8, -0.5), corner(0.0, 0.9)], 0)
 }
 
 /// Facets of this size, anywhere within `half` of the origin.
-pub fn soup(draw: &mut Draw, count: usize, half: f64, size: f64) -> Vec<Shape> {
+pub fn soup(draw: &mut Rng, count: usize, half: f64, size: f64) -> Vec<Shape> {
     let chips = (0..count).map(|_| {
         let center = draw.point(half);
         let size = size * draw.uniform(0.5, 1.0);
-        chip(draw, center, size)
+        random_flat_triangle(draw, center, size)
     });
-    numbered(chips)
+    number_shapes(chips)
 }
 
 /// Long, thin facets along x in one region, along y and along z in two others: partitions along the
 /// strands are of little use, and the strands' direction is where a node is longest.
-pub fn strands(draw: &mut Draw, count: usize) -> Vec<Shape> {
+pub fn strands(draw: &mut Rng, count: usize) -> Vec<Shape> {
     let strands = (0..count).map(|i| {
         let axis = i % 3;
         let region = dvec3(6.0, 0.0, 0.0) * (axis as f64 - 1.0);
@@ -61,19 +61,19 @@ pub fn strands(draw: &mut Draw, count: usize) -> Vec<Shape> {
         place[axis] *= 1.2;
         strand(draw, region + place, axis, 2.0)
     });
-    numbered(strands)
+    number_shapes(strands)
 }
 
 /// A thin facet along an axis.
-fn strand(draw: &mut Draw, center: DVec3, axis: usize, length: f64) -> Shape {
+fn strand(draw: &mut Rng, center: DVec3, axis: usize, length: f64) -> Shape {
     let along = 0.5 * length * DVec3::AXES[axis];
-    let across = 0.02 * draw.across(DVec3::AXES[axis]);
-    facet([center - along, center + along, center + along + across], 0)
+    let across = 0.02 * draw.perpendicular_to(DVec3::AXES[axis]);
+    flat_triangle([center - along, center + along, center + along + across], 0)
 }
 
 /// Stacked sheets that are longer than the stack is high, each of long strips: only partitions
 /// between sheets, or between strips, are any good.
-pub fn sheets(draw: &mut Draw, count: usize) -> Vec<Shape> {
+pub fn sheets(draw: &mut Rng, count: usize) -> Vec<Shape> {
     let sheets = (0..count).map(|i| {
         let level = (i % 12) as f64;
         let center = dvec3(
@@ -83,25 +83,25 @@ pub fn sheets(draw: &mut Draw, count: usize) -> Vec<Shape> {
         );
         let along = dvec3(draw.uniform(1.5, 2.5), 0.0, draw.uniform(-0.1, 0.1));
         let across = dvec3(0.0, draw.uniform(-0.01, 0.01), draw.uniform(0.05, 0.15));
-        facet([center - along, center + along, center + along + across], 0)
+        flat_triangle([center - along, center + along, center + along + across], 0)
     });
-    numbered(sheets)
+    number_shapes(sheets)
 }
 
 /// A few large facets of ground, and most of all facets in some crowded spots.
-pub fn town(draw: &mut Draw, count: usize) -> Vec<Shape> {
+pub fn town(draw: &mut Rng, count: usize) -> Vec<Shape> {
     let spots: Vec<DVec3> = (0..7)
         .map(|_| draw.point(10.0) * dvec3(1.0, 0.1, 1.0))
         .collect();
     let facets = (0..count).map(|i| {
         if i % 10 == 0 {
             let center = draw.point(10.0) * dvec3(1.0, 0.02, 1.0);
-            chip(draw, center, 1.5)
+            random_flat_triangle(draw, center, 1.5)
         } else {
             let spot = spots[draw.index(spots.len())];
             let place = draw.point(0.4);
-            chip(draw, spot + place, 0.05)
+            random_flat_triangle(draw, spot + place, 0.05)
         }
     });
-    numbered(facets)
+    number_shapes(facets)
 }

@@ -14,11 +14,11 @@ pub mod traverse;
 pub mod triangle;
 
 use glam::DVec3;
-use grader::exam::{Asked, Item, Key, Part, Task};
-use grader::tells::Tells;
+use grader::exam::{ExamQuestion, HitCheck, Item, Key, Task};
+use grader::signatures::MistakeSignatures;
 use protocol::{Question, Ray, Rays, Shape};
 
-use crate::oracle::{Beam, Meeting, scan};
+use crate::oracle::{Intersection, Ray64, scan};
 
 /// An item from its parts; `text` is its title, and where to look.
 fn item(
@@ -26,7 +26,7 @@ fn item(
     name: &str,
     points: u32,
     text: [&str; 2],
-    questions: impl IntoIterator<Item = Asked>,
+    questions: impl IntoIterator<Item = ExamQuestion>,
 ) -> Item {
     let [title, look] = text.map(str::to_owned);
     let id = format!("{task}.{name}");
@@ -39,7 +39,7 @@ fn item(
         look,
         needs: Vec::new(),
         questions: questions.into_iter().collect(),
-        tells: Tells::default(),
+        signatures: MistakeSignatures::default(),
     }
 }
 
@@ -49,17 +49,21 @@ fn ray(from: DVec3, toward: DVec3) -> Ray {
 }
 
 /// What the rays meet of all these shapes, each shape by its own `hit`.
-fn shapes(judged: &[Part], shapes: Vec<Shape>, rays: Vec<Ray>) -> Asked {
-    let key = hits(judged, &rays, |beam| scan::closest(beam, &shapes));
+fn shapes_question(judged: &[HitCheck], shapes: Vec<Shape>, rays: Vec<Ray>) -> ExamQuestion {
+    let key = hits_key(judged, &rays, |beam| scan::closest_hit(beam, &shapes));
     let rays = Rays::List(rays);
-    Asked::new(Question::Shapes { shapes, rays }, key)
+    ExamQuestion::new(Question::Shapes { shapes, rays }, key)
 }
 
 /// The key to a list of rays.
-fn hits(judged: &[Part], rays: &[Ray], truth: impl Fn(&Beam) -> Option<Meeting>) -> Key {
-    let hit = |ray: &Ray| truth(&Beam::from(ray)).map(|met| met.hit());
+fn hits_key(
+    judged: &[HitCheck],
+    rays: &[Ray],
+    truth: impl Fn(&Ray64) -> Option<Intersection>,
+) -> Key {
+    let hit = |ray: &Ray| truth(&Ray64::from(ray)).map(|met| met.to_hit());
     Key::Hits {
-        judged: judged.to_vec(),
+        checks: judged.to_vec(),
         hits: rays.iter().map(hit).collect(),
     }
 }

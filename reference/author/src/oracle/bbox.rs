@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Beam;
+use super::Ray64;
 
 /// A box, its numbers taken exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,7 +64,7 @@ impl Bounds {
     }
 
     /// When, within its range, the ray is in the box.
-    pub fn span(&self, beam: &Beam) -> Option<(f64, f64)> {
+    pub fn span(&self, beam: &Ray64) -> Option<(f64, f64)> {
         let mut inside = (beam.min, beam.max);
         for axis in 0..3 {
             let (from, step) = (beam.origin[axis], beam.dir[axis]);
@@ -100,11 +100,11 @@ mod tests {
     };
 
     fn span(ray: Ray) -> Option<(f64, f64)> {
-        BOX.span(&Beam::from(&ray))
+        BOX.span(&Ray64::from(&ray))
     }
 
     #[test]
-    fn spans_by_hand() {
+    fn spans_match_hand_computed_values() {
         let ray = Ray::new(vec3(-5.0, 0.0, 0.0), Vec3::X);
         assert_eq!(span(ray), Some((4.0, 6.0)));
         assert_eq!(span(ray.within(5.0, 5.5)), Some((5.0, 5.5)));
@@ -118,20 +118,20 @@ mod tests {
     }
 
     #[test]
-    fn a_flat_box_is_met_for_an_instant() {
+    fn a_flat_box_has_a_span_of_one_point() {
         let flat = Bounds {
             min: DVec3::new(-1.0, 0.0, -1.0),
             max: DVec3::new(1.0, 0.0, 1.0),
         };
         let ray = Ray::new(vec3(0.5, 2.0, 0.5), Vec3::NEG_Y);
-        assert_eq!(flat.span(&Beam::from(&ray)), Some((2.0, 2.0)));
+        assert_eq!(flat.span(&Ray64::from(&ray)), Some((2.0, 2.0)));
     }
 
     #[test]
-    fn what_lies_in_the_span_lies_in_the_box() {
-        let mut draw = Seed(3).draw("oracle");
+    fn a_point_is_in_the_box_exactly_when_it_is_in_the_span() {
+        let mut draw = Seed(3).rng("oracle");
         for _ in 0..1000 {
-            let mut beam = Beam::from(&Ray::new(
+            let mut beam = Ray64::from(&Ray::new(
                 draw.point(6.0).as_vec3(),
                 draw.direction().as_vec3(),
             ));

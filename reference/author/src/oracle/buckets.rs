@@ -5,7 +5,7 @@ use crate::oracle::bbox::Bounds;
 
 /// What the buckets divide evenly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Extent {
+pub enum BucketExtent {
     /// The box around the primitives' centers.
     Centers,
     /// The node's own box.
@@ -14,27 +14,27 @@ pub enum Extent {
 
 /// What is taken for the two sides of a plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Sides {
+enum SideRule {
     /// All buckets to the left of it, and all to the right.
-    Whole,
+    AllBuckets,
     /// The last bucket before it, and the first behind: wrong, and often seen.
-    BesideThePlane,
+    AdjacentBuckets,
 }
 
 /// How a builder goes about it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Buckets {
+pub struct BucketedBuilder {
     /// How many along each axis.
     count: usize,
-    extent: Extent,
-    sides: Sides,
+    extent: BucketExtent,
+    sides: SideRule,
 }
 
-impl Buckets {
+impl BucketedBuilder {
     /// Both sides of a plane are weighed.
-    pub fn honest(count: usize, extent: Extent) -> Self {
-        let sides = Sides::Whole;
-        Buckets {
+    pub fn correct(count: usize, extent: BucketExtent) -> Self {
+        let sides = SideRule::AllBuckets;
+        BucketedBuilder {
             count,
             extent,
             sides,
@@ -42,9 +42,9 @@ impl Buckets {
     }
 
     /// The two buckets beside a plane are taken for its sides.
-    pub fn confused(count: usize, extent: Extent) -> Self {
-        let sides = Sides::BesideThePlane;
-        Buckets {
+    pub fn with_adjacent_buckets_only(count: usize, extent: BucketExtent) -> Self {
+        let sides = SideRule::AdjacentBuckets;
+        BucketedBuilder {
             count,
             extent,
             sides,
@@ -54,34 +54,32 @@ impl Buckets {
 
 /// The cost of the tree that these buckets lead to: C_trav = C_isect = 1, areas by the root's. Wald,
 /// "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007, section 3.
-pub fn cost(boxes: &[Bounds], max_leaf_size: usize, buckets: Buckets) -> f64 {
+pub fn cost(boxes: &[Bounds], max_leaf_size: usize, buckets: BucketedBuilder) -> f64 {
     let mut boxes = boxes.to_vec();
-    let root = around(&boxes).area();
-    below(&mut boxes, max_leaf_size, buckets) / root
+    let root = bounds_of(&boxes).area();
+    subtree_cost(&mut boxes, max_leaf_size, buckets) / root
 }
 
-fn around(boxes: &[Bounds]) -> Bounds {
-    boxes
-        .iter()
-        .fold(NOTHING.bounds, |all, next| all.union(next))
+fn bounds_of(boxes: &[Bounds]) -> Bounds {
+    boxes.iter().fold(EMPTY.bounds, |all, next| all.union(next))
 }
 
 /// What a node costs, with all that is below it.
-fn below(boxes: &mut [Bounds], max_leaf_size: usize, buckets: Buckets) -> f64 {
-    let bounds = around(boxes);
+fn subtree_cost(boxes: &mut [Bounds], max_leaf_size: usize, buckets: BucketedBuilder) -> f64 {
+    let bounds = bounds_of(boxes);
     if boxes.len() <= max_leaf_size {
         return bounds.area() * boxes.len() as f64;
     }
     let over = match buckets.extent {
-        Extent::Centers => Bounds::around(boxes.iter().map(Bounds::center)),
-        Extent::Bounds => bounds,
+        BucketExtent::Centers => Bounds::around(boxes.iter().map(Bounds::center)),
+        BucketExtent::Bounds => bounds,
     };
-    let first = match cheapest(boxes, &over, buckets) {
+    let first = match cheapest_split(boxes, &over, buckets) {
         Some((axis, plane)) => {
             let count = buckets.count;
-            let bucket = Bucketing { over, axis, count };
-            boxes.sort_by_key(|bounds| bucket.of(bounds) >= plane);
-            boxes.partition_point(|bounds| bucket.of(bounds) < plane)
+            let bucket = AxisSlices { over, axis, count };
+            boxes.sort_by_key(|bounds| bucket.index_of(bounds) >= plane);
+            boxes.partition_point(|bounds| bucket.index_of(bounds) < plane)
         }
         None => {
             let size = over.max - over.min;
@@ -92,19 +90,19 @@ fn below(boxes: &mut [Bounds], max_leaf_size: usize, buckets: Buckets) -> f64 {
         }
     };
     let (left, right) = boxes.split_at_mut(first);
-    let [left, right] = [left, right].map(|side| below(side, max_leaf_size, buckets));
+    let [left, right] = [left, right].map(|side| subtree_cost(side, max_leaf_size, buckets));
     bounds.area() + left + right
 }
 
 /// Even slices of a box along one axis.
-struct Bucketing {
+struct AxisSlices {
     over: Bounds,
     axis: usize,
     count: usize,
 }
 
-impl Bucketing {
-    fn of(&self, bounds: &Bounds) -> usize {
+impl AxisSlices {
+    fn index_of(&self, bounds: &Bounds) -> usize {
         let size = self.over.max[self.axis] - self.over.min[self.axis];
         let part = (bounds.center()[self.axis] - self.over.min[self.axis]) / size;
         ((part * self.count as f64) as usize).min(self.count - 1)
@@ -113,12 +111,12 @@ impl Bucketing {
 
 /// What lies in one or more buckets.
 #[derive(Clone, Copy)]
-struct Heap {
+struct BucketContents {
     bounds: Bounds,
     count: usize,
 }
 
-const NOTHING: Heap = Heap {
+const EMPTY: BucketContents = BucketContents {
     bounds: Bounds {
         min: glam::DVec3::INFINITY,
         max: glam::DVec3::NEG_INFINITY,
@@ -126,9 +124,9 @@ const NOTHING: Heap = Heap {
     count: 0,
 };
 
-impl Heap {
-    fn with(self, other: Heap) -> Heap {
-        Heap {
+impl BucketContents {
+    fn union(self, other: BucketContents) -> BucketContents {
+        BucketContents {
             bounds: self.bounds.union(&other.bounds),
             count: self.count + other.count,
         }
@@ -144,33 +142,37 @@ impl Heap {
 }
 
 /// The axis, and how many buckets go to the first side; none if no plane separates anything.
-fn cheapest(boxes: &[Bounds], over: &Bounds, buckets: Buckets) -> Option<(usize, usize)> {
-    let Buckets { count, sides, .. } = buckets;
+fn cheapest_split(
+    boxes: &[Bounds],
+    over: &Bounds,
+    buckets: BucketedBuilder,
+) -> Option<(usize, usize)> {
+    let BucketedBuilder { count, sides, .. } = buckets;
     let mut best: Option<(f64, (usize, usize))> = None;
     for axis in (0..3).filter(|&axis| over.max[axis] > over.min[axis]) {
-        let bucket = Bucketing {
+        let bucket = AxisSlices {
             over: *over,
             axis,
             count,
         };
-        let mut heaps = vec![NOTHING; count];
+        let mut heaps = vec![EMPTY; count];
         for &bounds in boxes {
-            let heap = &mut heaps[bucket.of(&bounds)];
-            *heap = heap.with(Heap { bounds, count: 1 });
+            let heap = &mut heaps[bucket.index_of(&bounds)];
+            *heap = heap.union(BucketContents { bounds, count: 1 });
         }
-        let sums = |heaps: &mut dyn Iterator<Item = &Heap>| -> Vec<Heap> {
-            let sum = |all: &mut Heap, heap: &Heap| {
-                *all = all.with(*heap);
+        let sums = |heaps: &mut dyn Iterator<Item = &BucketContents>| -> Vec<BucketContents> {
+            let sum = |all: &mut BucketContents, heap: &BucketContents| {
+                *all = all.union(*heap);
                 Some(*all)
             };
-            heaps.scan(NOTHING, sum).collect()
+            heaps.scan(EMPTY, sum).collect()
         };
         let (lefts, rights) = (sums(&mut heaps.iter()), sums(&mut heaps.iter().rev()));
         for plane in 1..count {
             let (left, right) = (lefts[plane - 1], rights[count - plane - 1]);
             let cost = match sides {
-                Sides::Whole => left.cost() + right.cost(),
-                Sides::BesideThePlane => heaps[plane - 1].cost() + heaps[plane].cost(),
+                SideRule::AllBuckets => left.cost() + right.cost(),
+                SideRule::AdjacentBuckets => heaps[plane - 1].cost() + heaps[plane].cost(),
             };
             let is_split = left.count > 0 && right.count > 0;
             if is_split && best.is_none_or(|(least, _)| cost < least) {

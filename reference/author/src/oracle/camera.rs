@@ -32,7 +32,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_and_middle_by_hand() {
+    fn corner_and_middle_directions_match_hand_computed_values() {
         // tan 45° = 1: a sensor 2 high and 4 wide.
         let camera = PinholeCamera {
             vertical_fov: 90.0,
@@ -52,8 +52,8 @@ mod tests {
     }
 
     #[test]
-    fn the_slides_formula_gives_the_same() {
-        let mut draw = Seed(4).draw("oracle");
+    fn agrees_with_the_slides_formula() {
+        let mut draw = Seed(4).rng("oracle");
         for _ in 0..1000 {
             let film = uvec2(1 + draw.index(99) as u32, 1 + draw.index(99) as u32);
             let camera = PinholeCamera {

@@ -10,12 +10,12 @@ pub mod sweep;
 pub mod triangle;
 
 use glam::{DVec2, DVec3};
-use grader::exam::{Hit, Surface};
+use grader::exam::{ExpectedHit, Surface};
 use protocol::{Interval, Ray};
 
 /// A ray as it was asked, its numbers taken exactly.
 #[derive(Clone, Copy, Debug)]
-pub struct Beam {
+pub struct Ray64 {
     /// Where it starts.
     pub origin: DVec3,
     /// Where it goes: of length one, but for the rounding of the ray that was asked.
@@ -26,20 +26,20 @@ pub struct Beam {
     pub max: f64,
 }
 
-impl Beam {
+impl Ray64 {
     /// The point at distance `t`.
     pub fn at(&self, t: f64) -> DVec3 {
         self.origin + t * self.dir
     }
 
     /// Whether the distance `t` counts.
-    pub fn reaches(&self, t: f64) -> bool {
+    pub fn is_in_range(&self, t: f64) -> bool {
         self.min <= t && t <= self.max
     }
 
     /// The same ray, of which only this part counts.
-    pub fn within(self, times: Interval) -> Beam {
-        Beam {
+    pub fn within(self, times: Interval) -> Ray64 {
+        Ray64 {
             min: times.min.into(),
             max: times.max.into(),
             ..self
@@ -47,14 +47,14 @@ impl Beam {
     }
 
     /// The same ray from its start on, however far.
-    pub fn ahead(self) -> Beam {
+    pub fn ahead(self) -> Ray64 {
         self.within(Interval::AHEAD)
     }
 }
 
-impl From<&Ray> for Beam {
-    fn from(ray: &Ray) -> Beam {
-        Beam {
+impl From<&Ray> for Ray64 {
+    fn from(ray: &Ray) -> Ray64 {
+        Ray64 {
             origin: ray.origin.as_dvec3(),
             dir: ray.dir.as_dvec3(),
             min: ray.range.min.into(),
@@ -65,7 +65,7 @@ impl From<&Ray> for Beam {
 
 /// Where a ray meets a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Meeting {
+pub struct Intersection {
     /// Along the ray.
     pub distance: f64,
     /// The point there.
@@ -78,10 +78,10 @@ pub struct Meeting {
     pub material: u32,
 }
 
-impl Meeting {
+impl Intersection {
     /// As the key of a table.
-    pub fn hit(&self) -> Hit {
-        Hit {
+    pub fn to_hit(&self) -> ExpectedHit {
+        ExpectedHit {
             distance: self.distance as f32,
             position: self.position.as_vec3(),
             normal: self.normal.as_vec3(),
@@ -91,7 +91,7 @@ impl Meeting {
     }
 
     /// As the key of a picture.
-    pub fn surface(&self) -> Surface {
+    pub fn to_surface(&self) -> Surface {
         Surface {
             depth: self.distance as f32,
             normal: self.normal.as_vec3(),

@@ -4,11 +4,11 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3, dvec2};
 
-use super::{Beam, Meeting};
+use super::{Intersection, Ray64};
 
 /// A sphere, its numbers taken exactly.
 #[derive(Clone, Copy, Debug)]
-pub struct Ball {
+pub struct Sphere {
     /// Its centre.
     pub center: DVec3,
     /// Its radius.
@@ -17,39 +17,39 @@ pub struct Ball {
 
 /// How a ray passes a sphere.
 #[derive(Clone, Copy, Debug)]
-pub struct Passage {
+pub struct LineIntersection {
     /// From the centre to the ray, where they are closest, in radii: below 1 they meet.
-    pub approach: f64,
+    pub closest_approach: f64,
     /// Where the ray enters and leaves, whatever its range; not numbers if they do not meet.
     pub roots: [f64; 2],
 }
 
-impl Ball {
+impl Sphere {
     /// How the ray's whole line passes the sphere.
-    pub fn passage(&self, beam: &Beam) -> Passage {
+    pub fn intersect_line(&self, beam: &Ray64) -> LineIntersection {
         let length = beam.dir.length();
         let closest = (self.center - beam.origin).dot(beam.dir) / (length * length);
         let miss_by = beam.at(closest).distance(self.center);
         let half_chord = (self.radius * self.radius - miss_by * miss_by).sqrt() / length;
-        Passage {
-            approach: miss_by / self.radius,
+        LineIntersection {
+            closest_approach: miss_by / self.radius,
             roots: [closest - half_chord, closest + half_chord],
         }
     }
 
     /// Whether the ray's whole line passes through the sphere.
-    pub fn is_passed(&self, beam: &Beam) -> bool {
+    pub fn is_hit_by_line(&self, beam: &Ray64) -> bool {
         let aside = (self.center - beam.origin).cross(beam.dir);
         aside.length_squared() <= self.radius * self.radius * beam.dir.length_squared()
     }
 
     /// Where the ray first meets the sphere within its range.
-    pub fn meet(&self, beam: &Beam, material: u32) -> Option<Meeting> {
-        let roots = self.passage(beam).roots;
-        let distance = roots.into_iter().find(|&root| beam.reaches(root))?;
+    pub fn intersect(&self, beam: &Ray64, material: u32) -> Option<Intersection> {
+        let roots = self.intersect_line(beam).roots;
+        let distance = roots.into_iter().find(|&root| beam.is_in_range(root))?;
         let position = beam.at(distance);
         let normal = (position - self.center).normalize();
-        Some(Meeting {
+        Some(Intersection {
             distance,
             position,
             normal,
@@ -75,17 +75,18 @@ mod tests {
     use super::*;
     use crate::seed::Seed;
 
-    const BALL: Ball = Ball {
+    const BALL: Sphere = Sphere {
         center: DVec3::new(1.0, 2.0, 3.0),
         radius: 2.0,
     };
 
     fn distance(ray: Ray) -> Option<f64> {
-        BALL.meet(&Beam::from(&ray), 0).map(|met| met.distance)
+        BALL.intersect(&Ray64::from(&ray), 0)
+            .map(|met| met.distance)
     }
 
     #[test]
-    fn near_and_far_side_by_hand() {
+    fn distances_match_hand_computed_values() {
         let ray = Ray::new(vec3(1.0, 2.0, 13.0), Vec3::NEG_Z);
         assert_eq!(distance(ray), Some(8.0));
         assert_eq!(distance(ray.within(9.0, 99.0)), Some(12.0));
@@ -97,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn texture_coordinates_by_hand() {
+    fn texture_coordinates_match_hand_computed_values() {
         assert_eq!(uv(DVec3::X), dvec2(0.0, 0.5));
         assert_eq!(uv(DVec3::Z), dvec2(0.25, 0.5));
         assert_eq!(uv(DVec3::NEG_Z), dvec2(0.75, 0.5));
@@ -107,9 +108,9 @@ mod tests {
 
     #[test]
     fn both_roots_solve_the_quadratic() {
-        let mut draw = Seed(2).draw("oracle");
+        let mut draw = Seed(2).rng("oracle");
         for _ in 0..1000 {
-            let beam = Beam {
+            let beam = Ray64 {
                 origin: draw.point(6.0),
                 dir: draw.direction() * draw.uniform(0.5, 2.0),
                 min: 0.0,
@@ -119,8 +120,8 @@ mod tests {
             let (a, b) = (beam.dir.dot(beam.dir), 2.0 * o.dot(beam.dir));
             let c = o.dot(o) - BALL.radius * BALL.radius;
             let discriminant = b * b - 4.0 * a * c;
-            let passage = BALL.passage(&beam);
-            assert_eq!(passage.approach <= 1.0, discriminant >= 0.0);
+            let passage = BALL.intersect_line(&beam);
+            assert_eq!(passage.closest_approach <= 1.0, discriminant >= 0.0);
             if discriminant > 1e-6 {
                 let near = (-b - discriminant.sqrt()) / (2.0 * a);
                 let far = (-b + discriminant.sqrt()) / (2.0 * a);

@@ -1,6 +1,6 @@
 //! The surface area heuristic, exactly: at each node the best of all partitions by a plane.
 
-use grader::shown::{LevelNode, Sweep};
+use grader::drawing_data::{LevelNode, Sweep};
 
 use super::bbox::Bounds;
 
@@ -13,17 +13,17 @@ use super::bbox::Bounds;
 /// the axis stay together; if that holds along all axes, half of them go to each side.
 pub fn cost(boxes: &[Bounds], max_leaf_size: usize) -> f64 {
     let mut places: Vec<usize> = (0..boxes.len()).collect();
-    Sweeping::of(boxes, max_leaf_size).node_cost(&mut places, 0, 0)
+    SweepBuilder::new(boxes, max_leaf_size).node_cost(&mut places, 0, 0)
 }
 
 /// The upper levels of that tree, and where its root is parted.
 pub fn upper_levels(boxes: &[Bounds], max_leaf_size: usize) -> Sweep {
     let mut places: Vec<usize> = (0..boxes.len()).collect();
-    let mut sweeping = Sweeping::of(boxes, max_leaf_size);
+    let mut sweeping = SweepBuilder::new(boxes, max_leaf_size);
     sweeping.node_cost(&mut places, 0, 0);
-    let root = (boxes.len() > max_leaf_size).then(|| cheapest(boxes, &places));
+    let root = (boxes.len() > max_leaf_size).then(|| cheapest_partition(boxes, &places));
     Sweep {
-        nodes: sweeping.upper,
+        nodes: sweeping.upper_nodes,
         plane: root.flatten().map(|partition| {
             let mut centers: Vec<f64> = boxes
                 .iter()
@@ -57,27 +57,27 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
 }
 
 /// A sweep under way.
-struct Sweeping<'a> {
+struct SweepBuilder<'a> {
     boxes: &'a [Bounds],
     max_leaf_size: usize,
     root_area: f64,
-    upper: Vec<LevelNode>,
+    upper_nodes: Vec<LevelNode>,
 }
 
-impl Sweeping<'_> {
-    fn of(boxes: &[Bounds], max_leaf_size: usize) -> Sweeping<'_> {
+impl SweepBuilder<'_> {
+    fn new(boxes: &[Bounds], max_leaf_size: usize) -> SweepBuilder<'_> {
         let all: Vec<usize> = (0..boxes.len()).collect();
-        Sweeping {
+        SweepBuilder {
             boxes,
             max_leaf_size,
-            root_area: around(boxes, &all).area(),
-            upper: Vec::new(),
+            root_area: bounds_of(boxes, &all).area(),
+            upper_nodes: Vec::new(),
         }
     }
 
     /// The cost of the tree over these primitives, with so many to the left of it.
     fn node_cost(&mut self, places: &mut [usize], level: u32, start: usize) -> f64 {
-        let share = around(self.boxes, places).area() / self.root_area;
+        let share = bounds_of(self.boxes, places).area() / self.root_area;
         let is_leaf = places.len() <= self.max_leaf_size;
         let own = if is_leaf {
             share * places.len() as f64
@@ -85,7 +85,7 @@ impl Sweeping<'_> {
             share
         };
         if level < Sweep::LEVELS {
-            self.upper.push(LevelNode {
+            self.upper_nodes.push(LevelNode {
                 level,
                 start: start as u32,
                 count: places.len() as u32,
@@ -96,9 +96,9 @@ impl Sweeping<'_> {
         if is_leaf {
             return own;
         }
-        let middle = match cheapest(self.boxes, places) {
+        let middle = match cheapest_partition(self.boxes, places) {
             Some(partition) => {
-                sort(self.boxes, places, partition.axis);
+                sort_by_center(self.boxes, places, partition.axis);
                 partition.left
             }
             None => places.len() / 2,
@@ -117,7 +117,7 @@ struct Partition {
 }
 
 /// The cheapest partition along any axis.
-fn cheapest(boxes: &[Bounds], places: &[usize]) -> Option<Partition> {
+fn cheapest_partition(boxes: &[Bounds], places: &[usize]) -> Option<Partition> {
     let all = (0..3).flat_map(|axis| partitions(boxes, places, axis));
     all.min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
@@ -125,7 +125,7 @@ fn cheapest(boxes: &[Bounds], places: &[usize]) -> Option<Partition> {
 /// All partitions along an axis.
 fn partitions(boxes: &[Bounds], places: &[usize], axis: usize) -> Vec<Partition> {
     let mut sorted = places.to_vec();
-    sort(boxes, &mut sorted, axis);
+    sort_by_center(boxes, &mut sorted, axis);
     let center = |i: usize| boxes[sorted[i]].center()[axis];
 
     // The areas of all that comes before, and from here on.
@@ -152,7 +152,7 @@ fn partitions(boxes: &[Bounds], places: &[usize], axis: usize) -> Vec<Partition>
         .collect()
 }
 
-fn sort(boxes: &[Bounds], places: &mut [usize], axis: usize) {
+fn sort_by_center(boxes: &[Bounds], places: &mut [usize], axis: usize) {
     // Ties in a fixed order, so that the result does not hang on the order that came in.
     places.sort_by(|&a, &b| {
         let (left, right) = (boxes[a].center()[axis], boxes[b].center()[axis]);
@@ -160,7 +160,7 @@ fn sort(boxes: &[Bounds], places: &mut [usize], axis: usize) {
     });
 }
 
-fn around(boxes: &[Bounds], places: &[usize]) -> Bounds {
+fn bounds_of(boxes: &[Bounds], places: &[usize]) -> Bounds {
     let nothing = Bounds::around([]);
     let all = places.iter().map(|&place| boxes[place]);
     all.fold(nothing, |bounds, next| bounds.union(&next))
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn two_cubes_side_by_side_by_hand() {
+    fn cost_of_two_cubes_matches_a_hand_computed_value() {
         // Root: 3 × 1 × 1, area 14. Each leaf: area 6.
         assert_eq!(
             cost(&[cube(0.0), cube(2.0)], 1),
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn the_lone_cube_is_split_off() {
+    fn splits_off_the_lone_cube() {
         // 1 + 3 is cheaper than 2 + 2: the first has 6 · 1 + 14 · 3, not 6.44 · 2 + 38 · 2.
         let cubes = [cube(0.0), cube(20.0), cube(21.0), cube(22.0)];
         let root = 2.0 * (23.0 + 23.0 + 1.0);
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn the_upper_levels_are_those_of_the_same_tree() {
+    fn upper_levels_match_the_tree() {
         let cubes = [cube(22.0), cube(0.0), cube(20.0), cube(21.0)];
         let sweep = upper_levels(&cubes, 3);
         let root = 2.0 * (23.0 + 23.0 + 1.0);
@@ -231,7 +231,7 @@ mod tests {
 
     #[test]
     fn no_other_first_partition_is_cheaper_with_two_leaves() {
-        let mut draw = Seed(5).draw("oracle");
+        let mut draw = Seed(5).rng("oracle");
         for _ in 0..100 {
             let boxes: Vec<Bounds> = (0..6)
                 .map(|_| {
@@ -241,14 +241,14 @@ mod tests {
                 .collect();
             // With leaves of up to 5 of 6 there is one partition; try all of them by brute force.
             let all: Vec<usize> = (0..6).collect();
-            let root = around(&boxes, &all).area();
+            let root = bounds_of(&boxes, &all).area();
             let mut least = f64::INFINITY;
             for axis in 0..3 {
                 let mut sorted = all.clone();
-                sort(&boxes, &mut sorted, axis);
+                sort_by_center(&boxes, &mut sorted, axis);
                 for left in 1..6 {
                     let (a, b) = sorted.split_at(left);
-                    let side = |side: &[usize]| around(&boxes, side).area() * side.len() as f64;
+                    let side = |side: &[usize]| bounds_of(&boxes, side).area() * side.len() as f64;
                     least = least.min(1.0 + (side(a) + side(b)) / root);
                 }
             }

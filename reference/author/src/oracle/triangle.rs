@@ -3,26 +3,26 @@
 use glam::{DVec2, DVec3};
 use protocol::Vertex;
 
-use super::{Beam, Meeting};
+use super::{Intersection, Ray64};
 
 /// Where a ray crosses a triangle's plane.
 #[derive(Clone, Copy, Debug)]
-pub struct Crossing {
+pub struct PlaneIntersection {
     /// Along the ray; may be negative.
     pub distance: f64,
     /// The weights of the corners there; all of them at least zero inside the triangle.
     pub weights: [f64; 3],
 }
 
-impl Crossing {
+impl PlaneIntersection {
     /// The least weight: how far inside (positive) or outside the triangle.
-    pub fn depth(&self) -> f64 {
+    pub fn least_weight(&self) -> f64 {
         self.weights.into_iter().fold(f64::INFINITY, f64::min)
     }
 }
 
 /// Where the ray crosses the plane of the corners; `None` if there is no plane or it is parallel.
-pub fn crossing(beam: &Beam, [p0, p1, p2]: [DVec3; 3]) -> Option<Crossing> {
+pub fn intersect_plane(beam: &Ray64, [p0, p1, p2]: [DVec3; 3]) -> Option<PlaneIntersection> {
     let normal = (p1 - p0).cross(p2 - p0);
     let slope = normal.dot(beam.dir);
     if slope == 0.0 {
@@ -34,7 +34,7 @@ pub fn crossing(beam: &Beam, [p0, p1, p2]: [DVec3; 3]) -> Option<Crossing> {
     let point = beam.at(distance);
     let area = |a: DVec3, b: DVec3| (a - point).cross(b - point).dot(normal);
     let whole = normal.length_squared();
-    Some(Crossing {
+    Some(PlaneIntersection {
         distance,
         weights: [area(p1, p2), area(p2, p0), area(p0, p1)].map(|part| part / whole),
     })
@@ -46,17 +46,22 @@ pub fn corners([p0, p1, p2]: &[Vertex; 3]) -> [DVec3; 3] {
 }
 
 /// Where the ray passes through the triangle within its range.
-pub fn passage(beam: &Beam, corners: [DVec3; 3]) -> Option<Crossing> {
-    crossing(beam, corners)
-        .filter(|crossing| beam.reaches(crossing.distance) && crossing.depth() >= 0.0)
+pub fn intersect_inside(beam: &Ray64, corners: [DVec3; 3]) -> Option<PlaneIntersection> {
+    intersect_plane(beam, corners)
+        .filter(|crossing| beam.is_in_range(crossing.distance) && crossing.least_weight() >= 0.0)
 }
 
 /// What is met there.
-pub fn meeting(beam: &Beam, crossing: &Crossing, vertices: &[Vertex; 3], material: u32) -> Meeting {
+pub fn intersection_at(
+    beam: &Ray64,
+    crossing: &PlaneIntersection,
+    vertices: &[Vertex; 3],
+    material: u32,
+) -> Intersection {
     let weighted = || crossing.weights.into_iter().zip(vertices);
     let normal: DVec3 = weighted().map(|(w, v)| w * v.normal.as_dvec3()).sum();
     let uv: DVec2 = weighted().map(|(w, v)| w * v.uv.as_dvec2()).sum();
-    Meeting {
+    Intersection {
         distance: crossing.distance,
         position: beam.at(crossing.distance),
         normal: normal.normalize_or_zero(),
@@ -66,9 +71,9 @@ pub fn meeting(beam: &Beam, crossing: &Crossing, vertices: &[Vertex; 3], materia
 }
 
 /// Where the ray meets the triangle within its range.
-pub fn meet(beam: &Beam, vertices: &[Vertex; 3], material: u32) -> Option<Meeting> {
-    let crossing = passage(beam, corners(vertices))?;
-    Some(meeting(beam, &crossing, vertices, material))
+pub fn intersect(beam: &Ray64, vertices: &[Vertex; 3], material: u32) -> Option<Intersection> {
+    let crossing = intersect_inside(beam, corners(vertices))?;
+    Some(intersection_at(beam, &crossing, vertices, material))
 }
 
 #[cfg(test)]
@@ -88,10 +93,10 @@ mod tests {
     }
 
     #[test]
-    fn weights_by_hand() {
+    fn interpolates_by_the_weights() {
         // At (1, 2, 0): p1 weighs 1/4, p2 weighs 2/4, p0 the rest.
         let ray = Ray::new(vec3(1.0, 2.0, 3.0), Vec3::NEG_Z);
-        let met = meet(&Beam::from(&ray), &triangle(), 5).unwrap();
+        let met = intersect(&Ray64::from(&ray), &triangle(), 5).unwrap();
         assert_eq!(met.distance, 3.0);
         assert_eq!(met.position, dvec3(1.0, 2.0, 0.0));
         assert_eq!(met.uv, dvec2(0.25, 1.0));
@@ -101,8 +106,8 @@ mod tests {
     }
 
     #[test]
-    fn outside_behind_parallel_and_beyond_are_misses() {
-        let miss = |ray: Ray| meet(&Beam::from(&ray), &triangle(), 0).is_none();
+    fn misses_outside_behind_parallel_and_out_of_range() {
+        let miss = |ray: Ray| intersect(&Ray64::from(&ray), &triangle(), 0).is_none();
         assert!(miss(Ray::new(vec3(3.0, 3.0, 3.0), Vec3::NEG_Z)));
         assert!(miss(Ray::new(vec3(1.0, 1.0, 3.0), Vec3::Z)));
         assert!(miss(Ray::new(vec3(1.0, 1.0, 0.0), Vec3::X)));
@@ -112,19 +117,19 @@ mod tests {
     }
 
     #[test]
-    fn a_triangle_without_area_is_never_met() {
+    fn a_triangle_without_area_is_never_hit() {
         let point = Vertex::new(Vec3::ONE, Vec3::X, Vec2::ZERO);
         let ray = Ray::new(Vec3::ZERO, Vec3::ONE);
-        assert!(meet(&Beam::from(&ray), &[point; 3], 0).is_none());
+        assert!(intersect(&Ray64::from(&ray), &[point; 3], 0).is_none());
     }
 
     #[test]
-    fn it_solves_the_three_equations() {
+    fn solves_the_three_linear_equations() {
         // o + t·d = p0 + u·e1 + v·e2, by inverting the matrix.
-        let mut draw = Seed(1).draw("oracle");
+        let mut draw = Seed(1).rng("oracle");
         for _ in 0..1000 {
             let corners = [draw.point(2.0), draw.point(2.0), draw.point(2.0)];
-            let beam = Beam {
+            let beam = Ray64 {
                 origin: draw.point(5.0),
                 dir: draw.direction(),
                 min: 0.0,
@@ -136,7 +141,7 @@ mod tests {
                 continue;
             }
             let solved = equations.inverse() * (beam.origin - p0);
-            let crossing = crossing(&beam, corners).unwrap();
+            let crossing = intersect_plane(&beam, corners).unwrap();
             let [_, u, v] = crossing.weights;
             let found = dvec3(u, v, crossing.distance);
             assert!((found - solved).length() < 1e-8 * (1.0 + solved.length()));

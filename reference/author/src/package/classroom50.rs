@@ -4,24 +4,24 @@
 use std::path::Path;
 
 use crate::bundle::{Bundle, archive};
-use crate::package::{NoPackage, grading_part};
+use crate::package::{PackageError, grader_files};
 
 /// What the runner starts.
-const ENTRY: (&str, &str) = (
+const ENTRY_POINT: (&str, &str) = (
     "autograder.py",
     include_str!("own/classroom50/autograder.py"),
 );
 
 /// All files of the folder.
-pub(super) fn package(root: &Path, policy: &str) -> Result<Bundle, NoPackage> {
+pub(super) fn package(root: &Path, policy: &str) -> Result<Bundle, PackageError> {
     let students = Bundle::collect(root, None)?;
     let mut grader = Bundle::default();
-    for (path, contents) in grading_part(&students) {
-        grader.put(path, contents.clone());
+    for (path, contents) in grader_files(&students) {
+        grader.insert(path, contents.clone());
     }
-    grader.put("policy.toml", policy);
+    grader.insert("policy.toml", policy);
     let mut package = Bundle::default();
-    package.put("pathtracing.zip", archive::zip(&grader)?);
-    package.put(ENTRY.0, ENTRY.1);
+    package.insert("pathtracing.zip", archive::zip(&grader)?);
+    package.insert(ENTRY_POINT.0, ENTRY_POINT.1);
     Ok(package)
 }

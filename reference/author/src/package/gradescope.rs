@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use crate::bundle::parts::take;
+use crate::bundle::folders::copy_tree;
 use crate::bundle::{Bundle, crates};
-use crate::package::{NoPackage, grading_part, inside};
+use crate::package::{PackageError, grader_files, package_path};
 
 /// What Gradescope runs, and what both of these call.
 const SCRIPTS: [(&str, &str); 3] = [
@@ -20,23 +20,23 @@ const SCRIPTS: [(&str, &str); 3] = [
 const REFERENCE: [&str; 2] = ["reference/src", "reference/carried"];
 
 /// All files of the zip.
-pub(super) fn package(root: &Path, exam: &str, policy: &str) -> Result<Bundle, NoPackage> {
+pub(super) fn package(root: &Path, exam: &str, policy: &str) -> Result<Bundle, PackageError> {
     let students = Bundle::collect(root, None)?;
     let mut package = Bundle::default();
-    for (path, contents) in grading_part(&students) {
-        package.put(inside(path), contents.clone());
+    for (path, contents) in grader_files(&students) {
+        package.insert(package_path(path), contents.clone());
     }
     for part in REFERENCE {
-        take(&root.join(part), &inside(part), &mut package)?;
+        copy_tree(&root.join(part), &package_path(part), &mut package)?;
     }
     let lock = students.text("Cargo.lock").unwrap_or_default();
-    for (path, contents) in crates::fetched(lock)? {
-        package.put(inside(&format!("crates/registry/{path}")), contents);
+    for (path, contents) in crates::registry_files(lock)? {
+        package.insert(package_path(&format!("crates/registry/{path}")), contents);
     }
-    package.put(inside("exam.json"), exam);
-    package.put(inside("policy.toml"), policy);
+    package.insert(package_path("exam.json"), exam);
+    package.insert(package_path("policy.toml"), policy);
     for (path, text) in SCRIPTS {
-        package.put(path, text);
+        package.insert(path, text);
     }
     Ok(package)
 }

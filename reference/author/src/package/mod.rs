@@ -9,13 +9,13 @@ pub mod trial;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use grader::exam_file::BadExam;
+use grader::exam_file::ExamError;
 use grader::policy::{self, Policy, PolicyError};
 
-use crate::bundle::crates::NoCrates;
-use crate::bundle::parts::Unusable;
-use crate::bundle::{Bundle, NoBundle, archive};
-use crate::exams::NoExam;
+use crate::bundle::crates::CratesError;
+use crate::bundle::folders::FoldersError;
+use crate::bundle::{Bundle, BundleError, archive};
+use crate::exams::ExamGenerationError;
 
 /// Where submissions are graded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -39,25 +39,25 @@ pub struct Course {
 
 /// There is no package.
 #[derive(Debug, thiserror::Error)]
-pub enum NoPackage {
+pub enum PackageError {
     /// Not even one for students.
     #[error(transparent)]
-    Bundle(#[from] NoBundle),
+    Bundle(#[from] BundleError),
     /// The reference can not be read.
     #[error(transparent)]
-    Unusable(#[from] Unusable),
+    Folders(#[from] FoldersError),
     /// The crates that it is built with are not at hand.
     #[error(transparent)]
-    Crates(#[from] NoCrates),
+    Crates(#[from] CratesError),
     /// The archive in it can not be made.
     #[error("can not make the archive: {0}")]
     Zip(#[from] zip::result::ZipError),
     /// There is no exam of this seed.
     #[error(transparent)]
-    Exam(#[from] NoExam),
+    Exam(#[from] ExamGenerationError),
     /// The exam's file is none.
     #[error(transparent)]
-    BadExam(#[from] BadExam),
+    ExamFile(#[from] ExamError),
     /// The policy is none.
     #[error(transparent)]
     Policy(#[from] PolicyError),
@@ -71,12 +71,12 @@ pub enum NoPackage {
     },
     /// Gradescope alone keeps an exam secret.
     #[error("{0} is read by students: only a package for gradescope can hold a final exam")]
-    NoSecret(&'static str),
+    ExamNotSecret(&'static str),
     /// Without one, what counts would be what students have.
     #[error(
         "name the final exam: --exam-seed S, a long number that nobody guesses, or --exam FILE"
     )]
-    NoExam,
+    MissingExam,
 }
 
 impl Course {
@@ -85,9 +85,9 @@ impl Course {
         seed: Option<u64>,
         exam: Option<&Path>,
         policy: Option<&Path>,
-    ) -> Result<Self, NoPackage> {
+    ) -> Result<Self, PackageError> {
         let exam = match (seed, exam) {
-            (Some(seed), _) => Some(crate::exams::final_text(seed)?),
+            (Some(seed), _) => Some(crate::exams::final_exam_text(seed)?),
             (None, Some(path)) => {
                 grader::exam_file::load(Some(path))?;
                 Some(read(path)?)
@@ -105,27 +105,29 @@ impl Course {
     }
 }
 
-fn read(path: &Path) -> Result<String, NoPackage> {
-    std::fs::read_to_string(path).map_err(|source| NoPackage::Io {
+fn read(path: &Path) -> Result<String, PackageError> {
+    std::fs::read_to_string(path).map_err(|source| PackageError::Io {
         path: path.to_owned(),
         source,
     })
 }
 
 /// The files of a platform's package, from the workspace at `root`.
-pub fn collect(root: &Path, platform: Platform, course: Course) -> Result<Bundle, NoPackage> {
+pub fn collect(root: &Path, platform: Platform, course: Course) -> Result<Bundle, PackageError> {
     match (platform, course.exam) {
         (Platform::Gradescope, Some(exam)) => gradescope::package(root, &exam, &course.policy),
-        (Platform::Gradescope, None) => Err(NoPackage::NoExam),
+        (Platform::Gradescope, None) => Err(PackageError::MissingExam),
         (Platform::Classroom50, None) => classroom50::package(root, &course.policy),
         (Platform::Github, None) => Ok(Bundle::collect(root, None)?),
-        (Platform::Classroom50, Some(_)) => Err(NoPackage::NoSecret("classroom50's folder")),
-        (Platform::Github, Some(_)) => Err(NoPackage::NoSecret("a template repository")),
+        (Platform::Classroom50, Some(_)) => {
+            Err(PackageError::ExamNotSecret("classroom50's folder"))
+        }
+        (Platform::Github, Some(_)) => Err(PackageError::ExamNotSecret("a template repository")),
     }
 }
 
 /// What the grader needs of what students get: no book, no scenes, no workflow.
-fn grading_part(students: &Bundle) -> impl Iterator<Item = (&str, &Vec<u8>)> {
+fn grader_files(students: &Bundle) -> impl Iterator<Item = (&str, &Vec<u8>)> {
     const LEFT_OUT: [&str; 4] = ["handout/", "scenes/", ".github/", "README.md"];
     let files = students.files.iter();
     let files = files.map(|(path, contents)| (path.as_str(), contents));
@@ -133,6 +135,6 @@ fn grading_part(students: &Bundle) -> impl Iterator<Item = (&str, &Vec<u8>)> {
 }
 
 /// The name of a file in the package's copy of the project.
-fn inside(path: &str) -> String {
-    format!("{}/{path}", archive::FOLDER)
+fn package_path(path: &str) -> String {
+    format!("{}/{path}", archive::TOP_FOLDER)
 }

@@ -7,7 +7,7 @@ use grader::exam::Task;
 use grader::section::Section;
 use serde::Deserialize;
 
-use crate::proof::sources::{Sources, Unreadable, read};
+use crate::proof::sources::{ReadError, Sources, read};
 
 /// A known wrong solution.
 #[derive(Clone, Debug, Deserialize)]
@@ -49,10 +49,10 @@ pub struct Change {
 
 /// The catalogue can not be used.
 #[derive(Debug, thiserror::Error)]
-pub enum BadCatalogue {
+pub enum CatalogueError {
     /// A file or folder can not be read.
     #[error(transparent)]
-    Unreadable(#[from] Unreadable),
+    Read(#[from] ReadError),
     /// A file is not a catalogue.
     #[error("{}: {source}", path.display())]
     Toml {
@@ -71,7 +71,7 @@ pub enum BadCatalogue {
     },
     /// The reference has changed under a mistake.
     #[error(
-        "{id} does not apply any more: its `was` stands {times} times in reference/src/{file}; \
+        "{id} does not apply any more: its `was` stands {count} times in reference/src/{file}; \
          adapt it in reference/mistakes"
     )]
     DoesNotApply {
@@ -80,12 +80,12 @@ pub enum BadCatalogue {
         /// The file that it changes.
         file: String,
         /// How often, where once is wanted.
-        times: usize,
+        count: usize,
     },
 }
 
 /// All known mistakes of the workspace at `root`: by task, and then as they stand in the files.
-pub fn mistakes(root: &Path) -> Result<Vec<Mistake>, BadCatalogue> {
+pub fn mistakes(root: &Path) -> Result<Vec<Mistake>, CatalogueError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct File {
@@ -96,7 +96,7 @@ pub fn mistakes(root: &Path) -> Result<Vec<Mistake>, BadCatalogue> {
     for task in Task::ALL {
         for path in files(&root.join("reference/mistakes").join(task.id()))? {
             let file: File =
-                toml::from_str(&read(&path)?).map_err(|source| BadCatalogue::Toml {
+                toml::from_str(&read(&path)?).map_err(|source| CatalogueError::Toml {
                     path: path.clone(),
                     source,
                 })?;
@@ -104,7 +104,7 @@ pub fn mistakes(root: &Path) -> Result<Vec<Mistake>, BadCatalogue> {
                 let known = all.iter().any(|other| other.id == mistake.id);
                 if known || !mistake.id.starts_with(&format!("{task}.")) {
                     let id = mistake.id;
-                    return Err(BadCatalogue::Id { path, id });
+                    return Err(CatalogueError::Id { path, id });
                 }
                 all.push(mistake);
             }
@@ -113,8 +113,8 @@ pub fn mistakes(root: &Path) -> Result<Vec<Mistake>, BadCatalogue> {
     Ok(all)
 }
 
-fn files(folder: &Path) -> Result<Vec<PathBuf>, Unreadable> {
-    let entries = fs::read_dir(folder).map_err(|source| Unreadable {
+fn files(folder: &Path) -> Result<Vec<PathBuf>, ReadError> {
+    let entries = fs::read_dir(folder).map_err(|source| ReadError {
         path: folder.to_owned(),
         source,
     })?;
@@ -146,21 +146,21 @@ impl Mistake {
     }
 
     /// The reference with this mistake.
-    pub fn apply(&self, reference: &Sources) -> Result<Sources, BadCatalogue> {
+    pub fn apply(&self, reference: &Sources) -> Result<Sources, CatalogueError> {
         let mut sources = reference.clone();
         for change in &self.changes {
             let file = change.file.as_deref().unwrap_or(self.task().file());
             let text = sources.text(file).unwrap_or_default();
             let times = text.matches(&change.was).count();
             if times != 1 {
-                return Err(BadCatalogue::DoesNotApply {
+                return Err(CatalogueError::DoesNotApply {
                     id: self.id.clone(),
                     file: file.to_owned(),
-                    times,
+                    count: times,
                 });
             }
             let text = text.replacen(&change.was, &change.now, 1);
-            sources = sources.with(file, text);
+            sources = sources.with_file(file, text);
         }
         Ok(sources)
     }

@@ -6,9 +6,9 @@ use grader::exam::{Exam, Item, Task};
 use grader::score::ItemScore;
 
 use crate::exams;
-use crate::generated::Generated;
-use crate::proof::exhibits::{Exhibits, NotProven};
-use crate::proof::tried::Tried;
+use crate::generated_file::GeneratedFile;
+use crate::proof::graded_mistake::GradedMistake;
+use crate::proof::solutions::{ProofError, Solutions};
 use crate::proof::workbench::Workbench;
 
 /// Where the table stands.
@@ -16,19 +16,19 @@ const PATH: &str = "reference/mistakes/matrix.md";
 
 /// The table, of the practice exam that is committed. An error if a mistake is not judged as it
 /// should be.
-pub fn generated() -> Result<Generated, NotProven> {
-    let exhibits = Exhibits::prepare(Workbench::open()?)?;
-    let exam = exams::practice(exhibits.workbench.root())?;
-    let tried = exhibits.try_mistakes(&exam)?;
-    let problems: Vec<String> = tried.iter().flat_map(Tried::problems).collect();
+pub fn generated_file() -> Result<GeneratedFile, ProofError> {
+    let exhibits = Solutions::load(Workbench::open()?)?;
+    let exam = exams::load_practice(exhibits.workbench.root())?;
+    let tried = exhibits.grade_mistakes(&exam)?;
+    let problems: Vec<String> = tried.iter().flat_map(GradedMistake::problems).collect();
     if !problems.is_empty() {
-        return Err(NotProven::Problems(problems));
+        return Err(ProofError::Problems(problems));
     }
     Ok(table(&exam, &tried))
 }
 
 /// The table, of one exam.
-fn table(exam: &Exam, tried: &[Tried]) -> Generated {
+fn table(exam: &Exam, tried: &[GradedMistake]) -> GeneratedFile {
     let mut text = format!(
         "# Which mistake fails which item\n\n\
          Written by `cargo author mistakes`: {} known mistakes, each a change to the reference, in \
@@ -43,14 +43,14 @@ fn table(exam: &Exam, tried: &[Tried]) -> Generated {
         let of_task = tried.iter().filter(|tried| tried.mistake.task() == task);
         task_table(&mut text, task, &items, of_task).expect("text takes text");
     }
-    Generated::new(PATH, text)
+    GeneratedFile::new(PATH, text)
 }
 
 fn task_table<'a>(
     out: &mut String,
     task: Task,
     items: &[&Item],
-    tried: impl Iterator<Item = &'a Tried<'a>>,
+    tried: impl Iterator<Item = &'a GradedMistake<'a>>,
 ) -> std::fmt::Result {
     writeln!(out, "\n## {}\n", task.title())?;
     for (number, item) in (1..).zip(items) {
@@ -61,7 +61,7 @@ fn task_table<'a>(
         .collect();
     writeln!(out, "\n| mistake | what such code does | lost |{numbers}")?;
     writeln!(out, "|---|---|--:|{}", ":-:|".repeat(items.len()))?;
-    for Tried { mistake, score } in tried {
+    for GradedMistake { mistake, score } in tried {
         let lines: Vec<&ItemScore> = score
             .items()
             .filter(|line| items.iter().any(|item| item.id == line.id))

@@ -6,13 +6,13 @@
 
 pub mod calibrate;
 pub mod catalogue;
-pub mod exhibits;
+pub mod graded_mistake;
 pub mod matrix;
 pub mod mutants;
 pub mod prove;
 pub mod recognition;
+pub mod solutions;
 pub mod sources;
 pub mod summary;
-pub mod tried;
 pub mod variants;
 pub mod workbench;

@@ -12,18 +12,22 @@ use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
 use crate::exams;
-use crate::proof::exhibits::{Exhibits, NotProven};
-use crate::proof::sources::Unreadable;
-use crate::proof::summary::{Found, Summary};
+use crate::proof::solutions::{ProofError, Solutions};
+use crate::proof::sources::ReadError;
+use crate::proof::summary::{ProofSummary, SeedResult};
 use crate::seed::Seed;
 
 /// Asks one seed's exam.
-fn ask(exhibits: &Exhibits, seed: u64, with_mistakes: bool) -> Result<Found, NotProven> {
-    let exam = exams::whole("proof", Seed(seed), &exhibits.recorder)?;
-    let mut found = Found {
+fn prove_seed(
+    exhibits: &Solutions,
+    seed: u64,
+    with_mistakes: bool,
+) -> Result<SeedResult, ProofError> {
+    let exam = exams::generate("proof", Seed(seed), &exhibits.recorder)?;
+    let mut found = SeedResult {
         seed,
         with_mistakes,
-        ..Found::default()
+        ..SeedResult::default()
     };
     for (variant, sources) in &exhibits.variants {
         let lost = exhibits.variant_losses(variant, sources, &exam)?;
@@ -32,7 +36,7 @@ fn ask(exhibits: &Exhibits, seed: u64, with_mistakes: bool) -> Result<Found, Not
         }
     }
     for (mistake, sources) in exhibits.mistakes.iter().filter(|_| with_mistakes) {
-        let problems = exhibits.tried(mistake, sources, &exam)?.problems();
+        let problems = exhibits.grade_mistake(mistake, sources, &exam)?.problems();
         if !problems.is_empty() {
             found.uncaught.insert(mistake.id.clone(), problems);
         }
@@ -43,16 +47,16 @@ fn ask(exhibits: &Exhibits, seed: u64, with_mistakes: bool) -> Result<Found, Not
 /// Asks all these seeds, the first `with_mistakes` of them with the mistakes as well. What was
 /// found out is kept after every seed: a proof that is stopped goes on where it was.
 pub fn prove(
-    exhibits: &Exhibits,
+    exhibits: &Solutions,
     seeds: Range<u64>,
     with_mistakes: u64,
-) -> Result<Summary, NotProven> {
+) -> Result<ProofSummary, ProofError> {
     let path = exhibits
         .workbench
         .scratch()
         .join("proofs")
-        .join(format!("{}.jsonl", identity(exhibits)?));
-    let notes = Notes::open(&path).map_err(|source| NotProven::Unwritable {
+        .join(format!("{}.jsonl", cache_key(exhibits)?));
+    let notes = ProofCache::open(&path).map_err(|source| ProofError::Write {
         path: path.clone(),
         source,
     })?;
@@ -61,17 +65,17 @@ pub fn prove(
         ProgressStyle::with_template("{wide_bar} {pos} of {len} seeds, {eta} left")
             .expect("a template that was tried"),
     );
-    let found: Result<Vec<Found>, NotProven> = seeds
+    let found: Result<Vec<SeedResult>, ProofError> = seeds
         .clone()
         .into_par_iter()
         .progress_with(bar)
         .map(|seed| {
-            let known = notes.known.get(&seed);
+            let known = notes.seeds.get(&seed);
             match known.filter(|found| found.with_mistakes || !wants_mistakes(seed)) {
                 Some(found) => Ok(found.clone()),
                 None => {
-                    let found = ask(exhibits, seed, wants_mistakes(seed))?;
-                    notes.add(&found).map_err(|source| NotProven::Unwritable {
+                    let found = prove_seed(exhibits, seed, wants_mistakes(seed))?;
+                    notes.append(&found).map_err(|source| ProofError::Write {
                         path: path.clone(),
                         source,
                     })?;
@@ -80,38 +84,38 @@ pub fn prove(
             }
         })
         .collect();
-    Ok(Summary {
+    Ok(ProofSummary {
         seeds,
-        found: found?,
+        results: found?,
         mistakes: exhibits.mistakes.len(),
         variants: exhibits.variants.len(),
     })
 }
 
 /// What an earlier run of the same proof has found out.
-struct Notes {
-    known: BTreeMap<u64, Found>,
+struct ProofCache {
+    seeds: BTreeMap<u64, SeedResult>,
     file: Mutex<File>,
 }
 
-impl Notes {
+impl ProofCache {
     fn open(path: &Path) -> io::Result<Self> {
         fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
         let text = fs::read_to_string(path).unwrap_or_default();
         // The last line of a run that was killed may be cut short.
         let known = text
             .lines()
-            .filter_map(|line| serde_json::from_str::<Found>(line).ok())
+            .filter_map(|line| serde_json::from_str::<SeedResult>(line).ok())
             .map(|found| (found.seed, found))
             .collect();
         let file = OpenOptions::new().create(true).append(true).open(path)?;
-        Ok(Notes {
-            known,
+        Ok(ProofCache {
+            seeds: known,
             file: Mutex::new(file),
         })
     }
 
-    fn add(&self, found: &Found) -> io::Result<()> {
+    fn append(&self, found: &SeedResult) -> io::Result<()> {
         let line = serde_json::to_string(found)?;
         let mut file = self.file.lock().expect("nobody panics while writing");
         // A line of its own, whatever a run that was killed has left behind.
@@ -120,9 +124,9 @@ impl Notes {
 }
 
 /// What a proof's findings follow from: this program, and everything that is asked.
-fn identity(exhibits: &Exhibits) -> Result<String, Unreadable> {
+fn cache_key(exhibits: &Solutions) -> Result<String, ReadError> {
     let program = std::env::current_exe().unwrap_or_default();
-    let bytes = fs::read(&program).map_err(|source| Unreadable {
+    let bytes = fs::read(&program).map_err(|source| ReadError {
         path: program,
         source,
     })?;

@@ -4,13 +4,13 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use grader::given::{TASK_FILES, TaskFile};
+use grader::given_files::{TASK_FILES, TaskFile};
 use grader::submission::Submission;
 
 /// A file of this repository can not be read.
 #[derive(Debug, thiserror::Error)]
 #[error("can not read {}: {source}", path.display())]
-pub struct Unreadable {
+pub struct ReadError {
     /// Which.
     pub path: PathBuf,
     /// What the system says.
@@ -18,8 +18,8 @@ pub struct Unreadable {
 }
 
 /// The text of a file.
-pub fn read(path: &Path) -> Result<String, Unreadable> {
-    fs::read_to_string(path).map_err(|source| Unreadable {
+pub fn read(path: &Path) -> Result<String, ReadError> {
+    fs::read_to_string(path).map_err(|source| ReadError {
         path: path.to_owned(),
         source,
     })
@@ -35,7 +35,7 @@ pub struct Sources {
 
 impl Sources {
     /// The reference's, of the workspace at `root`.
-    pub fn reference(root: &Path) -> Result<Self, Unreadable> {
+    pub fn reference(root: &Path) -> Result<Self, ReadError> {
         let text = |file: TaskFile| Ok((file, read(&root.join("reference/src").join(file.name))?));
         let files: Result<_, _> = TASK_FILES.into_iter().map(text).collect();
         Ok(Sources {
@@ -52,7 +52,7 @@ impl Sources {
     }
 
     /// With another text in the place of one file's.
-    pub fn with(mut self, name: &str, text: String) -> Self {
+    pub fn with_file(mut self, name: &str, text: String) -> Self {
         for (file, old) in &mut self.files {
             if file.name == name {
                 old.clone_from(&text);
@@ -62,7 +62,7 @@ impl Sources {
     }
 
     /// With these crates at hand, beside those of every submission.
-    pub fn naming(self, crates: &[String]) -> Self {
+    pub fn with_crates(self, crates: &[String]) -> Self {
         let crates = crates.to_vec();
         Sources { crates, ..self }
     }
@@ -73,7 +73,7 @@ impl Sources {
     }
 
     /// As the grader takes it.
-    pub fn submission(&self, name: &str) -> Submission {
+    pub fn to_submission(&self, name: &str) -> Submission {
         let files = self.files.iter();
         Submission {
             name: name.to_owned(),

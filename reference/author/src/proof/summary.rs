@@ -5,11 +5,11 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use crate::generated::Generated;
+use crate::generated_file::GeneratedFile;
 
 /// What came of one seed.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct Found {
+pub struct SeedResult {
     /// Which.
     pub seed: u64,
     /// Whether the mistakes were asked as well.
@@ -22,25 +22,29 @@ pub struct Found {
 
 /// What came of all seeds.
 #[derive(Debug)]
-pub struct Summary {
+pub struct ProofSummary {
     /// From the first on, up to and without the last.
     pub seeds: Range<u64>,
     /// In the order of the seeds.
-    pub found: Vec<Found>,
+    pub results: Vec<SeedResult>,
     /// How many there are of each.
     pub mistakes: usize,
     /// How many there are.
     pub variants: usize,
 }
 
-impl Summary {
+impl ProofSummary {
     /// The closing line.
-    pub fn line(&self) -> String {
+    pub fn summary_line(&self) -> String {
         let uncaught = self.names(|found| &found.uncaught);
         let failed = self.names(|found| &found.false_fails);
-        let false_fails: usize = self.found.iter().map(|found| found.false_fails.len()).sum();
+        let false_fails: usize = self
+            .results
+            .iter()
+            .map(|found| found.false_fails.len())
+            .sum();
         let with_mistakes = self
-            .found
+            .results
             .iter()
             .filter(|found| found.with_mistakes)
             .count();
@@ -51,20 +55,20 @@ impl Summary {
             self.mistakes,
             self.variants - failed.len(),
             self.variants,
-            self.found.len(),
+            self.results.len(),
         )
     }
 
     /// Whether nothing was found that should not be.
     pub fn is_proven(&self) -> bool {
-        let fine = |found: &Found| found.false_fails.is_empty() && found.uncaught.is_empty();
-        self.found.iter().all(fine)
+        let fine = |found: &SeedResult| found.false_fails.is_empty() && found.uncaught.is_empty();
+        self.results.iter().all(fine)
     }
 
     /// What was found that should not be, a line each.
-    pub fn complaints(&self) -> Vec<String> {
+    pub fn problems(&self) -> Vec<String> {
         let mut lines = Vec::new();
-        for found in &self.found {
+        for found in &self.results {
             for (id, losses) in &found.false_fails {
                 lines.push(format!(
                     "seed {}: {id} is right and loses: {}",
@@ -79,9 +83,9 @@ impl Summary {
         lines
     }
 
-    fn names(&self, of: impl Fn(&Found) -> &BTreeMap<String, Vec<String>>) -> Vec<&String> {
+    fn names(&self, of: impl Fn(&SeedResult) -> &BTreeMap<String, Vec<String>>) -> Vec<&String> {
         let mut names: Vec<&String> = self
-            .found
+            .results
             .iter()
             .flat_map(|found| of(found).keys())
             .collect();
@@ -91,7 +95,7 @@ impl Summary {
     }
 
     /// The whole of it, to be committed: when, and of which commit.
-    pub fn record(&self, date: &str, commit: &str) -> Generated {
+    pub fn record(&self, date: &str, commit: &str) -> GeneratedFile {
         let mut text = format!(
             "# What was proven last\n\n\
              Written by `cargo author prove --seeds {}..{} --write` on {date}, at commit {commit}: \
@@ -100,12 +104,12 @@ impl Summary {
              > {}\n",
             self.seeds.start,
             self.seeds.end,
-            self.line()
+            self.summary_line()
         );
         if !self.is_proven() {
             text += "\n";
-            text.extend(self.complaints().iter().map(|line| format!("- {line}\n")));
+            text.extend(self.problems().iter().map(|line| format!("- {line}\n")));
         }
-        Generated::new("reference/variants/proof.md", text)
+        GeneratedFile::new("reference/variants/proof.md", text)
     }
 }

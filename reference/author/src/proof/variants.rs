@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use grader::exam::Task;
 use serde::Deserialize;
 
-use crate::proof::sources::{Sources, Unreadable, read};
+use crate::proof::sources::{ReadError, Sources, read};
 
 /// Where they stand.
 const FOLDER: &str = "reference/variants";
@@ -33,10 +33,10 @@ pub struct Variant {
 
 /// The list can not be used.
 #[derive(Debug, thiserror::Error)]
-pub enum BadVariants {
+pub enum VariantsError {
     /// A file can not be read.
     #[error(transparent)]
-    Unreadable(#[from] Unreadable),
+    Read(#[from] ReadError),
     /// The list is not one.
     #[error("{}: {source}", path.display())]
     Toml {
@@ -48,7 +48,7 @@ pub enum BadVariants {
 }
 
 /// All variants of the workspace at `root`.
-pub fn variants(root: &Path) -> Result<Vec<Variant>, BadVariants> {
+pub fn variants(root: &Path) -> Result<Vec<Variant>, VariantsError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct File {
@@ -58,7 +58,7 @@ pub fn variants(root: &Path) -> Result<Vec<Variant>, BadVariants> {
     let path = root.join(FOLDER).join("variants.toml");
     let file: Result<File, _> = toml::from_str(&read(&path)?);
     file.map(|file| file.variant)
-        .map_err(|source| BadVariants::Toml { path, source })
+        .map_err(|source| VariantsError::Toml { path, source })
 }
 
 impl Variant {
@@ -79,9 +79,9 @@ impl Variant {
     }
 
     /// The reference with this file in the place of its own.
-    pub fn apply(&self, reference: &Sources, root: &Path) -> Result<Sources, Unreadable> {
+    pub fn apply(&self, reference: &Sources, root: &Path) -> Result<Sources, ReadError> {
         let text = read(&root.join(self.path()))?;
-        let sources = reference.clone().with(&self.file(), text);
-        Ok(sources.naming(&self.crates))
+        let sources = reference.clone().with_file(&self.file(), text);
+        Ok(sources.with_crates(&self.crates))
     }
 }

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use grader::ask::{Budget, Fault, Launcher};
 use grader::build::{Build, BuildError, Builder, NotCompiled};
 use grader::exam::{Exam, Item};
 use grader::exam_file::ExamName;
-use grader::examine::examine;
+use grader::probe::{Budget, Fault, Launcher};
+use grader::run_exam::run_exam;
 use grader::score::Score;
-use grader::verdict::{file_message, unasked};
-use grader::workspace::{NoWorkspace, Workspace};
+use grader::verdict::{file_message, pending_score};
+use grader::workspace::{Workspace, WorkspaceError};
 
 use protocol::Answer;
 
@@ -32,10 +32,10 @@ pub struct Workbench {
 
 /// A solution of ours was not tried: our fault, or the machine's.
 #[derive(Debug, thiserror::Error)]
-pub enum NotTried {
+pub enum WorkbenchError {
     /// There is no project around.
     #[error(transparent)]
-    Workspace(#[from] NoWorkspace),
+    Workspace(#[from] WorkspaceError),
     /// The grader can not build.
     #[error(transparent)]
     Build(#[from] BuildError),
@@ -54,9 +54,10 @@ pub enum NotTried {
 
 impl Workbench {
     /// As the staff's grader builds: with the reference at hand.
-    pub fn open() -> Result<Self, NotTried> {
+    pub fn open() -> Result<Self, WorkbenchError> {
         let workspace = Workspace::find()?;
-        let builder = Builder::prepare(&workspace)?.keeping(&workspace.grade().join("kept"))?;
+        let builder =
+            Builder::prepare(&workspace)?.with_cache(&workspace.output_folder().join("kept"))?;
         let builder = match workspace.reference() {
             Some(reference) => builder.with_reference(&reference, &workspace)?,
             None => builder,
@@ -71,28 +72,28 @@ impl Workbench {
 
     /// Where results may be kept that can be made again.
     pub fn scratch(&self) -> PathBuf {
-        self.workspace.grade()
+        self.workspace.output_folder()
     }
 
     /// Builds a solution, of which all must compile.
-    pub fn build(&self, sources: &Sources, id: &str) -> Result<Solution, NotTried> {
+    pub fn build(&self, sources: &Sources, id: &str) -> Result<BuiltSolution, WorkbenchError> {
         let builder = match sources.crates() {
             [] => Cow::Borrowed(&self.builder),
-            names => Cow::Owned(self.builder.and_crates(names, &self.workspace)?),
+            names => Cow::Owned(self.builder.with_crates(names, &self.workspace)?),
         };
-        let build = builder.build(&sources.submission(id))?;
-        if let Some(message) = complaint(&build.not_compiled) {
+        let build = builder.build(&sources.to_submission(id))?;
+        if let Some(message) = compile_error(&build.not_compiled) {
             let id = id.to_owned();
-            return Err(NotTried::NotCompiled { id, message });
+            return Err(WorkbenchError::NotCompiled { id, message });
         }
         let id = id.to_owned();
         match build.probe.clone() {
-            Some(program) => Ok(Solution {
+            Some(program) => Ok(BuiltSolution {
                 id,
                 launcher: build.launcher(&program),
                 build,
             }),
-            None => Err(NotTried::NotCompiled {
+            None => Err(WorkbenchError::NotCompiled {
                 id,
                 message: "there is no program".to_owned(),
             }),
@@ -100,21 +101,21 @@ impl Workbench {
     }
 }
 
-fn complaint(not_compiled: &BTreeMap<&'static str, NotCompiled>) -> Option<String> {
+fn compile_error(not_compiled: &BTreeMap<&'static str, NotCompiled>) -> Option<String> {
     let (file, why) = not_compiled.first_key_value()?;
     Some(file_message(file, why))
 }
 
 /// A solution, ready to be asked.
 #[derive(Debug)]
-pub struct Solution {
+pub struct BuiltSolution {
     /// Whose.
     pub id: String,
     build: Build,
     launcher: Launcher,
 }
 
-impl Solution {
+impl BuiltSolution {
     /// Starts its probe.
     pub fn launcher(&self) -> &Launcher {
         &self.launcher
@@ -128,14 +129,14 @@ impl Solution {
     }
 
     /// Its score in an exam.
-    pub fn score(&self, exam: &Exam) -> Result<Score, NotTried> {
+    pub fn score(&self, exam: &Exam) -> Result<Score, WorkbenchError> {
         let name = ExamName {
             id: exam.id.clone(),
             hash: String::new(),
         };
-        let mut score = unasked(exam, name, &self.id);
-        examine(exam, &self.build, BUDGET, &mut score, |_, _| {
-            Ok::<(), NotTried>(())
+        let mut score = pending_score(exam, name, &self.id);
+        run_exam(exam, &self.build, BUDGET, &mut score, |_, _| {
+            Ok::<(), WorkbenchError>(())
         })?;
         Ok(score)
     }

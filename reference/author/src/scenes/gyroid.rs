@@ -6,13 +6,13 @@ use glam::DVec3;
 use libm::{cos, sin};
 
 use super::obj::Obj;
-use super::surface_net::net;
+use super::surface_net::extract_surface;
 
 /// From one repetition of the gyroid to the next, in radii of the ball.
 const PERIOD: f64 = 0.8;
 
 /// How wide the rim is where both meet, in radii of the ball: sharp edges would become spikes.
-const RIM: f64 = 0.3;
+const BLEND_WIDTH: f64 = 0.3;
 
 const ABOUT: &str = "\
 One side of Schoen's gyroid (NASA TN D-5541, 1970) within a ball of radius 1.
@@ -20,7 +20,7 @@ Coarse on purpose: made to be subdivided. Written by `cargo author scenes`.";
 
 /// The mesh.
 pub(super) fn obj() -> String {
-    let net = net(solid, 1.05, 28);
+    let net = extract_surface(solid, 1.05, 28);
     let mut obj = Obj::new(ABOUT);
     let positions: Vec<usize> = net
         .positions
@@ -44,6 +44,6 @@ fn solid(p: DVec3) -> f64 {
 
 /// The larger of two, rounded where they are less than [`RIM`] apart.
 fn smooth_max(a: f64, b: f64) -> f64 {
-    let overlap = (1.0 - (a - b).abs() / RIM).max(0.0);
-    a.max(b) + overlap * overlap * RIM / 4.0
+    let overlap = (1.0 - (a - b).abs() / BLEND_WIDTH).max(0.0);
+    a.max(b) + overlap * overlap * BLEND_WIDTH / 4.0
 }

@@ -34,17 +34,17 @@ impl Obj {
 
     /// The number of a position.
     pub(super) fn position(&mut self, position: [f64; 3]) -> usize {
-        self.kinds[0].number(&position)
+        self.kinds[0].index_of(&position)
     }
 
     /// The number of texture coordinates.
     pub(super) fn uv(&mut self, uv: [f64; 2]) -> usize {
-        self.kinds[1].number(&uv)
+        self.kinds[1].index_of(&uv)
     }
 
     /// The number of a normal.
     pub(super) fn normal(&mut self, normal: [f64; 3]) -> usize {
-        self.kinds[2].number(&normal)
+        self.kinds[2].index_of(&normal)
     }
 
     /// A triangle of positions alone; none if two of them are the same.
@@ -71,8 +71,8 @@ impl Obj {
 }
 
 impl Lines {
-    fn number(&mut self, numbers: &[f64]) -> usize {
-        let words: Vec<String> = numbers.iter().copied().map(short).collect();
+    fn index_of(&mut self, numbers: &[f64]) -> usize {
+        let words: Vec<String> = numbers.iter().copied().map(format_number).collect();
         let words = words.join(" ");
         let next = self.numbers.len() + 1;
         *self.numbers.entry(words).or_insert_with_key(|words| {
@@ -83,7 +83,7 @@ impl Lines {
 }
 
 /// Four digits behind the point, less those that say nothing.
-fn short(number: f64) -> String {
+fn format_number(number: f64) -> String {
     let text = format!("{number:.4}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     match text {
@@ -98,12 +98,12 @@ mod tests {
 
     #[test]
     fn numbers_are_short_and_zero_has_no_sign() {
-        let shown = [1.0, -0.000_01, 0.12345, 20.0, -1.5].map(short);
+        let shown = [1.0, -0.000_01, 0.12345, 20.0, -1.5].map(format_number);
         assert_eq!(shown, ["1", "0", "0.1235", "20", "-1.5"]);
     }
 
     #[test]
-    fn equal_positions_are_one_and_flat_triangles_none() {
+    fn merges_equal_positions_and_drops_degenerate_triangles() {
         let mut obj = Obj::new("a test");
         let (a, b) = (obj.position([0.0; 3]), obj.position([1.0, 0.0, 0.0]));
         let c = obj.position([0.0, 1.0, 0.0]);

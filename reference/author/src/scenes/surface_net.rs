@@ -15,7 +15,7 @@ pub(super) struct Net {
 
 /// The surface of `solid` inside the cube from −`half` to `half`, on `cells`³ cells. The solid must
 /// not reach the cube's faces.
-pub(super) fn net(solid: impl Fn(DVec3) -> f64, half: f64, cells: i32) -> Net {
+pub(super) fn extract_surface(solid: impl Fn(DVec3) -> f64, half: f64, cells: i32) -> Net {
     let place = |at: IVec3| (at.as_dvec3() / f64::from(cells) * 2.0 - 1.0) * half;
     let values: HashMap<IVec3, f64> = grid(cells + 1).map(|at| (at, solid(place(at)))).collect();
 
@@ -102,8 +102,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_ball_becomes_closed_faces_outward_and_has_the_balls_volume() {
-        let net = net(|p| p.length() - 1.0, 1.25, 20);
+    fn a_sphere_gives_a_closed_outward_mesh_of_the_right_volume() {
+        let net = extract_surface(|p| p.length() - 1.0, 1.25, 20);
         assert!(
             net.positions
                 .iter()

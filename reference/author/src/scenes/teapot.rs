@@ -22,7 +22,7 @@ Written by `cargo author scenes`.";
 pub(super) fn obj() -> String {
     let mut obj = Obj::new(ABOUT);
     for patch in PATCHES {
-        for control in mirrored(patch) {
+        for control in mirror_images(patch) {
             tessellate(&control, &mut obj);
         }
     }
@@ -30,11 +30,11 @@ pub(super) fn obj() -> String {
 }
 
 /// The sixteen control points of a piece of surface, row by row.
-type Control = [[DVec3; 4]; 4];
+type ControlPoints = [[DVec3; 4]; 4];
 
 /// A patch and its mirror images. A mirror turns inside out, so rows are read backwards in it.
-fn mirrored(patch: &Patch) -> Vec<Control> {
-    let control = patch.control();
+fn mirror_images(patch: &Patch) -> Vec<ControlPoints> {
+    let control = patch.control_points();
     let image = |scale: DVec3, turned: bool| {
         control.map(|mut row| {
             if turned {
@@ -54,11 +54,11 @@ fn mirrored(patch: &Patch) -> Vec<Control> {
     images
 }
 
-fn tessellate(control: &Control, obj: &mut Obj) {
+fn tessellate(control: &ControlPoints, obj: &mut Obj) {
     let along = |i: usize| i as f64 / SQUARES as f64;
     let mut corner = |i: usize, j: usize| {
         let (u, v) = (along(i), along(j));
-        let (position, normal) = (y_up(at(control, u, v)), y_up(normal(control, u, v)));
+        let (position, normal) = (y_up(point_at(control, u, v)), y_up(normal(control, u, v)));
         (obj.position(position), obj.uv([u, v]), obj.normal(normal))
     };
     let corners: Vec<Vec<_>> = (0..=SQUARES)
@@ -78,16 +78,22 @@ fn y_up(v: DVec3) -> [f64; 3] {
 }
 
 /// The point of the patch at u along the rows and v across them.
-fn at(control: &Control, u: f64, v: f64) -> DVec3 {
-    let rows = control.map(|row| weighted(row, bernstein(u)));
-    weighted(rows, bernstein(v))
+fn point_at(control: &ControlPoints, u: f64, v: f64) -> DVec3 {
+    let rows = control.map(|row| weighted_sum(row, bernstein(u)));
+    weighted_sum(rows, bernstein(v))
 }
 
 /// The outward normal. Where a side of the patch is a single point, the one beside it.
-fn normal(control: &Control, u: f64, v: f64) -> DVec3 {
+fn normal(control: &ControlPoints, u: f64, v: f64) -> DVec3 {
     let slope = |u: f64, v: f64| {
-        let along = weighted(control.map(|row| weighted(row, slopes(u))), bernstein(v));
-        let across = weighted(control.map(|row| weighted(row, bernstein(u))), slopes(v));
+        let along = weighted_sum(
+            control.map(|row| weighted_sum(row, bernstein_derivatives(u))),
+            bernstein(v),
+        );
+        let across = weighted_sum(
+            control.map(|row| weighted_sum(row, bernstein(u))),
+            bernstein_derivatives(v),
+        );
         along.cross(across)
     };
     let beside = |t: f64| t.clamp(1e-4, 1.0 - 1e-4);
@@ -99,7 +105,7 @@ fn normal(control: &Control, u: f64, v: f64) -> DVec3 {
     }
 }
 
-fn weighted(points: [DVec3; 4], weights: [f64; 4]) -> DVec3 {
+fn weighted_sum(points: [DVec3; 4], weights: [f64; 4]) -> DVec3 {
     points
         .iter()
         .zip(weights)
@@ -114,7 +120,7 @@ fn bernstein(t: f64) -> [f64; 4] {
 }
 
 /// Their derivatives.
-fn slopes(t: f64) -> [f64; 4] {
+fn bernstein_derivatives(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
     [
         -3.0 * s * s,
@@ -131,16 +137,16 @@ mod tests {
     #[test]
     fn the_bodys_normals_point_away_from_its_axis() {
         // The second patch is the upper body, which has no overhang.
-        for control in mirrored(&PATCHES[1]) {
-            let (middle, normal) = (at(&control, 0.5, 0.5), normal(&control, 0.5, 0.5));
+        for control in mirror_images(&PATCHES[1]) {
+            let (middle, normal) = (point_at(&control, 0.5, 0.5), normal(&control, 0.5, 0.5));
             let outward = DVec3::new(middle.x, middle.y, 0.0);
             assert!(normal.dot(outward) > 0.5, "{normal} at {middle}");
         }
     }
 
     #[test]
-    fn there_are_32_patches_of_a_pot_from_the_table_to_the_knob() {
-        let controls: Vec<Control> = PATCHES.iter().flat_map(mirrored).collect();
+    fn has_32_patches_and_the_published_height() {
+        let controls: Vec<ControlPoints> = PATCHES.iter().flat_map(mirror_images).collect();
         assert_eq!(controls.len(), 32);
         let heights = controls.iter().flatten().flatten().map(|point| point.z);
         let (low, high) = heights.fold((9.0, 0.0), |(low, high), z| {

@@ -1,14 +1,14 @@
 //! Trees for traversal: the exam's own, so that it does not depend on a submission's `build`.
 
-pub mod plant;
-pub mod trap;
-pub mod walk;
+pub mod construction;
+pub mod decoy;
+pub mod traversal;
 
 use protocol::{Question, Ray, Rays, Shape, TreeNode};
 
 use crate::oracle::bbox::Bounds;
-use crate::oracle::{Beam, Meeting, scan};
-use crate::seed::Draw;
+use crate::oracle::{Intersection, Ray64, scan};
+use crate::seed::Rng;
 
 /// A tree as it is asked about.
 #[derive(Clone, Debug)]
@@ -23,7 +23,7 @@ pub struct Tree {
 
 /// Where the root stands among the nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RootPlace {
+pub enum RootPosition {
     /// At 0.
     First,
     /// At neither end.
@@ -43,7 +43,7 @@ impl Tree {
     }
 
     /// The places of all nodes below a node, and its own, parents before children.
-    pub fn below(&self, place: usize) -> Vec<usize> {
+    pub fn subtree(&self, place: usize) -> Vec<usize> {
         let mut found = vec![place];
         let mut next = 0;
         while next < found.len() {
@@ -61,7 +61,7 @@ impl Tree {
         let mut nodes = if self.nodes.is_empty() {
             Vec::new()
         } else {
-            self.below(self.root)
+            self.subtree(self.root)
         };
         nodes.retain(|&place| self.nodes[place].is_leaf());
         nodes
@@ -76,7 +76,7 @@ impl Tree {
     /// The way from the root down to a node, both included.
     pub fn path(&self, to: usize) -> Vec<usize> {
         let mut path = vec![to];
-        let nodes = self.below(self.root);
+        let nodes = self.subtree(self.root);
         while path[path.len() - 1] != self.root {
             let child = path[path.len() - 1];
             let is_parent = |place: &&usize| {
@@ -99,14 +99,16 @@ impl Tree {
 
     /// Whether each primitive lies in the box of a leaf that can be reached and holds it. What does
     /// not is a trap, or in no leaf at all.
-    pub fn honest(&self) -> Vec<bool> {
+    pub fn ordinary_primitives(&self) -> Vec<bool> {
         let leaves = self.leaves();
         let places = 0..self.shapes.len();
-        places.map(|place| self.is_honest(place, &leaves)).collect()
+        places
+            .map(|place| self.is_ordinary(place, &leaves))
+            .collect()
     }
 
     /// Whether this primitive lies in the box of one of these leaves, which holds it.
-    fn is_honest(&self, place: usize, leaves: &[usize]) -> bool {
+    fn is_ordinary(&self, place: usize, leaves: &[usize]) -> bool {
         // Boxes are rounded to single precision, outward or not: a breath of room.
         let room = |leaf: usize| self.bounds(leaf).grown(1e-5);
         let bounds = scan::bounds(&self.shapes[place]);
@@ -117,28 +119,28 @@ impl Tree {
     }
 
     /// What is true: the closest hit with an honest primitive.
-    pub fn truth(&self, beam: &Beam) -> Option<Meeting> {
+    pub fn expected_hit(&self, beam: &Ray64) -> Option<Intersection> {
         let met = (0..).zip(&self.shapes);
-        let mut met: Vec<(usize, Meeting)> = met
-            .filter_map(|(place, shape)| Some((place, scan::meet(beam, shape)?)))
+        let mut met: Vec<(usize, Intersection)> = met
+            .filter_map(|(place, shape)| Some((place, scan::intersect(beam, shape)?)))
             .collect();
         met.sort_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance));
         let leaves = self.leaves();
         let mut honest = met.into_iter();
-        let (_, closest) = honest.find(|(place, _)| self.is_honest(*place, &leaves))?;
+        let (_, closest) = honest.find(|(place, _)| self.is_ordinary(*place, &leaves))?;
         Some(closest)
     }
 
     /// The leaf that holds what the ray hits, if it hits anything.
-    pub fn leaf_of_hit(&self, beam: &Beam) -> Option<usize> {
-        let hit = self.truth(beam)?;
+    pub fn leaf_of_hit(&self, beam: &Ray64) -> Option<usize> {
+        let hit = self.expected_hit(beam)?;
         let is_hit = |place: usize| self.shapes[place].material() == hit.material;
         let mut leaves = self.leaves().into_iter();
         leaves.find(|&leaf| self.primitives(leaf).any(is_hit))
     }
 
     /// Adds a primitive to a leaf whose box does not change.
-    pub fn add(&mut self, leaf: usize, shape: Shape) {
+    pub fn add_to_leaf(&mut self, leaf: usize, shape: Shape) {
         let at = self.primitives(leaf).end;
         self.shapes.insert(at, shape);
         for (place, node) in self.nodes.iter_mut().enumerate() {
@@ -150,13 +152,13 @@ impl Tree {
     }
 
     /// The same tree with its nodes in another order.
-    pub fn rearranged(&self, draw: &mut Draw, root: RootPlace) -> Tree {
+    pub fn with_nodes_shuffled(&self, draw: &mut Rng, root: RootPosition) -> Tree {
         let others = (0..self.nodes.len()).filter(|&place| place != self.root);
         let mut order = draw.shuffled(others.collect());
         let place = match root {
-            RootPlace::First => 0,
-            RootPlace::Middle => order.len() / 2,
-            RootPlace::Last => order.len(),
+            RootPosition::First => 0,
+            RootPosition::Middle => order.len() / 2,
+            RootPosition::Last => order.len(),
         };
         order.insert(place, self.root);
 
@@ -187,8 +189,8 @@ impl Tree {
     ///
     /// The copy has nodes of its own. Were it only the root's, its children would have two parents,
     /// and whoever notes parents or depths in one pass over all nodes would be led astray.
-    pub fn with_roots_at_both_ends(&self, draw: &mut Draw) -> Tree {
-        let mut tree = self.rearranged(draw, RootPlace::First);
+    pub fn with_roots_at_both_ends(&self, draw: &mut Rng) -> Tree {
+        let mut tree = self.with_nodes_shuffled(draw, RootPosition::First);
         let count = tree.nodes.len() as u32;
         let copied = |node: &TreeNode| match node.is_leaf() {
             true => *node,

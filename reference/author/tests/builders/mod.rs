@@ -22,22 +22,23 @@ pub enum Splitter {
 /// The cost of the tree over these shapes: C_trav = C_isect = 1, areas by the root's.
 pub fn cost(shapes: &[Shape], max_leaf_size: usize, splitter: Splitter) -> f64 {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
-    let root = around(&boxes).area();
-    node(boxes, max_leaf_size, splitter) / root
+    let root = enclosing(&boxes).area();
+    subtree_cost(boxes, max_leaf_size, splitter) / root
 }
 
-fn around(boxes: &[Bounds]) -> Bounds {
+fn enclosing(boxes: &[Bounds]) -> Bounds {
     let nothing = Bounds::around([]);
     boxes.iter().fold(nothing, |all, next| all.union(next))
 }
 
-fn node(mut boxes: Vec<Bounds>, max_leaf_size: usize, splitter: Splitter) -> f64 {
-    let area = around(&boxes).area();
+fn subtree_cost(mut boxes: Vec<Bounds>, max_leaf_size: usize, splitter: Splitter) -> f64 {
+    let area = enclosing(&boxes).area();
     if boxes.len() <= max_leaf_size {
         return area * boxes.len() as f64;
     }
     let right = split(&mut boxes, splitter);
-    area + node(boxes, max_leaf_size, splitter) + node(right, max_leaf_size, splitter)
+    area + subtree_cost(boxes, max_leaf_size, splitter)
+        + subtree_cost(right, max_leaf_size, splitter)
 }
 
 fn split(boxes: &mut Vec<Bounds>, splitter: Splitter) -> Vec<Bounds> {
@@ -45,8 +46,8 @@ fn split(boxes: &mut Vec<Bounds>, splitter: Splitter) -> Vec<Bounds> {
     let size = centers.max - centers.min;
     let longest = (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap();
     let is_left: Box<dyn Fn(&Bounds) -> bool> = match splitter {
-        Splitter::OneAxis(axis) => by_buckets(boxes, axis..axis + 1, splitter),
-        Splitter::AreaPerBucket | Splitter::Worst => by_buckets(boxes, 0..3, splitter),
+        Splitter::OneAxis(axis) => bucketed_split(boxes, axis..axis + 1, splitter),
+        Splitter::AreaPerBucket | Splitter::Worst => bucketed_split(boxes, 0..3, splitter),
         Splitter::Middle => {
             let middle = centers.center()[longest];
             Box::new(move |bounds| bounds.center()[longest] < middle)
@@ -62,7 +63,7 @@ fn split(boxes: &mut Vec<Bounds>, splitter: Splitter) -> Vec<Bounds> {
     right
 }
 
-fn by_buckets(
+fn bucketed_split(
     boxes: &[Bounds],
     axes: std::ops::Range<usize>,
     splitter: Splitter,
@@ -96,7 +97,7 @@ fn by_buckets(
                 let area = if measured.is_empty() {
                     0.0
                 } else {
-                    around(measured).area()
+                    enclosing(measured).area()
                 };
                 area * side.len() as f64
             };

@@ -3,8 +3,8 @@
 
 use std::sync::LazyLock;
 
-use author::exams::exam;
-use author::recorded::Recorded;
+use author::exams::assemble;
+use author::recording::RecordedPicture;
 use author::seed::Seed;
 use glam::{UVec2, Vec3};
 use grader::exam::Exam;
@@ -14,7 +14,7 @@ use protocol::Question;
 pub const SEEDS: [u64; 3] = [2025, 77, 78];
 
 /// An exam of each seed; their pictures of radiance are none.
-static EXAMS: LazyLock<Vec<Exam>> = LazyLock::new(|| SEEDS.map(make).into());
+static EXAMS: LazyLock<Vec<Exam>> = LazyLock::new(|| SEEDS.map(make_exam).into());
 
 /// The exam of one of the seeds.
 pub fn exam_of(seed: u64) -> &'static Exam {
@@ -23,7 +23,7 @@ pub fn exam_of(seed: u64) -> &'static Exam {
 }
 
 /// An exam without a picture of radiance.
-pub fn make(seed: u64) -> Exam {
+pub fn make_exam(seed: u64) -> Exam {
     let question = Question::Radiance {
         scene: String::new(),
         film: UVec2::ONE,
@@ -31,9 +31,9 @@ pub fn make(seed: u64) -> Exam {
         bounces: 1,
         seed,
     };
-    let recorded = Recorded {
+    let recorded = RecordedPicture {
         question,
         pixels: vec![Vec3::ONE],
     };
-    exam("test", Seed(seed), recorded)
+    assemble("test", Seed(seed), recorded)
 }

@@ -49,7 +49,7 @@ fn workflow() -> Workflow {
 }
 
 #[test]
-fn it_is_one_short_job_on_every_push_that_may_read_only() {
+fn is_one_short_read_only_job_on_every_push() {
     let workflow = workflow();
     assert!(workflow.on.contains_key(&Event::Push));
     assert_eq!(
@@ -77,7 +77,7 @@ fn actions_are_pinned_to_commits() {
 }
 
 #[test]
-fn a_run_is_not_red_for_lack_of_points() {
+fn a_run_does_not_fail_for_lack_of_points() {
     for step in workflow().jobs.values().flat_map(|job| &job.steps) {
         let run = step.run.as_deref().unwrap_or_default();
         assert!(!run.contains("--require"), "{run}");
@@ -85,7 +85,7 @@ fn a_run_is_not_red_for_lack_of_points() {
 }
 
 #[test]
-fn the_points_are_shown_on_the_page_of_the_run() {
+fn the_last_step_grades_and_shows_the_points() {
     let workflow = workflow();
     let steps = workflow.jobs.values().flat_map(|job| &job.steps);
     let last = steps.last().and_then(|step| step.run.clone()).unwrap();

@@ -44,7 +44,7 @@ impl BBox {
     }
 
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {
-        count::a_box();
+        count::count_box();
         self.plain().hit(ray, times)
     }
 

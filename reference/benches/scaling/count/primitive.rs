@@ -23,7 +23,7 @@ impl Primitive {
     }
 
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        count::a_primitive();
+        count::count_primitive();
         self.0.hit(ray)
     }
 }

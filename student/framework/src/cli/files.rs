@@ -3,7 +3,7 @@
 use std::env;
 use std::path::{Path, PathBuf};
 
-use super::failure::Failure;
+use super::error::RenderError;
 use super::options::Options;
 
 /// The folder of scenes, beside which a workspace's root is known.
@@ -11,7 +11,7 @@ const SCENES: &str = "scenes";
 
 /// The scene's file: relative to where we are, then to the workspace around us; then by its name
 /// alone, in the workspace's folder of scenes. `.json` may be left out.
-pub(super) fn find_scene(asked: &Path) -> Result<PathBuf, Failure> {
+pub(super) fn find_scene(asked: &Path) -> Result<PathBuf, RenderError> {
     let here = env::current_dir().unwrap_or_default();
     let root = here.ancestors().find(|folder| folder.join(SCENES).is_dir());
     let mut places = vec![asked.to_owned()];
@@ -23,13 +23,13 @@ pub(super) fn find_scene(asked: &Path) -> Result<PathBuf, Failure> {
         .iter()
         .flat_map(with_ending)
         .find(|place| place.is_file());
-    found.ok_or_else(|| Failure::NoScene {
+    found.ok_or_else(|| RenderError::SceneNotFound {
         path: asked.to_owned(),
-        known: root.map(names_of_scenes).unwrap_or_default(),
+        known: root.map(scene_names).unwrap_or_default(),
     })
 }
 
-fn names_of_scenes(root: &Path) -> Vec<String> {
+fn scene_names(root: &Path) -> Vec<String> {
     let entries = root.join(SCENES).read_dir().into_iter().flatten().flatten();
     let paths = entries.map(|entry| entry.path());
     let mut names: Vec<String> = paths
@@ -41,7 +41,7 @@ fn names_of_scenes(root: &Path) -> Vec<String> {
 }
 
 /// Where the picture goes. Looked at before anything is drawn: it would be a pity after.
-pub(super) fn output(options: &Options, scene: &Path) -> Result<PathBuf, Failure> {
+pub(super) fn output_path(options: &Options, scene: &Path) -> Result<PathBuf, RenderError> {
     let asked = options.out.as_ref().or(options.out_option.as_ref());
     let out = match asked {
         Some(out) => out.clone(),
@@ -52,11 +52,11 @@ pub(super) fn output(options: &Options, scene: &Path) -> Result<PathBuf, Failure
         format,
         Some(image::ImageFormat::Png | image::ImageFormat::OpenExr)
     ) {
-        return Err(Failure::UnknownFormat(out));
+        return Err(RenderError::UnknownFormat(out));
     }
     match out.parent() {
         Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
-            Err(Failure::NoFolder(folder.to_owned()))
+            Err(RenderError::FolderNotFound(folder.to_owned()))
         }
         Some(_) | None => Ok(out),
     }

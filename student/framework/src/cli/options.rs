@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::Parser;
 use glam::UVec2;
 
-use crate::integrator::Sampling;
-use crate::scene::LONGEST_SIDE;
-use crate::view::View;
+use crate::integrator::RenderSettings;
+use crate::scene::MAX_FILM_SIDE;
+use crate::view::ViewMode;
 
 /// Draws a scene with the code of a submission.
 #[derive(Debug, Parser)]
@@ -49,8 +49,8 @@ pub(super) struct Options {
     pub(super) threads: Option<u16>,
 
     /// What the picture shows
-    #[arg(long, value_enum, default_value_t = View::Shaded)]
-    pub(super) view: View,
+    #[arg(long, value_enum, default_value_t = ViewMode::Shaded)]
+    pub(super) view: ViewMode,
 
     /// Brighter or darker: each stop doubles the light (PNG only)
     #[arg(
@@ -68,8 +68,8 @@ pub(super) struct Options {
 
 impl Options {
     /// How much work to put into a picture of this size.
-    pub(super) fn sampling(&self, film: UVec2) -> Sampling {
-        Sampling {
+    pub(super) fn sampling(&self, film: UVec2) -> RenderSettings {
+        RenderSettings {
             film,
             samples: self.samples,
             bounces: self.bounces,
@@ -81,10 +81,10 @@ impl Options {
 fn size(text: &str) -> Result<UVec2, String> {
     let size = pair(text, 'x').ok_or("not a size, such as 640x480")?;
     let sides = size.to_array();
-    if sides.iter().all(|side| (1..=LONGEST_SIDE).contains(side)) {
+    if sides.iter().all(|side| (1..=MAX_FILM_SIDE).contains(side)) {
         Ok(size)
     } else {
-        Err(format!("each side must be from 1 to {LONGEST_SIDE}"))
+        Err(format!("each side must be from 1 to {MAX_FILM_SIDE}"))
     }
 }
 
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_command_line_is_sound() {
+    fn the_command_line_is_consistent() {
         Options::command().debug_assert();
     }
 

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use glam::UVec2;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::integrator::Tally;
+use crate::integrator::RenderStats;
 
 /// A bar on the terminal, with the time left and the rays per second. Where standard error is no
 /// terminal, nothing is shown.
@@ -29,7 +29,7 @@ impl Progress {
     }
 
     /// One more row is there.
-    pub(super) fn row(&self, tally: Tally) {
+    pub(super) fn finish_row(&self, tally: RenderStats) {
         let rays = self.rays.fetch_add(tally.rays, Ordering::Relaxed) + tally.rays;
         self.bar.set_message(rate(rays, self.started.elapsed()));
         self.bar.inc(1);
@@ -43,7 +43,7 @@ impl Drop for Progress {
 }
 
 /// The line at the end.
-pub(super) fn summary(path: &Path, size: UVec2, tally: Tally, time: Duration) -> String {
+pub(super) fn summary(path: &Path, size: UVec2, tally: RenderStats, time: Duration) -> String {
     format!(
         "{}: {} x {}, {:.1} s, {:.1} Mrays, {}",
         path.display(),

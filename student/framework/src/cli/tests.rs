@@ -10,7 +10,7 @@ use protocol::{Interval, PinholeCamera, Ray, Shape, TreeNode};
 use super::options::Options;
 use super::run;
 use crate::attempt::keep_panics_quiet;
-use crate::balls::HONEST;
+use crate::sphere_submission::CORRECT;
 use crate::submission::{Aggregate, CameraRays, Hierarchy, Submission};
 
 const SCENE: &str = r#"{
@@ -54,17 +54,17 @@ fn draw(submission: &dyn Submission, test: &str, out: &str, more: &str) -> Resul
 #[test]
 fn any_number_of_threads_writes_the_same_bytes() {
     for out in ["a.png", "a.exr"] {
-        let one = draw(&HONEST, "one", out, "--samples 3 --threads 1").expect("a picture");
-        let three = draw(&HONEST, "three", out, "--samples 3 --threads 3").expect("a picture");
+        let one = draw(&CORRECT, "one", out, "--samples 3 --threads 1").expect("a picture");
+        let three = draw(&CORRECT, "three", out, "--samples 3 --threads 3").expect("a picture");
         assert!(one == three, "{out}");
-        let seed = draw(&HONEST, "seed", out, "--samples 3 --seed 1").expect("a picture");
+        let seed = draw(&CORRECT, "seed", out, "--samples 3 --seed 1").expect("a picture");
         assert!(one != seed, "{out}: the seed makes no difference");
     }
 }
 
 #[test]
-fn the_lamp_above_is_at_the_top_of_the_file() {
-    let bytes = draw(&HONEST, "top", "a.png", "--size 3x3 --bounces 0").expect("a picture");
+fn the_upper_rows_of_the_picture_come_first_in_the_file() {
+    let bytes = draw(&CORRECT, "top", "a.png", "--size 3x3 --bounces 0").expect("a picture");
     let picture = image::load_from_memory(&bytes).expect("a PNG").to_rgb8();
     // The lamp fills most of the upper pixel, and the lower one sees the environment alone.
     assert_eq!(picture.get_pixel(1, 0).0[0], 255);
@@ -76,7 +76,7 @@ fn every_view_is_drawn() {
     for view in ["shaded", "normals", "depth", "uv", "bvh"] {
         let test = format!("view-{view}");
         let drawn = draw(
-            &HONEST,
+            &CORRECT,
             &test,
             "a.png",
             &format!("--samples 1 --view {view}"),
@@ -86,8 +86,9 @@ fn every_view_is_drawn() {
 }
 
 #[test]
-fn what_can_not_be_drawn_is_told_before_drawing() {
-    let refused = |out: &str, more: &str| draw(&HONEST, "refused", out, more).expect_err("refused");
+fn reports_bad_input_before_rendering() {
+    let refused =
+        |out: &str, more: &str| draw(&CORRECT, "refused", out, more).expect_err("refused");
     assert!(refused("a.jpg", "").ends_with("end the picture's name with .png or .exr"));
     assert!(refused("none/a.png", "").ends_with("there is no such folder to write to"));
     assert!(refused("a.png", "--size 0x4").contains("each side must be from 1 to 16384"));
@@ -105,20 +106,25 @@ impl Submission for Unfinished {
         Box::new(Unfinished { ..*self })
     }
 
-    fn list(&self, shapes: &[Shape]) -> Box<dyn Aggregate> {
-        HONEST.list(shapes)
+    fn primitive_list(&self, shapes: &[Shape]) -> Box<dyn Aggregate> {
+        CORRECT.primitive_list(shapes)
     }
 
-    fn inside(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval> {
-        HONEST.inside(min, max, ray, times)
+    fn intersect_box(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval> {
+        CORRECT.intersect_box(min, max, ray, times)
     }
 
     fn build(&self, shapes: &[Shape], max_leaf_size: usize) -> Box<dyn Hierarchy> {
-        HONEST.build(shapes, max_leaf_size)
+        CORRECT.build(shapes, max_leaf_size)
     }
 
-    fn planted(&self, shapes: &[Shape], tree: &[TreeNode], root: usize) -> Box<dyn Hierarchy> {
-        HONEST.planted(shapes, tree, root)
+    fn prebuilt_tree(
+        &self,
+        shapes: &[Shape],
+        tree: &[TreeNode],
+        root: usize,
+    ) -> Box<dyn Hierarchy> {
+        CORRECT.prebuilt_tree(shapes, tree, root)
     }
 }
 
@@ -129,7 +135,7 @@ impl CameraRays for Unfinished {
 }
 
 #[test]
-fn a_task_that_is_not_written_is_named_in_one_line() {
+fn reports_an_unwritten_task_in_one_line() {
     keep_panics_quiet();
     let stub = Unfinished {
         camera: || todo!("task 1, camera: which ray of {:?} is it?", "Camera { .. }"),
@@ -143,7 +149,7 @@ fn a_task_that_is_not_written_is_named_in_one_line() {
 }
 
 #[test]
-fn any_other_panic_is_told_with_its_pixel_and_how_to_meet_it_again() {
+fn reports_the_pixel_of_a_panic_and_the_command_to_rerun_it() {
     keep_panics_quiet();
     let bug = Unfinished {
         camera: || panic!("attempt to subtract with overflow"),
@@ -161,9 +167,9 @@ fn any_other_panic_is_told_with_its_pixel_and_how_to_meet_it_again() {
 }
 
 #[test]
-fn a_scene_that_is_not_there_is_told_by_its_name() {
+fn reports_the_name_of_a_missing_scene() {
     let options = Options::try_parse_from(["render", "no-such-scene"]).expect("options");
-    let told = run(&HONEST, &options)
+    let told = run(&CORRECT, &options)
         .expect_err("there is none")
         .to_string();
     assert!(told.starts_with("no-such-scene: no such scene"), "{told}");

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 /// The mirror image of a direction. `normal` has length one and may point to either side.
-pub(super) fn reflected(direction: Vec3, normal: Vec3) -> Vec3 {
+pub(super) fn reflect(direction: Vec3, normal: Vec3) -> Vec3 {
     direction - 2.0 * direction.dot(normal) * normal
 }
 
@@ -78,11 +78,11 @@ mod tests {
 
     #[test]
     fn a_mirror_turns_what_is_along_the_normal() {
-        let mirrored = reflected(slanted(0.6), Vec3::Y);
+        let mirrored = reflect(slanted(0.6), Vec3::Y);
         assert!(
             mirrored.abs_diff_eq(Vec3::new(0.6, 0.8, 0.0), 1e-6),
             "{mirrored}"
         );
-        assert_eq!(mirrored, reflected(slanted(0.6), Vec3::NEG_Y));
+        assert_eq!(mirrored, reflect(slanted(0.6), Vec3::NEG_Y));
     }
 }

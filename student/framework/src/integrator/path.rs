@@ -3,14 +3,14 @@
 use glam::{UVec2, Vec2, Vec3};
 use protocol::{Interval, Ray};
 
-use super::optics::{interface, reflected};
-use super::{Integrator, Tally};
-use crate::frame::{Frame, cosine_hemisphere};
+use super::optics::{interface, reflect};
+use super::{Integrator, RenderStats};
+use crate::frame::{Frame, sample_cosine_hemisphere};
 use crate::sampler::{Purpose, Sampler};
 use crate::scene::{Material, checker};
 
 /// An answer that no light can be computed from.
-pub(super) struct Spoiled;
+pub(super) struct InvalidSample;
 
 /// Where a path meets something.
 struct Surface {
@@ -29,17 +29,17 @@ struct Scattered {
     /// What the light from there is worth here.
     weight: Vec3,
     /// Whether lamps were asked for already, so that meeting one by chance must not count.
-    lamps_asked: bool,
+    direct_light_sampled: bool,
 }
 
 impl Integrator<'_> {
     /// The light that one path brings.
-    pub(super) fn path(
+    pub(super) fn trace_path(
         &self,
         pixel: UVec2,
         sample: u32,
-        tally: &mut Tally,
-    ) -> Result<Vec3, Spoiled> {
+        tally: &mut RenderStats,
+    ) -> Result<Vec3, InvalidSample> {
         let sampler = Sampler::new(self.sampling.seed, pixel, sample);
         let offset = sampler.pair(0, Purpose::Pixel);
         let camera_ray = self.world.camera_ray(pixel, offset);
@@ -49,7 +49,7 @@ impl Integrator<'_> {
         let mut weight = Vec3::ONE;
         let mut lamps_asked = false;
         for bounce in 0..=self.sampling.bounces {
-            let Some(surface) = self.meet(&ray, tally)? else {
+            let Some(surface) = self.intersect(&ray, tally)? else {
                 light += weight * self.scene.environment;
                 break;
             };
@@ -62,13 +62,13 @@ impl Integrator<'_> {
             if bounce == self.sampling.bounces {
                 break;
             }
-            let direct = self.direct(&surface, bounce, &sampler, tally)?;
+            let direct = self.direct_light(&surface, bounce, &sampler, tally)?;
             light += weight * direct;
             let Some(scattered) = surface.scatter(ray.dir, bounce, &sampler) else {
                 break;
             };
             weight *= scattered.weight;
-            lamps_asked = scattered.lamps_asked;
+            lamps_asked = scattered.direct_light_sampled;
             // The last ray after a matte surface could only bring light from around.
             let last = bounce + 1 == self.sampling.bounces;
             if weight == Vec3::ZERO || last && lamps_asked && self.scene.environment == Vec3::ZERO {
@@ -79,25 +79,25 @@ impl Integrator<'_> {
         if light.is_finite() {
             Ok(light)
         } else {
-            Err(Spoiled)
+            Err(InvalidSample)
         }
     }
 
     /// The light that comes straight from a lamp, and is scattered toward where the path comes
     /// from.
-    fn direct(
+    fn direct_light(
         &self,
         surface: &Surface,
         bounce: u32,
         sampler: &Sampler,
-        tally: &mut Tally,
-    ) -> Result<Vec3, Spoiled> {
+        tally: &mut RenderStats,
+    ) -> Result<Vec3, InvalidSample> {
         let Some(albedo) = surface.albedo() else {
             return Ok(Vec3::ZERO);
         };
         let choice = sampler.one(bounce, Purpose::Light);
-        let place = sampler.pair(bounce, Purpose::PlaceOnLight);
-        let Some(lit) = self.lights.illuminate(surface.position, choice, place) else {
+        let place = sampler.pair(bounce, Purpose::PointOnLight);
+        let Some(lit) = self.lights.sample(surface.position, choice, place) else {
             return Ok(Vec3::ZERO);
         };
         let cosine = lit.direction.dot(surface.normal);
@@ -106,7 +106,7 @@ impl Integrator<'_> {
         if cosine <= 0.0 || shadow.range.is_empty() {
             return Ok(Vec3::ZERO);
         }
-        match self.meet(&shadow, tally)? {
+        match self.intersect(&shadow, tally)? {
             Some(_) => Ok(Vec3::ZERO),
             None => Ok(albedo * std::f32::consts::FRAC_1_PI * cosine * lit.radiance),
         }
@@ -121,20 +121,24 @@ impl Integrator<'_> {
     }
 
     /// Asks the submission, and looks at its answer before anything is computed from it.
-    fn meet(&self, ray: &Ray, tally: &mut Tally) -> Result<Option<Surface>, Spoiled> {
+    fn intersect(
+        &self,
+        ray: &Ray,
+        tally: &mut RenderStats,
+    ) -> Result<Option<Surface>, InvalidSample> {
         tally.rays += 1;
         if !ray.origin.is_finite() || !ray.dir.is_finite() {
-            return Err(Spoiled);
+            return Err(InvalidSample);
         }
         let Some(trace) = self.world.hit(ray) else {
             return Ok(None);
         };
         let material = self.scene.materials.get(trace.material as usize);
         let (Some(&material), Some(normal)) = (material, trace.normal.try_normalize()) else {
-            return Err(Spoiled);
+            return Err(InvalidSample);
         };
         if !trace.position.is_finite() || !trace.uv.is_finite() {
-            return Err(Spoiled);
+            return Err(InvalidSample);
         }
         let outside = ray.dir.dot(normal) < 0.0;
         Ok(Some(Surface {
@@ -161,18 +165,19 @@ impl Surface {
     fn scatter(&self, incoming: Vec3, bounce: u32, sampler: &Sampler) -> Option<Scattered> {
         match self.material {
             Material::Lambertian { .. } | Material::Checker { .. } => {
-                let around_normal = cosine_hemisphere(sampler.pair(bounce, Purpose::Direction));
+                let around_normal =
+                    sample_cosine_hemisphere(sampler.pair(bounce, Purpose::Direction));
                 Some(Scattered {
-                    direction: Frame::around(self.normal).to_world(around_normal),
+                    direction: Frame::from_z(self.normal).to_world(around_normal),
                     // The cosine and π are those of the density, and cancel.
                     weight: self.albedo()?,
-                    lamps_asked: true,
+                    direct_light_sampled: true,
                 })
             }
             Material::Mirror { reflectance } => Some(Scattered {
-                direction: reflected(incoming, self.normal),
+                direction: reflect(incoming, self.normal),
                 weight: reflectance,
-                lamps_asked: false,
+                direct_light_sampled: false,
             }),
             Material::Glass { ior } => {
                 let eta = if self.outside { ior } else { 1.0 / ior };
@@ -180,11 +185,11 @@ impl Surface {
                 let choice = sampler.one(bounce, Purpose::ReflectOrRefract);
                 let direction = met.refracted.filter(|_| choice >= met.reflectance);
                 Some(Scattered {
-                    direction: direction.unwrap_or_else(|| reflected(incoming, self.normal)),
+                    direction: direction.unwrap_or_else(|| reflect(incoming, self.normal)),
                     // Picked as often as it counts. Radiance grows by eta² on the way in and
                     // shrinks by as much on the way out: neither is counted.
                     weight: Vec3::ONE,
-                    lamps_asked: false,
+                    direct_light_sampled: false,
                 })
             }
             Material::Emitter { .. } => None,

@@ -3,9 +3,9 @@
 use glam::{Vec3, uvec2, vec2, vec3};
 use protocol::Trace;
 
-use super::{Integrator, Sampling, Tally, radiance};
-use crate::balls::{Balls, HONEST};
+use super::{Integrator, RenderSettings, RenderStats, render};
 use crate::scene::Scene;
+use crate::sphere_submission::{CORRECT, SphereSubmission};
 use crate::submission::World;
 
 fn scene(environment: f32, materials: &str, shapes: &str) -> Scene {
@@ -21,8 +21,8 @@ fn scene(environment: f32, materials: &str, shapes: &str) -> Scene {
     Scene::from_text(&text).expect("a scene")
 }
 
-fn sampling(samples: u32, bounces: u32) -> Sampling {
-    Sampling {
+fn sampling(samples: u32, bounces: u32) -> RenderSettings {
+    RenderSettings {
         film: uvec2(8, 8),
         samples,
         bounces,
@@ -33,7 +33,7 @@ fn sampling(samples: u32, bounces: u32) -> Sampling {
 const GREY: &str = r#""grey": { "lambertian": { "albedo": [0.5, 0.5, 0.5] } }"#;
 const WHITE: &str = r#""white": { "lambertian": { "albedo": [1, 1, 1] } }"#;
 const GLASS: &str = r#""glass": { "glass": { "ior": 1.5 } }"#;
-const LAMP: &str = r#""lamp": { "emitter": { "radiance": [1, 1, 1] } }"#;
+const EMITTER: &str = r#""lamp": { "emitter": { "radiance": [1, 1, 1] } }"#;
 
 fn ball(z: f32, radius: f32, material: &str) -> String {
     format!(
@@ -42,37 +42,37 @@ fn ball(z: f32, radius: f32, material: &str) -> String {
 }
 
 #[test]
-fn in_a_furnace_a_white_ball_can_not_be_seen() {
+fn a_white_sphere_is_invisible_in_a_white_furnace() {
     // Light 1 from everywhere, and nothing is lost: every pixel is 1.
     let scene = scene(1.0, WHITE, &ball(-3.0, 2.0, "white"));
-    let pixels = radiance(&HONEST, &scene, &sampling(4, 4));
+    let pixels = render(&CORRECT, &scene, &sampling(4, 4));
     assert!(pixels.iter().all(|pixel| *pixel == Vec3::ONE), "{pixels:?}");
 }
 
 #[test]
-fn in_a_furnace_glass_can_not_be_seen() {
+fn glass_is_invisible_in_a_white_furnace() {
     let scene = scene(1.0, GLASS, &ball(-3.0, 2.0, "glass"));
-    let pixels = radiance(&HONEST, &scene, &sampling(4, 200));
+    let pixels = render(&CORRECT, &scene, &sampling(4, 200));
     assert!(pixels.iter().all(|pixel| *pixel == Vec3::ONE), "{pixels:?}");
 }
 
 #[test]
-fn in_a_furnace_a_grey_ball_gives_back_its_albedo() {
+fn a_grey_sphere_shows_its_albedo_in_a_white_furnace() {
     let scene = scene(1.0, GREY, &ball(-3.0, 2.0, "grey"));
-    let pixels = radiance(&HONEST, &scene, &sampling(4, 4));
+    let pixels = render(&CORRECT, &scene, &sampling(4, 4));
     // In the middle of the picture there is only the ball, and nothing to scatter twice.
     assert_eq!(pixels[8 * 4 + 4], Vec3::splat(0.5));
 }
 
 #[test]
-fn inside_a_grey_shell_that_surrounds_a_lamp_light_is_a_geometric_series() {
+fn light_inside_a_grey_shell_is_a_geometric_series() {
     // All that leaves the lamp is caught by the shell. Behind the lamp's own share, each bounce
     // passes half on: what the shell shows is the same everywhere, but for the lamp's shadow of
     // itself, which is small.
     let shapes = [ball(0.0, 10.0, "grey"), ball(5.0, 0.1, "lamp")].join(",");
-    let scene = scene(0.0, &format!("{GREY}, {LAMP}"), &shapes);
+    let scene = scene(0.0, &format!("{GREY}, {EMITTER}"), &shapes);
     let mean = |bounces| {
-        let pixels = radiance(&HONEST, &scene, &sampling(400, bounces));
+        let pixels = render(&CORRECT, &scene, &sampling(400, bounces));
         pixels.iter().map(|pixel| pixel.x).sum::<f32>() / pixels.len() as f32
     };
     // Inside a sphere every scattering spreads light evenly, so from the second bounce on the
@@ -93,18 +93,18 @@ fn inside_a_grey_shell_that_surrounds_a_lamp_light_is_a_geometric_series() {
 }
 
 #[test]
-fn a_large_lamp_lights_a_ball_as_the_closed_form_says() {
+fn a_large_light_on_a_sphere_matches_the_closed_form() {
     let shapes = [ball(-3.0, 1.0, "grey"), ball(7.0, 5.0, "lamp")].join(",");
-    let scene = scene(0.0, &format!("{GREY}, {LAMP}"), &shapes);
+    let scene = scene(0.0, &format!("{GREY}, {EMITTER}"), &shapes);
     // The pixel in the middle of a large film sees no more than the ball's near pole.
-    let narrow = Sampling {
+    let narrow = RenderSettings {
         film: uvec2(101, 101),
         ..sampling(2000, 1)
     };
     let scene = scene.on_film(narrow.film);
-    let world = World::new(&HONEST, &scene);
+    let world = World::new(&CORRECT, &scene);
     let integrator = Integrator::new(&scene, &world, narrow);
-    let middle = integrator.pixel(uvec2(50, 50), &mut Tally::default());
+    let middle = integrator.pixel_radiance(uvec2(50, 50), &mut RenderStats::default());
     // Albedo · sin² of the lamp's half angle, seen from z = −2.
     let truth = 0.5 * (5.0_f32 / 9.0).powi(2);
     assert!(
@@ -114,23 +114,23 @@ fn a_large_lamp_lights_a_ball_as_the_closed_form_says() {
 }
 
 #[test]
-fn a_lamp_in_a_mirror_is_as_bright_as_the_lamp() {
+fn a_mirror_shows_a_light_at_its_radiance_times_the_reflectance() {
     let mirror = r#""mirror": { "mirror": { "reflectance": [0.5, 0.5, 0.5] } }"#;
     let shapes = [ball(-3.0, 1.0, "mirror"), ball(30.0, 25.0, "lamp")].join(",");
-    let scene = scene(0.0, &format!("{mirror}, {LAMP}"), &shapes);
-    let narrow = Sampling {
+    let scene = scene(0.0, &format!("{mirror}, {EMITTER}"), &shapes);
+    let narrow = RenderSettings {
         film: uvec2(101, 101),
         ..sampling(4, 1)
     };
-    let pixels = radiance(&HONEST, &scene, &narrow);
+    let pixels = render(&CORRECT, &scene, &narrow);
     assert_eq!(pixels[101 * 50 + 50], Vec3::splat(0.5));
 }
 
 #[test]
-fn without_bounces_only_what_shines_is_seen() {
+fn without_bounces_only_emitters_and_the_environment_are_visible() {
     let shapes = [ball(-3.0, 1.0, "grey"), ball(7.0, 5.0, "lamp")].join(",");
-    let scene = scene(0.25, &format!("{GREY}, {LAMP}"), &shapes);
-    let pixels = radiance(&HONEST, &scene, &sampling(1, 0));
+    let scene = scene(0.25, &format!("{GREY}, {EMITTER}"), &shapes);
+    let pixels = render(&CORRECT, &scene, &sampling(1, 0));
     assert_eq!(pixels[8 * 4 + 4], Vec3::ZERO);
     assert_eq!(pixels[0], Vec3::splat(0.25));
 }
@@ -139,15 +139,15 @@ fn without_bounces_only_what_shines_is_seen() {
 fn the_first_pixel_is_at_the_bottom_left() {
     let low_and_left =
         r#"{ "sphere": { "center": [-3, -3, -3], "radius": 1, "material": "lamp" } }"#;
-    let scene = scene(0.0, LAMP, low_and_left);
-    let pixels = radiance(&HONEST, &scene, &sampling(16, 0));
+    let scene = scene(0.0, EMITTER, low_and_left);
+    let pixels = render(&CORRECT, &scene, &sampling(16, 0));
     assert!(pixels[0].x > 0.5, "bottom left: {}", pixels[0]);
     let others = [pixels[7], pixels[8 * 7], pixels[8 * 7 + 7]];
     assert_eq!(others, [Vec3::ZERO; 3]);
 }
 
 #[test]
-fn an_answer_that_is_no_number_spoils_its_path_and_is_counted() {
+fn counts_and_discards_paths_with_an_invalid_answer() {
     let scene = scene(1.0, GREY, &ball(-3.0, 2.0, "grey"));
     let bad: [fn(Trace) -> Trace; 4] = [
         |trace| Trace {
@@ -168,37 +168,40 @@ fn an_answer_that_is_no_number_spoils_its_path_and_is_counted() {
         },
     ];
     for spoil in bad {
-        let world = World::new(&Balls { spoil }, &scene);
+        let world = World::new(&SphereSubmission { alter: spoil }, &scene);
         let integrator = Integrator::new(&scene, &world, sampling(3, 4));
-        let mut tally = Tally::default();
-        assert_eq!(integrator.pixel(uvec2(4, 4), &mut tally), Vec3::ZERO);
+        let mut tally = RenderStats::default();
+        assert_eq!(
+            integrator.pixel_radiance(uvec2(4, 4), &mut tally),
+            Vec3::ZERO
+        );
         assert_eq!(
             tally,
-            Tally {
+            RenderStats {
                 rays: 3,
-                spoiled: 3
+                invalid_paths: 3
             }
         );
     }
 }
 
 #[test]
-fn a_normal_of_any_length_is_as_good() {
+fn the_length_of_a_normal_makes_no_difference() {
     let scene = scene(1.0, GLASS, &ball(-3.0, 2.0, "glass"));
-    let long = Balls {
-        spoil: |trace| Trace {
+    let long = SphereSubmission {
+        alter: |trace| Trace {
             normal: trace.normal * 3.0,
             ..trace
         },
     };
-    let honest = radiance(&HONEST, &scene, &sampling(2, 4));
-    let pixels = radiance(&long, &scene, &sampling(2, 4));
+    let honest = render(&CORRECT, &scene, &sampling(2, 4));
+    let pixels = render(&long, &scene, &sampling(2, 4));
     let close = |(a, b): (&Vec3, &Vec3)| a.abs_diff_eq(*b, 1e-3);
     assert!(honest.iter().zip(&pixels).all(close));
 }
 
 #[test]
-fn the_epsilon_grows_with_the_scene() {
+fn the_extent_covers_shapes_and_camera() {
     let near = scene(0.0, GREY, &ball(-3.0, 2.0, "grey"));
     assert_eq!(near.extent(), 5.0);
     let moved = vec3(0.0, 0.0, 50.0);

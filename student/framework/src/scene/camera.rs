@@ -4,14 +4,14 @@ use glam::{Mat3, UVec2, Vec3};
 use protocol::{PinholeCamera, Ray};
 use serde::Deserialize;
 
-use super::{LONGEST_SIDE, number};
+use super::{MAX_FILM_SIDE, number};
 
 /// A camera and its place in the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "CameraInFile")]
 pub struct Camera {
     /// What the submission's `Camera` is made of.
-    pub lens: PinholeCamera,
+    pub pinhole: PinholeCamera,
     /// From the camera's space to the world's.
     pub placement: Placement,
     /// Whether the author chose the sensor's shape, so that it does not follow the film's.
@@ -31,15 +31,15 @@ impl Camera {
     /// See [`Scene::on_film`](super::Scene::on_film).
     pub(super) fn on_film(self, film: UVec2) -> Camera {
         let aspect_ratio = if self.fixed_aspect {
-            self.lens.aspect_ratio
+            self.pinhole.aspect_ratio
         } else {
             aspect_of(film)
         };
         Camera {
-            lens: PinholeCamera {
+            pinhole: PinholeCamera {
                 aspect_ratio,
                 film,
-                ..self.lens
+                ..self.pinhole
             },
             ..self
         }
@@ -81,7 +81,7 @@ struct CameraInFile {
 /// What is wrong with a camera whose numbers are fine one by one.
 #[derive(Debug, thiserror::Error)]
 enum CameraError {
-    #[error("a film of {0} x {1} pixels: each side must be from 1 to {LONGEST_SIDE}")]
+    #[error("a film of {0} x {1} pixels: each side must be from 1 to {MAX_FILM_SIDE}")]
     Film(u32, u32),
     #[error("`vertical_fov` is {0}: degrees, below 180")]
     FieldOfView(f32),
@@ -96,7 +96,7 @@ impl TryFrom<CameraInFile> for Camera {
 
     fn try_from(file: CameraInFile) -> Result<Self, CameraError> {
         let [width, height] = file.film;
-        let side = 1..=LONGEST_SIDE;
+        let side = 1..=MAX_FILM_SIDE;
         if !side.contains(&width) || !side.contains(&height) {
             return Err(CameraError::Film(width, height));
         }
@@ -114,7 +114,7 @@ impl TryFrom<CameraInFile> for Camera {
 
         let film = UVec2::new(width, height);
         Ok(Camera {
-            lens: PinholeCamera {
+            pinhole: PinholeCamera {
                 vertical_fov: file.vertical_fov,
                 aspect_ratio: file.aspect_ratio.unwrap_or(aspect_of(film)),
                 film,
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn its_axes_follow_from_where_it_looks() {
+    fn axes_follow_from_look_at_and_up() {
         let ray = camera("")
             .placement
             .to_world(&Ray::new(Vec3::ZERO, vec3(0.0, 1.0, -1.0)));
@@ -161,10 +161,10 @@ mod tests {
 
     #[test]
     fn the_sensor_follows_the_film_unless_its_shape_is_given() {
-        assert_eq!(camera("").lens.aspect_ratio, 2.0);
-        assert_eq!(camera("").on_film(uvec2(3, 3)).lens.aspect_ratio, 1.0);
+        assert_eq!(camera("").pinhole.aspect_ratio, 2.0);
+        assert_eq!(camera("").on_film(uvec2(3, 3)).pinhole.aspect_ratio, 1.0);
         let fixed = camera(r#""aspect_ratio": 1.5,"#).on_film(uvec2(3, 3));
-        assert_eq!(fixed.lens.aspect_ratio, 1.5);
-        assert_eq!(fixed.lens.film, uvec2(3, 3));
+        assert_eq!(fixed.pinhole.aspect_ratio, 1.5);
+        assert_eq!(fixed.pinhole.film, uvec2(3, 3));
     }
 }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 /// A place in a text file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct TextPosition {
     /// From 1.
     pub line: usize,
     /// From 1, in bytes; 0 if only the line is known.
@@ -22,20 +22,20 @@ pub struct SceneError {
     /// The file, if the scene came from one.
     pub file: Option<PathBuf>,
     /// The place in it, if the problem has one.
-    pub place: Option<Place>,
+    pub position: Option<TextPosition>,
     /// What is wrong.
-    pub problem: Problem,
+    pub kind: SceneErrorKind,
 }
 
 /// What is wrong with a scene or one of its meshes.
 #[derive(Debug, thiserror::Error)]
-pub enum Problem {
+pub enum SceneErrorKind {
     /// The file can not be opened or read.
     #[error("can not be read: {0}")]
     Unreadable(std::io::Error),
     /// The file is something else than text.
     #[error("is not UTF-8 text: byte {0} fits no character; is it the right file?")]
-    NotText(usize),
+    NotUtf8(usize),
     /// There is nothing in the file.
     #[error("is empty: a scene has at least a camera, materials and shapes")]
     Empty,
@@ -52,7 +52,7 @@ pub enum Problem {
     },
     /// A mesh in a scene that came without a folder.
     #[error("a mesh stands in a file of its own, which only a scene read from a file can name")]
-    MeshInText,
+    MeshWithoutFolder,
     /// A mesh's file has a problem of its own.
     #[error("mesh: {0}")]
     Mesh(Box<SceneError>),
@@ -61,31 +61,31 @@ pub enum Problem {
     Obj(String),
     /// Subdivision would not fit in memory.
     #[error(
-        "{levels} subdivisions make {faces} triangles, and at most {most} are drawn: take fewer"
+        "{levels} subdivisions make {triangles} triangles, and at most {limit} are drawn: take fewer"
     )]
-    TooFine {
+    TooManyTriangles {
         /// What was asked for.
         levels: u32,
         /// What it would come to.
-        faces: u64,
+        triangles: u64,
         /// The limit.
-        most: u64,
+        limit: u64,
     },
 }
 
 impl SceneError {
     /// A problem at a place of a file not yet known.
-    pub(super) fn at(place: Option<Place>, problem: Problem) -> Self {
+    pub(super) fn new(place: Option<TextPosition>, problem: SceneErrorKind) -> Self {
         SceneError {
             file: None,
-            place,
-            problem,
+            position: place,
+            kind: problem,
         }
     }
 
     /// The same error, now that the file is known.
     #[cfg(feature = "cli")]
-    pub(super) fn inside(self, file: &Path) -> Self {
+    pub(super) fn in_file(self, file: &Path) -> Self {
         SceneError {
             file: Some(file.to_owned()),
             ..self
@@ -93,11 +93,11 @@ impl SceneError {
     }
 }
 
-impl Place {
+impl TextPosition {
     /// A line and a column, from 1, of a text.
     pub(super) fn new(text: &str, line: usize, column: usize) -> Self {
         let text = text.lines().nth(line.saturating_sub(1)).unwrap_or("");
-        Place {
+        TextPosition {
             line,
             column,
             text: text.to_owned(),
@@ -105,7 +105,7 @@ impl Place {
     }
 
     /// Where `key` has the value `value`, first of all.
-    pub(super) fn of(text: &str, key: &str, value: &str) -> Option<Self> {
+    pub(super) fn of_value(text: &str, key: &str, value: &str) -> Option<Self> {
         let (key, value) = (format!("{key:?}"), format!("{value:?}"));
         let follows_key = |start: usize| {
             let before = text[..start].trim_end().strip_suffix(':');
@@ -116,17 +116,17 @@ impl Place {
             .find(|(start, _)| follows_key(*start))?;
         let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
         let line = text[..start].matches('\n').count() + 1;
-        Some(Place::new(text, line, start - line_start + 1))
+        Some(TextPosition::new(text, line, start - line_start + 1))
     }
 }
 
 /// A whole text file.
 #[cfg(feature = "cli")]
-pub(super) fn text_of(path: &Path) -> Result<String, SceneError> {
-    let failed = |problem| SceneError::at(None, problem).inside(path);
-    let bytes = std::fs::read(path).map_err(|error| failed(Problem::Unreadable(error)))?;
+pub(super) fn read_text(path: &Path) -> Result<String, SceneError> {
+    let failed = |problem| SceneError::new(None, problem).in_file(path);
+    let bytes = std::fs::read(path).map_err(|error| failed(SceneErrorKind::Unreadable(error)))?;
     String::from_utf8(bytes)
-        .map_err(|error| failed(Problem::NotText(error.utf8_error().valid_up_to())))
+        .map_err(|error| failed(SceneErrorKind::NotUtf8(error.utf8_error().valid_up_to())))
 }
 
 impl fmt::Display for SceneError {
@@ -135,14 +135,14 @@ impl fmt::Display for SceneError {
             Some(file) => write!(f, "{}:", file.display())?,
             None => f.write_str("scene:")?,
         }
-        if let Some(place) = &self.place {
+        if let Some(place) = &self.position {
             write!(f, "{}:", place.line)?;
             if place.column > 0 {
                 write!(f, "{}:", place.column)?;
             }
         }
-        write!(f, " {}", self.problem)?;
-        match &self.place {
+        write!(f, " {}", self.kind)?;
+        match &self.position {
             Some(place) => write!(f, "{place}"),
             None => Ok(()),
         }
@@ -150,7 +150,7 @@ impl fmt::Display for SceneError {
 }
 
 /// The line itself with a mark under the column, if it fits on a terminal.
-impl fmt::Display for Place {
+impl fmt::Display for TextPosition {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let shown = self.text.trim_end();
         if shown.is_empty() || shown.len() > 100 {
@@ -172,20 +172,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_value_is_found_where_it_belongs_to_the_key() {
+    fn finds_the_value_of_the_given_key() {
         let text = "{\n  \"about\": \"red\",\n  \"material\" : \"red\"\n}";
-        let place = Place::of(text, "material", "red").expect("it is there");
+        let place = TextPosition::of_value(text, "material", "red").expect("it is there");
         assert_eq!((place.line, place.column), (3, 16));
-        assert_eq!(Place::of(text, "file", "red"), None);
+        assert_eq!(TextPosition::of_value(text, "file", "red"), None);
     }
 
     #[test]
     fn an_error_shows_the_line_and_a_mark_under_the_column() {
         let text = "{\n  \"radius\": -2\n}";
-        let problem = Problem::Syntax("-2 is not above 0".to_owned());
+        let problem = SceneErrorKind::Syntax("-2 is not above 0".to_owned());
         let error = SceneError {
             file: Some(PathBuf::from("ball.json")),
-            ..SceneError::at(Some(Place::new(text, 2, 14)), problem)
+            ..SceneError::new(Some(TextPosition::new(text, 2, 14)), problem)
         };
         let shown = error.to_string();
         let wanted =

@@ -5,14 +5,14 @@ use serde::Deserialize;
 
 use super::camera::Camera;
 use super::material::Material;
-use super::named::Named;
 use super::number;
+use super::ordered_map::OrderedMap;
 use super::polygon::Polygon;
 
 /// A whole scene file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct SceneInFile {
+pub(super) struct SceneFile {
     /// What the scene shows.
     #[serde(default)]
     pub(super) about: String,
@@ -20,15 +20,15 @@ pub(super) struct SceneInFile {
     /// The radiance from all around; without it, none.
     #[serde(default, deserialize_with = "number::radiance")]
     pub(super) environment: Vec3,
-    pub(super) materials: Named<Material>,
-    pub(super) shapes: Vec<ShapeInFile>,
+    pub(super) materials: OrderedMap<Material>,
+    pub(super) shapes: Vec<ShapeEntry>,
 }
 
 /// An entry of `shapes`. Kinds are keys (`{ "sphere": { ... } }`), not values of a key `type`:
 /// so the parser still knows the line when it meets a mistake inside.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(super) enum ShapeInFile {
+pub(super) enum ShapeEntry {
     /// A sphere.
     Sphere {
         #[serde(deserialize_with = "number::triple")]
@@ -40,13 +40,13 @@ pub(super) enum ShapeInFile {
     /// A flat, convex outline.
     Polygon(Polygon),
     /// A mesh in an OBJ file of its own.
-    Mesh(MeshInFile),
+    Mesh(MeshEntry),
 }
 
 /// A mesh: scaled, then turned about x, then y, then z, then moved.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct MeshInFile {
+pub(super) struct MeshEntry {
     /// An OBJ file beside the scene's.
     pub(super) file: String,
     pub(super) material: String,

@@ -56,7 +56,7 @@ fn scene_with(mesh: &str) -> String {
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
 #[test]
-fn a_mesh_beside_the_scene_is_put_in_its_place() {
+fn a_mesh_is_scaled_rotated_and_translated() {
     let folder = Folder::new("placed");
     folder.write("a.obj", SQUARE);
     let put = r#", "scale": 2, "rotate": [90, 0, 0], "translate": [5, 0, 0]"#;
@@ -87,13 +87,13 @@ fn a_subdivided_mesh_has_four_times_the_triangles_and_smooth_normals() {
         Shape::Triangle { vertices, .. } => vertices.iter().all(|vertex| {
             vertex.normal.is_normalized() && vertex.normal.dot(vertex.position) > 0.0
         }),
-        Shape::Facet { .. } | Shape::Sphere { .. } => false,
+        Shape::FlatTriangle { .. } | Shape::Sphere { .. } => false,
     });
     assert!(outward);
 }
 
 #[test]
-fn a_missing_mesh_is_told_at_the_line_that_names_it() {
+fn reports_a_missing_mesh_at_the_line_that_names_it() {
     let folder = Folder::new("missing");
     let told = folder.problem(&folder.write("s.json", scene_with("")));
     assert!(
@@ -103,7 +103,7 @@ fn a_missing_mesh_is_told_at_the_line_that_names_it() {
 }
 
 #[test]
-fn a_bad_line_of_a_mesh_is_told_in_its_own_file() {
+fn reports_a_bad_line_of_a_mesh_in_the_mesh_file() {
     let folder = Folder::new("range");
     folder.write("a.obj", SQUARE.replace("f 1 2 3 4", "f 1 2 9"));
     let told = folder.problem(&folder.write("s.json", scene_with("")));
@@ -112,7 +112,7 @@ fn a_bad_line_of_a_mesh_is_told_in_its_own_file() {
 }
 
 #[test]
-fn a_mesh_that_would_fill_the_memory_is_refused() {
+fn rejects_a_subdivision_that_would_not_fit_in_memory() {
     let folder = Folder::new("fine");
     folder.write("a.obj", SQUARE);
     let told = folder.problem(&folder.write("s.json", scene_with(r#", "subdivide": 40"#)));
@@ -123,7 +123,7 @@ fn a_mesh_that_would_fill_the_memory_is_refused() {
 }
 
 #[test]
-fn a_file_that_is_no_text_is_told_by_its_name() {
+fn reports_the_name_of_an_unreadable_file() {
     let folder = Folder::new("binary");
     let told = folder.problem(&folder.write("s.json", [b'{', 0xff, 0xfe]));
     assert_eq!(
@@ -137,7 +137,7 @@ fn a_file_that_is_no_text_is_told_by_its_name() {
 }
 
 #[test]
-fn the_scenes_of_this_project_are_all_sound() {
+fn every_scene_in_the_scenes_folder_loads() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     // A submission's bundle may stand without them.
     let Ok(entries) = fs::read_dir(&scenes) else {

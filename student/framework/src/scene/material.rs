@@ -75,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn neighbours_on_a_chessboard_differ_also_below_zero() {
+    fn neighbouring_squares_differ_also_below_zero() {
         let at = |u, v| checker(Vec3::ZERO, Vec3::ONE, 2.0, vec2(u, v));
         assert_eq!(at(0.1, 0.1), Vec3::ZERO);
         assert_eq!(at(0.6, 0.1), Vec3::ONE);

@@ -3,7 +3,7 @@
 use glam::{Mat3, Vec2, Vec3};
 use protocol::{Shape, Vertex};
 
-use super::file::MeshInFile;
+use super::file::MeshEntry;
 use crate::math::sin_cos;
 
 /// Triangles that share their corners' positions, and so know their neighbours. Normals and
@@ -27,7 +27,7 @@ pub(super) struct Face {
 impl Mesh {
     /// The shapes of the mesh, where the scene puts it. Triangles without area are left out: no
     /// ray meets one, and it has no normal.
-    pub(super) fn shapes(&self, put: &MeshInFile, material: u32) -> Vec<Shape> {
+    pub(super) fn shapes(&self, put: &MeshEntry, material: u32) -> Vec<Shape> {
         let turn = rotation(put.rotate);
         let place = |p: Vec3| turn * (p * put.scale) + put.translate;
         let positions: Vec<Vec3> = self.positions.iter().copied().map(place).collect();
@@ -49,7 +49,7 @@ impl Mesh {
 
     /// The same mesh with a normal at each position, between those of the faces around it,
     /// weighted by area.
-    pub(super) fn smooth(mut self) -> Self {
+    pub(super) fn with_smooth_normals(mut self) -> Self {
         let mut normals = vec![Vec3::ZERO; self.positions.len()];
         for face in &self.faces {
             let weighted = cross(face.corners.map(|corner| self.positions[corner]));

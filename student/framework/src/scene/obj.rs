@@ -6,22 +6,22 @@ use std::path::Path;
 
 use glam::{Vec2, Vec3};
 
-use super::error::{Place, Problem, SceneError, text_of};
+use super::error::{SceneError, SceneErrorKind, TextPosition, read_text};
 use super::mesh::{Face, Mesh};
 
 /// The mesh in a file.
-pub(super) fn load(path: &Path) -> Result<Mesh, Problem> {
-    let text = text_of(path).map_err(in_mesh)?;
-    parse(&text).map_err(|error| in_mesh(error.inside(path)))
+pub(super) fn load(path: &Path) -> Result<Mesh, SceneErrorKind> {
+    let text = read_text(path).map_err(in_mesh)?;
+    parse(&text).map_err(|error| in_mesh(error.in_file(path)))
 }
 
-fn in_mesh(error: SceneError) -> Problem {
-    Problem::Mesh(Box::new(error))
+fn in_mesh(error: SceneError) -> SceneErrorKind {
+    SceneErrorKind::Mesh(Box::new(error))
 }
 
 /// All triangles of an OBJ text; faces of more corners become fans.
 fn parse(text: &str) -> Result<Mesh, SceneError> {
-    check(text)?;
+    validate(text)?;
     let options = tobj::LoadOptions {
         triangulate: true,
         ignore_points: true,
@@ -31,7 +31,7 @@ fn parse(text: &str) -> Result<Mesh, SceneError> {
     // Materials are the scene's: a library that the file names is not looked for.
     let no_library = |_: &Path| Ok(Default::default());
     let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_library)
-        .map_err(|error| SceneError::at(None, Problem::Obj(error.to_string())))?;
+        .map_err(|error| SceneError::new(None, SceneErrorKind::Obj(error.to_string())))?;
 
     let mut mesh = Mesh::default();
     for model in models {
@@ -52,13 +52,13 @@ fn parse(text: &str) -> Result<Mesh, SceneError> {
             .extend((0..model.mesh.indices.len() / 3).map(face));
     }
     match mesh.faces.is_empty() {
-        true => Err(SceneError::at(None, no_faces())),
+        true => Err(SceneError::new(None, no_faces())),
         false => Ok(mesh),
     }
 }
 
-fn no_faces() -> Problem {
-    Problem::Obj("holds no faces (lines that begin with `f`): is it a mesh?".to_owned())
+fn no_faces() -> SceneErrorKind {
+    SceneErrorKind::Obj("holds no faces (lines that begin with `f`): is it a mesh?".to_owned())
 }
 
 fn triples(numbers: &[f32]) -> impl Iterator<Item = Vec3> {
@@ -70,17 +70,17 @@ fn three(indices: &[u32], face: usize) -> [usize; 3] {
 }
 
 /// The kinds of lines that faces count, in the order in which a corner names them.
-const COUNTED: [(&str, &str); 3] = [("v", "position"), ("vt", "uv"), ("vn", "normal")];
+const INDEXED: [(&str, &str); 3] = [("v", "position"), ("vt", "uv"), ("vn", "normal")];
 
 /// Looks at the numbers of positions, texture coordinates and normals, and at the faces' indices.
-fn check(text: &str) -> Result<(), SceneError> {
+fn validate(text: &str) -> Result<(), SceneError> {
     let count = |kind: &str| text.lines().filter(|line| first_word(line) == kind).count();
-    let totals = COUNTED.map(|(kind, _)| count(kind));
+    let totals = INDEXED.map(|(kind, _)| count(kind));
     let mut so_far = [0; 3];
     for (number, line) in (1..).zip(text.lines()) {
         let kind = first_word(line);
         let words = || line.split_whitespace().skip(1);
-        let checked = if let Some(i) = COUNTED.iter().position(|(known, _)| *known == kind) {
+        let checked = if let Some(i) = INDEXED.iter().position(|(known, _)| *known == kind) {
             so_far[i] += 1;
             words().try_for_each(number_is_finite)
         } else if kind == "f" {
@@ -89,8 +89,8 @@ fn check(text: &str) -> Result<(), SceneError> {
             Ok(())
         };
         let failed = |words| {
-            let place = Some(Place::new(text, number, 0));
-            SceneError::at(place, Problem::Obj(words))
+            let place = Some(TextPosition::new(text, number, 0));
+            SceneError::new(place, SceneErrorKind::Obj(words))
         };
         checked.map_err(failed)?;
     }
@@ -114,7 +114,7 @@ fn corner_exists(corner: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result
         if index.is_empty() {
             continue;
         }
-        let (Some((_, name)), Ok(place)) = (COUNTED.get(i), index.parse::<i64>()) else {
+        let (Some((_, name)), Ok(place)) = (INDEXED.get(i), index.parse::<i64>()) else {
             return Err(format!(
                 "`{corner}` is not a corner, such as 7, 7/1, 7//3 or 7/1/3"
             ));
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_and_texture_coordinates_are_the_corners_own() {
+    fn reads_normals_and_texture_coordinates_per_corner() {
         let attributes = "vt 0.5 0.25\nvn 0 0 1\nvn 1 0 0\n";
         let mesh = parse(&format!("{CORNERS}{attributes}f 1/1/1 2/1/2 -2/-1/-2\n")).expect("valid");
         let face = mesh.faces[0];
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn an_index_out_of_range_is_told_with_its_line() {
+    fn reports_the_line_of_an_index_out_of_range() {
         let error = problem(&format!("{CORNERS}f 1 2 5\n"));
         assert!(
             error.contains(":5: there is no position 5: they count from 1 to 4"),
@@ -174,14 +174,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_told_with_its_line() {
+    fn reports_the_line_of_an_invalid_number() {
         assert!(problem("v 0 nan 0\n").contains(":1: `nan` is not a finite number"));
         assert!(problem("v 0 1e99 0\n").contains("`1e99` is not"));
         assert!(problem(&format!("{CORNERS}f a b c\n")).contains("`a` is not a corner"));
     }
 
     #[test]
-    fn a_mesh_without_faces_is_no_mesh() {
+    fn rejects_a_mesh_without_faces() {
         assert!(problem("").contains("holds no faces"));
         assert!(problem(CORNERS).contains("holds no faces"));
     }

@@ -8,7 +8,7 @@ use super::number;
 
 /// How far a point may be from the plane of the others, as a share of the polygon's size: room for
 /// rounded coordinates, not for a bend that can be seen.
-const FLAT: f32 = 1e-3;
+const FLATNESS_TOLERANCE: f32 = 1e-3;
 
 /// A flat, convex outline, counter-clockwise around its normal.
 #[derive(Deserialize)]
@@ -96,7 +96,7 @@ fn normal(points: &[Vec3]) -> Result<Vec3, PolygonError> {
     }
     let normal = twice_area.normalize();
 
-    let off_plane = |p: &Vec3| (*p - first).dot(normal).abs() > FLAT * size;
+    let off_plane = |p: &Vec3| (*p - first).dot(normal).abs() > FLATNESS_TOLERANCE * size;
     if let Some(place) = points.iter().position(off_plane) {
         return Err(PolygonError::NotFlat(place + 1));
     }
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn an_outline_that_is_not_one_is_refused() {
+    fn rejects_an_invalid_outline() {
         let problem = |points| polygon(points).err().expect("it is refused");
         assert!(problem("[[0,0,0], [1,0,0]]").contains("a polygon of 2 points"));
         assert!(problem("[[0,0,0], [1,0,0], [2,0,0]]").contains("in line"));

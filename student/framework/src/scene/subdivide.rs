@@ -13,16 +13,16 @@ use super::mesh::{Face, Mesh};
 
 /// The mesh with each triangle split into four, and smoothed. Texture coordinates are split
 /// evenly; normals are dropped.
-pub(super) fn subdivided(mesh: &Mesh) -> Mesh {
+pub(super) fn subdivide(mesh: &Mesh) -> Mesh {
     let edges = Edges::of(mesh);
-    let mut positions = moved(mesh, &edges);
+    let mut positions = moved_positions(mesh, &edges);
     positions.extend(edges.list.iter().map(|edge| edge.middle(mesh)));
 
     let first_middle = mesh.positions.len();
     let split = |face: &Face| {
         let [a, b, c] = face.corners;
         let [ua, ub, uc] = face.uv;
-        let middle = |from, to| first_middle + edges.places[&key(from, to)];
+        let middle = |from, to| first_middle + edges.indices[&edge_key(from, to)];
         let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
         let (uab, ubc, uca) = (ua.midpoint(ub), ub.midpoint(uc), uc.midpoint(ua));
         let face = |corners, uv| Face {
@@ -66,23 +66,23 @@ impl Edge {
 /// All edges of a mesh, in the order in which its faces name them.
 struct Edges {
     list: Vec<Edge>,
-    places: HashMap<(usize, usize), usize>,
+    indices: HashMap<(usize, usize), usize>,
 }
 
 impl Edges {
     fn of(mesh: &Mesh) -> Self {
         let mut edges = Edges {
             list: Vec::new(),
-            places: HashMap::new(),
+            indices: HashMap::new(),
         };
         for face in &mesh.faces {
             let [a, b, c] = face.corners;
             for (from, to, across) in [(a, b, c), (b, c, a), (c, a, b)] {
                 let next = edges.list.len();
-                let place = *edges.places.entry(key(from, to)).or_insert(next);
+                let place = *edges.indices.entry(edge_key(from, to)).or_insert(next);
                 if place == next {
                     edges.list.push(Edge {
-                        ends: key(from, to),
+                        ends: edge_key(from, to),
                         across: Vec::with_capacity(2),
                     });
                 }
@@ -94,12 +94,12 @@ impl Edges {
 }
 
 /// An edge is the same from either end.
-fn key(from: usize, to: usize) -> (usize, usize) {
+fn edge_key(from: usize, to: usize) -> (usize, usize) {
     (from.min(to), from.max(to))
 }
 
 /// What the mesh's own positions become.
-fn moved(mesh: &Mesh, edges: &Edges) -> Vec<Vec3> {
+fn moved_positions(mesh: &Mesh, edges: &Edges) -> Vec<Vec3> {
     #[derive(Clone, Copy, Default)]
     struct Ring {
         sum: Vec3,
@@ -160,7 +160,7 @@ mod tests {
             vec3(-1., 1., -1.),
             vec3(-1., -1., 1.),
         ];
-        let fine = subdivided(&subdivided(&mesh(&positions, &corners)));
+        let fine = subdivide(&subdivide(&mesh(&positions, &corners)));
         assert_eq!(fine.faces.len(), 4 * 4 * 4);
         let edges = Edges::of(&fine);
         assert!(edges.list.iter().all(Edge::is_smooth));
@@ -175,14 +175,14 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_of_an_inner_edge_leans_to_both_sides() {
+    fn the_middle_of_an_inner_edge_depends_on_both_opposite_corners() {
         let positions = [
             Vec3::ZERO,
             vec3(8., 0., 0.),
             vec3(0., 8., 0.),
             vec3(8., 8., 8.),
         ];
-        let fine = subdivided(&mesh(&positions, &[[0, 1, 2], [1, 3, 2]]));
+        let fine = subdivide(&mesh(&positions, &[[0, 1, 2], [1, 3, 2]]));
         // 3/8 of each end of the shared edge, 1/8 of each corner across.
         let middle = vec3(3. + 1., 3. + 1., 1.);
         assert!(fine.positions.contains(&middle), "{:?}", fine.positions);

@@ -36,12 +36,12 @@ fn with_camera(from: &str, to: &str) -> String {
 fn a_scene_is_read() {
     let scene = Scene::from_text(&scene(CAMERA, RED, BALL)).expect("a scene");
     assert_eq!(scene.shapes.len(), 1);
-    assert_eq!(scene.camera.lens.aspect_ratio, 4.0 / 3.0);
+    assert_eq!(scene.camera.pinhole.aspect_ratio, 4.0 / 3.0);
     assert_eq!(scene.max_leaf_size, 4);
 }
 
 #[test]
-fn an_unknown_key_is_told_with_its_place_and_those_that_are_known() {
+fn reports_the_position_of_an_unknown_key_and_lists_the_known_ones() {
     let shape = BALL.replace("radius", "radus");
     let wanted = "scene:6:46: unknown field `radus`, expected one of `center`, `radius`, `material`\n    \
         6 |     { \"sphere\": { \"center\": [0, 0, 0], \"radus\": 1, \"material\": \"red\" } }\n      \
@@ -64,7 +64,7 @@ fn a_missing_key_is_named() {
 }
 
 #[test]
-fn numbers_that_are_none_are_refused_where_they_stand() {
+fn reports_the_position_of_an_invalid_number() {
     let radius = |value: &str| with_shape(&BALL.replace(": 1,", &format!(": {value},")));
     assert!(
         radius("0").contains("scene:6:50: 0 is not a finite number above 0"),
@@ -104,7 +104,7 @@ fn numbers_that_are_none_are_refused_where_they_stand() {
 }
 
 #[test]
-fn light_can_not_be_more_than_all_or_less_than_none() {
+fn rejects_albedos_above_one_and_negative_radiance() {
     let albedo = RED.replace("0.8", "1.5");
     assert!(
         with_material(&albedo).contains("each from 0 to 1"),
@@ -122,7 +122,7 @@ fn light_can_not_be_more_than_all_or_less_than_none() {
 }
 
 #[test]
-fn an_unknown_material_is_told_with_its_place_and_the_names() {
+fn reports_the_position_of_an_unknown_material_and_lists_the_known_ones() {
     let shape = BALL.replace("\"red\"", "\"rde\"");
     let told = with_shape(&shape);
     assert!(
@@ -132,13 +132,13 @@ fn an_unknown_material_is_told_with_its_place_and_the_names() {
 }
 
 #[test]
-fn a_name_that_comes_twice_is_refused() {
+fn rejects_a_duplicate_name() {
     let told = with_material(&format!("{RED}, {RED}"));
     assert!(told.contains("the name `red` comes twice"), "{told}");
 }
 
 #[test]
-fn a_camera_that_can_not_look_is_refused() {
+fn rejects_a_camera_without_a_view_direction() {
     let at_itself = with_camera("\"look_at\": [0, 0, 0]", "\"look_at\": [0, 0, 5]");
     assert!(
         at_itself.contains("`look_at` is the camera's own `position`"),
@@ -156,7 +156,7 @@ fn a_camera_that_can_not_look_is_refused() {
 }
 
 #[test]
-fn a_film_without_pixels_or_with_too_many_is_refused() {
+fn rejects_an_empty_or_oversized_film() {
     assert!(with_camera("[4, 3]", "[0, 3]").contains("a film of 0 x 3 pixels"));
     let told = with_camera("[4, 3]", "[4, 16385]");
     assert!(told.contains("each side must be from 1 to 16384"), "{told}");
@@ -164,7 +164,7 @@ fn a_film_without_pixels_or_with_too_many_is_refused() {
 }
 
 #[test]
-fn a_polygon_that_is_none_is_refused_at_its_line() {
+fn reports_the_line_of_an_invalid_polygon() {
     let points = r#"{ "polygon": { "points": [[0,0,0], [1,0,0]], "material": "red" } }"#;
     let told = with_shape(points);
     assert!(
@@ -174,19 +174,19 @@ fn a_polygon_that_is_none_is_refused_at_its_line() {
 }
 
 #[test]
-fn an_empty_text_is_no_scene() {
+fn rejects_an_empty_text() {
     assert!(problem("").contains("is empty"));
     assert!(problem(" \n").contains("is empty"));
 }
 
 #[test]
-fn a_text_that_breaks_off_or_is_no_json_is_told_with_its_line() {
+fn reports_the_line_of_truncated_or_invalid_json() {
     assert!(problem("{\n  \"camera\": {").contains("scene:2:"));
     assert!(problem("hello").contains("scene:1:1: expected value"));
 }
 
 #[test]
-fn a_mesh_needs_a_scene_with_a_folder() {
+fn rejects_a_mesh_in_a_scene_without_a_folder() {
     let told = with_shape(r#"{ "mesh": { "file": "teapot.obj", "material": "red" } }"#);
     assert!(
         told.starts_with("scene:6:25: a mesh stands in a file of its own"),

@@ -7,14 +7,14 @@
 use std::iter;
 
 use arrayvec::ArrayVec;
-use protocol::{Outcome, Trace};
+use protocol::{ElementOutcome, Trace};
 
 use crate::describe;
 use crate::exam::Surface;
 use crate::judge::measure::{direction_error, length_error, uv_error};
 use crate::judge::{
-    Aspect, Blemish, Comparison, Deviation, Failure, How, Judgement, Measured, Share, Threshold,
-    deviation,
+    Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Mismatch,
+    Threshold, deviation,
 };
 
 pub(super) const DEPTH: f32 = 2e-4;
@@ -37,8 +37,8 @@ type Deviations = ArrayVec<Deviation, { QUANTITIES.len() }>;
 /// A picture.
 pub(super) struct FirstHits<'a> {
     pub(super) hits: &'a [Option<Surface>],
-    pub(super) also: &'a [(u32, Option<Surface>)],
-    pub(super) answers: &'a [Outcome<Option<Trace>>],
+    pub(super) alternatives: &'a [(u32, Option<Surface>)],
+    pub(super) answers: &'a [ElementOutcome<Option<Trace>>],
 }
 
 /// One quantity, wherever it is judged.
@@ -55,21 +55,21 @@ impl Comparison for FirstHits<'_> {
             return Judgement::protocol("another number of answers than of rays");
         }
         let tallies = self.tallies();
-        let shares = tallies.map(|tally| match self.is_enough(tally.judged) {
-            true => Share::by_count(tally.wrong, tally.judged),
-            false => Share::NONE,
+        let shares = tallies.map(|tally| match self.has_enough_judged(tally.judged) {
+            true => Credit::by_count(tally.wrong, tally.judged),
+            false => Credit::NONE,
         });
         let weighted = QUANTITIES.iter().zip(shares);
-        let share = Share::weighted(weighted.map(|((_, weight), share)| (*weight, share)));
-        let worst = (0..QUANTITIES.len()).find(|&quantity| shares[quantity] < Share::ALL);
+        let share = Credit::weighted(weighted.map(|((_, weight), share)| (*weight, share)));
+        let worst = (0..QUANTITIES.len()).find(|&quantity| shares[quantity] < Credit::FULL);
         Judgement {
-            share,
+            credit: share,
             failure: worst.map(|quantity| {
                 let tally = tallies[quantity];
                 let element = tally.first_wrong.unwrap_or(0);
                 Failure {
                     element,
-                    how: how(
+                    kind: failure_kind(
                         quantity,
                         &self.answers[element],
                         self.hits[element].as_ref(),
@@ -80,41 +80,41 @@ impl Comparison for FirstHits<'_> {
         }
     }
 
-    fn measure(&self) -> Vec<Measured> {
+    fn measure(&self) -> Vec<Measurement> {
         if self.answers.len() != self.hits.len() {
-            return deviation::worst([Deviation::WRONG]);
+            return deviation::worst_by_threshold([Deviation::WRONG]);
         }
         let mut of_each: [Vec<Deviation>; QUANTITIES.len()] = Default::default();
-        for deviations in self.positions() {
+        for deviations in self.deviations_by_position() {
             let quantities = of_each.iter_mut().zip(deviations);
             quantities.for_each(|(places, deviation)| places.push(deviation));
         }
         let measured = |places: Vec<Deviation>| {
-            let is_enough = self.is_enough(places.len());
-            let allowed = Share::stragglers(places.len());
-            let counted = Measured::counted(places, allowed, Threshold::PicturePositions);
+            let is_enough = self.has_enough_judged(places.len());
+            let allowed = Credit::tolerated(places.len());
+            let counted = Measurement::of_positions(places, allowed, Threshold::PicturePositions);
             // What is not judged often enough fails by what comes before it.
             is_enough.then_some(counted)
         };
         of_each.into_iter().filter_map(measured).collect()
     }
 
-    fn blemishes(&self) -> Option<Vec<Option<Blemish>>> {
-        let blemish = |(outcome, deviations): (&Outcome<_>, Deviations)| match outcome {
-            Outcome::Panicked(_) | Outcome::GivenUp => Some(Blemish::NO_ANSWER),
+    fn mismatches(&self) -> Option<Vec<Option<Mismatch>>> {
+        let blemish = |(outcome, deviations): (&ElementOutcome<_>, Deviations)| match outcome {
+            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => Some(Mismatch::NO_ANSWER),
             // The last one judged is the first that is wrong.
-            Outcome::Value(_) => {
+            ElementOutcome::Value(_) => {
                 let wrong = deviations.iter().zip(ASPECTS);
                 let mut wrong = wrong.filter(|(deviation, _)| !deviation.is_right());
-                wrong.next().map(|(deviation, aspect)| Blemish {
+                wrong.next().map(|(deviation, aspect)| Mismatch {
                     aspect,
-                    off: deviation.value,
+                    deviation: deviation.value,
                 })
             }
         };
         let is_whole = self.answers.len() == self.hits.len();
         is_whole.then(|| {
-            let positions = self.answers.iter().zip(self.positions());
+            let positions = self.answers.iter().zip(self.deviations_by_position());
             positions.map(blemish).collect()
         })
     }
@@ -122,8 +122,8 @@ impl Comparison for FirstHits<'_> {
 
 impl FirstHits<'_> {
     /// How far off each quantity is that is judged there, for each position.
-    fn positions(&self) -> impl Iterator<Item = Deviations> {
-        let mut others: Vec<_> = self.also.iter().collect();
+    fn deviations_by_position(&self) -> impl Iterator<Item = Deviations> {
+        let mut others: Vec<_> = self.alternatives.iter().collect();
         others.sort_by_key(|(position, _)| *position);
         let mut others = others.into_iter().peekable();
         let answers = self.answers.iter().enumerate();
@@ -134,8 +134,8 @@ impl FirstHits<'_> {
             let others = iter::from_fn(here).map(|(_, answer)| answer);
             let right = others.chain([&self.hits[position]]);
             match outcome {
-                Outcome::Value(got) => of_position(got.as_ref(), right, &mut alike),
-                Outcome::Panicked(_) | Outcome::GivenUp => {
+                ElementOutcome::Value(got) => position_deviations(got.as_ref(), right, &mut alike),
+                ElementOutcome::Panicked(_) | ElementOutcome::Skipped => {
                     // The next position's come next.
                     right.for_each(drop);
                     Deviations::from_iter([Deviation::WRONG])
@@ -146,7 +146,7 @@ impl FirstHits<'_> {
 
     fn tallies(&self) -> [Tally; QUANTITIES.len()] {
         let mut tallies: [Tally; QUANTITIES.len()] = Default::default();
-        for (position, deviations) in self.positions().enumerate() {
+        for (position, deviations) in self.deviations_by_position().enumerate() {
             for (tally, deviation) in tallies.iter_mut().zip(deviations) {
                 tally.judged += 1;
                 if !deviation.is_right() {
@@ -160,7 +160,7 @@ impl FirstHits<'_> {
 
     /// Whoever hits nothing has no wrong normals: half of what there is to hit must be judged. Hit
     /// or miss is, everywhere.
-    fn is_enough(&self, judged: usize) -> bool {
+    fn has_enough_judged(&self, judged: usize) -> bool {
         let to_hit = self.hits.iter().flatten().count();
         judged * 2 >= to_hit
     }
@@ -169,7 +169,7 @@ impl FirstHits<'_> {
 /// How far off each quantity is at one position, from the nearest of the `right` answers in which
 /// all before it agree; up to the first that is wrong. A true miss has but the first. What was in
 /// `alike` is forgotten.
-fn of_position<'a>(
+fn position_deviations<'a>(
     got: Option<&Trace>,
     right: impl Iterator<Item = &'a Option<Surface>>,
     alike: &mut Vec<[Deviation; QUANTITIES.len() - 1]>,
@@ -185,7 +185,7 @@ fn of_position<'a>(
     }
 
     let mut nearest = Deviations::new();
-    nearest.push(Deviation::unless(is_miss || !alike.is_empty()));
+    nearest.push(Deviation::binary(is_miss || !alike.is_empty()));
     for quantity in 0..QUANTITIES.len() - 1 {
         let of_each = alike.iter().map(|deviations| deviations[quantity]);
         let Some(next) = of_each.min_by(|a, b| a.value.total_cmp(&b.value)) else {
@@ -202,17 +202,21 @@ fn deviations(got: &Trace, wanted: &Surface) -> [Deviation; QUANTITIES.len() - 1
     let depth = length_error(got.distance, wanted.depth, DEPTH);
     let normal = direction_error(got.normal, wanted.normal, NORMAL);
     [
-        Deviation::of(Threshold::PictureDepth, depth),
-        Deviation::of(Threshold::PictureNormal, normal),
-        Deviation::of(Threshold::PictureUv, uv_error(got.uv, wanted.uv)),
+        Deviation::new(Threshold::PictureDepth, depth),
+        Deviation::new(Threshold::PictureNormal, normal),
+        Deviation::new(Threshold::PictureUv, uv_error(got.uv, wanted.uv)),
     ]
 }
 
-fn how(quantity: usize, answer: &Outcome<Option<Trace>>, wanted: Option<&Surface>) -> How {
+fn failure_kind(
+    quantity: usize,
+    answer: &ElementOutcome<Option<Trace>>,
+    wanted: Option<&Surface>,
+) -> FailureKind {
     let got = match answer {
-        Outcome::Value(got) => got.as_ref(),
-        Outcome::Panicked(panic) => return How::Panicked(panic.clone()),
-        Outcome::GivenUp => return How::Protocol("given up".to_owned()),
+        ElementOutcome::Value(got) => got.as_ref(),
+        ElementOutcome::Panicked(panic) => return FailureKind::Panicked(panic.clone()),
+        ElementOutcome::Skipped => return FailureKind::Protocol("given up".to_owned()),
     };
     let tell = |tell: fn(&Trace) -> String| got.map_or("no hit".to_owned(), tell);
     let want = |want: fn(&Surface) -> String| wanted.map_or("no hit".to_owned(), want);
@@ -230,7 +234,7 @@ fn how(quantity: usize, answer: &Outcome<Option<Trace>>, wanted: Option<&Surface
             want(|surface| describe::hit_at(surface.depth)),
         ),
     };
-    How::Wrong {
+    FailureKind::Wrong {
         what: QUANTITIES[quantity].0.to_owned(),
         got,
         wanted,

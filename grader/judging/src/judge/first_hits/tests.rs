@@ -5,16 +5,16 @@ use super::*;
 fn judge(
     hits: &[Option<Surface>],
     also: &[(u32, Option<Surface>)],
-    answers: &[Outcome<Option<Trace>>],
+    answers: &[ElementOutcome<Option<Trace>>],
 ) -> Judgement {
     let picture = FirstHits {
         hits,
-        also,
+        alternatives: also,
         answers,
     };
     let judgement = picture.judge();
     // A mask shows what is counted, neither more nor less.
-    let blemishes = picture.blemishes().expect("as many answers as rays");
+    let blemishes = picture.mismatches().expect("as many answers as rays");
     let tallies = picture.tallies();
     for (aspect, tally) in ASPECTS.iter().zip(&tallies) {
         let found = blemishes.iter().flatten();
@@ -24,8 +24,8 @@ fn judge(
         );
     }
     let mut measured = picture.measure().into_iter();
-    let is_right = measured.all(|measured| measured.decider().is_right());
-    assert_eq!(is_right, judgement.share == Share::ALL);
+    let is_right = measured.all(|measured| measured.deciding_deviation().is_right());
+    assert_eq!(is_right, judgement.credit == Credit::FULL);
     judgement
 }
 
@@ -35,8 +35,8 @@ const WALL: Surface = Surface {
     uv: Vec2::ZERO,
 };
 
-fn seen(surface: Surface) -> Outcome<Option<Trace>> {
-    Outcome::Value(Some(Trace {
+fn answer_of(surface: Surface) -> ElementOutcome<Option<Trace>> {
+    ElementOutcome::Value(Some(Trace {
         distance: surface.depth,
         position: Vec3::ZERO,
         normal: surface.normal,
@@ -51,67 +51,67 @@ fn key() -> Vec<Option<Surface>> {
     (0..100).map(|i| (i < 50).then_some(WALL)).collect()
 }
 
-fn answers(at_wall: Outcome<Option<Trace>>) -> Vec<Outcome<Option<Trace>>> {
+fn answers(at_wall: ElementOutcome<Option<Trace>>) -> Vec<ElementOutcome<Option<Trace>>> {
     let answer = |i| {
         if i < 50 {
             at_wall.clone()
         } else {
-            Outcome::Value(None)
+            ElementOutcome::Value(None)
         }
     };
     (0..100).map(answer).collect()
 }
 
 #[test]
-fn the_right_picture_earns_everything() {
-    let judgement = judge(&key(), &[], &answers(seen(WALL)));
-    assert_eq!(judgement.share, Share::ALL);
+fn a_correct_picture_earns_full_credit() {
+    let judgement = judge(&key(), &[], &answers(answer_of(WALL)));
+    assert_eq!(judgement.credit, Credit::FULL);
     assert_eq!(judgement.failure, None);
 }
 
 #[test]
-fn a_wrong_normal_costs_normal_and_what_is_judged_after_it() {
+fn wrong_normals_cost_the_normal_and_uv_credit() {
     let flipped = Surface {
         normal: -WALL.normal,
         ..WALL
     };
-    let judgement = judge(&key(), &[], &answers(seen(flipped)));
-    assert_eq!(judgement.share.of(10), 7);
+    let judgement = judge(&key(), &[], &answers(answer_of(flipped)));
+    assert_eq!(judgement.credit.apply(10), 7);
     let failure = judgement.failure.expect("it is wrong");
-    assert!(matches!(failure.how, How::Wrong { what, .. } if what == "normal"));
+    assert!(matches!(failure.kind, FailureKind::Wrong { what, .. } if what == "normal"));
     assert_eq!(failure.count, Some((50, 50)));
 }
 
 #[test]
-fn hitting_nothing_or_everything_earns_nothing() {
-    let nothing = vec![Outcome::Value(None); 100];
-    assert_eq!(judge(&key(), &[], &nothing).share, Share::NONE);
-    let everything = vec![seen(WALL); 100];
-    assert_eq!(judge(&key(), &[], &everything).share.of(100), 60);
-    let elsewhere = vec![seen(Surface { depth: 9.0, ..WALL }); 100];
-    assert_eq!(judge(&key(), &[], &elsewhere).share, Share::NONE);
+fn missing_everything_earns_nothing_and_hitting_everything_only_part() {
+    let nothing = vec![ElementOutcome::Value(None); 100];
+    assert_eq!(judge(&key(), &[], &nothing).credit, Credit::NONE);
+    let everything = vec![answer_of(WALL); 100];
+    assert_eq!(judge(&key(), &[], &everything).credit.apply(100), 60);
+    let elsewhere = vec![answer_of(Surface { depth: 9.0, ..WALL }); 100];
+    assert_eq!(judge(&key(), &[], &elsewhere).credit, Credit::NONE);
 }
 
 #[test]
-fn at_an_edge_either_answer_is_right() {
-    let mut got = answers(seen(WALL));
+fn either_answer_is_correct_at_an_edge() {
+    let mut got = answers(answer_of(WALL));
     for answer in &mut got[..3] {
-        *answer = Outcome::Value(None);
+        *answer = ElementOutcome::Value(None);
     }
-    assert!(judge(&key(), &[], &got).share < Share::ALL);
+    assert!(judge(&key(), &[], &got).credit < Credit::FULL);
     let also = [(0, None), (1, None), (2, None)];
-    assert_eq!(judge(&key(), &also, &got).share, Share::ALL);
+    assert_eq!(judge(&key(), &also, &got).credit, Credit::FULL);
 }
 
 #[test]
-fn an_edge_counts_in_any_order_and_after_one_without_an_answer() {
-    let mut got = answers(seen(WALL));
-    got[0] = Outcome::GivenUp;
-    got[1] = Outcome::Value(None);
-    got[2] = Outcome::Value(None);
+fn alternatives_may_be_unsorted_and_follow_a_missing_answer() {
+    let mut got = answers(answer_of(WALL));
+    got[0] = ElementOutcome::Skipped;
+    got[1] = ElementOutcome::Value(None);
+    got[2] = ElementOutcome::Value(None);
     let picture = FirstHits {
         hits: &key(),
-        also: &[(2, None), (0, None), (1, None)],
+        alternatives: &[(2, None), (0, None), (1, None)],
         answers: &got,
     };
     let [hit_or_miss, ..] = picture.tallies();
@@ -119,10 +119,15 @@ fn an_edge_counts_in_any_order_and_after_one_without_an_answer() {
 }
 
 #[test]
-fn not_a_number_is_wrong() {
+fn nan_depth_is_wrong() {
     let nan = Surface {
         depth: f32::NAN,
         ..WALL
     };
-    assert_eq!(judge(&key(), &[], &answers(seen(nan))).share.of(100), 40);
+    assert_eq!(
+        judge(&key(), &[], &answers(answer_of(nan)))
+            .credit
+            .apply(100),
+        40
+    );
 }

@@ -20,7 +20,7 @@ impl Bounds {
     };
 
     /// The box that stands in a node.
-    pub fn of(node: &TreeNode) -> Self {
+    pub fn of_node(node: &TreeNode) -> Self {
         Bounds {
             min: node.min.as_dvec3(),
             max: node.max.as_dvec3(),
@@ -28,7 +28,7 @@ impl Bounds {
     }
 
     /// The tightest box around a shape.
-    pub fn around(shape: &Shape) -> Self {
+    pub fn of_shape(shape: &Shape) -> Self {
         let corners = |corners: [glam::Vec3; 3]| {
             let [a, b, c] = corners.map(|corner| corner.as_dvec3());
             Bounds {
@@ -38,7 +38,7 @@ impl Bounds {
         };
         match *shape {
             Shape::Triangle { vertices, .. } => corners(vertices.map(|vertex| vertex.position)),
-            Shape::Facet {
+            Shape::FlatTriangle {
                 corners: points, ..
             } => corners(points),
             Shape::Sphere { center, radius, .. } => Bounds {
@@ -67,7 +67,7 @@ impl Bounds {
 
     /// How far this box sticks out of `outer`, beyond the last bits of an f32. Never NaN: a box
     /// with one sticks out infinitely.
-    pub fn sticks_out_of(self, outer: Bounds) -> f64 {
+    pub fn excess_over(self, outer: Bounds) -> f64 {
         let last_bits = self.min.abs().max(self.max.abs()) * 2.0 * f64::from(f32::EPSILON);
         let below = (outer.min - self.min - last_bits).to_array();
         let above = (self.max - outer.max - last_bits).to_array();

@@ -2,91 +2,92 @@
 //! tree.
 
 pub mod bounds;
-pub mod cells;
+pub mod reached_nodes;
 
-use protocol::{Outcome, Shape, Tree};
+use protocol::{ElementOutcome, Shape, Tree};
 
-use crate::exam::TreePart;
+use crate::exam::TreeCheck;
 use crate::judge::measure::in_units_of;
 use crate::judge::{
-    Comparison, Deviation, Failure, How, Judgement, Measured, Share, Threshold, deviation,
+    Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Threshold,
+    deviation,
 };
 
 use bounds::Bounds;
-use cells::{Cell, Mistake, cells};
+use reached_nodes::{ReachedNode, TreeDefect, reached_nodes};
 
 /// Full marks up to so many times the cost of the exact sweep.
-pub const FULL: f64 = 1.12;
+pub const FULL_MARKS_RATIO: f64 = 1.12;
 /// Half marks.
-const HALF: f64 = 1.25;
+const HALF_MARKS_RATIO: f64 = 1.25;
 /// How far a box may exceed what it holds, in diagonals.
-pub(super) const LOOSE: f64 = 1e-4;
+pub(super) const TIGHT_TOLERANCE: f64 = 1e-4;
 /// How far a primitive may stick out of its box, in diagonals: what rounding explains.
-pub(super) const ROUNDING: f64 = 1e-5;
+pub(super) const CONTAIN_TOLERANCE: f64 = 1e-5;
 
 /// A tree, and what must hold of it.
-pub(super) struct Built<'a> {
-    pub(super) judged: &'a [TreePart],
+pub(super) struct TreeAnswer<'a> {
+    pub(super) checks: &'a [TreeCheck],
     pub(super) sweep_cost: Option<f64>,
     pub(super) shapes: &'a [Shape],
     pub(super) max_leaf_size: u32,
-    pub(super) answer: &'a Outcome<Tree>,
+    pub(super) answer: &'a ElementOutcome<Tree>,
 }
 
-impl Comparison for Built<'_> {
+impl Comparison for TreeAnswer<'_> {
     fn judge(&self) -> Judgement {
         let tree = match self.answer {
-            Outcome::Value(tree) => tree,
-            Outcome::Panicked(panic) => {
+            ElementOutcome::Value(tree) => tree,
+            ElementOutcome::Panicked(panic) => {
                 return Judgement::wrong(Failure {
                     element: 0,
-                    how: How::Panicked(panic.clone()),
+                    kind: FailureKind::Panicked(panic.clone()),
                     count: None,
                 });
             }
-            Outcome::GivenUp => return Judgement::protocol("given up"),
+            ElementOutcome::Skipped => return Judgement::protocol("given up"),
         };
-        let cells = match cells(self.shapes, tree) {
+        let cells = match reached_nodes(self.shapes, tree) {
             Ok(cells) => cells,
-            Err(mistake) => return wrong(mistake),
+            Err(mistake) => return wrong_tree(mistake),
         };
-        let mut judged = self.judged.iter();
-        let mistake = judged.find_map(|part| self.part_mistake(*part, &cells));
+        let mut judged = self.checks.iter();
+        let mistake = judged.find_map(|part| self.check_defect(*part, &cells));
         match (mistake, self.sweep_cost) {
-            (Some(mistake), _) => wrong(mistake),
+            (Some(mistake), _) => wrong_tree(mistake),
             (None, None) => Judgement::RIGHT,
             // A cost is only that of this tree if the tree holds every primitive once.
-            (None, Some(sweep)) => match partition_mistake(&cells, self.shapes.len()) {
-                Some(mistake) => wrong(mistake),
-                None => by_cost(cost(&cells) / sweep),
+            (None, Some(sweep)) => match partition_defect(&cells, self.shapes.len()) {
+                Some(mistake) => wrong_tree(mistake),
+                None => judge_cost(cost(&cells) / sweep),
             },
         }
     }
 
-    fn measure(&self) -> Vec<Measured> {
+    fn measure(&self) -> Vec<Measurement> {
         let cells = match self.answer {
-            Outcome::Value(tree) => cells(self.shapes, tree).ok(),
-            Outcome::Panicked(_) | Outcome::GivenUp => None,
+            ElementOutcome::Value(tree) => reached_nodes(self.shapes, tree).ok(),
+            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
         };
         let Some(cells) = cells else {
-            return deviation::worst([Deviation::WRONG]);
+            return deviation::worst_by_threshold([Deviation::WRONG]);
         };
-        let parts = self.judged.iter();
-        let parts = parts.flat_map(|part| self.part_deviations(*part, &cells));
-        let cost =
-            self.sweep_cost
-                .map(|sweep| match partition_mistake(&cells, self.shapes.len()) {
-                    Some(_) => Deviation::WRONG,
-                    None => cost_deviation(cost(&cells) / sweep),
-                });
-        deviation::worst(parts.chain(cost))
+        let parts = self.checks.iter();
+        let parts = parts.flat_map(|part| self.check_deviations(*part, &cells));
+        let cost = self
+            .sweep_cost
+            .map(|sweep| match partition_defect(&cells, self.shapes.len()) {
+                Some(_) => Deviation::WRONG,
+                None => cost_deviation(cost(&cells) / sweep),
+            });
+        deviation::worst_by_threshold(parts.chain(cost))
     }
 }
 
-fn wrong(mistake: Mistake) -> Judgement {
+fn wrong_tree(mistake: TreeDefect) -> Judgement {
     Judgement::wrong(Failure {
         element: 0,
-        how: How::Wrong {
+        kind: FailureKind::Wrong {
             what: mistake.what.to_owned(),
             got: mistake.got,
             wanted: mistake.wanted,
@@ -95,20 +96,22 @@ fn wrong(mistake: Mistake) -> Judgement {
     })
 }
 
-fn by_cost(ratio: f64) -> Judgement {
+fn judge_cost(ratio: f64) -> Judgement {
     if cost_deviation(ratio).is_right() {
         return Judgement::RIGHT;
     }
-    let judgement = wrong(Mistake {
+    let judgement = wrong_tree(TreeDefect {
         what: "SAH cost",
         got: format!("{ratio:.2} times that of the best split at every node"),
-        wanted: format!("at most {FULL:.2} times ({HALF:.2} for half the points)"),
+        wanted: format!(
+            "at most {FULL_MARKS_RATIO:.2} times ({HALF_MARKS_RATIO:.2} for half the points)"
+        ),
     });
     Judgement {
-        share: if ratio <= HALF {
-            Share::HALF
+        credit: if ratio <= HALF_MARKS_RATIO {
+            Credit::HALF
         } else {
-            Share::NONE
+            Credit::NONE
         },
         ..judgement
     }
@@ -116,54 +119,58 @@ fn by_cost(ratio: f64) -> Judgement {
 
 /// How much more a tree costs than the sweep's, to which it is so many times as dear.
 fn cost_deviation(ratio: f64) -> Deviation {
-    Deviation::of(Threshold::SahCost, in_units_of(FULL - 1.0, ratio - 1.0))
+    Deviation::new(
+        Threshold::SahCost,
+        in_units_of(FULL_MARKS_RATIO - 1.0, ratio - 1.0),
+    )
 }
 
-impl Built<'_> {
-    fn part_mistake(&self, part: TreePart, cells: &[Cell]) -> Option<Mistake> {
+impl TreeAnswer<'_> {
+    fn check_defect(&self, part: TreeCheck, cells: &[ReachedNode]) -> Option<TreeDefect> {
         let most = self.max_leaf_size as usize;
         match part {
-            TreePart::Partition => partition_mistake(cells, self.shapes.len()),
-            TreePart::Contains => cells
+            TreeCheck::Partition => partition_defect(cells, self.shapes.len()),
+            TreeCheck::Contains => cells
                 .iter()
-                .find(|cell| !too_small(cell).is_right())
-                .map(|cell| cell.box_mistake("box too small")),
-            TreePart::Tight => cells
+                .find(|cell| !containment_deviation(cell).is_right())
+                .map(|cell| cell.box_defect("box too small")),
+            TreeCheck::Tight => cells
                 .iter()
-                .find(|cell| !too_large(cell).is_right())
-                .map(|cell| cell.box_mistake("box too large")),
-            TreePart::Split => {
+                .find(|cell| !tightness_deviation(cell).is_right())
+                .map(|cell| cell.box_defect("box too large")),
+            TreeCheck::Split => {
                 let all = self.shapes.len();
-                let is_half = |cell: &&Cell| cell.leaf.is_some() && 2 * cell.count >= all;
+                let is_half =
+                    |cell: &&ReachedNode| cell.leaf_primitives.is_some() && 2 * cell.count >= all;
                 let leaf = cells.iter().filter(|_| all > 1).find(is_half)?;
-                Some(Mistake {
+                Some(TreeDefect {
                     what: "splits",
                     got: format!(
                         "leaf {} holds {} of {all} primitives",
-                        leaf.place, leaf.count
+                        leaf.index, leaf.count
                     ),
                     wanted: "less than half of them in any leaf".to_owned(),
                 })
             }
-            TreePart::LeafSize => {
+            TreeCheck::LeafSize => {
                 let leaf = cells
                     .iter()
-                    .find(|cell| cell.leaf.is_some() && cell.count > most)?;
-                Some(Mistake {
+                    .find(|cell| cell.leaf_primitives.is_some() && cell.count > most)?;
+                Some(TreeDefect {
                     what: "leaf size",
-                    got: format!("leaf {} holds {} primitives", leaf.place, leaf.count),
+                    got: format!("leaf {} holds {} primitives", leaf.index, leaf.count),
                     wanted: format!("at most {most}"),
                 })
             }
-            TreePart::Stops => {
+            TreeCheck::Stops => {
                 let node = cells
                     .iter()
-                    .find(|cell| cell.leaf.is_none() && cell.count <= most)?;
-                Some(Mistake {
+                    .find(|cell| cell.leaf_primitives.is_none() && cell.count <= most)?;
+                Some(TreeDefect {
                     what: "splits",
                     got: format!(
                         "node {} was split over {} primitives",
-                        node.place, node.count
+                        node.index, node.count
                     ),
                     wanted: format!("a leaf, as soon as there are at most {most}"),
                 })
@@ -171,47 +178,51 @@ impl Built<'_> {
         }
     }
 
-    fn part_deviations(&self, part: TreePart, cells: &[Cell]) -> Vec<Deviation> {
+    fn check_deviations(&self, part: TreeCheck, cells: &[ReachedNode]) -> Vec<Deviation> {
         match part {
-            TreePart::Contains => cells.iter().map(too_small).collect(),
-            TreePart::Tight => cells.iter().map(too_large).collect(),
-            TreePart::Partition | TreePart::Split | TreePart::LeafSize | TreePart::Stops => {
-                vec![Deviation::unless(self.part_mistake(part, cells).is_none())]
+            TreeCheck::Contains => cells.iter().map(containment_deviation).collect(),
+            TreeCheck::Tight => cells.iter().map(tightness_deviation).collect(),
+            TreeCheck::Partition | TreeCheck::Split | TreeCheck::LeafSize | TreeCheck::Stops => {
+                vec![Deviation::binary(self.check_defect(part, cells).is_none())]
             }
         }
     }
 }
 
 /// How far a node's primitives stick out of its box. The box of a node without any is not read.
-pub fn too_small(cell: &Cell) -> Deviation {
+pub fn containment_deviation(cell: &ReachedNode) -> Deviation {
     let out = match cell.count {
         0 => 0.0,
-        _ => cell.needs.sticks_out_of(Bounds::of(cell.node)),
+        _ => cell.tight_bounds.excess_over(Bounds::of_node(cell.node)),
     };
-    let limit = ROUNDING * cell.needs.diagonal();
-    Deviation::of(Threshold::BoxTooSmall, in_units_of(limit, out))
+    let limit = CONTAIN_TOLERANCE * cell.tight_bounds.diagonal();
+    Deviation::new(Threshold::BoxTooSmall, in_units_of(limit, out))
 }
 
 /// How far a node's box exceeds what its primitives need.
-pub fn too_large(cell: &Cell) -> Deviation {
+pub fn tightness_deviation(cell: &ReachedNode) -> Deviation {
     let out = match cell.count {
         0 => 0.0,
-        _ => Bounds::of(cell.node).sticks_out_of(cell.needs),
+        _ => Bounds::of_node(cell.node).excess_over(cell.tight_bounds),
     };
-    let limit = LOOSE * cell.needs.diagonal();
-    Deviation::of(Threshold::BoxTooLarge, in_units_of(limit, out))
+    let limit = TIGHT_TOLERANCE * cell.tight_bounds.diagonal();
+    Deviation::new(Threshold::BoxTooLarge, in_units_of(limit, out))
 }
 
-fn partition_mistake(cells: &[Cell], primitives: usize) -> Option<Mistake> {
+fn partition_defect(cells: &[ReachedNode], primitives: usize) -> Option<TreeDefect> {
     let mut leaves_of = vec![0; primitives];
-    for &primitive in cells.iter().filter_map(|cell| cell.leaf.as_ref()).flatten() {
+    for &primitive in cells
+        .iter()
+        .filter_map(|cell| cell.leaf_primitives.as_ref())
+        .flatten()
+    {
         leaves_of[primitive] += 1;
     }
     let (primitive, leaves) = leaves_of
         .iter()
         .enumerate()
         .find(|(_, leaves)| **leaves != 1)?;
-    Some(Mistake {
+    Some(TreeDefect {
         what: "leaves",
         got: format!("primitive {primitive} of {primitives} is in {leaves} leaves"),
         wanted: "each primitive in exactly one".to_owned(),
@@ -221,14 +232,14 @@ fn partition_mistake(cells: &[Cell], primitives: usize) -> Option<Mistake> {
 /// Σ S/S_root over interior nodes + Σ n · S/S_root over leaves (C_trav = C_isect = 1), with the
 /// boxes that the primitives need: MacDonald and Booth, "Heuristics for ray tracing using space
 /// subdivision", The Visual Computer 6, 1990, section 3.
-pub fn cost<'a>(cells: impl IntoIterator<Item = &'a Cell<'a>>) -> f64 {
+pub fn cost<'a>(cells: impl IntoIterator<Item = &'a ReachedNode<'a>>) -> f64 {
     let mut cells = cells.into_iter().peekable();
-    let Some(root) = cells.peek().map(|root| root.needs.area()) else {
+    let Some(root) = cells.peek().map(|root| root.tight_bounds.area()) else {
         return 0.0;
     };
-    let cost = |cell: &Cell| match &cell.leaf {
-        None => cell.needs.area(),
-        Some(leaf) => cell.needs.area() * leaf.len() as f64,
+    let cost = |cell: &ReachedNode| match &cell.leaf_primitives {
+        None => cell.tight_bounds.area(),
+        Some(leaf) => cell.tight_bounds.area() * leaf.len() as f64,
     };
     cells.map(cost).sum::<f64>() / root
 }

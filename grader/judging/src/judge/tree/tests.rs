@@ -25,7 +25,7 @@ fn node(first: u32, last: u32, size: u32, l: u32, r: u32) -> TreeNode {
 }
 
 /// Four spheres, two in each leaf, the root in the middle.
-fn good() -> Tree {
+fn valid_tree() -> Tree {
     Tree {
         nodes: vec![
             node(0, 1, 2, 0, 0),
@@ -38,14 +38,14 @@ fn good() -> Tree {
 }
 
 fn judge(
-    judged: &[TreePart],
+    judged: &[TreeCheck],
     sweep_cost: Option<f64>,
     shapes: &[Shape],
     max_leaf_size: u32,
-    answer: &Outcome<Tree>,
+    answer: &ElementOutcome<Tree>,
 ) -> Judgement {
-    let built = Built {
-        judged,
+    let built = TreeAnswer {
+        checks: judged,
         sweep_cost,
         shapes,
         max_leaf_size,
@@ -53,66 +53,72 @@ fn judge(
     };
     let judgement = built.judge();
     let mut measured = built.measure().into_iter();
-    let is_right = measured.all(|measured| measured.decider().is_right());
-    assert_eq!(is_right, judgement.share == Share::ALL);
+    let is_right = measured.all(|measured| measured.deciding_deviation().is_right());
+    assert_eq!(is_right, judgement.credit == Credit::FULL);
     judgement
 }
 
-const ALL: [TreePart; 5] = [
-    TreePart::Partition,
-    TreePart::Contains,
-    TreePart::Tight,
-    TreePart::LeafSize,
-    TreePart::Stops,
+const ALL_CHECKS: [TreeCheck; 5] = [
+    TreeCheck::Partition,
+    TreeCheck::Contains,
+    TreeCheck::Tight,
+    TreeCheck::LeafSize,
+    TreeCheck::Stops,
 ];
 
-fn what(tree: Tree) -> String {
-    match judge(&ALL, None, &row(4), 2, &Outcome::Value(tree)).failure {
+fn defect_of(tree: Tree) -> String {
+    match judge(&ALL_CHECKS, None, &row(4), 2, &ElementOutcome::Value(tree)).failure {
         None => "right".to_owned(),
-        Some(failure) => match failure.how {
-            How::Wrong { what, .. } => what,
-            How::Panicked(_) | How::Protocol(_) => unreachable!("it is a tree"),
+        Some(failure) => match failure.kind {
+            FailureKind::Wrong { what, .. } => what,
+            FailureKind::Panicked(_) | FailureKind::Protocol(_) => unreachable!("it is a tree"),
         },
     }
 }
 
-fn spoiled(spoil: impl FnOnce(&mut Tree)) -> String {
-    let mut tree = good();
+fn defect_after(spoil: impl FnOnce(&mut Tree)) -> String {
+    let mut tree = valid_tree();
     spoil(&mut tree);
-    what(tree)
+    defect_of(tree)
 }
 
 #[test]
-fn each_part_of_a_tree_is_judged() {
-    assert_eq!(what(good()), "right");
-    assert_eq!(spoiled(|tree| tree.order = vec![0, 1, 2, 2]), "leaves");
-    assert_eq!(spoiled(|tree| tree.order = vec![0, 1, 2, 9]), "leaves");
-    assert_eq!(spoiled(|tree| tree.nodes[2].size = 3), "leaves");
-    assert_eq!(spoiled(|tree| tree.nodes[2].size = 1), "leaves");
-    assert_eq!(spoiled(|tree| tree.nodes[1].max.x = 3.0), "box too small");
-    assert_eq!(spoiled(|tree| tree.nodes[0].min.y = -0.6), "box too large");
+fn each_check_finds_its_defect() {
+    assert_eq!(defect_of(valid_tree()), "right");
+    assert_eq!(defect_after(|tree| tree.order = vec![0, 1, 2, 2]), "leaves");
+    assert_eq!(defect_after(|tree| tree.order = vec![0, 1, 2, 9]), "leaves");
+    assert_eq!(defect_after(|tree| tree.nodes[2].size = 3), "leaves");
+    assert_eq!(defect_after(|tree| tree.nodes[2].size = 1), "leaves");
     assert_eq!(
-        spoiled(|tree| tree.nodes[0].min.y = f32::NAN),
+        defect_after(|tree| tree.nodes[1].max.x = 3.0),
         "box too small"
     );
     assert_eq!(
-        spoiled(|tree| tree.nodes[0].min.y = f32::NEG_INFINITY),
+        defect_after(|tree| tree.nodes[0].min.y = -0.6),
         "box too large"
     );
-    assert_eq!(spoiled(|tree| tree.nodes[1].r = 7), "child r");
-    assert_eq!(spoiled(|tree| tree.nodes[1].r = 1), "nodes");
-    assert_eq!(spoiled(|tree| tree.root = 3), "root");
-    assert_eq!(spoiled(|tree| tree.nodes.clear()), "nodes");
+    assert_eq!(
+        defect_after(|tree| tree.nodes[0].min.y = f32::NAN),
+        "box too small"
+    );
+    assert_eq!(
+        defect_after(|tree| tree.nodes[0].min.y = f32::NEG_INFINITY),
+        "box too large"
+    );
+    assert_eq!(defect_after(|tree| tree.nodes[1].r = 7), "child r");
+    assert_eq!(defect_after(|tree| tree.nodes[1].r = 1), "nodes");
+    assert_eq!(defect_after(|tree| tree.root = 3), "root");
+    assert_eq!(defect_after(|tree| tree.nodes.clear()), "nodes");
     let one_leaf = Tree {
         nodes: vec![node(0, 3, 4, 0, 0)],
         root: 0,
-        ..good()
+        ..valid_tree()
     };
-    assert_eq!(what(one_leaf), "leaf size");
+    assert_eq!(defect_of(one_leaf), "leaf size");
 }
 
 #[test]
-fn leaves_that_each_name_everything_are_not_counted_to_the_end() {
+fn counting_stops_when_leaves_list_too_many_primitives() {
     // A chain of nodes with a leaf at each, and all of a long order in every leaf.
     let (links, listed) = (2_000, 200_000);
     let link = |i: u32| {
@@ -128,16 +134,16 @@ fn leaves_that_each_name_everything_are_not_counted_to_the_end() {
         root: 0,
         order: vec![0; listed as usize],
     };
-    let judged = judge(&ALL, None, &row(4), 2, &Outcome::Value(tree));
+    let judged = judge(&ALL_CHECKS, None, &row(4), 2, &ElementOutcome::Value(tree));
     let failure = judged.failure.expect("it is wrong");
-    let How::Wrong { got, .. } = failure.how else {
+    let FailureKind::Wrong { got, .. } = failure.kind else {
         panic!("it is a tree");
     };
     assert_eq!(got, "leaves that hold more than 4096 primitives in all");
 }
 
 #[test]
-fn hardly_split_is_not_split() {
+fn a_leaf_with_half_of_the_primitives_is_not_split() {
     let share = |count: u32, nodes: Vec<TreeNode>| {
         let tree = Tree {
             nodes,
@@ -145,19 +151,19 @@ fn hardly_split_is_not_split() {
             order: (0..count).collect(),
         };
         judge(
-            &[TreePart::Split],
+            &[TreeCheck::Split],
             None,
             &row(count),
             1,
-            &Outcome::Value(tree),
+            &ElementOutcome::Value(tree),
         )
-        .share
+        .credit
     };
-    assert_eq!(share(1, vec![node(0, 0, 1, 0, 0)]), Share::ALL);
-    assert_eq!(share(4, vec![node(0, 3, 4, 0, 0)]), Share::NONE);
+    assert_eq!(share(1, vec![node(0, 0, 1, 0, 0)]), Credit::FULL);
+    assert_eq!(share(4, vec![node(0, 3, 4, 0, 0)]), Credit::NONE);
     let fork = node(0, 4, 0, 1, 2);
     let half = vec![fork, node(0, 1, 2, 0, 0), node(2, 3, 2, 0, 0)];
-    assert_eq!(share(4, half), Share::NONE);
+    assert_eq!(share(4, half), Credit::NONE);
     // Larger leaves than one, and of each less than half.
     let thirds = vec![
         fork,
@@ -166,44 +172,51 @@ fn hardly_split_is_not_split() {
         node(2, 3, 2, 0, 0),
         node(4, 4, 1, 0, 0),
     ];
-    assert_eq!(share(5, thirds), Share::ALL);
+    assert_eq!(share(5, thirds), Credit::FULL);
 }
 
 #[test]
-fn a_node_that_should_be_a_leaf_is_told() {
-    let split = Outcome::Value(good());
-    let judgement = judge(&[TreePart::Stops], None, &row(4), 4, &split);
-    assert_eq!(judgement.share, Share::NONE);
+fn reports_a_node_that_should_be_a_leaf() {
+    let split = ElementOutcome::Value(valid_tree());
+    let judgement = judge(&[TreeCheck::Stops], None, &row(4), 4, &split);
+    assert_eq!(judgement.credit, Credit::NONE);
 }
 
 #[test]
-fn cost_is_counted_as_by_hand() {
+fn cost_matches_a_hand_calculation() {
     // Boxes of 1×1×7 (area 30) and twice 1×1×3 (area 14): 1 + 2 · 2 · 14/30.
-    let tree = good();
-    let cells = cells(&row(4), &tree).ok().expect("it is a tree");
+    let tree = valid_tree();
+    let cells = reached_nodes(&row(4), &tree).ok().expect("it is a tree");
     let by_hand = 1.0 + 4.0 * 14.0 / 30.0;
     assert!((cost(&cells) - by_hand).abs() < 1e-12);
 
     let share = |ratio: f64| {
         let sweep = Some(by_hand / ratio);
-        judge(&ALL, sweep, &row(4), 2, &Outcome::Value(good())).share
+        judge(
+            &ALL_CHECKS,
+            sweep,
+            &row(4),
+            2,
+            &ElementOutcome::Value(valid_tree()),
+        )
+        .credit
     };
-    assert_eq!(share(1.11), Share::ALL);
-    assert_eq!(share(1.13), Share::HALF);
-    assert_eq!(share(1.26), Share::NONE);
+    assert_eq!(share(1.11), Credit::FULL);
+    assert_eq!(share(1.13), Credit::HALF);
+    assert_eq!(share(1.26), Credit::NONE);
 }
 
 #[test]
-fn nothing_may_be_no_node_or_one_leaf_of_none() {
+fn an_empty_tree_has_no_node_or_one_empty_leaf() {
     let empty = |nodes| {
         let tree = Tree {
             nodes,
             root: 0,
             order: Vec::new(),
         };
-        judge(&ALL, None, &[], 1, &Outcome::Value(tree)).share
+        judge(&ALL_CHECKS, None, &[], 1, &ElementOutcome::Value(tree)).credit
     };
-    assert_eq!(empty(Vec::new()), Share::ALL);
+    assert_eq!(empty(Vec::new()), Credit::FULL);
     let leaf = TreeNode {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
@@ -212,35 +225,38 @@ fn nothing_may_be_no_node_or_one_leaf_of_none() {
         l: 0,
         r: 0,
     };
-    assert_eq!(empty(vec![leaf]), Share::ALL);
-    assert_eq!(empty(vec![TreeNode { size: 1, ..leaf }]), Share::NONE);
+    assert_eq!(empty(vec![leaf]), Credit::FULL);
+    assert_eq!(empty(vec![TreeNode { size: 1, ..leaf }]), Credit::NONE);
 }
 
 #[test]
-fn boxes_and_cost_are_measured() {
+fn measures_box_excess_and_cost() {
     let measured = |tree: Tree, sweep_cost| {
-        let built = Built {
-            judged: &ALL,
+        let built = TreeAnswer {
+            checks: &ALL_CHECKS,
             sweep_cost,
             shapes: &row(4),
             max_leaf_size: 2,
-            answer: &Outcome::Value(tree),
+            answer: &ElementOutcome::Value(tree),
         };
         built.measure()
     };
-    let value = |measured: &[Measured], threshold| {
-        let mut offs = measured.iter().map(|measured| measured.off);
+    let value = |measured: &[Measurement], threshold| {
+        let mut offs = measured.iter().map(|measured| measured.deviation);
         let found = offs.find(|off| off.threshold == Some(threshold));
         found.expect("it is measured").value
     };
 
-    let mut loose = good();
+    let mut loose = valid_tree();
     loose.nodes[0].min.x -= 3e-4;
     let diagonal = f64::from(11.0_f32).sqrt();
     let found = value(&measured(loose, None), Threshold::BoxTooLarge);
     assert!((found - 3.0 / diagonal).abs() < 0.01, "{found}");
 
     let by_hand = 1.0 + 4.0 * 14.0 / 30.0;
-    let found = value(&measured(good(), Some(by_hand / 1.06)), Threshold::SahCost);
+    let found = value(
+        &measured(valid_tree(), Some(by_hand / 1.06)),
+        Threshold::SahCost,
+    );
     assert!((found - 0.5).abs() < 1e-9, "{found}");
 }

@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::bundle::crates::{self, NoCrates};
+use crate::bundle::crates::{self, CratesError};
 
 /// A home, and the programs of a freshly installed Rust.
 #[derive(Debug)]
@@ -19,13 +19,13 @@ pub(super) struct Home {
 
 /// There is no home.
 #[derive(Debug, thiserror::Error)]
-pub enum NoHome {
+pub enum HomeError {
     /// Cargo did not start us.
     #[error("cargo has to say where it is: run `cargo author bundle --check`")]
     NoCargo,
     /// The crates are not at hand.
     #[error(transparent)]
-    Crates(#[from] NoCrates),
+    Crates(#[from] CratesError),
     /// The system does not let us.
     #[error("can not furnish {}: {source}", path.display())]
     Io {
@@ -38,14 +38,14 @@ pub enum NoHome {
 
 impl Home {
     /// Makes the home in `place`, with the crates that this lock file names and this machine has.
-    pub(super) fn furnish(place: &Path, lock: &str) -> Result<Self, NoHome> {
-        let cargo = env::var_os("CARGO").ok_or(NoHome::NoCargo)?;
-        let programs = Path::new(&cargo).parent().ok_or(NoHome::NoCargo)?;
+    pub(super) fn create(place: &Path, lock: &str) -> Result<Self, HomeError> {
+        let cargo = env::var_os("CARGO").ok_or(HomeError::NoCargo)?;
+        let programs = Path::new(&cargo).parent().ok_or(HomeError::NoCargo)?;
         let home = Home {
             folder: place.join("home"),
             programs: programs.to_owned(),
         };
-        let at = |source| NoHome::Io {
+        let at = |source| HomeError::Io {
             path: home.folder.clone(),
             source,
         };
@@ -53,8 +53,8 @@ impl Home {
             fs::remove_dir_all(&home.folder).map_err(at)?;
         }
         let registry = home.cargo_home().join("registry");
-        for (path, contents) in crates::fetched(lock)? {
-            write(&registry.join(path), &contents).map_err(at)?;
+        for (path, contents) in crates::registry_files(lock)? {
+            write_file(&registry.join(path), &contents).map_err(at)?;
         }
         Ok(home)
     }
@@ -76,7 +76,7 @@ impl Home {
     }
 
     /// Lets a command know of this home, and of nothing that this shell has set for Rust.
-    pub(super) fn enter(&self, command: &mut Command) {
+    pub(super) fn apply_to(&self, command: &mut Command) {
         for (name, _) in env::vars_os() {
             let text = name.to_string_lossy();
             if text.starts_with("CARGO") || text.starts_with("RUST") {
@@ -101,7 +101,7 @@ impl Home {
     }
 }
 
-fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
+fn write_file(path: &Path, contents: &[u8]) -> io::Result<()> {
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
     fs::write(path, contents)
 }

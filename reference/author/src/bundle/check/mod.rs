@@ -2,7 +2,7 @@
 //! texts say, gives the starter no point and the solution all of them.
 
 mod home;
-mod shown;
+mod shell_commands;
 
 use std::fs;
 use std::io;
@@ -10,29 +10,29 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use grader::given::TASK_FILES;
+use grader::given_files::TASK_FILES;
 use serde::Deserialize;
 use zip::result::ZipError;
 
-use crate::bundle::check::home::{Home, NoHome};
+use crate::bundle::check::home::{Home, HomeError};
 use crate::bundle::{Bundle, archive};
 
 /// Where it is tried, from the workspace's root. What was compiled there stays for the next time.
-const PLACE: &str = "target/bundle";
+const TEST_FOLDER: &str = "target/bundle";
 /// The texts whose commands are tried.
-const TEXTS: [&str; 2] = ["README.md", "handout/src/start.md"];
+const DOCUMENTS: [&str; 2] = ["README.md", "handout/src/start.md"];
 /// Where `cargo grade` leaves what it found out, from the unpacked folder.
-const SCORE: &str = "target/grade/student/score.json";
+const SCORE_FILE: &str = "target/grade/student/score.json";
 
 /// The archive was not tried: our fault, or the machine's.
 #[derive(Debug, thiserror::Error)]
-pub enum NotTried {
+pub enum CheckError {
     /// The archive can not be made or unpacked.
     #[error("the archive: {0}")]
     Zip(#[from] ZipError),
     /// There is no empty home.
     #[error(transparent)]
-    Home(#[from] NoHome),
+    Home(#[from] HomeError),
     /// The system does not let us.
     #[error("can not use {}: {source}", path.display())]
     Io {
@@ -50,76 +50,81 @@ struct Score {
 }
 
 /// A command of the texts, and how it ended.
-struct Tried {
+struct CommandRun {
     command: String,
     code: Option<i32>,
-    said: String,
+    stderr: String,
 }
 
 /// Tries the archive of the workspace at `root`, and tells what is not as it should be.
-pub fn check(root: &Path, bundle: &Bundle) -> Result<Vec<String>, NotTried> {
+pub fn check(root: &Path, bundle: &Bundle) -> Result<Vec<String>, CheckError> {
     let unpacked = archive::unzip(&archive::zip(bundle)?)?;
     if unpacked != *bundle {
         return Ok(vec!["the archive unpacks to something else".to_owned()]);
     }
-    let root = &root.canonicalize().map_err(at(root))?;
-    let place = root.join(PLACE);
+    let root = &root.canonicalize().map_err(io_error(root))?;
+    let place = root.join(TEST_FOLDER);
     let lock = bundle.text("Cargo.lock").unwrap_or_default();
-    let home = Home::furnish(&place, lock)?;
-    let folder = place.join(archive::FOLDER);
-    afresh(&folder, &unpacked).map_err(at(&folder))?;
+    let home = Home::create(&place, lock)?;
+    let folder = place.join(archive::TOP_FOLDER);
+    unpack_fresh(&folder, &unpacked).map_err(io_error(&folder))?;
 
-    let commands = shown::commands(TEXTS.into_iter().filter_map(|path| unpacked.text(path)));
+    let commands =
+        shell_commands::commands(DOCUMENTS.into_iter().filter_map(|path| unpacked.text(path)));
     let mut complaints = Vec::new();
-    for tried in run(&commands, &home, &folder)? {
+    for tried in run_commands(&commands, &home, &folder)? {
         // A stub ends an example with 101 and a picture with 1; nothing else is in order.
         let in_order = matches!(tried.code, Some(0 | 1 | 101));
-        if !in_order || tried.said.contains("could not compile") {
-            complaints.push(tried.complaint("the starter"));
+        if !in_order || tried.stderr.contains("could not compile") {
+            complaints.push(tried.problem("the starter"));
         }
     }
-    expect(0, "the starter", &folder, &mut complaints);
+    check_points(0, "the starter", &folder, &mut complaints);
 
     for file in TASK_FILES {
         let (from, to) = (root.join("reference/src"), folder.join("student/src"));
-        fs::copy(from.join(file.name), to.join(file.name)).map_err(at(&to))?;
+        fs::copy(from.join(file.name), to.join(file.name)).map_err(io_error(&to))?;
     }
-    for tried in run(&commands, &home, &folder)? {
+    for tried in run_commands(&commands, &home, &folder)? {
         if tried.code != Some(0) {
-            complaints.push(tried.complaint("the reference"));
+            complaints.push(tried.problem("the reference"));
         }
     }
-    expect(100, "the reference", &folder, &mut complaints);
+    check_points(100, "the reference", &folder, &mut complaints);
     Ok(complaints)
 }
 
-fn at(path: &Path) -> impl FnOnce(io::Error) -> NotTried {
+fn io_error(path: &Path) -> impl FnOnce(io::Error) -> CheckError {
     let path = path.to_owned();
-    move |source| NotTried::Io { path, source }
+    move |source| CheckError::Io { path, source }
 }
 
-fn afresh(folder: &Path, bundle: &Bundle) -> io::Result<()> {
+fn unpack_fresh(folder: &Path, bundle: &Bundle) -> io::Result<()> {
     if folder.exists() {
         fs::remove_dir_all(folder)?;
     }
-    archive::lay_out(bundle, folder)
+    archive::write_files(bundle, folder)
 }
 
 /// Runs each command in turn, and says on the terminal how long it took.
-fn run(commands: &[Vec<String>], home: &Home, folder: &Path) -> Result<Vec<Tried>, NotTried> {
+fn run_commands(
+    commands: &[Vec<String>],
+    home: &Home,
+    folder: &Path,
+) -> Result<Vec<CommandRun>, CheckError> {
     let one = |words: &Vec<String>| {
         let [program, arguments @ ..] = words.as_slice() else {
             unreachable!("a line without words is no command");
         };
         let began = Instant::now();
         let mut command = Command::new(home.program(program));
-        home.enter(&mut command);
+        home.apply_to(&mut command);
         let output = command.args(arguments).current_dir(folder).output();
-        let output = output.map_err(at(Path::new(program)))?;
-        let tried = Tried {
+        let output = output.map_err(io_error(Path::new(program)))?;
+        let tried = CommandRun {
             command: words.join(" "),
             code: output.status.code(),
-            said: String::from_utf8_lossy(&output.stderr).into_owned(),
+            stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
         };
         let seconds = began.elapsed().as_secs_f64();
         eprintln!("{seconds:6.1} s  {}", tried.command);
@@ -128,8 +133,8 @@ fn run(commands: &[Vec<String>], home: &Home, folder: &Path) -> Result<Vec<Tried
     commands.iter().map(one).collect()
 }
 
-fn expect(points: u32, whose: &str, folder: &Path, complaints: &mut Vec<String>) {
-    let score = fs::read(folder.join(SCORE)).ok();
+fn check_points(points: u32, whose: &str, folder: &Path, complaints: &mut Vec<String>) {
+    let score = fs::read(folder.join(SCORE_FILE)).ok();
     let score = score.and_then(|text| serde_json::from_slice::<Score>(&text).ok());
     match score {
         Some(score) if score.points == points => {}
@@ -137,16 +142,22 @@ fn expect(points: u32, whose: &str, folder: &Path, complaints: &mut Vec<String>)
             "{whose} has {} points in the bundle, and should have {points}",
             score.points
         )),
-        None => complaints.push(format!("{whose} has no score in the bundle: no {SCORE}")),
+        None => complaints.push(format!(
+            "{whose} has no score in the bundle: no {SCORE_FILE}"
+        )),
     }
 }
 
-impl Tried {
-    fn complaint(&self, whose: &str) -> String {
+impl CommandRun {
+    fn problem(&self, whose: &str) -> String {
         let code = self
             .code
             .map_or("a signal".to_owned(), |code| code.to_string());
-        let Tried { command, said, .. } = self;
+        let CommandRun {
+            command,
+            stderr: said,
+            ..
+        } = self;
         format!("with {whose}, `{command}` ended with {code}:\n{said}")
     }
 }

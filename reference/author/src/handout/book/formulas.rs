@@ -7,7 +7,7 @@ use crate::handout::pages::formulas;
 /// A formula that is not understood.
 #[derive(Debug, thiserror::Error)]
 #[error("{chapter}: the formula `{formula}`: {problem}")]
-pub struct NoFormula {
+pub struct FormulaError {
     /// The chapter's title.
     pub chapter: String,
     /// As it stands there.
@@ -17,8 +17,8 @@ pub struct NoFormula {
 }
 
 /// The chapter, its formulas as MathML.
-pub fn with_formulas(chapter: &str, markdown: &str) -> Result<String, NoFormula> {
-    let no_formula = |formula: &str, problem: String| NoFormula {
+pub fn render_formulas(chapter: &str, markdown: &str) -> Result<String, FormulaError> {
+    let no_formula = |formula: &str, problem: String| FormulaError {
         chapter: chapter.to_owned(),
         formula: formula.trim().to_owned(),
         problem,
@@ -35,7 +35,7 @@ pub fn with_formulas(chapter: &str, markdown: &str) -> Result<String, NoFormula>
         let mathml = converter
             .convert_with_local_state(latex.trim(), display)
             .map_err(|problem| no_formula(&latex, problem.to_string()))?;
-        let mathml = shielded(&mathml.mathml);
+        let mathml = escape_markdown(&mathml.mathml);
         let html = match by_itself {
             true => format!("<div class=\"formula\">{mathml}</div>\n"),
             false => mathml,
@@ -47,7 +47,7 @@ pub fn with_formulas(chapter: &str, markdown: &str) -> Result<String, NoFormula>
 
 /// Markdown goes on reading between the tags: what it would take for its own is written as a
 /// number.
-fn shielded(mathml: &str) -> String {
+fn escape_markdown(mathml: &str) -> String {
     let mut inside = false;
     let mut shielded = String::with_capacity(mathml.len());
     for letter in mathml.chars().filter(|letter| *letter != '\n') {
@@ -70,8 +70,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn formulas_become_elements_and_the_rest_stays() {
-        let text = with_formulas("A", "So $a_1 < b$.\n\n```math\nc^2\n```\n\nAnd `$d$`.").unwrap();
+    fn renders_formulas_and_keeps_the_rest() {
+        let text =
+            render_formulas("A", "So $a_1 < b$.\n\n```math\nc^2\n```\n\nAnd `$d$`.").unwrap();
         assert!(text.starts_with("So <math>"), "{text}");
         assert!(
             text.contains("<div class=\"formula\"><math display=\"block\">"),
@@ -81,8 +82,8 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_formula_is_told_with_its_chapter() {
-        let told = with_formulas("Boxes", "$\\fraction{1}{2}$")
+    fn reports_an_invalid_formula_with_its_chapter() {
+        let told = render_formulas("Boxes", "$\\fraction{1}{2}$")
             .unwrap_err()
             .to_string();
         assert!(

@@ -7,20 +7,20 @@ use grader::section::CHAPTERS;
 
 use crate::handout::links::SUMMARY;
 use crate::handout::pages::{Page, pages};
-use crate::proof::sources::{Unreadable, read};
+use crate::proof::sources::{ReadError, read};
 
 /// What is wrong with the pages in the folder `book`, made from the workspace at `root`.
-pub fn problems(root: &Path, book: &Path) -> Result<Vec<String>, Unreadable> {
+pub fn problems(root: &Path, book: &Path) -> Result<Vec<String>, ReadError> {
     let mut problems = Vec::new();
     let chapters = pages(&root.join(CHAPTERS))?;
     for chapter in chapters.iter().filter(|chapter| chapter.name != SUMMARY) {
         let html = read(&book.join(chapter.name.replace(".md", ".html")))?;
-        problems.extend(problems_of(chapter, &html));
+        problems.extend(page_problems(chapter, &html));
     }
     Ok(problems)
 }
 
-fn problems_of(chapter: &Page, html: &str) -> Vec<String> {
+fn page_problems(chapter: &Page, html: &str) -> Vec<String> {
     let missing = chapter
         .anchors()
         .filter(|anchor| !html.contains(&format!("id=\"{anchor}\"")))
@@ -39,13 +39,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_page_without_a_heading_or_with_a_foreign_script_is_told() {
+    fn reports_missing_headings_and_fetched_scripts() {
         let chapter = Page::new("a.md", "# One\n## Two\n");
         let good = "<h1 id=\"one\">One</h1><h2 id=\"two\">Two</h2><a href=\"https://x.org\">x</a>";
-        assert_eq!(problems_of(&chapter, good), [""; 0]);
+        assert_eq!(page_problems(&chapter, good), [""; 0]);
         let bad = "<h1 id=\"one\">One</h1><script src=\"https://x.org/x.js\"></script>";
         assert_eq!(
-            problems_of(&chapter, bad),
+            page_problems(&chapter, bad),
             [
                 "a.md: the page has no #two",
                 "a.md: the page fetches something: src=\"http"

@@ -8,7 +8,7 @@ use crate::handout::figures;
 use crate::handout::pages::options;
 
 /// The chapter, its figures drawn in place.
-pub fn with_pictures(markdown: &str) -> String {
+pub fn inline_figures(markdown: &str) -> String {
     let drawn: BTreeMap<String, String> = figures::all()
         .map(|(name, svg)| (format!("figures/{name}"), svg))
         .collect();
@@ -31,11 +31,11 @@ pub fn with_pictures(markdown: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::with_pictures;
+    use super::inline_figures;
 
     #[test]
-    fn a_figure_becomes_its_drawing_and_other_pictures_stay() {
-        let text = with_pictures("![a](figures/camera-side.svg)\n\n![b](b.png)\n");
+    fn replaces_figures_by_their_drawings_and_keeps_other_pictures() {
+        let text = inline_figures("![a](figures/camera-side.svg)\n\n![b](b.png)\n");
         assert!(text.starts_with("<figure><svg "), "{text}");
         assert!(text.ends_with("</svg></figure>\n\n![b](b.png)\n"), "{text}");
     }

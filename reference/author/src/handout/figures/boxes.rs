@@ -38,43 +38,43 @@ pub fn slabs() -> String {
         drawing.ring(hue, at(t));
     }
     drawing
-        .small(
+        .small_label(
             Hue::Orange,
             Side::Left,
             at(X[0]) + dvec2(-8.0, -6.0),
             "2: enters x",
         )
-        .small(
+        .small_label(
             Hue::Green,
             Side::Right,
             at(Y[0]) + dvec2(9.0, 16.0),
             "3: enters y",
         )
-        .small(
+        .small_label(
             Hue::Orange,
             Side::Right,
             at(X[1]) + dvec2(9.0, 16.0),
             "6: leaves x",
         )
-        .small(
+        .small_label(
             Hue::Green,
             Side::Left,
             at(Y[1]) + dvec2(-10.0, -8.0),
             "7.5: leaves y",
         )
-        .words(
+        .label(
             Hue::Orange,
             Side::Middle,
             dvec2(low.x.midpoint(high.x), 306.0),
             "x slab",
         )
-        .words(
+        .label(
             Hue::Green,
             Side::Left,
             dvec2(low.x - 12.0, low.y - 14.0),
             "y slab",
         )
-        .words(
+        .label(
             Hue::Ink,
             Side::Left,
             dvec2(high.x - 8.0, high.y + 22.0),
@@ -113,7 +113,7 @@ pub fn times() -> String {
         let tick = dvec2(0.0, 7.0);
         let (a, b) = (place(from, row), place(to, row));
         drawing
-            .words(hue, Side::Left, dvec2(98.0, a.y + 6.0), name)
+            .label(hue, Side::Left, dvec2(98.0, a.y + 6.0), name)
             .line(hue, a, b)
             .line(hue, a - tick, a + tick)
             .line(hue, b - tick, b + tick);
@@ -123,14 +123,14 @@ pub fn times() -> String {
         let at = place(f64::from(t), 5.0);
         drawing
             .line(Hue::Soft, at - dvec2(0.0, 4.0), at + dvec2(0.0, 4.0))
-            .small(
+            .small_label(
                 Hue::Soft,
                 Side::Middle,
                 at + dvec2(0.0, 22.0),
                 &t.to_string(),
             );
     }
-    drawing.words(
+    drawing.label(
         Hue::Soft,
         Side::Right,
         place(9.3, 5.0) + dvec2(2.0, 5.0),
@@ -162,10 +162,10 @@ pub fn special() -> String {
             .dot(Hue::Ink, dvec2(x, 250.0));
     }
     drawing
-        .words(Hue::Ink, Side::Middle, dvec2(140.0, 28.0), "d_x = 0")
-        .small(Hue::Soft, Side::Middle, dvec2(45.0, 284.0), "+∞ +∞")
-        .small(Hue::Blue, Side::Middle, dvec2(140.0, 284.0), "−∞ +∞")
-        .small(Hue::Soft, Side::Middle, dvec2(235.0, 284.0), "−∞ −∞");
+        .label(Hue::Ink, Side::Middle, dvec2(140.0, 28.0), "d_x = 0")
+        .small_label(Hue::Soft, Side::Middle, dvec2(45.0, 284.0), "+∞ +∞")
+        .small_label(Hue::Blue, Side::Middle, dvec2(140.0, 284.0), "−∞ +∞")
+        .small_label(Hue::Soft, Side::Middle, dvec2(235.0, 284.0), "−∞ −∞");
     let flat = [dvec2(310.0, 150.0), dvec2(460.0, 150.0)];
     drawing
         .line(Hue::Ink, flat[0], flat[1])
@@ -175,9 +175,9 @@ pub fn special() -> String {
             Hue::Blue,
             at_height(dvec2(325.0, 245.0), dvec2(445.0, 65.0), 150.0),
         )
-        .words(Hue::Ink, Side::Middle, dvec2(385.0, 28.0), "min.y = max.y")
-        .small(Hue::Blue, Side::Left, dvec2(380.0, 138.0), "enter = leave")
-        .small(Hue::Blue, Side::Middle, dvec2(385.0, 284.0), "a hit");
+        .label(Hue::Ink, Side::Middle, dvec2(385.0, 28.0), "min.y = max.y")
+        .small_label(Hue::Blue, Side::Left, dvec2(380.0, 138.0), "enter = leave")
+        .small_label(Hue::Blue, Side::Middle, dvec2(385.0, 284.0), "a hit");
     drawing.finish(
         "A direction without x, and a box without height",
         "Left, three rays with direction x zero, beside, in and beyond the x slab: dividing by zero \

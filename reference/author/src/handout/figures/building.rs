@@ -30,15 +30,15 @@ fn left_of_planes() -> Vec<u32> {
 }
 
 /// The surface of the box around `n` neighbours: 2n − 1 long, 1 high, 1 deep.
-fn surface(n: u32) -> f64 {
+fn surface_area(n: u32) -> f64 {
     8.0 * f64::from(n) - 2.0
 }
 
 /// C with C_trav = C_isect = 1.
 fn cost(left: u32) -> f64 {
     let right = BALLS - left;
-    let side = |n: u32| surface(n) * f64::from(n);
-    1.0 + (side(left) + side(right)) / surface(BALLS)
+    let side = |n: u32| surface_area(n) * f64::from(n);
+    1.0 + (side(left) + side(right)) / surface_area(BALLS)
 }
 
 /// Boxes in boxes, and the same as a tree.
@@ -63,9 +63,9 @@ pub fn tree() -> String {
         triangle(&mut drawing, Hue::Orange, at);
     }
     drawing
-        .words(Hue::Ink, Side::Middle, dvec2(240.0, 98.0), "N")
-        .words(Hue::Blue, Side::Left, dvec2(194.0, 138.0), "A")
-        .words(Hue::Orange, Side::Left, dvec2(434.0, 132.0), "B");
+        .label(Hue::Ink, Side::Middle, dvec2(240.0, 98.0), "N")
+        .label(Hue::Blue, Side::Left, dvec2(194.0, 138.0), "A")
+        .label(Hue::Orange, Side::Left, dvec2(434.0, 132.0), "B");
     let (root, a, b) = (
         dvec2(240.0, 200.0),
         dvec2(120.0, 262.0),
@@ -81,13 +81,13 @@ pub fn tree() -> String {
         drawing
             .card(at - half, at + half)
             .filled_box(hue, at - half, at + half)
-            .words(hue, Side::Middle, at + dvec2(0.0, 6.0), name);
+            .label(hue, Side::Middle, at + dvec2(0.0, 6.0), name);
     }
     for cell in 0..5 {
         let hue = if cell < 3 { Hue::Blue } else { Hue::Orange };
         let corner = dvec2(130.0 + 44.0 * f64::from(cell), 296.0);
         drawing.filled_box(hue, corner, corner + dvec2(44.0, 28.0));
-        drawing.small(
+        drawing.small_label(
             hue,
             Side::Middle,
             corner + dvec2(22.0, 20.0),
@@ -95,11 +95,11 @@ pub fn tree() -> String {
         );
     }
     drawing
-        .small(Hue::Ink, Side::Left, dvec2(120.0, 316.0), "primitives")
-        .small(Hue::Blue, Side::Left, dvec2(92.0, 250.0), "start 0,")
-        .small(Hue::Blue, Side::Left, dvec2(92.0, 270.0), "size 3")
-        .small(Hue::Orange, Side::Right, dvec2(388.0, 250.0), "start 3,")
-        .small(Hue::Orange, Side::Right, dvec2(388.0, 270.0), "size 2");
+        .small_label(Hue::Ink, Side::Left, dvec2(120.0, 316.0), "primitives")
+        .small_label(Hue::Blue, Side::Left, dvec2(92.0, 250.0), "start 0,")
+        .small_label(Hue::Blue, Side::Left, dvec2(92.0, 270.0), "size 3")
+        .small_label(Hue::Orange, Side::Right, dvec2(388.0, 250.0), "start 3,")
+        .small_label(Hue::Orange, Side::Right, dvec2(388.0, 270.0), "size 2");
     drawing.finish(
         "A bounding volume hierarchy",
         "A box N around everything, and in it a box A around three triangles and a box B around two. \
@@ -139,13 +139,13 @@ pub fn buckets() -> String {
             .count();
         let middle = edge(number) + width / 2.0;
         drawing
-            .small(
+            .small_label(
                 Hue::Soft,
                 Side::Middle,
                 place(middle, -46.0),
                 &number.to_string(),
             )
-            .words(
+            .label(
                 Hue::Ink,
                 Side::Middle,
                 place(middle, 48.0),
@@ -153,22 +153,22 @@ pub fn buckets() -> String {
             );
     }
     drawing
-        .small(Hue::Soft, Side::Right, place(-0.9, -76.0), "bucket")
-        .small(Hue::Ink, Side::Right, place(-0.9, 78.0), "centers in it")
-        .words(
+        .small_label(Hue::Soft, Side::Right, place(-0.9, -76.0), "bucket")
+        .small_label(Hue::Ink, Side::Right, place(-0.9, 78.0), "centers in it")
+        .label(
             Hue::Blue,
             Side::Middle,
             place(4.0, 108.0),
             "A: N_A = 5, S_A = 38",
         )
-        .words(
+        .label(
             Hue::Orange,
             Side::Middle,
             place(14.2, 108.0),
             "B: N_B = 5, S_B = 38",
         )
-        .small(Hue::Green, Side::Middle, place(9.0, -70.0), "this plane")
-        .small(Hue::Soft, Side::Middle, place(9.0, 132.0), "S_N = 78");
+        .small_label(Hue::Green, Side::Middle, place(9.0, -70.0), "this plane")
+        .small_label(Hue::Soft, Side::Middle, place(9.0, 132.0), "S_N = 78");
     drawing.finish(
         "Ten balls in eight buckets",
         "Ten balls in a row. Their centers go from 0 to 18, in eight buckets of equal width, which hold \
@@ -195,13 +195,13 @@ pub fn costs() -> String {
         let at = place(plane, cost);
         drawing
             .dot(hue, at)
-            .small(
+            .small_label(
                 hue,
                 Side::Middle,
                 at + dvec2(0.0, -14.0),
                 &format!("{cost:.2}"),
             )
-            .small(
+            .small_label(
                 Hue::Ink,
                 Side::Middle,
                 place(plane, 5.4) + dvec2(0.0, 22.0),
@@ -209,14 +209,14 @@ pub fn costs() -> String {
             );
     }
     drawing
-        .words(Hue::Ink, Side::Right, dvec2(76.0, 26.0), "C")
-        .words(
+        .label(Hue::Ink, Side::Right, dvec2(76.0, 26.0), "C")
+        .label(
             Hue::Green,
             Side::Middle,
             place(4.0, 5.87) + dvec2(0.0, 26.0),
             "the cheapest",
         )
-        .small(
+        .small_label(
             Hue::Ink,
             Side::Middle,
             dvec2(256.0, 294.0),
@@ -235,7 +235,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_costs_are_those_of_the_chapter() {
+    fn costs_match_the_chapter() {
         let costs = left_of_planes().into_iter().map(cost);
         let costs: Vec<String> = costs.map(|cost| format!("{cost:.2}")).collect();
         assert_eq!(

@@ -19,28 +19,28 @@ pub fn sensor() -> String {
         .dashed(Hue::Soft, eye, place(0.0, 0.0, -1.0))
         .dot(Hue::Soft, place(0.0, 0.0, -1.0))
         .arrow(Hue::Ink, eye, place(0.0, 0.75, 0.0))
-        .words(Hue::Ink, Side::Middle, place(0.0, 0.82, 0.0), "y")
+        .label(Hue::Ink, Side::Middle, place(0.0, 0.82, 0.0), "y")
         .arrow(Hue::Ink, eye, place(0.7, 0.0, 0.0))
-        .words(Hue::Ink, Side::Left, place(0.78, -0.1, 0.0), "x")
+        .label(Hue::Ink, Side::Left, place(0.78, -0.1, 0.0), "x")
         .arrow(Hue::Blue, eye, eye + 1.55 * (target - eye))
         .dot(Hue::Blue, target)
         .dot(Hue::Ink, eye);
     drawing
-        .words(
+        .label(
             Hue::Blue,
             Side::Right,
             target + dvec2(6.0, 22.0),
             "(p_x, p_y)",
         )
-        .small(
+        .small_label(
             Hue::Ink,
             Side::Right,
             dvec2(12.0, 222.0),
             "the camera, at (0, 0, 0)",
         )
-        .small(Hue::Soft, Side::Middle, place(0.0, -0.13, -0.45), "−z")
-        .words(Hue::Ink, Side::Right, dvec2(375.0, 210.0), "the sensor,")
-        .words(Hue::Ink, Side::Right, dvec2(375.0, 232.0), "z = −1");
+        .small_label(Hue::Soft, Side::Middle, place(0.0, -0.13, -0.45), "−z")
+        .label(Hue::Ink, Side::Right, dvec2(375.0, 210.0), "the sensor,")
+        .label(Hue::Ink, Side::Right, dvec2(375.0, 232.0), "z = −1");
     drawing.finish(
         "The camera and its sensor",
         "The camera stands at the origin with y up and x to the side. One unit ahead along minus z \
@@ -68,12 +68,12 @@ pub fn side() -> String {
         .measure(top + dvec2(24.0, 0.0), middle + dvec2(24.0, 0.0))
         .measure(eye + dvec2(0.0, 112.0), middle + dvec2(0.0, 112.0));
     drawing
-        .words(Hue::Blue, Side::Right, dvec2(120.0, 128.0), "α")
-        .words(Hue::Ink, Side::Right, dvec2(362.0, 96.0), "height / 2")
-        .words(Hue::Ink, Side::Right, dvec2(344.0, 222.0), "the sensor")
-        .words(Hue::Ink, Side::Middle, dvec2(190.0, 238.0), "1")
-        .words(Hue::Blue, Side::Left, dvec2(205.0, 58.0), "the highest ray")
-        .small(
+        .label(Hue::Blue, Side::Right, dvec2(120.0, 128.0), "α")
+        .label(Hue::Ink, Side::Right, dvec2(362.0, 96.0), "height / 2")
+        .label(Hue::Ink, Side::Right, dvec2(344.0, 222.0), "the sensor")
+        .label(Hue::Ink, Side::Middle, dvec2(190.0, 238.0), "1")
+        .label(Hue::Blue, Side::Left, dvec2(205.0, 58.0), "the highest ray")
+        .small_label(
             Hue::Ink,
             Side::Right,
             dvec2(16.0, 28.0),
@@ -106,16 +106,16 @@ pub fn pixels() -> String {
         .dashed(Hue::Blue, place(4.5, 2.5), place(4.5, 0.0))
         .dashed(Hue::Blue, place(4.5, 2.5), place(0.0, 2.5));
     drawing
-        .small(Hue::Ink, Side::Left, place(0.0, -0.5), "0")
-        .small(Hue::Ink, Side::Middle, place(8.0, -0.5), "8")
-        .small(Hue::Ink, Side::Left, place(-0.15, 3.9), "4")
-        .words(Hue::Blue, Side::Middle, place(4.5, -0.5), "4.5")
-        .words(Hue::Blue, Side::Left, place(-0.1, 2.4), "2.5")
-        .words(Hue::Blue, Side::Right, place(5.15, 3.33), "pixel (4, 2),")
-        .words(Hue::Blue, Side::Right, place(5.15, 2.36), "offset (½, ½)")
-        .small(Hue::Ink, Side::Right, place(0.2, 0.4), "pixel (0, 0)")
-        .words(Hue::Ink, Side::Right, place(1.0, -1.1), "across: 4.5 / 8")
-        .words(Hue::Ink, Side::Right, place(5.0, -1.1), "up: 2.5 / 4");
+        .small_label(Hue::Ink, Side::Left, place(0.0, -0.5), "0")
+        .small_label(Hue::Ink, Side::Middle, place(8.0, -0.5), "8")
+        .small_label(Hue::Ink, Side::Left, place(-0.15, 3.9), "4")
+        .label(Hue::Blue, Side::Middle, place(4.5, -0.5), "4.5")
+        .label(Hue::Blue, Side::Left, place(-0.1, 2.4), "2.5")
+        .label(Hue::Blue, Side::Right, place(5.15, 3.33), "pixel (4, 2),")
+        .label(Hue::Blue, Side::Right, place(5.15, 2.36), "offset (½, ½)")
+        .small_label(Hue::Ink, Side::Right, place(0.2, 0.4), "pixel (0, 0)")
+        .label(Hue::Ink, Side::Right, place(1.0, -1.1), "across: 4.5 / 8")
+        .label(Hue::Ink, Side::Right, place(5.0, -1.1), "up: 2.5 / 4");
     drawing.finish(
         "Pixels and offsets",
         "A film of 8 by 4 pixels, pixel (0, 0) at the bottom left. In pixel (4, 2) the offset \

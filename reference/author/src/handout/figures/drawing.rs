@@ -7,7 +7,7 @@
 
 use glam::{DVec2, dvec2};
 
-use super::svg::{circle, escaped, lowered, number, path};
+use super::svg::{circle, escape, format_number, path, with_subscripts};
 
 /// How a reader's page, light or dark, colours a drawing. The book's own style sheet, `handout.css`,
 /// says the same for each of its themes.
@@ -85,7 +85,7 @@ impl Drawing {
         let (w, h) = (self.size.x, self.size.y);
         // Larger than its units where there is room.
         let (wide, high) = (w * 1.25, h * 1.25);
-        let (title, description) = (escaped(title), escaped(description));
+        let (title, description) = (escape(title), escape(description));
         let body = &self.body;
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"figure\" role=\"img\" \
@@ -191,12 +191,12 @@ impl Drawing {
 
     /// Words, their base line through `at`. `_` puts the next letter below the line,
     /// `S_A`; `__` is a `_`.
-    pub fn words(&mut self, hue: Hue, side: Side, at: DVec2, text: &str) -> &mut Self {
+    pub fn label(&mut self, hue: Hue, side: Side, at: DVec2, text: &str) -> &mut Self {
         self.text("", hue, side, at, text)
     }
 
     /// Words that say less.
-    pub fn small(&mut self, hue: Hue, side: Side, at: DVec2, text: &str) -> &mut Self {
+    pub fn small_label(&mut self, hue: Hue, side: Side, at: DVec2, text: &str) -> &mut Self {
         self.text(" class=\"small\"", hue, side, at, text)
     }
 
@@ -206,7 +206,12 @@ impl Drawing {
             Side::Middle => "middle",
             Side::Left => "end",
         };
-        let (x, y, name, text) = (number(at.x), number(at.y), hue.name(), lowered(text));
+        let (x, y, name, text) = (
+            format_number(at.x),
+            format_number(at.y),
+            hue.name(),
+            with_subscripts(text),
+        );
         self.element(&format!(
             "<text{class} x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" fill=\"var(--{name})\">{text}</text>"
         ))

@@ -1,7 +1,7 @@
 //! Figures of "How it is graded".
 
 use glam::{DVec2, dvec2};
-use protocol::OFFSETS;
+use protocol::PIXEL_OFFSETS;
 
 use super::drawing::{Drawing, Hue, Side};
 
@@ -18,7 +18,7 @@ pub fn edge() -> String {
         .area(Hue::Orange, &right.map(place))
         .line(Hue::Ink, place(low), place(high))
         .open_box(Hue::Ink, corner, corner + side);
-    for offset in OFFSETS {
+    for offset in PIXEL_OFFSETS {
         let at = offset.as_dvec2();
         let beside = (high - low).perp_dot(at - low);
         let hue = match beside {
@@ -30,26 +30,26 @@ pub fn edge() -> String {
     }
     drawing
         .dashed(Hue::Green, place(dvec2(0.5, 0.5)), dvec2(300.0, 144.0))
-        .words(Hue::Green, Side::Right, dvec2(306.0, 140.0), "on the edge:")
-        .words(
+        .label(Hue::Green, Side::Right, dvec2(306.0, 140.0), "on the edge:")
+        .label(
             Hue::Green,
             Side::Right,
             dvec2(306.0, 162.0),
             "either is right",
         )
-        .words(
+        .label(
             Hue::Blue,
             Side::Right,
             dvec2(286.0, 236.0),
             "left of it: a hit",
         )
-        .words(
+        .label(
             Hue::Orange,
             Side::Right,
             dvec2(286.0, 60.0),
             "right of it: a miss",
         )
-        .small(
+        .small_label(
             Hue::Ink,
             Side::Middle,
             dvec2(150.0, 288.0),

@@ -7,8 +7,8 @@ mod drawing;
 mod grading;
 mod sphere;
 mod svg;
+mod traversal;
 mod triangle;
-mod walking;
 
 /// A figure's name, and what draws it.
 type Figure = (&'static str, fn() -> String);
@@ -27,10 +27,10 @@ const FIGURES: [Figure; 18] = [
     ("building-tree", building::tree),
     ("building-buckets", building::buckets),
     ("building-costs", building::costs),
-    ("walking-pruned", walking::pruned),
-    ("walking-overlapping", walking::overlapping),
-    ("walking-walk", walking::walk),
-    ("walking-trap", walking::trap),
+    ("walking-pruned", traversal::pruned),
+    ("walking-overlapping", traversal::overlapping),
+    ("walking-walk", traversal::example),
+    ("walking-trap", traversal::decoy),
     ("grading-edge", grading::edge),
 ];
 

@@ -23,13 +23,13 @@ pub fn roots() -> String {
         .dot(Hue::Ink, start)
         .dot(Hue::Blue, near)
         .ring(Hue::Blue, far)
-        .words(
+        .label(
             Hue::Blue,
             Side::Left,
             near + dvec2(-10.0, -10.0),
             "near: counts",
         )
-        .words(Hue::Blue, Side::Right, far + dvec2(12.0, -10.0), "far");
+        .label(Hue::Blue, Side::Right, far + dvec2(12.0, -10.0), "far");
 
     // From inside: the near root is behind the origin, the far one counts.
     let (down, inside) = (dvec2(0.0, 45.0), dvec2(250.0, 225.0));
@@ -40,13 +40,13 @@ pub fn roots() -> String {
         .dot(Hue::Ink, inside)
         .ring(Hue::Orange, near)
         .dot(Hue::Orange, far)
-        .words(
+        .label(
             Hue::Orange,
             Side::Left,
             near + dvec2(-12.0, 6.0),
             "near: t < 0",
         )
-        .words(
+        .label(
             Hue::Orange,
             Side::Right,
             far + dvec2(12.0, 6.0),
@@ -58,7 +58,7 @@ pub fn roots() -> String {
     drawing
         .arrow(Hue::Green, past, dvec2(450.0, 40.0))
         .dot(Hue::Ink, past)
-        .words(
+        .label(
             Hue::Green,
             Side::Left,
             dvec2(450.0, 28.0),
@@ -86,7 +86,7 @@ pub fn chord() -> String {
         .line(Hue::Blue, center, near)
         .dashed(Hue::Soft, start, center)
         .arrow(Hue::Ink, start, far + dvec2(70.0, 0.0))
-        .outline(Hue::Soft, &square(closest))
+        .outline(Hue::Soft, &right_angle_mark(closest))
         .dot(Hue::Ink, start)
         .dot(Hue::Ink, center)
         .dot(Hue::Blue, near)
@@ -94,24 +94,24 @@ pub fn chord() -> String {
         .measure(start + dvec2(0.0, 44.0), closest + dvec2(0.0, 44.0))
         .measure(near + dvec2(0.0, 22.0), closest + dvec2(0.0, 22.0));
     drawing
-        .words(Hue::Ink, Side::Left, start + dvec2(6.0, -14.0), "o")
-        .words(Hue::Ink, Side::Right, center + dvec2(8.0, -8.0), "centre")
-        .words(
+        .label(Hue::Ink, Side::Left, start + dvec2(6.0, -14.0), "o")
+        .label(Hue::Ink, Side::Right, center + dvec2(8.0, -8.0), "centre")
+        .label(
             Hue::Blue,
             Side::Left,
             center.midpoint(near) + dvec2(-8.0, -2.0),
             "r",
         )
-        .small(Hue::Ink, Side::Middle, dvec2(150.0, 276.0), "−(o · d)")
-        .small(
+        .small_label(Hue::Ink, Side::Middle, dvec2(150.0, 276.0), "−(o · d)")
+        .small_label(
             Hue::Ink,
             Side::Right,
             closest + dvec2(8.0, 28.0),
             "√discriminant / 2",
         )
-        .words(Hue::Ink, Side::Left, near + dvec2(-8.0, -8.0), "near")
-        .words(Hue::Ink, Side::Right, far + dvec2(8.0, -8.0), "far")
-        .small(
+        .label(Hue::Ink, Side::Left, near + dvec2(-8.0, -8.0), "near")
+        .label(Hue::Ink, Side::Right, far + dvec2(8.0, -8.0), "far")
+        .small_label(
             Hue::Blue,
             Side::Right,
             closest + dvec2(8.0, -30.0),
@@ -127,7 +127,7 @@ pub fn chord() -> String {
 }
 
 /// The sign of a right angle at `corner`, to its upper left.
-fn square(corner: DVec2) -> [DVec2; 4] {
+fn right_angle_mark(corner: DVec2) -> [DVec2; 4] {
     let side = 12.0;
     [
         corner,

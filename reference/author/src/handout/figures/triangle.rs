@@ -28,35 +28,35 @@ pub fn weights() -> String {
         .arrow(Hue::Ink, P0, P2)
         .dot(Hue::Ink, p);
     drawing
-        .words(Hue::Ink, Side::Left, P0 + dvec2(-6.0, 8.0), "p_0")
-        .words(Hue::Ink, Side::Right, P1 + dvec2(10.0, 6.0), "p_1")
-        .words(Hue::Ink, Side::Middle, P2 + dvec2(0.0, -14.0), "p_2")
-        .words(
+        .label(Hue::Ink, Side::Left, P0 + dvec2(-6.0, 8.0), "p_0")
+        .label(Hue::Ink, Side::Right, P1 + dvec2(10.0, 6.0), "p_1")
+        .label(Hue::Ink, Side::Middle, P2 + dvec2(0.0, -14.0), "p_2")
+        .label(
             Hue::Ink,
             Side::Middle,
             P0.midpoint(P1) + dvec2(6.0, 24.0),
             "e_1 = p_1 − p_0",
         )
-        .words(
+        .label(
             Hue::Ink,
             Side::Left,
             P0.midpoint(P2) + dvec2(-12.0, 0.0),
             "e_2",
         )
-        .words(Hue::Ink, Side::Right, p + dvec2(8.0, -8.0), "P")
-        .words(
+        .label(Hue::Ink, Side::Right, p + dvec2(8.0, -8.0), "P")
+        .label(
             Hue::Blue,
             Side::Middle,
             (p + P1 + P2) / 3.0 + dvec2(8.0, 8.0),
             "w = 0.35",
         )
-        .words(
+        .label(
             Hue::Orange,
             Side::Middle,
             (p + P2 + P0) / 3.0 + dvec2(6.0, 16.0),
             "u = 0.35",
         )
-        .words(
+        .label(
             Hue::Green,
             Side::Middle,
             (p + P0 + P1) / 3.0 + dvec2(6.0, 8.0),
@@ -89,27 +89,27 @@ pub fn signs() -> String {
         .dot(Hue::Green, place(0.2, 0.3))
         .cross(Hue::Orange, place(0.8, 0.7));
     drawing
-        .words(Hue::Green, Side::Right, place(0.13, 0.1), "a hit")
-        .small(
+        .label(Hue::Green, Side::Right, place(0.13, 0.1), "a hit")
+        .small_label(
             Hue::Orange,
             Side::Right,
             place(1.06, 0.86),
             "(0.8, 0.7): u, v ≥ 0,",
         )
-        .small(
+        .small_label(
             Hue::Orange,
             Side::Right,
             place(1.06, 0.7),
             "and w = −0.5: a miss",
         )
-        .words(Hue::Ink, Side::Left, place(-0.07, -0.17), "p_0")
-        .words(Hue::Ink, Side::Middle, place(0.93, -0.19), "p_1")
-        .words(Hue::Ink, Side::Left, place(-0.1, 1.0), "p_2")
-        .words(Hue::Soft, Side::Left, place(-0.2, 0.4), "u < 0")
-        .words(Hue::Soft, Side::Middle, place(0.45, -0.4), "v < 0")
-        .words(Hue::Soft, Side::Right, place(0.5, 1.35), "w < 0")
-        .small(Hue::Soft, Side::Right, place(2.2, -0.15), "u")
-        .small(Hue::Soft, Side::Right, place(0.06, 1.65), "v");
+        .label(Hue::Ink, Side::Left, place(-0.07, -0.17), "p_0")
+        .label(Hue::Ink, Side::Middle, place(0.93, -0.19), "p_1")
+        .label(Hue::Ink, Side::Left, place(-0.1, 1.0), "p_2")
+        .label(Hue::Soft, Side::Left, place(-0.2, 0.4), "u < 0")
+        .label(Hue::Soft, Side::Middle, place(0.45, -0.4), "v < 0")
+        .label(Hue::Soft, Side::Right, place(0.5, 1.35), "w < 0")
+        .small_label(Hue::Soft, Side::Right, place(2.2, -0.15), "u")
+        .small_label(Hue::Soft, Side::Right, place(0.06, 1.65), "v");
     drawing.finish(
         "Where the weights are negative",
         "The plane of the triangle with u to the right and v up. Beyond each edge one weight is below \

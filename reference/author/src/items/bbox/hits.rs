@@ -4,20 +4,20 @@ use glam::{DVec3, Vec3, dvec3};
 use grader::exam::Item;
 use protocol::{Interval, Ray};
 
-use super::{asked, both, bounds, from_around, hits, item};
+use super::{bbox_question, clear_outcome, hits_and_misses, item, random_box, ray_from_around};
 use crate::items::ray;
-use crate::oracle::Beam;
+use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
-use crate::seed::{Draw, Seed};
+use crate::seed::{Rng, Seed};
 
 pub(super) fn through(seed: Seed) -> Item {
-    let mut draw = seed.draw("bbox.through");
+    let mut draw = seed.rng("bbox.through");
     let mut question = || {
-        let bounds = bounds(&mut draw);
-        let shots = both(&mut draw, &bounds, |draw| {
-            (from_around(draw, &bounds), Interval::AHEAD)
+        let bounds = random_box(&mut draw);
+        let shots = hits_and_misses(&mut draw, &bounds, |draw| {
+            (ray_from_around(draw, &bounds), Interval::AHEAD)
         });
-        asked(bounds, shots)
+        bbox_question(bounds, shots)
     };
     item(
         "through",
@@ -31,13 +31,13 @@ pub(super) fn through(seed: Seed) -> Item {
 }
 
 pub(super) fn slab_after_slab(seed: Seed) -> Item {
-    let mut draw = seed.draw("bbox.slab_after_slab");
-    let bounds = bounds(&mut draw);
+    let mut draw = seed.rng("bbox.slab_after_slab");
+    let bounds = random_box(&mut draw);
     // Misses that cross all three slabs ahead, only not at once.
-    let shots = both(&mut draw, &bounds, |draw| {
-        let ray = draw.until(|draw| {
-            let ray = from_around(draw, &bounds);
-            let beam = Beam::from(&ray);
+    let shots = hits_and_misses(&mut draw, &bounds, |draw| {
+        let ray = draw.retry(|draw| {
+            let ray = ray_from_around(draw, &bounds);
+            let beam = Ray64::from(&ray);
             let crosses = |axis: usize| {
                 let mut slab = Bounds {
                     min: DVec3::NEG_INFINITY,
@@ -58,24 +58,24 @@ pub(super) fn slab_after_slab(seed: Seed) -> Item {
             "Compare the axes with each other: the ray must have entered the last slab before it \
              leaves the first.",
         ],
-        vec![asked(bounds, shots)],
+        vec![bbox_question(bounds, shots)],
     )
 }
 
 pub(super) fn octants(seed: Seed) -> Item {
-    let mut draw = seed.draw("bbox.octants");
-    let bounds = bounds(&mut draw);
+    let mut draw = seed.rng("bbox.octants");
+    let bounds = random_box(&mut draw);
     let mut shots = Vec::new();
     for octant in 0..8 {
         let sign = |axis: i32| if octant >> axis & 1 == 0 { 1.0 } else { -1.0 };
         let signs = dvec3(sign(0), sign(1), sign(2));
         for wanted in [true, true, false] {
-            shots.push(draw.until(|draw| {
+            shots.push(draw.retry(|draw| {
                 let dir = (draw.point(0.35) + 0.6) * signs;
                 let target = bounds.center() + draw.point(1.2) * (bounds.max - bounds.min);
                 let ray = ray(target - 4.0 * dir.normalize() * 2.0, target);
                 let shot = (ray, Interval::AHEAD);
-                (hits(&bounds, &shot) == Some(wanted)).then_some(shot)
+                (clear_outcome(&bounds, &shot) == Some(wanted)).then_some(shot)
             }));
         }
     }
@@ -85,15 +85,15 @@ pub(super) fn octants(seed: Seed) -> Item {
             "directions of any sign enter where they should",
             "Along an axis on which the direction is negative the ray meets the larger plane first.",
         ],
-        vec![asked(bounds, shots)],
+        vec![bbox_question(bounds, shots)],
     )
 }
 
 pub(super) fn axis_parallel(seed: Seed) -> Item {
-    let mut draw = seed.draw("bbox.axis_parallel");
-    let bounds = bounds(&mut draw);
-    let zero = |draw: &mut Draw| if draw.coin() { 0.0 } else { -0.0 };
-    let shots = both(&mut draw, &bounds, |draw| {
+    let mut draw = seed.rng("bbox.axis_parallel");
+    let bounds = random_box(&mut draw);
+    let zero = |draw: &mut Rng| if draw.coin() { 0.0 } else { -0.0 };
+    let shots = hits_and_misses(&mut draw, &bounds, |draw| {
         let target = bounds.center() + draw.point(0.9) * (bounds.max - bounds.min);
         let axis = draw.index(3);
         // Along one axis, or across one.
@@ -112,17 +112,17 @@ pub(super) fn axis_parallel(seed: Seed) -> Item {
             "A ray that does not move along an axis is between its planes always or never. Dividing \
              by zero gives infinities that say so: see that no comparison spoils them.",
         ],
-        vec![asked(bounds, shots)],
+        vec![bbox_question(bounds, shots)],
     )
 }
 
 pub(super) fn flat(seed: Seed) -> Item {
-    let mut draw = seed.draw("bbox.flat");
+    let mut draw = seed.rng("bbox.flat");
     let mut question = |axis: usize| {
-        let mut bounds = bounds(&mut draw);
+        let mut bounds = random_box(&mut draw);
         bounds.max[axis] = bounds.min[axis];
-        let shots = both(&mut draw, &bounds, |draw| {
-            draw.until(|draw| {
+        let shots = hits_and_misses(&mut draw, &bounds, |draw| {
+            draw.retry(|draw| {
                 let target = bounds.center() + draw.point(1.0) * (bounds.max - bounds.min);
                 let origin = bounds.center() + draw.direction() * draw.uniform(4.0, 8.0);
                 let ray = ray(origin, target);
@@ -130,7 +130,7 @@ pub(super) fn flat(seed: Seed) -> Item {
                 steep.then_some((ray, Interval::AHEAD))
             })
         });
-        asked(bounds, shots)
+        bbox_question(bounds, shots)
     };
     item(
         "flat",

@@ -4,16 +4,16 @@ mod hits;
 mod times;
 
 use glam::{DVec3, dvec3};
-use grader::exam::{Asked, Item, Key, Task};
+use grader::exam::{ExamQuestion, Item, Key, Task};
 use protocol::{Interval, Question, Ray};
 
-use crate::oracle::Beam;
+use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
-use crate::seed::{Draw, Seed};
+use crate::seed::{Rng, Seed};
 
-type Shot = (Ray, Interval);
+type Query = (Ray, Interval);
 
-const RAYS: usize = 12;
+const QUERIES_OF_EACH_KIND: usize = 12;
 
 /// The items of the task `bbox`.
 pub fn items(seed: Seed) -> Vec<Item> {
@@ -32,13 +32,13 @@ pub fn items(seed: Seed) -> Vec<Item> {
     all.into_iter().map(|item| item(seed)).collect()
 }
 
-fn item(name: &str, text: [&str; 2], questions: Vec<Asked>) -> Item {
+fn item(name: &str, text: [&str; 2], questions: Vec<ExamQuestion>) -> Item {
     super::item(Task::BBox, name, 1, text, questions)
 }
 
-fn asked(bounds: Bounds, shots: Vec<Shot>) -> Asked {
-    let truth = |(ray, times): &Shot| {
-        let span = bounds.span(&Beam::from(ray).within(*times));
+fn bbox_question(bounds: Bounds, shots: Vec<Query>) -> ExamQuestion {
+    let truth = |(ray, times): &Query| {
+        let span = bounds.span(&Ray64::from(ray).within(*times));
         span.map(|(enter, leave)| Interval::new(enter as f32, leave as f32))
     };
     let key = Key::Spans {
@@ -47,13 +47,13 @@ fn asked(bounds: Bounds, shots: Vec<Shot>) -> Asked {
     let question = Question::BBox {
         min: bounds.min.as_vec3(),
         max: bounds.max.as_vec3(),
-        shots,
+        queries: shots,
     };
-    Asked::new(question, key)
+    ExamQuestion::new(question, key)
 }
 
 /// A box of sides from 1 to 4, its corners in single precision.
-fn bounds(draw: &mut Draw) -> Bounds {
+fn random_box(draw: &mut Rng) -> Bounds {
     let min = draw.point(3.0);
     let size = dvec3(
         draw.uniform(1.0, 4.0),
@@ -68,9 +68,9 @@ fn bounds(draw: &mut Draw) -> Bounds {
 }
 
 /// Whether a shot hits, if that is beyond doubt: still so if all is a little larger or smaller.
-fn hits(bounds: &Bounds, (ray, times): &Shot) -> Option<bool> {
+fn clear_outcome(bounds: &Bounds, (ray, times): &Query) -> Option<bool> {
     const MARGIN: f64 = 0.03;
-    let beam = Beam::from(ray).within(*times);
+    let beam = Ray64::from(ray).within(*times);
     let with = |margin: f64| {
         let grown = bounds.grown(margin);
         // A flat side stays flat.
@@ -79,7 +79,7 @@ fn hits(bounds: &Bounds, (ray, times): &Shot) -> Option<bool> {
             min: DVec3::select(flat, bounds.min, grown.min),
             max: DVec3::select(flat, bounds.max, grown.max),
         };
-        let beam = Beam {
+        let beam = Ray64 {
             min: beam.min - margin,
             max: beam.max + margin,
             ..beam
@@ -90,13 +90,17 @@ fn hits(bounds: &Bounds, (ray, times): &Shot) -> Option<bool> {
 }
 
 /// Shots that hit, then as many that miss.
-fn both(draw: &mut Draw, bounds: &Bounds, mut shot: impl FnMut(&mut Draw) -> Shot) -> Vec<Shot> {
+fn hits_and_misses(
+    draw: &mut Rng,
+    bounds: &Bounds,
+    mut shot: impl FnMut(&mut Rng) -> Query,
+) -> Vec<Query> {
     let mut shots = Vec::new();
     for wanted in [true, false] {
-        for _ in 0..RAYS {
-            shots.push(draw.until(|draw| {
+        for _ in 0..QUERIES_OF_EACH_KIND {
+            shots.push(draw.retry(|draw| {
                 let shot = shot(draw);
-                (hits(bounds, &shot) == Some(wanted)).then_some(shot)
+                (clear_outcome(bounds, &shot) == Some(wanted)).then_some(shot)
             }));
         }
     }
@@ -104,7 +108,7 @@ fn both(draw: &mut Draw, bounds: &Bounds, mut shot: impl FnMut(&mut Draw) -> Sho
 }
 
 /// A ray from around the box, toward somewhere in or near it.
-fn from_around(draw: &mut Draw, bounds: &Bounds) -> Ray {
+fn ray_from_around(draw: &mut Rng, bounds: &Bounds) -> Ray {
     let target = bounds.center() + draw.point(1.0) * (bounds.max - bounds.min);
     let origin = bounds.center() + draw.direction() * draw.uniform(6.0, 10.0);
     super::ray(origin, target)

@@ -1,17 +1,17 @@
 //! What a tree costs.
 
-use grader::exam::{Asked, Item, Key};
+use grader::exam::{ExamQuestion, Item, Key};
 use protocol::{Question, Shape};
 
 use super::item;
 use crate::items::meshes;
 use crate::oracle::bbox::Bounds;
-use crate::oracle::buckets::{self, Buckets, Extent};
+use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder};
 use crate::oracle::{scan, sweep};
-use crate::seed::{Draw, Seed};
+use crate::seed::{Rng, Seed};
 
 /// A question about the cost alone.
-pub(super) fn cost(shapes: Vec<Shape>, max_leaf_size: u32) -> Asked {
+pub(super) fn cost_question(shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let sweep_cost = Some(sweep::cost(&boxes, max_leaf_size as usize));
     let question = Question::Build {
@@ -19,51 +19,57 @@ pub(super) fn cost(shapes: Vec<Shape>, max_leaf_size: u32) -> Asked {
         max_leaf_size,
     };
     let key = Key::Tree {
-        judged: Vec::new(),
+        checks: Vec::new(),
         sweep_cost,
     };
-    Asked::new(question, key)
+    ExamQuestion::new(question, key)
 }
 
 /// Every honest builder's tree costs at most this, by the cost of the exact sweep's: the judge gives
 /// full marks up to 1.12.
-pub const HONEST: f64 = 1.06;
+pub const MAX_CORRECT_COST: f64 = 1.06;
 
 /// The tree of who weighs only the two buckets beside a plane costs at least this, by the same: luck
 /// must not hide what is often seen.
-pub const CONFUSED: f64 = 1.2;
+pub const MIN_ADJACENT_COST: f64 = 1.2;
 
 /// One question, about a mesh that is fair and that tells: drawn again until it is.
-fn cost_item(name: &str, points: u32, text: [&str; 2], draw_of: Draw, mesh: Mesh) -> Item {
+fn cost_item(name: &str, points: u32, text: [&str; 2], draw_of: Rng, mesh: MeshFn) -> Item {
     let mut draw = draw_of;
-    let asked = draw.until(|draw| {
+    let asked = draw.retry(|draw| {
         let shapes = mesh(draw);
-        let asked = cost(meshes::numbered(draw.shuffled(shapes)), 4);
-        (dearest_honest(&asked) <= HONEST && cheapest_confused(&asked) >= CONFUSED).then_some(asked)
+        let asked = cost_question(meshes::number_shapes(draw.shuffled(shapes)), 4);
+        (highest_correct_cost(&asked) <= MAX_CORRECT_COST
+            && lowest_adjacent_cost(&asked) >= MIN_ADJACENT_COST)
+            .then_some(asked)
     });
     item(name, points, text, vec![asked])
 }
 
 /// The cost of the dearest tree that buckets lead to, by the cost of the exact sweep's. Now and then
 /// all planes of some builder just miss what divides a mesh best.
-fn dearest_honest(asked: &Asked) -> f64 {
+fn highest_correct_cost(asked: &ExamQuestion) -> f64 {
     let costs = [8, 12, 16, 17, 24, 32].into_iter().flat_map(|count| {
-        [Extent::Centers, Extent::Bounds]
-            .map(|extent| by_the_sweep(asked, Buckets::honest(count, extent)))
+        [BucketExtent::Centers, BucketExtent::Bounds]
+            .map(|extent| relative_cost(asked, BucketedBuilder::correct(count, extent)))
     });
     costs.fold(0.0, f64::max)
 }
 
 /// The cost of the cheapest tree of who takes the two buckets beside a plane for its two sides. Now
 /// and then luck leads them to planes that are good enough.
-fn cheapest_confused(asked: &Asked) -> f64 {
-    let costs = [8, 12, 16, 24, 32]
-        .map(|count| by_the_sweep(asked, Buckets::confused(count, Extent::Centers)));
+fn lowest_adjacent_cost(asked: &ExamQuestion) -> f64 {
+    let costs = [8, 12, 16, 24, 32].map(|count| {
+        relative_cost(
+            asked,
+            BucketedBuilder::with_adjacent_buckets_only(count, BucketExtent::Centers),
+        )
+    });
     costs.into_iter().fold(f64::INFINITY, f64::min)
 }
 
 /// What a bucketed builder's tree costs, by the cost of the exact sweep's.
-pub fn by_the_sweep(asked: &Asked, buckets: Buckets) -> f64 {
+pub fn relative_cost(asked: &ExamQuestion, buckets: BucketedBuilder) -> f64 {
     match (&asked.question, &asked.key) {
         (
             Question::Build {
@@ -82,7 +88,7 @@ pub fn by_the_sweep(asked: &Asked, buckets: Buckets) -> f64 {
     }
 }
 
-type Mesh = fn(&mut Draw) -> Vec<Shape>;
+type MeshFn = fn(&mut Rng) -> Vec<Shape>;
 
 pub(super) fn cost_strands(seed: Seed) -> Item {
     cost_item(
@@ -93,7 +99,7 @@ pub(super) fn cost_strands(seed: Seed) -> Item {
             "The cheapest of the partitions along all axes counts, at every node anew: not always \
              the same axis, and not the longest.",
         ],
-        seed.draw("build.cost_strands"),
+        seed.rng("build.cost_strands"),
         |draw| meshes::strands(draw, 750),
     )
 }
@@ -107,7 +113,7 @@ pub(super) fn cost_sheets(seed: Seed) -> Item {
             "S_A and S_B are the areas of the boxes around *all* primitives of a side: join the \
              buckets from the left and from the right.",
         ],
-        seed.draw("build.cost_sheets"),
+        seed.rng("build.cost_sheets"),
         |draw| meshes::sheets(draw, 900),
     )
 }
@@ -121,7 +127,7 @@ pub(super) fn cost_town(seed: Seed) -> Item {
             "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, and \
              its cost.",
         ],
-        seed.draw("build.cost_town"),
+        seed.rng("build.cost_town"),
         |draw| meshes::town(draw, 1200),
     )
 }

@@ -3,16 +3,16 @@
 mod cost;
 mod split;
 mod structure;
-mod unusual;
+mod unusual_inputs;
 
-use grader::exam::TreePart::{Partition, Split};
-use grader::exam::{Asked, Item, Key, Task, TreePart};
+use grader::exam::TreeCheck::{Partition, Split};
+use grader::exam::{ExamQuestion, Item, Key, Task, TreeCheck};
 use protocol::{Question, Shape};
 
 use super::meshes;
 use crate::seed::Seed;
 
-pub use cost::{CONFUSED, HONEST, by_the_sweep};
+pub use cost::{MAX_CORRECT_COST, MIN_ADJACENT_COST, relative_cost};
 
 /// The items of the task `build`.
 pub fn items(seed: Seed) -> Vec<Item> {
@@ -22,13 +22,13 @@ pub fn items(seed: Seed) -> Vec<Item> {
         structure::tight,
         structure::leaf_size,
         structure::stops,
-        unusual::negative,
-        unusual::coincident,
-        unusual::concentric,
-        unusual::coplanar,
-        unusual::collinear,
-        unusual::outlier,
-        unusual::one_or_none,
+        unusual_inputs::negative,
+        unusual_inputs::coincident,
+        unusual_inputs::concentric,
+        unusual_inputs::coplanar,
+        unusual_inputs::collinear,
+        unusual_inputs::outlier,
+        unusual_inputs::one_or_none,
         split::one_split,
         cost::cost_strands,
         cost::cost_sheets,
@@ -40,21 +40,21 @@ pub fn items(seed: Seed) -> Vec<Item> {
 /// An item with one question more than its idea: without a tree, or with half of all in one leaf,
 /// it is wrong. How large leaves may be is the idea of one item. Its primitives lie far apart, so that
 /// no heuristic would rather keep them together.
-fn item(name: &str, points: u32, text: [&str; 2], mut questions: Vec<Asked>) -> Item {
-    let mut draw = Seed(0).draw("build.control");
+fn item(name: &str, points: u32, text: [&str; 2], mut questions: Vec<ExamQuestion>) -> Item {
+    let mut draw = Seed(0).rng("build.control");
     let soup = meshes::soup(&mut draw, 24, 2.0, 0.1);
-    questions.push(asked(&[Partition, Split], soup, 4));
+    questions.push(build_question(&[Partition, Split], soup, 4));
     super::item(Task::Build, name, points, text, questions)
 }
 
-fn asked(judged: &[TreePart], shapes: Vec<Shape>, max_leaf_size: u32) -> Asked {
+fn build_question(judged: &[TreeCheck], shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
     let question = Question::Build {
         shapes,
         max_leaf_size,
     };
     let key = Key::Tree {
-        judged: judged.to_vec(),
+        checks: judged.to_vec(),
         sweep_cost: None,
     };
-    Asked::new(question, key)
+    ExamQuestion::new(question, key)
 }

@@ -1,15 +1,15 @@
 //! One choice alone: a few primitives in a row, of which one partition is by far the best.
 
 use glam::DVec3;
-use grader::exam::{Asked, Item};
+use grader::exam::{ExamQuestion, Item};
 use protocol::Shape;
 
-use super::cost::cost;
+use super::cost::cost_question;
 use super::item;
 use crate::items::meshes;
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{scan, sweep};
-use crate::seed::{Draw, Seed};
+use crate::seed::{Rng, Seed};
 
 /// As many as both sides of the best partition may hold; all together are more.
 const MAX_LEAF_SIZE: u32 = 8;
@@ -29,7 +29,7 @@ const GAP: Layout = &[
 ];
 
 pub(super) fn one_split(seed: Seed) -> Item {
-    let mut draw = seed.draw("build.one_split");
+    let mut draw = seed.rng("build.one_split");
     let mut questions = Vec::new();
     for layout in [CLUMPS, GAP] {
         for axis in 0..3 {
@@ -50,16 +50,16 @@ pub(super) fn one_split(seed: Seed) -> Item {
     )
 }
 
-fn question(draw: &mut Draw, layout: Layout, axis: usize, is_mirrored: bool) -> Asked {
-    let shapes = draw.until(|draw| {
+fn question(draw: &mut Rng, layout: Layout, axis: usize, is_mirrored: bool) -> ExamQuestion {
+    let shapes = draw.retry(|draw| {
         let shapes = row(draw, layout, axis, is_mirrored);
-        is_beyond_doubt(&shapes, axis).then_some(shapes)
+        is_unambiguous(&shapes, axis).then_some(shapes)
     });
-    cost(shapes, MAX_LEAF_SIZE)
+    cost_question(shapes, MAX_LEAF_SIZE)
 }
 
 /// Chips in a row along an axis, those of a clump evenly.
-fn row(draw: &mut Draw, layout: Layout, axis: usize, is_mirrored: bool) -> Vec<Shape> {
+fn row(draw: &mut Rng, layout: Layout, axis: usize, is_mirrored: bool) -> Vec<Shape> {
     let start = draw.point(3.0);
     let length = draw.uniform(8.0, 12.0);
     let mut chips = Vec::new();
@@ -69,15 +69,15 @@ fn row(draw: &mut Draw, layout: Layout, axis: usize, is_mirrored: bool) -> Vec<S
             let place = if is_mirrored { 1.0 - place } else { place };
             let aside = draw.point(0.05);
             let center = start + aside + (length * place - aside[axis]) * DVec3::AXES[axis];
-            chips.push(meshes::chip(draw, center, 0.05));
+            chips.push(meshes::random_flat_triangle(draw, center, 0.05));
         }
     }
-    meshes::numbered(draw.shuffled(chips))
+    meshes::number_shapes(draw.shuffled(chips))
 }
 
 /// Whether every builder with 8 buckets or more finds the best of all partitions: it is the best by
 /// far, and lies across a gap along this axis that some plane of any of them goes through.
-fn is_beyond_doubt(shapes: &[Shape], axis: usize) -> bool {
+fn is_unambiguous(shapes: &[Shape], axis: usize) -> bool {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let Some(gap) = sweep::clear_gap(&boxes, axis) else {
         return false;

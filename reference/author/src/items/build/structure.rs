@@ -1,29 +1,34 @@
 //! What must hold of every tree.
 
-use grader::exam::TreePart::{self, Contains, LeafSize, Partition, Stops, Tight};
-use grader::exam::{Asked, Item};
+use grader::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight};
+use grader::exam::{ExamQuestion, Item};
 
-use super::{asked, item};
+use super::{build_question, item};
 use crate::items::meshes;
 use crate::seed::Seed;
 
 /// Soups of several sizes, for leaves of several sizes.
-fn soups(name: &str, seed: Seed, judged: &[TreePart], sizes: &[(usize, u32)]) -> Vec<Asked> {
-    soups_of(0.2, name, seed, judged, sizes)
+fn soup_questions(
+    name: &str,
+    seed: Seed,
+    judged: &[TreeCheck],
+    sizes: &[(usize, u32)],
+) -> Vec<ExamQuestion> {
+    soup_questions_of_size(0.2, name, seed, judged, sizes)
 }
 
 /// The same of primitives of this size.
-fn soups_of(
+fn soup_questions_of_size(
     size: f64,
     name: &str,
     seed: Seed,
-    judged: &[TreePart],
+    judged: &[TreeCheck],
     sizes: &[(usize, u32)],
-) -> Vec<Asked> {
-    let mut draw = seed.draw(name);
+) -> Vec<ExamQuestion> {
+    let mut draw = seed.rng(name);
     let question = |&(count, max_leaf_size): &(usize, u32)| {
         let shapes = meshes::soup(&mut draw, count, 3.0, size);
-        asked(judged, shapes, max_leaf_size)
+        build_question(judged, shapes, max_leaf_size)
     };
     sizes.iter().map(question).collect()
 }
@@ -37,7 +42,7 @@ pub(super) fn partition(seed: Seed) -> Item {
             "A partition loses nothing and doubles nothing: the primitives of a node go to one of \
              its children each, and start and size of the leaves count all of them once.",
         ],
-        soups(
+        soup_questions(
             "build.partition",
             seed,
             &[Partition],
@@ -55,7 +60,7 @@ pub(super) fn contains(seed: Seed) -> Item {
             "If a box misses some of its primitives, the bucket in which a primitive was counted may \
              not be the side to which it was moved.",
         ],
-        soups("build.contains", seed, &[Contains], &[(64, 1), (300, 4)]),
+        soup_questions("build.contains", seed, &[Contains], &[(64, 1), (300, 4)]),
     )
 }
 
@@ -68,13 +73,13 @@ pub(super) fn tight(seed: Seed) -> Item {
             "A node's box is the union of its primitives' boxes. One that starts at the origin \
              instead of BBox::EMPTY, or is its parent's, is too large.",
         ],
-        soups("build.tight", seed, &[Tight], &[(64, 1), (150, 4)]),
+        soup_questions("build.tight", seed, &[Tight], &[(64, 1), (150, 4)]),
     )
 }
 
 pub(super) fn leaf_size(seed: Seed) -> Item {
-    let mut draw = seed.draw("build.leaf_size.crowd");
-    let crowd = asked(&[LeafSize], meshes::soup(&mut draw, 100, 0.3, 2.5), 1);
+    let mut draw = seed.rng("build.leaf_size.crowd");
+    let crowd = build_question(&[LeafSize], meshes::soup(&mut draw, 100, 0.3, 2.5), 1);
     item(
         "leaf_size",
         2,
@@ -85,7 +90,7 @@ pub(super) fn leaf_size(seed: Seed) -> Item {
         // So large that the heuristic alone would rather not split some of them; in the first one so
         // many that some node is split at its very last plane; and in the last one so close to each
         // other that buckets over the node's box do not tell them apart.
-        soups_of(
+        soup_questions_of_size(
             2.5,
             "build.leaf_size",
             seed,
@@ -106,7 +111,7 @@ pub(super) fn stops(seed: Seed) -> Item {
             "a node with at most max_leaf_size primitives is a leaf",
             "max_leaf_size itself is small enough: compare with <=.",
         ],
-        soups(
+        soup_questions(
             "build.stops",
             seed,
             &[Stops],

@@ -8,11 +8,11 @@ mod ray;
 mod sensor;
 
 use glam::{UVec2, Vec2, uvec2};
-use grader::exam::{Asked, Item, Key, RayPart, Task};
+use grader::exam::{ExamQuestion, Item, Key, RayCheck, Task};
 use protocol::{PinholeCamera, Question, Sample, Samples};
 
 use crate::oracle;
-use crate::seed::{Draw, Seed};
+use crate::seed::{Rng, Seed};
 
 const MIDDLE: Vec2 = Vec2::splat(0.5);
 
@@ -35,22 +35,22 @@ pub fn items(seed: Seed) -> Vec<Item> {
     all.into_iter().map(|item| item(seed)).collect()
 }
 
-fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<Asked>) -> Item {
+fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<ExamQuestion>) -> Item {
     super::item(Task::Camera, name, points, text, questions)
 }
 
-fn asked(judged: &[RayPart], camera: PinholeCamera, samples: Samples) -> Asked {
+fn camera_question(judged: &[RayCheck], camera: PinholeCamera, samples: Samples) -> ExamQuestion {
     let truth = |sample| oracle::camera::direction(&camera, sample).as_vec3();
-    let directions = samples.on(camera.film).into_iter().map(truth).collect();
+    let directions = samples.to_vec(camera.film).into_iter().map(truth).collect();
     let key = Key::Rays {
-        judged: judged.to_vec(),
+        checks: judged.to_vec(),
         directions,
     };
-    Asked::new(Question::Camera { camera, samples }, key)
+    ExamQuestion::new(Question::Camera { camera, samples }, key)
 }
 
-fn directions(camera: PinholeCamera, samples: Vec<Sample>) -> Asked {
-    asked(&[RayPart::Direction], camera, Samples::List(samples))
+fn direction_question(camera: PinholeCamera, samples: Vec<Sample>) -> ExamQuestion {
+    camera_question(&[RayCheck::Direction], camera, Samples::List(samples))
 }
 
 fn camera(vertical_fov: f64, aspect_ratio: f64, film: UVec2) -> PinholeCamera {
@@ -72,6 +72,6 @@ fn middle_row(film: UVec2) -> Vec<Sample> {
         .collect()
 }
 
-fn below(draw: &mut Draw, n: u32) -> u32 {
+fn random_below(draw: &mut Rng, n: u32) -> u32 {
     draw.index(n as usize) as u32
 }

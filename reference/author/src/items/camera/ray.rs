@@ -1,26 +1,26 @@
 //! The place in the pixel, and the ray itself.
 
 use glam::{UVec2, uvec2, vec2};
-use grader::exam::{Asked, Item, RayPart};
+use grader::exam::{ExamQuestion, Item, RayCheck};
 use protocol::{Sample, Samples};
 
-use super::{MIDDLE, asked, below, camera, directions, item};
-use crate::seed::{Draw, Seed};
+use super::{MIDDLE, camera, camera_question, direction_question, item, random_below};
+use crate::seed::{Rng, Seed};
 
-fn place(draw: &mut Draw) -> f32 {
+fn random_offset(draw: &mut Rng) -> f32 {
     // Not at the very ends: 1 is none of the offsets.
     draw.uniform(0.02, 0.98) as f32
 }
 
 pub(super) fn offset(seed: Seed) -> Item {
-    let mut draw = seed.draw("camera.offset");
+    let mut draw = seed.rng("camera.offset");
     let mut question = |film: UVec2| {
         let samples = (0..24).map(|_| Sample {
-            pixel: uvec2(below(&mut draw, film.x), 0),
-            offset: vec2(place(&mut draw), 0.5),
+            pixel: uvec2(random_below(&mut draw, film.x), 0),
+            offset: vec2(random_offset(&mut draw), 0.5),
         });
         let aspect = f64::from(film.x);
-        directions(camera(50.0, aspect, film), samples.collect())
+        direction_question(camera(50.0, aspect, film), samples.collect())
     };
     item(
         "offset",
@@ -39,7 +39,7 @@ pub(super) fn offset(seed: Seed) -> Item {
 }
 
 pub(super) fn offset_axes(seed: Seed) -> Item {
-    let mut draw = seed.draw("camera.offset_axes");
+    let mut draw = seed.rng("camera.offset_axes");
     let samples = (0..24).map(|i| {
         let (near, far) = (
             draw.uniform(0.05, 0.25) as f32,
@@ -54,7 +54,7 @@ pub(super) fn offset_axes(seed: Seed) -> Item {
             },
         }
     });
-    let question = directions(camera(90.0, 1.0, uvec2(1, 1)), samples.collect());
+    let question = direction_question(camera(90.0, 1.0, uvec2(1, 1)), samples.collect());
     item(
         "offset_axes",
         1,
@@ -67,13 +67,16 @@ pub(super) fn offset_axes(seed: Seed) -> Item {
 }
 
 pub(super) fn large_film(seed: Seed) -> Item {
-    let mut draw = seed.draw("camera.large_film");
+    let mut draw = seed.rng("camera.large_film");
     let film = uvec2(3840, 2160);
     let samples = (0..32).map(|_| Sample {
-        pixel: uvec2(below(&mut draw, film.x), below(&mut draw, film.y)),
-        offset: vec2(place(&mut draw), place(&mut draw)),
+        pixel: uvec2(
+            random_below(&mut draw, film.x),
+            random_below(&mut draw, film.y),
+        ),
+        offset: vec2(random_offset(&mut draw), random_offset(&mut draw)),
     });
-    let question = directions(camera(40.0, 16.0 / 9.0, film), samples.collect());
+    let question = direction_question(camera(40.0, 16.0 / 9.0, film), samples.collect());
     item(
         "large_film",
         1,
@@ -88,18 +91,18 @@ pub(super) fn large_film(seed: Seed) -> Item {
 
 /// Directions that differ much, so that a direction of wrong length or another origin is told apart
 /// from a constant answer.
-fn spread(judged: &[RayPart], draw: &mut Draw) -> Asked {
+fn spread_question(judged: &[RayCheck], draw: &mut Rng) -> ExamQuestion {
     let film = uvec2(7, 7);
     let samples = (0..16).map(|_| Sample {
-        pixel: uvec2(below(draw, 7), below(draw, 7)),
+        pixel: uvec2(random_below(draw, 7), random_below(draw, 7)),
         offset: MIDDLE,
     });
     let samples = Samples::List(samples.collect());
-    asked(judged, camera(90.0, 1.0, film), samples)
+    camera_question(judged, camera(90.0, 1.0, film), samples)
 }
 
 pub(super) fn unit_length(seed: Seed) -> Item {
-    let mut draw = seed.draw("camera.unit_length");
+    let mut draw = seed.rng("camera.unit_length");
     item(
         "unit_length",
         1,
@@ -108,16 +111,16 @@ pub(super) fn unit_length(seed: Seed) -> Item {
             "Distances along a ray are measured in lengths of its direction. Ray::new brings it to \
              length one; filling in the fields does not.",
         ],
-        vec![spread(
-            &[RayPart::Direction, RayPart::UnitLength],
+        vec![spread_question(
+            &[RayCheck::Direction, RayCheck::UnitLength],
             &mut draw,
         )],
     )
 }
 
 pub(super) fn origin_and_range(seed: Seed) -> Item {
-    let mut draw = seed.draw("camera.origin_and_range");
-    let judged = [RayPart::Direction, RayPart::Origin, RayPart::Range];
+    let mut draw = seed.rng("camera.origin_and_range");
+    let judged = [RayCheck::Direction, RayCheck::Origin, RayCheck::Range];
     item(
         "origin_and_range",
         1,
@@ -125,12 +128,12 @@ pub(super) fn origin_and_range(seed: Seed) -> Item {
             "the ray starts at the camera and reaches on without end",
             "The camera stands at (0, 0, 0), not on the sensor, and the ray counts from 0 to ∞.",
         ],
-        vec![spread(&judged, &mut draw)],
+        vec![spread_question(&judged, &mut draw)],
     )
 }
 
 pub(super) fn picture(seed: Seed) -> Item {
-    let mut draw = seed.draw("camera.picture");
+    let mut draw = seed.rng("camera.picture");
     let camera = camera(draw.uniform(45.0, 75.0), 1.5, uvec2(64, 64));
     item(
         "picture",
@@ -140,6 +143,10 @@ pub(super) fn picture(seed: Seed) -> Item {
             "Five places in each pixel are compared. If only some are wrong, see which: one edge, \
              one half, or all but the middles of pixels?",
         ],
-        vec![asked(&[RayPart::Direction], camera, Samples::EveryPixel)],
+        vec![camera_question(
+            &[RayCheck::Direction],
+            camera,
+            Samples::EveryPixel,
+        )],
     )
 }

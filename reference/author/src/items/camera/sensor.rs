@@ -4,7 +4,7 @@ use glam::{UVec2, uvec2};
 use grader::exam::Item;
 use protocol::Sample;
 
-use super::{MIDDLE, camera, directions, item, middle_row};
+use super::{MIDDLE, camera, direction_question, item, middle_row};
 use crate::seed::Seed;
 
 pub(super) fn corners(_: Seed) -> Item {
@@ -22,7 +22,7 @@ pub(super) fn corners(_: Seed) -> Item {
             pixel: uvec2(x, y),
             offset: MIDDLE,
         };
-        directions(camera(90.0, 1.0, film), corners.map(sample).to_vec())
+        direction_question(camera(90.0, 1.0, film), corners.map(sample).to_vec())
     };
     item(
         "corners",
@@ -37,10 +37,10 @@ pub(super) fn corners(_: Seed) -> Item {
 }
 
 pub(super) fn field_of_view(seed: Seed) -> Item {
-    let mut draw = seed.draw("camera.field_of_view");
+    let mut draw = seed.rng("camera.field_of_view");
     let film = UVec2::splat(9);
     let question = |(from, to): (f64, f64)| {
-        directions(camera(draw.uniform(from, to), 1.0, film), middle_row(film))
+        direction_question(camera(draw.uniform(from, to), 1.0, film), middle_row(film))
     };
     item(
         "field_of_view",
@@ -59,7 +59,7 @@ pub(super) fn field_of_view(seed: Seed) -> Item {
 pub(super) fn aspect_ratio(_: Seed) -> Item {
     let question = |film: UVec2| {
         let aspect = f64::from(film.x) / f64::from(film.y);
-        directions(camera(60.0, aspect, film), middle_row(film))
+        direction_question(camera(60.0, aspect, film), middle_row(film))
     };
     item(
         "aspect_ratio",
@@ -76,9 +76,10 @@ pub(super) fn aspect_ratio(_: Seed) -> Item {
 }
 
 pub(super) fn other_aspect(seed: Seed) -> Item {
-    let mut draw = seed.draw("camera.other_aspect");
-    let question =
-        |(film, from, to)| directions(camera(70.0, draw.uniform(from, to), film), middle_row(film));
+    let mut draw = seed.rng("camera.other_aspect");
+    let question = |(film, from, to)| {
+        direction_question(camera(70.0, draw.uniform(from, to), film), middle_row(film))
+    };
     item(
         "other_aspect",
         1,
@@ -105,7 +106,7 @@ pub(super) fn film(_: Seed) -> Item {
         });
         let samples = middle_row(film).into_iter().chain(columns).collect();
         let aspect = f64::from(film.x) / f64::from(film.y);
-        directions(camera(90.0, aspect, film), samples)
+        direction_question(camera(90.0, aspect, film), samples)
     };
     item(
         "film",
@@ -125,7 +126,7 @@ pub(super) fn bottom_left(_: Seed) -> Item {
             pixel: uvec2(i, i / 2),
             offset: MIDDLE,
         });
-        directions(camera(90.0, 1.0, film), samples.collect())
+        direction_question(camera(90.0, 1.0, film), samples.collect())
     };
     item(
         "bottom_left",

@@ -1,11 +1,14 @@
 //! Which of the two roots counts, if any.
 
-use grader::exam::{Asked, Item, Part};
+use grader::exam::{ExamQuestion, HitCheck, Item};
 use protocol::Ray;
 
-use super::{asked, ball, clear, hit, inside, item, miss, passing, tables};
-use crate::oracle::Beam;
-use crate::seed::{Draw, Seed};
+use super::{
+    hitting_ray, item, missing_ray, random_sphere, ray_from_inside, ray_passing_at,
+    sphere_question, table_questions, unambiguous_ray,
+};
+use crate::oracle::Ray64;
+use crate::seed::{Rng, Seed};
 
 pub(super) fn near_side(seed: Seed) -> Item {
     item(
@@ -16,31 +19,31 @@ pub(super) fn near_side(seed: Seed) -> Item {
             "Of the two roots the smaller is met first. Mind that the ray's origin must be taken \
              relative to the sphere's centre.",
         ],
-        tables(
+        table_questions(
             "sphere.near_side",
             seed,
-            &[Part::Distance],
+            &[HitCheck::Distance],
             &[1.0, 1.0, 1.0],
-            hit,
+            hitting_ray,
         ),
     )
 }
 
 pub(super) fn beside(seed: Seed) -> Item {
-    let mut draw = seed.draw("sphere.beside");
+    let mut draw = seed.rng("sphere.beside");
     let mut table = |radius: f64| {
-        let ball = ball(&mut draw, radius);
-        let mut rays: Vec<Ray> = (0..8).map(|_| miss(&mut draw, &ball)).collect();
-        rays.extend((0..2).map(|_| hit(&mut draw, &ball)));
+        let ball = random_sphere(&mut draw, radius);
+        let mut rays: Vec<Ray> = (0..8).map(|_| missing_ray(&mut draw, &ball)).collect();
+        rays.extend((0..2).map(|_| hitting_ray(&mut draw, &ball)));
         // A sphere that is somewhat too large or too small is noticed by those that just pass it
         // and those that just meet it.
         for (approach, count) in [([1.15, 1.25], 4), ([0.75, 0.85], 2)] {
             rays.extend((0..count).map(|_| {
                 let approach = draw.uniform(approach[0], approach[1]);
-                passing(&mut draw, &ball, approach)
+                ray_passing_at(&mut draw, &ball, approach)
             }));
         }
-        asked(&[], &ball, 0, draw.shuffled(rays))
+        sphere_question(&[], &ball, 0, draw.shuffled(rays))
     };
     item(
         "beside",
@@ -62,22 +65,22 @@ pub(super) fn radius(seed: Seed) -> Item {
             "spheres of any radius are hit where they are",
             "The radius comes into the quadratic's c, squared.",
         ],
-        tables(
+        table_questions(
             "sphere.radius",
             seed,
-            &[Part::Distance],
+            &[HitCheck::Distance],
             &[0.3, 0.7, 2.0, 5.0],
-            hit,
+            hitting_ray,
         ),
     )
 }
 
 pub(super) fn behind(seed: Seed) -> Item {
-    let mut draw = seed.draw("sphere.behind");
+    let mut draw = seed.rng("sphere.behind");
     let mut table = |radius: f64| {
-        let ball = ball(&mut draw, radius);
+        let ball = random_sphere(&mut draw, radius);
         let rays = (0..16).map(|i| {
-            let ray = hit(&mut draw, &ball);
+            let ray = hitting_ray(&mut draw, &ball);
             if i % 2 == 0 {
                 ray
             } else {
@@ -85,7 +88,7 @@ pub(super) fn behind(seed: Seed) -> Item {
             }
         });
         let rays = rays.collect();
-        asked(&[Part::Distance], &ball, 0, rays)
+        sphere_question(&[HitCheck::Distance], &ball, 0, rays)
     };
     item(
         "behind",
@@ -107,44 +110,44 @@ pub(super) fn from_inside(seed: Seed) -> Item {
             "The near root is negative there, the far one is not: see which of them lies in \
              ray.range. Both t and everything that follows from it are the far one's.",
         ],
-        tables(
+        table_questions(
             "sphere.from_inside",
             seed,
-            &[Part::Distance],
+            &[HitCheck::Distance],
             &[1.0, 2.0],
-            inside,
+            ray_from_inside,
         ),
     )
 }
 
 /// Rays through a sphere, each with a range that is made of its two roots.
-fn ranges(
+fn range_questions(
     name: &str,
     seed: Seed,
-    range: impl Fn(&mut Draw, usize, [f64; 2]) -> (f64, f64),
-) -> Vec<Asked> {
-    let mut draw = seed.draw(name);
+    range: impl Fn(&mut Rng, usize, [f64; 2]) -> (f64, f64),
+) -> Vec<ExamQuestion> {
+    let mut draw = seed.rng(name);
     let mut table = |radius: f64| {
-        let ball = ball(&mut draw, radius);
+        let ball = random_sphere(&mut draw, radius);
         let rays = (0..16).map(|i| {
-            clear(&mut draw, &ball, |draw| {
-                let ray = draw.until(|draw| {
-                    let ray = hit(draw, &ball);
-                    let [near, far] = ball.passage(&Beam::from(&ray)).roots;
+            unambiguous_ray(&mut draw, &ball, |draw| {
+                let ray = draw.retry(|draw| {
+                    let ray = hitting_ray(draw, &ball);
+                    let [near, far] = ball.intersect_line(&Ray64::from(&ray)).roots;
                     (far - near > 0.4).then_some(ray)
                 });
-                let (min, max) = range(draw, i, ball.passage(&Beam::from(&ray)).roots);
+                let (min, max) = range(draw, i, ball.intersect_line(&Ray64::from(&ray)).roots);
                 ray.within(min as f32, max as f32)
             })
         });
         let rays = rays.collect();
-        asked(&[Part::Distance], &ball, 0, rays)
+        sphere_question(&[HitCheck::Distance], &ball, 0, rays)
     };
     vec![table(1.0), table(2.0)]
 }
 
 pub(super) fn far_root(seed: Seed) -> Item {
-    let range = |draw: &mut Draw, i: usize, [near, far]: [f64; 2]| {
+    let range = |draw: &mut Rng, i: usize, [near, far]: [f64; 2]| {
         // Begins before the sphere, within it, or behind it.
         let from = match i % 3 {
             0 => draw.uniform(0.0, near - 0.05),
@@ -161,12 +164,12 @@ pub(super) fn far_root(seed: Seed) -> Item {
             "The range's start need not be 0. The near root outside and the far one inside: the far \
              one counts.",
         ],
-        ranges("sphere.far_root", seed, range),
+        range_questions("sphere.far_root", seed, range),
     )
 }
 
 pub(super) fn range_max(seed: Seed) -> Item {
-    let range = |draw: &mut Draw, i: usize, [near, far]: [f64; 2]| {
+    let range = |draw: &mut Rng, i: usize, [near, far]: [f64; 2]| {
         // Ends before the sphere, within it, or behind it.
         let max = match i % 3 {
             0 => near - draw.uniform(0.03, 0.3),
@@ -183,12 +186,12 @@ pub(super) fn range_max(seed: Seed) -> Item {
             "A ray that ends inside the sphere still hits its near side: each root is looked at by \
              itself.",
         ],
-        ranges("sphere.range_max", seed, range),
+        range_questions("sphere.range_max", seed, range),
     )
 }
 
 pub(super) fn range_within(seed: Seed) -> Item {
-    let range = |draw: &mut Draw, i: usize, [near, far]: [f64; 2]| {
+    let range = |draw: &mut Rng, i: usize, [near, far]: [f64; 2]| {
         let size = far - near;
         // Between the roots, behind both, or around the first.
         match i % 3 {
@@ -205,6 +208,6 @@ pub(super) fn range_within(seed: Seed) -> Item {
             "Between the roots the ray is inside the sphere, and meets nothing; beyond both it has \
              left it.",
         ],
-        ranges("sphere.range_within", seed, range),
+        range_questions("sphere.range_within", seed, range),
     )
 }

@@ -1,19 +1,22 @@
 //! What is told of the meeting.
 
 use glam::{DVec3, Vec3, dvec3};
-use grader::exam::{Item, Part};
+use grader::exam::{HitCheck, Item};
 use protocol::{Ray, Shape};
 
-use super::{asked, ball, hit, inside, item, miss, tables};
+use super::{
+    hitting_ray, item, missing_ray, random_sphere, ray_from_inside, sphere_question,
+    table_questions,
+};
 use crate::items::picture;
-use crate::oracle::sphere::Ball;
-use crate::seed::{Draw, Seed};
+use crate::oracle::sphere::Sphere;
+use crate::seed::{Rng, Seed};
 
-fn either(draw: &mut Draw, ball: &Ball) -> Ray {
+fn hitting_ray_from_either_side(draw: &mut Rng, ball: &Sphere) -> Ray {
     if draw.coin() {
-        hit(draw, ball)
+        hitting_ray(draw, ball)
     } else {
-        inside(draw, ball)
+        ray_from_inside(draw, ball)
     }
 }
 
@@ -26,20 +29,26 @@ pub(super) fn position(seed: Seed) -> Item {
             "It is the ray's point at the distance t. A point relative to the centre still has the \
              centre to be added.",
         ],
-        tables(
+        table_questions(
             "sphere.position",
             seed,
-            &[Part::Position],
+            &[HitCheck::Position],
             &[0.8, 2.0],
-            either,
+            hitting_ray_from_either_side,
         ),
     )
 }
 
 pub(super) fn normal(seed: Seed) -> Item {
-    let judged = [Part::Normal, Part::UnitNormal];
-    let outside = tables("sphere.normal", seed, &judged, &[0.5, 3.0], hit);
-    let inside = tables("sphere.normal.inside", seed, &judged, &[2.0], inside);
+    let judged = [HitCheck::Normal, HitCheck::UnitNormal];
+    let outside = table_questions("sphere.normal", seed, &judged, &[0.5, 3.0], hitting_ray);
+    let inside = table_questions(
+        "sphere.normal.inside",
+        seed,
+        &judged,
+        &[2.0],
+        ray_from_inside,
+    );
     item(
         "normal",
         1,
@@ -61,7 +70,7 @@ pub(super) fn uv(seed: Seed) -> Item {
             "Sphere::uv is given: call it with the direction from the centre to the meeting, not \
              with the position or the ray's direction.",
         ],
-        tables("sphere.uv", seed, &[Part::Uv], &[1.0, 1.0], hit),
+        table_questions("sphere.uv", seed, &[HitCheck::Uv], &[1.0, 1.0], hitting_ray),
     )
 }
 
@@ -74,18 +83,29 @@ pub(super) fn uv_radius(seed: Seed) -> Item {
             "Sphere::uv wants a direction of length one: from the centre to the meeting is a vector \
              as long as the radius.",
         ],
-        tables("sphere.uv_radius", seed, &[Part::Uv], &[0.4, 2.5], either),
+        table_questions(
+            "sphere.uv_radius",
+            seed,
+            &[HitCheck::Uv],
+            &[0.4, 2.5],
+            hitting_ray_from_either_side,
+        ),
     )
 }
 
 pub(super) fn origin_and_material(seed: Seed) -> Item {
-    let mut draw = seed.draw("sphere.origin_and_material");
+    let mut draw = seed.rng("sphere.origin_and_material");
     let mut table = |material: u32| {
-        let ball = ball(&mut draw, 1.2);
-        let mut rays: Vec<Ray> = (0..3).map(|_| hit(&mut draw, &ball)).collect();
-        rays.extend((0..3).map(|_| inside(&mut draw, &ball)));
-        rays.extend((0..3).map(|_| miss(&mut draw, &ball)));
-        asked(&[Part::Origin, Part::Material], &ball, material, rays)
+        let ball = random_sphere(&mut draw, 1.2);
+        let mut rays: Vec<Ray> = (0..3).map(|_| hitting_ray(&mut draw, &ball)).collect();
+        rays.extend((0..3).map(|_| ray_from_inside(&mut draw, &ball)));
+        rays.extend((0..3).map(|_| missing_ray(&mut draw, &ball)));
+        sphere_question(
+            &[HitCheck::Origin, HitCheck::Material],
+            &ball,
+            material,
+            rays,
+        )
     };
     item(
         "origin_and_material",
@@ -100,7 +120,7 @@ pub(super) fn origin_and_material(seed: Seed) -> Item {
 }
 
 pub(super) fn picture(seed: Seed) -> Item {
-    let mut draw = seed.draw("sphere.picture");
+    let mut draw = seed.rng("sphere.picture");
     let mut sphere = |x: f64, y: f64, z: f64, radius: f64| {
         let center = dvec3(x, y, z) + draw.point(0.1);
         Shape::Sphere {
@@ -109,7 +129,7 @@ pub(super) fn picture(seed: Seed) -> Item {
             material: 0,
         }
     };
-    let view = |half, pixels| picture::narrow(Vec3::ZERO, DVec3::NEG_Z, half, pixels);
+    let view = |half, pixels| picture::view_along(Vec3::ZERO, DVec3::NEG_Z, half, pixels);
     // No centre is so high or low that its sphere would show a pole.
     let from_outside = vec![
         sphere(0.2, 0.0, -5.0, 1.2),
@@ -128,8 +148,8 @@ pub(super) fn picture(seed: Seed) -> Item {
              sets it apart: its radius, or where the camera is.",
         ],
         vec![
-            picture::shapes(view(0.6, 64), from_outside),
-            picture::shapes(view(0.6, 32), from_inside),
+            picture::picture_question(view(0.6, 64), from_outside),
+            picture::picture_question(view(0.6, 32), from_inside),
         ],
     )
 }

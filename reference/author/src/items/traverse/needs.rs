@@ -81,7 +81,7 @@ pub(super) const CAMERA: [&str; 11] = [
 ];
 
 /// The item, resting on these as well.
-pub(super) fn on(mut item: Item, needed: &[&str]) -> Item {
+pub(super) fn add(mut item: Item, needed: &[&str]) -> Item {
     item.needs.extend(needed.iter().map(|id| (*id).to_owned()));
     item
 }

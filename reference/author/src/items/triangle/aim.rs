@@ -4,8 +4,8 @@ use glam::{DVec3, Vec2, vec2};
 use protocol::{Ray, Shape, Vertex};
 
 use crate::items::ray;
-use crate::oracle::{Beam, scan, triangle};
-use crate::seed::Draw;
+use crate::oracle::{Ray64, scan, triangle};
+use crate::seed::Rng;
 
 /// Which side of a triangle a ray comes from: the one that (p1 − p0) × (p2 − p0) points to, or not.
 #[derive(Clone, Copy, PartialEq)]
@@ -17,8 +17,8 @@ pub(super) enum Side {
 
 /// A triangle that is neither small nor thin, with three normals and texture coordinates that have
 /// little in common.
-pub(super) fn triangle(draw: &mut Draw) -> [Vertex; 3] {
-    draw.until(|draw| {
+pub(super) fn random_triangle(draw: &mut Rng) -> [Vertex; 3] {
+    draw.retry(|draw| {
         let corners = [draw.point(2.0), draw.point(2.0), draw.point(2.0)];
         let [p0, p1, p2] = corners;
         let normal = (p1 - p0).cross(p2 - p0);
@@ -36,7 +36,7 @@ pub(super) fn triangle(draw: &mut Draw) -> [Vertex; 3] {
 }
 
 /// Weights of a point inside, none below `least`.
-pub(super) fn weights_inside(draw: &mut Draw, least: f64) -> [f64; 3] {
+pub(super) fn weights_inside(draw: &mut Rng, least: f64) -> [f64; 3] {
     let mut cuts = [draw.uniform(0.0, 1.0), draw.uniform(0.0, 1.0)];
     cuts.sort_by(f64::total_cmp);
     let parts = [cuts[0], cuts[1] - cuts[0], 1.0 - cuts[1]];
@@ -44,13 +44,13 @@ pub(super) fn weights_inside(draw: &mut Draw, least: f64) -> [f64; 3] {
 }
 
 /// Weights of a point beyond the edge that lies opposite this corner.
-pub(super) fn weights_beyond(draw: &mut Draw, corner: usize) -> [f64; 3] {
+pub(super) fn weights_beyond_edge(draw: &mut Rng, corner: usize) -> [f64; 3] {
     let beyond = draw.uniform(0.06, 0.6);
-    weights_beyond_by(draw, corner, beyond)
+    weights_beyond_edge_by(draw, corner, beyond)
 }
 
 /// The same of a point so far beyond: as far as the corner is on this side, it would be 1.
-pub(super) fn weights_beyond_by(draw: &mut Draw, corner: usize, beyond: f64) -> [f64; 3] {
+pub(super) fn weights_beyond_edge_by(draw: &mut Rng, corner: usize, beyond: f64) -> [f64; 3] {
     let along = draw.uniform(0.05, 0.95);
     let mut weights = [0.0; 3];
     weights[corner] = -beyond;
@@ -61,7 +61,7 @@ pub(super) fn weights_beyond_by(draw: &mut Draw, corner: usize, beyond: f64) -> 
 
 /// A ray through the point of these weights, not at a flat angle.
 pub(super) fn ray_through(
-    draw: &mut Draw,
+    draw: &mut Rng,
     vertices: &[Vertex; 3],
     weights: [f64; 3],
     side: Side,
@@ -69,7 +69,7 @@ pub(super) fn ray_through(
     let [p0, p1, p2] = triangle::corners(vertices);
     let target = weights[0] * p0 + weights[1] * p1 + weights[2] * p2;
     let front = (p1 - p0).cross(p2 - p0).normalize();
-    draw.until(|draw| {
+    draw.retry(|draw| {
         let away = draw.direction();
         let slope = away.dot(front);
         let wanted = match side {
@@ -79,7 +79,7 @@ pub(super) fn ray_through(
         };
         let ray = ray(target + draw.uniform(1.0, 4.0) * away, target);
         let shape = shape(vertices, 0);
-        (wanted && scan::is_clear(&Beam::from(&ray), &shape)).then_some(ray)
+        (wanted && scan::is_unambiguous(&Ray64::from(&ray), &shape)).then_some(ray)
     })
 }
 
@@ -90,13 +90,13 @@ pub(super) fn shape(vertices: &[Vertex; 3], material: u32) -> Shape {
     }
 }
 
-pub(super) fn hit(draw: &mut Draw, vertices: &[Vertex; 3], side: Side) -> Ray {
+pub(super) fn hitting_ray(draw: &mut Rng, vertices: &[Vertex; 3], side: Side) -> Ray {
     let weights = weights_inside(draw, 0.06);
     ray_through(draw, vertices, weights, side)
 }
 
-pub(super) fn miss(draw: &mut Draw, vertices: &[Vertex; 3], side: Side) -> Ray {
+pub(super) fn missing_ray(draw: &mut Rng, vertices: &[Vertex; 3], side: Side) -> Ray {
     let corner = draw.index(3);
-    let weights = weights_beyond(draw, corner);
+    let weights = weights_beyond_edge(draw, corner);
     ray_through(draw, vertices, weights, side)
 }

@@ -1,16 +1,17 @@
 //! Hit or miss, and how far away.
 
 use glam::{Vec2, Vec3, vec3};
-use grader::exam::{Asked, Item, Part};
+use grader::exam::{ExamQuestion, HitCheck, Item};
 use protocol::{Ray, Shape, Vertex};
 
 use super::aim::{
-    Side, hit, ray_through, shape, triangle, weights_beyond, weights_beyond_by, weights_inside,
+    Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond_edge,
+    weights_beyond_edge_by, weights_inside,
 };
-use super::{item, tables};
-use crate::items::{ray, shapes};
-use crate::oracle::{Beam, triangle};
-use crate::seed::{Draw, Seed};
+use super::{item, table_questions};
+use crate::items::{ray, shapes_question};
+use crate::oracle::{Ray64, triangle};
+use crate::seed::{Rng, Seed};
 
 pub(super) fn inside(seed: Seed) -> Item {
     item(
@@ -21,25 +22,25 @@ pub(super) fn inside(seed: Seed) -> Item {
             "Solve the three equations for u, v and t. Mind the signs in Cramer's rule, and that the \
              last column of the matrix is −d.",
         ],
-        tables("triangle.inside", seed, &[Part::Distance], Side::Front),
+        table_questions("triangle.inside", seed, &[HitCheck::Distance], Side::Front),
     )
 }
 
 pub(super) fn outside(seed: Seed) -> Item {
-    let mut draw = seed.draw("triangle.outside");
+    let mut draw = seed.rng("triangle.outside");
     let mut table = || {
-        let vertices = triangle(&mut draw);
+        let vertices = random_triangle(&mut draw);
         let mut rays: Vec<Ray> = (0..12)
             .map(|i| {
                 // A third of them next to the edge.
                 let beyond = if i < 4 { (0.022, 0.06) } else { (0.06, 0.6) };
                 let beyond = draw.uniform(beyond.0, beyond.1);
-                let weights = weights_beyond_by(&mut draw, i % 3, beyond);
+                let weights = weights_beyond_edge_by(&mut draw, i % 3, beyond);
                 ray_through(&mut draw, &vertices, weights, Side::Front)
             })
             .collect();
-        rays.extend((0..4).map(|_| hit(&mut draw, &vertices, Side::Front)));
-        shapes(&[], vec![shape(&vertices, 0)], draw.shuffled(rays))
+        rays.extend((0..4).map(|_| hitting_ray(&mut draw, &vertices, Side::Front)));
+        shapes_question(&[], vec![shape(&vertices, 0)], draw.shuffled(rays))
     };
     item(
         "outside",
@@ -61,29 +62,39 @@ pub(super) fn from_behind(seed: Seed) -> Item {
             "a triangle is hit from behind as well",
             "Seen from behind the determinant has the other sign. That is no reason for a miss.",
         ],
-        tables("triangle.from_behind", seed, &[Part::Distance], Side::Back),
+        table_questions(
+            "triangle.from_behind",
+            seed,
+            &[HitCheck::Distance],
+            Side::Back,
+        ),
     )
 }
 
 /// Hits and misses through the same triangle that differ by their range alone.
-fn ranges(name: &str, seed: Seed, range: impl Fn(&mut Draw, f64) -> (f64, f64)) -> Vec<Asked> {
-    let mut draw = seed.draw(name);
+fn range_questions(
+    name: &str,
+    seed: Seed,
+    range: impl Fn(&mut Rng, f64) -> (f64, f64),
+) -> Vec<ExamQuestion> {
+    let mut draw = seed.rng(name);
     let mut table = || {
-        let vertices = triangle(&mut draw);
+        let vertices = random_triangle(&mut draw);
         let rays = (0..12).map(|_| {
-            let ray = hit(&mut draw, &vertices, Side::Either);
-            let met = triangle::meet(&Beam::from(&ray), &vertices, 0).expect("it was aimed at it");
+            let ray = hitting_ray(&mut draw, &vertices, Side::Either);
+            let met =
+                triangle::intersect(&Ray64::from(&ray), &vertices, 0).expect("it was aimed at it");
             let (min, max) = range(&mut draw, met.distance);
             ray.within(min as f32, max as f32)
         });
         let rays = rays.collect();
-        shapes(&[Part::Distance], vec![shape(&vertices, 0)], rays)
+        shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
     };
     vec![table(), table()]
 }
 
 pub(super) fn range_max(seed: Seed) -> Item {
-    let range = |draw: &mut Draw, t: f64| (0.0, t + draw.sign() * draw.uniform(0.03, 0.6));
+    let range = |draw: &mut Rng, t: f64| (0.0, t + draw.sign() * draw.uniform(0.03, 0.6));
     item(
         "range_max",
         1,
@@ -91,12 +102,12 @@ pub(super) fn range_max(seed: Seed) -> Item {
             "beyond the end of the ray's range there is no hit",
             "Compare t with ray.range before you answer: a shadow ray ends at the light.",
         ],
-        ranges("triangle.range_max", seed, range),
+        range_questions("triangle.range_max", seed, range),
     )
 }
 
 pub(super) fn range_min(seed: Seed) -> Item {
-    let range = |draw: &mut Draw, t: f64| (t + draw.sign() * draw.uniform(0.03, 0.6), t + 9.0);
+    let range = |draw: &mut Rng, t: f64| (t + draw.sign() * draw.uniform(0.03, 0.6), t + 9.0);
     item(
         "range_min",
         1,
@@ -104,16 +115,16 @@ pub(super) fn range_min(seed: Seed) -> Item {
             "before the start of the ray's range there is no hit",
             "The range has two ends. Its start need not be 0.",
         ],
-        ranges("triangle.range_min", seed, range),
+        range_questions("triangle.range_min", seed, range),
     )
 }
 
 pub(super) fn behind_the_ray(seed: Seed) -> Item {
-    let mut draw = seed.draw("triangle.behind_the_ray");
+    let mut draw = seed.rng("triangle.behind_the_ray");
     let mut table = || {
-        let vertices = triangle(&mut draw);
+        let vertices = random_triangle(&mut draw);
         let rays = (0..12).map(|i| {
-            let ray = hit(&mut draw, &vertices, Side::Either);
+            let ray = hitting_ray(&mut draw, &vertices, Side::Either);
             if i % 2 == 0 {
                 ray
             } else {
@@ -121,7 +132,7 @@ pub(super) fn behind_the_ray(seed: Seed) -> Item {
             }
         });
         let rays = rays.collect();
-        shapes(&[Part::Distance], vec![shape(&vertices, 0)], rays)
+        shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
     };
     item(
         "behind_the_ray",
@@ -135,10 +146,10 @@ pub(super) fn behind_the_ray(seed: Seed) -> Item {
 }
 
 pub(super) fn tiny(seed: Seed) -> Item {
-    let mut draw = seed.draw("triangle.tiny");
+    let mut draw = seed.rng("triangle.tiny");
     let mut table = || {
         // Half of its edges' length is the side of the cube that they are drawn from.
-        let mut vertices = triangle(&mut draw);
+        let mut vertices = random_triangle(&mut draw);
         for vertex in &mut vertices {
             vertex.position *= 4e-4;
         }
@@ -148,19 +159,19 @@ pub(super) fn tiny(seed: Seed) -> Item {
             let weights = if i % 2 == 0 {
                 weights_inside(&mut draw, 0.1)
             } else {
-                weights_beyond(&mut draw, i % 3).map(|w| w * 2.0 - 1.0 / 3.0)
+                weights_beyond_edge(&mut draw, i % 3).map(|w| w * 2.0 - 1.0 / 3.0)
             };
             let target = weights[0] * p0 + weights[1] * p1 + weights[2] * p2;
-            draw.until(|draw| {
+            draw.retry(|draw| {
                 let away = draw.direction();
                 let ray = ray(target + draw.uniform(0.1, 0.5) * away, target);
-                let crossing = triangle::crossing(&Beam::from(&ray), [p0, p1, p2])?;
+                let crossing = triangle::intersect_plane(&Ray64::from(&ray), [p0, p1, p2])?;
                 let steep = away.dot(front).abs() > 0.5;
-                (steep && crossing.depth().abs() > 0.05).then_some(ray)
+                (steep && crossing.least_weight().abs() > 0.05).then_some(ray)
             })
         });
         let rays = rays.collect();
-        shapes(&[Part::Distance], vec![shape(&vertices, 0)], rays)
+        shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
     };
     item(
         "tiny",
@@ -176,15 +187,17 @@ pub(super) fn tiny(seed: Seed) -> Item {
 
 /// Small whole numbers, so that every correct formula's determinant is exactly zero.
 pub(super) fn degenerate(seed: Seed) -> Item {
-    let mut draw = seed.draw("triangle.degenerate");
+    let mut draw = seed.rng("triangle.degenerate");
     let flat = |corners: [Vec3; 3]| {
         let vertices = corners.map(|corner| Vertex::new(corner, Vec3::Z, Vec2::ZERO));
         shape(&vertices, 0)
     };
-    let control = |draw: &mut Draw| {
-        let vertices = triangle(draw);
-        let rays = (0..4).map(|_| hit(draw, &vertices, Side::Either)).collect();
-        shapes(&[Part::Distance], vec![shape(&vertices, 0)], rays)
+    let control = |draw: &mut Rng| {
+        let vertices = random_triangle(draw);
+        let rays = (0..4)
+            .map(|_| hitting_ray(draw, &vertices, Side::Either))
+            .collect();
+        shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
     };
     let down = |x: f32, y: f32| Ray::new(vec3(x, y, 4.0), Vec3::NEG_Z);
     let along = |y: f32, z: f32| Ray::new(vec3(-4.0, y, z), Vec3::X);
@@ -205,7 +218,7 @@ pub(super) fn degenerate(seed: Seed) -> Item {
         vec3(4.0, 0.0, 0.0),
         vec3(0.0, 4.0, 0.0),
     ]);
-    let ask = |shape: Shape, rays: Vec<Ray>| shapes(&[], vec![shape], rays);
+    let ask = |shape: Shape, rays: Vec<Ray>| shapes_question(&[], vec![shape], rays);
     item(
         "degenerate",
         1,

@@ -5,8 +5,8 @@ mod hits;
 mod scene;
 mod surface;
 
-use aim::{Side, hit, ray_through, shape, triangle, weights_beyond};
-use grader::exam::{Asked, Item, Part, Task};
+use aim::{Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond_edge};
+use grader::exam::{ExamQuestion, HitCheck, Item, Task};
 use protocol::Ray;
 
 use crate::seed::Seed;
@@ -33,22 +33,24 @@ pub fn items(seed: Seed) -> Vec<Item> {
     all.into_iter().map(|item| item(seed)).collect()
 }
 
-fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<Asked>) -> Item {
+fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<ExamQuestion>) -> Item {
     super::item(Task::Triangle, name, points, text, questions)
 }
 
 /// Questions about four triangles: for each, rays that hit it from this side, and some that miss.
-fn tables(name: &str, seed: Seed, judged: &[Part], side: Side) -> Vec<Asked> {
-    let mut draw = seed.draw(name);
+fn table_questions(name: &str, seed: Seed, judged: &[HitCheck], side: Side) -> Vec<ExamQuestion> {
+    let mut draw = seed.rng(name);
     let mut table = || {
-        let vertices = triangle(&mut draw);
-        let mut rays: Vec<Ray> = (0..8).map(|_| hit(&mut draw, &vertices, side)).collect();
+        let vertices = random_triangle(&mut draw);
+        let mut rays: Vec<Ray> = (0..8)
+            .map(|_| hitting_ray(&mut draw, &vertices, side))
+            .collect();
         // Beyond each edge in turn.
         rays.extend((0..4).map(|i| {
-            let weights = weights_beyond(&mut draw, i % 3);
+            let weights = weights_beyond_edge(&mut draw, i % 3);
             ray_through(&mut draw, &vertices, weights, side)
         }));
-        super::shapes(judged, vec![shape(&vertices, 0)], draw.shuffled(rays))
+        super::shapes_question(judged, vec![shape(&vertices, 0)], draw.shuffled(rays))
     };
     (0..4).map(|_| table()).collect()
 }

@@ -4,13 +4,13 @@ use glam::{Vec3, dvec3, vec2, vec3};
 use grader::exam::Item;
 use protocol::{Shape, Vertex};
 
-use super::aim::{shape, triangle};
+use super::aim::{random_triangle, shape};
 use super::item;
 use crate::items::picture;
-use crate::seed::{Draw, Seed};
+use crate::seed::{Rng, Seed};
 
 pub(super) fn picture(seed: Seed) -> Item {
-    let shapes = picture_shapes(&mut seed.draw("triangle.picture"));
+    let shapes = picture_shapes(&mut seed.rng("triangle.picture"));
     item(
         "picture",
         4,
@@ -19,12 +19,15 @@ pub(super) fn picture(seed: Seed) -> Item {
             "A smooth hill, a square of two halves, triangles from behind, and some tiny ones. Look \
              where it is wrong: along edges, on one side, or in the small ones?",
         ],
-        vec![picture::shapes(picture::from_origin(64), shapes)],
+        vec![picture::picture_question(
+            picture::view_from_origin(64),
+            shapes,
+        )],
     )
 }
 
 /// What stands before a camera at the origin that looks down −z at 90 degrees.
-fn picture_shapes(draw: &mut Draw) -> Vec<Shape> {
+fn picture_shapes(draw: &mut Rng) -> Vec<Shape> {
     let mut shapes = Vec::new();
     let mut add = |vertices: [Vertex; 3]| shapes.push(shape(&vertices, 0));
 
@@ -70,7 +73,7 @@ fn picture_shapes(draw: &mut Draw) -> Vec<Shape> {
 
     // Some that are seen from behind, among others that are not, at all distances.
     for _ in 0..6 {
-        let mut vertices = triangle(draw);
+        let mut vertices = random_triangle(draw);
         let middle = dvec3(draw.uniform(0.5, 3.0), draw.uniform(-3.0, -1.0), -4.5);
         for vertex in &mut vertices {
             vertex.position = (0.45 * vertex.position.as_dvec3() + middle).as_vec3();
@@ -80,7 +83,7 @@ fn picture_shapes(draw: &mut Draw) -> Vec<Shape> {
 
     // Tiny ones, close to the camera.
     for i in 0..6 {
-        let mut vertices = triangle(draw);
+        let mut vertices = random_triangle(draw);
         let middle = dvec3(-0.016 + 0.004 * f64::from(i), 0.013, -0.02);
         for vertex in &mut vertices {
             vertex.position = (6e-4 * vertex.position.as_dvec3() + middle).as_vec3();

@@ -1,11 +1,13 @@
 //! What is told of the meeting.
 
-use grader::exam::{Item, Part};
+use grader::exam::{HitCheck, Item};
 use protocol::Ray;
 
-use super::aim::{Side, hit, miss, ray_through, shape, triangle, weights_inside};
-use super::{item, tables};
-use crate::items::shapes;
+use super::aim::{
+    Side, hitting_ray, missing_ray, random_triangle, ray_through, shape, weights_inside,
+};
+use super::{item, table_questions};
+use crate::items::shapes_question;
 use crate::seed::Seed;
 
 pub(super) fn position(seed: Seed) -> Item {
@@ -16,7 +18,12 @@ pub(super) fn position(seed: Seed) -> Item {
             "position is the point of the meeting",
             "It is the ray's point at t, or the weighted sum of the corners: both are the same.",
         ],
-        tables("triangle.position", seed, &[Part::Position], Side::Front),
+        table_questions(
+            "triangle.position",
+            seed,
+            &[HitCheck::Position],
+            Side::Front,
+        ),
     )
 }
 
@@ -29,7 +36,7 @@ pub(super) fn normal(seed: Seed) -> Item {
             "Smooth shading: each corner has a normal of its own, and the face's normal is not asked. \
              w belongs to p0, u to p1, v to p2.",
         ],
-        tables("triangle.normal", seed, &[Part::Normal], Side::Front),
+        table_questions("triangle.normal", seed, &[HitCheck::Normal], Side::Front),
     )
 }
 
@@ -42,14 +49,14 @@ pub(super) fn uv(seed: Seed) -> Item {
             "u and v of the barycentric coordinates are weights; the uv of the Trace is the weighted \
              sum of the corners' uv.",
         ],
-        tables("triangle.uv", seed, &[Part::Uv], Side::Front),
+        table_questions("triangle.uv", seed, &[HitCheck::Uv], Side::Front),
     )
 }
 
 pub(super) fn uv_corners(seed: Seed) -> Item {
-    let mut draw = seed.draw("triangle.uv_corners");
+    let mut draw = seed.rng("triangle.uv_corners");
     let mut table = || {
-        let vertices = triangle(&mut draw);
+        let vertices = random_triangle(&mut draw);
         let mut rays = Vec::new();
         for corner in 0..3 {
             for _ in 0..3 {
@@ -57,9 +64,9 @@ pub(super) fn uv_corners(seed: Seed) -> Item {
                 weights[corner] += 0.8;
                 rays.push(ray_through(&mut draw, &vertices, weights, Side::Front));
             }
-            rays.push(miss(&mut draw, &vertices, Side::Front));
+            rays.push(missing_ray(&mut draw, &vertices, Side::Front));
         }
-        shapes(&[Part::Uv], vec![shape(&vertices, 0)], rays)
+        shapes_question(&[HitCheck::Uv], vec![shape(&vertices, 0)], rays)
     };
     item(
         "uv_corners",
@@ -81,25 +88,25 @@ pub(super) fn normal_from_behind(seed: Seed) -> Item {
             "seen from behind, the normal stays as it is",
             "The normal belongs to the surface, not to the ray: it is never flipped toward it.",
         ],
-        tables(
+        table_questions(
             "triangle.normal_from_behind",
             seed,
-            &[Part::Normal],
+            &[HitCheck::Normal],
             Side::Either,
         ),
     )
 }
 
 pub(super) fn origin_and_material(seed: Seed) -> Item {
-    let mut draw = seed.draw("triangle.origin_and_material");
+    let mut draw = seed.rng("triangle.origin_and_material");
     let mut table = |material: u32| {
-        let vertices = triangle(&mut draw);
+        let vertices = random_triangle(&mut draw);
         let mut rays: Vec<Ray> = (0..6)
-            .map(|_| hit(&mut draw, &vertices, Side::Front))
+            .map(|_| hitting_ray(&mut draw, &vertices, Side::Front))
             .collect();
-        rays.extend((0..3).map(|_| miss(&mut draw, &vertices, Side::Front)));
-        let judged = [Part::Origin, Part::Material];
-        shapes(&judged, vec![shape(&vertices, material)], rays)
+        rays.extend((0..3).map(|_| missing_ray(&mut draw, &vertices, Side::Front)));
+        let judged = [HitCheck::Origin, HitCheck::Material];
+        shapes_question(&judged, vec![shape(&vertices, material)], rays)
     };
     item(
         "origin_and_material",

@@ -9,15 +9,15 @@ use grader::doctor::package;
 use serde::Deserialize;
 use zip::ZipArchive;
 
-use crate::package::trial::handed_in::HandedIn;
-use crate::package::trial::machine::{Ended, Job, Limits, Machine, Who};
-use crate::package::trial::thief::Loot;
-use crate::package::trial::{NotTried, at, timed};
+use crate::package::trial::machine::{Job, JobResult, Limits, Machine, User};
+use crate::package::trial::submission::TrialSubmission;
+use crate::package::trial::thief::ProtectedData;
+use crate::package::trial::{TrialError, check_time, io_error};
 
 /// Where it is tried, from the workspace's root.
-const PLACE: &str = "target/package/gradescope";
+const TRIAL_FOLDER: &str = "target/package/gradescope";
 /// What Gradescope gives a submission.
-const PLATFORM: Duration = Duration::from_secs(600);
+const TIME_LIMIT: Duration = Duration::from_secs(600);
 /// What Gradescope lays beside a submission; none of it changes a score.
 const METADATA: &str = r#"{"id": 1, "created_at": "2026-11-20T21:09:58.000000-08:00", "users": [
 {"email": "alice@example.edu", "id": 7, "name": "Alice"}], "assignment": {"id": 3, "course_id": 2,
@@ -25,20 +25,20 @@ const METADATA: &str = r#"{"id": 1, "created_at": "2026-11-20T21:09:58.000000-08
 "release_date": "2026-11-01T00:00:00.000000-08:00", "group_submission": false, "group_size": null,
 "total_points": "100.0"}, "submission_method": "upload", "previous_submissions": []}"#;
 /// What its scripts are kept by, beside a score: for staff.
-const SCORE: &str = "opt/pathtracing/target/graded/score.json";
+const SCORE_FILE: &str = "opt/pathtracing/target/graded/score.json";
 
 /// What is read of `results.json`.
 #[derive(Deserialize)]
 struct Results {
     score: u64,
     output: String,
-    extra_data: Option<Extra>,
+    extra_data: Option<ExtraData>,
     #[serde(default)]
     tests: Vec<Test>,
 }
 
 #[derive(Deserialize)]
-struct Extra {
+struct ExtraData {
     exam: String,
     isolation: String,
     complete: bool,
@@ -50,80 +50,84 @@ struct Test {
 }
 
 /// Tries the zip, and tells what is not as it should be.
-pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, NotTried> {
-    let mut complaints = package::complaints(zip)?;
-    let workspace = &workspace.canonicalize().map_err(at(workspace))?;
-    let Some(machine) = Machine::empty(&workspace.join(PLACE))? else {
+pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, TrialError> {
+    let mut complaints = package::problems(zip)?;
+    let workspace = &workspace.canonicalize().map_err(io_error(workspace))?;
+    let Some(machine) = Machine::create(&workspace.join(TRIAL_FOLDER))? else {
         return Ok(complaints);
     };
     unpack(&machine, zip)?;
-    let exam = machine.inside("autograder/source/pathtracing/exam.json");
-    let exam = fs::read_to_string(&exam).map_err(at(&exam))?;
+    let exam = machine.host_path("autograder/source/pathtracing/exam.json");
+    let exam = fs::read_to_string(&exam).map_err(io_error(&exam))?;
     let set_up = run(
         &machine,
         Limits::None,
         &["bash", "/autograder/source/setup.sh"],
     )?;
     if set_up.code != Some(0) {
-        complaints.push(format!("setup.sh failed:\n{}", set_up.said));
+        complaints.push(format!("setup.sh failed:\n{}", set_up.output));
         return Ok(complaints);
     }
     let all = [
-        HandedIn::Reference,
-        HandedIn::Starter,
-        HandedIn::Nothing,
-        HandedIn::Thief,
+        TrialSubmission::Reference,
+        TrialSubmission::Starter,
+        TrialSubmission::Empty,
+        TrialSubmission::Thief,
     ];
     for handed_in in all {
-        let submission = machine.inside("autograder/submission");
-        handed_in.lay_out(workspace, &submission)?;
+        let submission = machine.host_path("autograder/submission");
+        handed_in.write_to(workspace, &submission)?;
         clear_results(&machine)?;
         let ended = run(&machine, Limits::Platform, &["/autograder/run_autograder"])?;
-        timed(handed_in.words(), &ended, PLATFORM, &mut complaints);
-        complaints.extend(complaint(&machine, handed_in, &ended));
-        if handed_in == HandedIn::Thief {
-            complaints.extend(stolen(&machine, &Loot::of(workspace, &exam)?, &ended)?);
+        check_time(handed_in.description(), &ended, TIME_LIMIT, &mut complaints);
+        complaints.extend(problem(&machine, handed_in, &ended));
+        if handed_in == TrialSubmission::Thief {
+            complaints.extend(theft_problems(
+                &machine,
+                &ProtectedData::collect(workspace, &exam)?,
+                &ended,
+            )?);
         }
     }
     Ok(complaints)
 }
 
 /// As when the zip was uploaded.
-fn unpack(machine: &Machine, zip: &Path) -> Result<(), NotTried> {
-    let source = machine.inside("autograder/source");
-    fs::create_dir_all(&source).map_err(at(&source))?;
-    let file = fs::File::open(zip).map_err(at(zip))?;
+fn unpack(machine: &Machine, zip: &Path) -> Result<(), TrialError> {
+    let source = machine.host_path("autograder/source");
+    fs::create_dir_all(&source).map_err(io_error(&source))?;
+    let file = fs::File::open(zip).map_err(io_error(zip))?;
     ZipArchive::new(file)?.extract(&source)?;
-    let entry = machine.inside("autograder/run_autograder");
-    fs::copy(source.join("run_autograder"), &entry).map_err(at(&entry))?;
-    let metadata = machine.inside("autograder/submission_metadata.json");
-    fs::write(&metadata, METADATA).map_err(at(&metadata))
+    let entry = machine.host_path("autograder/run_autograder");
+    fs::copy(source.join("run_autograder"), &entry).map_err(io_error(&entry))?;
+    let metadata = machine.host_path("autograder/submission_metadata.json");
+    fs::write(&metadata, METADATA).map_err(io_error(&metadata))
 }
 
-fn run(machine: &Machine, limits: Limits, words: &[&str]) -> Result<Ended, NotTried> {
+fn run(machine: &Machine, limits: Limits, words: &[&str]) -> Result<JobResult, TrialError> {
     machine.run(Job {
-        who: Who::Container,
+        user: User::Container,
         limits,
         folder: "/autograder",
         variables: &[],
-        words,
+        command: words,
     })
 }
 
-fn clear_results(machine: &Machine) -> Result<(), NotTried> {
-    let results = machine.inside("autograder/results");
-    machine.clear(&results)?;
-    fs::create_dir_all(&results).map_err(at(&results))
+fn clear_results(machine: &Machine) -> Result<(), TrialError> {
+    let results = machine.host_path("autograder/results");
+    machine.remove(&results)?;
+    fs::create_dir_all(&results).map_err(io_error(&results))
 }
 
 fn read(machine: &Machine, path: &str) -> String {
-    fs::read_to_string(machine.inside(path)).unwrap_or_default()
+    fs::read_to_string(machine.host_path(path)).unwrap_or_default()
 }
 
 /// What is wrong with the results.
-fn complaint(machine: &Machine, handed_in: HandedIn, ended: &Ended) -> Option<String> {
-    let (whose, points) = (handed_in.words(), handed_in.points());
-    let said = &ended.said;
+fn problem(machine: &Machine, handed_in: TrialSubmission, ended: &JobResult) -> Option<String> {
+    let (whose, points) = (handed_in.description(), handed_in.points());
+    let said = &ended.output;
     let results = read(machine, "autograder/results/results.json");
     let results: Results = match serde_json::from_str(&results) {
         Ok(results) => results,
@@ -131,7 +135,7 @@ fn complaint(machine: &Machine, handed_in: HandedIn, ended: &Ended) -> Option<St
     };
     let all: u64 = results.tests.iter().map(|test| test.max_score).sum();
     let is_whole = match (&results.extra_data, handed_in) {
-        (None, HandedIn::Nothing) => all == 0,
+        (None, TrialSubmission::Empty) => all == 0,
         (Some(extra), _) => {
             println!(
                 "          {} exam, isolation {}",
@@ -152,19 +156,23 @@ fn complaint(machine: &Machine, handed_in: HandedIn, ended: &Ended) -> Option<St
 
 /// What the thief got; and whether it would have got something, had nobody kept it from it: else its
 /// failure says nothing.
-fn stolen(machine: &Machine, loot: &Loot, ended: &Ended) -> Result<Vec<String>, NotTried> {
+fn theft_problems(
+    machine: &Machine,
+    loot: &ProtectedData,
+    ended: &JobResult,
+) -> Result<Vec<String>, TrialError> {
     let results = read(machine, "autograder/results/results.json");
-    let all = [results, read(machine, SCORE), ended.said.clone()];
-    let told = all.iter().flat_map(|text| loot.told_in(text));
+    let all = [results, read(machine, SCORE_FILE), ended.output.clone()];
+    let told = all.iter().flat_map(|text| loot.found_in(text));
     let mut complaints: Vec<String> = told.map(|what| format!("it is stolen: {what}")).collect();
 
     let home = "/opt/pathtracing";
     let open = machine.run(Job {
-        who: Who::Container,
+        user: User::Container,
         limits: Limits::None,
         folder: home,
         variables: &["CARGO_HOME=/opt/pathtracing/crates"],
-        words: &[
+        command: &[
             "target/release/grader",
             "/autograder/submission",
             "--isolation=none",
@@ -173,12 +181,12 @@ fn stolen(machine: &Machine, loot: &Loot, ended: &Ended) -> Result<Vec<String>, 
         ],
     })?;
     let score = read(machine, "opt/pathtracing/target/open/score.json");
-    let told = loot.told_in(&score).len();
+    let told = loot.found_in(&score).len();
     println!("          {told} lines and keys would be stolen without isolation");
     if told == 0 {
         complaints.push(format!(
             "without isolation it steals nothing either, so it shows nothing: adapt trial/thief.rs\n{}",
-            open.said
+            open.output
         ));
     }
     Ok(complaints)

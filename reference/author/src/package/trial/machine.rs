@@ -9,20 +9,20 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use crate::package::trial::{NotTried, at};
+use crate::package::trial::{TrialError, io_error};
 
 /// How it is entered.
-const ENTER: &str = include_str!("../own/trial/machine.sh");
+const ENTER_SCRIPT: &str = include_str!("../own/trial/machine.sh");
 /// What it may use.
-const LIMIT: &str = include_str!("../own/trial/limits.sh");
+const LIMIT_SCRIPT: &str = include_str!("../own/trial/limits.sh");
 /// What it has for itself.
 const NAMESPACES: [&str; 5] = ["--mount", "--net", "--pid", "--fork", "--kill-child"];
 /// The exit code of `LIMIT` where nothing can be limited.
-const NO_LIMITS: i32 = 125;
+const NO_LIMITS_CODE: i32 = 125;
 
 /// Who runs there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Who {
+pub enum User {
     /// Root, with the rights that Docker leaves.
     Container,
     /// The user of GitHub's runners.
@@ -42,7 +42,7 @@ pub enum Limits {
 #[derive(Clone, Copy, Debug)]
 pub struct Job<'a> {
     /// As whom.
-    pub who: Who,
+    pub user: User,
     /// Within what.
     pub limits: Limits,
     /// In which folder of the machine.
@@ -50,29 +50,29 @@ pub struct Job<'a> {
     /// What it sees of the platform: `NAME=value`.
     pub variables: &'a [&'a str],
     /// The program and its arguments.
-    pub words: &'a [&'a str],
+    pub command: &'a [&'a str],
 }
 
 /// How it ended.
 #[derive(Clone, Debug)]
-pub struct Ended {
+pub struct JobResult {
     /// Of the program.
     pub code: Option<i32>,
     /// On both outputs.
-    pub said: String,
+    pub output: String,
     /// By the clock on the wall.
-    pub took: Duration,
+    pub wall_time: Duration,
     /// What it has used, where that was limited.
-    pub used: Option<Used>,
+    pub usage: Option<ResourceUsage>,
 }
 
 /// What a program and all that it started have used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Used {
+pub struct ResourceUsage {
     /// Of a core that is as fast as this machine's.
     pub cpu: Duration,
     /// At most at a time, in bytes. None where the system does not tell.
-    pub memory: Option<u64>,
+    pub peak_memory: Option<u64>,
 }
 
 /// A root directory, and how it is entered.
@@ -81,109 +81,112 @@ pub struct Machine {
     /// Its root directory, from outside.
     pub root: PathBuf,
     toolchain: PathBuf,
-    as_root: Vec<&'static str>,
+    root_prefix: Vec<&'static str>,
     is_limited: bool,
 }
 
 impl Machine {
     /// An empty one at this place. None, and a line that says why, where this system gives us none.
-    pub fn empty(root: &Path) -> Result<Option<Self>, NotTried> {
-        let cargo = env::var_os("CARGO").ok_or(NotTried::NoCargo)?;
+    pub fn create(root: &Path) -> Result<Option<Self>, TrialError> {
+        let cargo = env::var_os("CARGO").ok_or(TrialError::NoCargo)?;
         let toolchain = Path::new(&cargo).parent().and_then(Path::parent);
-        let toolchain = toolchain.ok_or(NotTried::NoCargo)?.to_owned();
+        let toolchain = toolchain.ok_or(TrialError::NoCargo)?.to_owned();
         let mut ways = [vec![], vec!["sudo", "-n"]].into_iter();
-        let Some(as_root) = ways.find(|way| can_enter(way)) else {
+        let Some(as_root) = ways.find(|way| can_unshare(way)) else {
             let missing = "the trial takes root, Linux and namespaces";
-            return lacking(missing).map(|()| None);
+            return skip_or_fail(missing).map(|()| None);
         };
         let mut machine = Machine {
             root: root.to_owned(),
             toolchain,
-            as_root,
+            root_prefix: as_root,
             is_limited: true,
         };
-        machine.clear(root)?;
-        fs::create_dir_all(root).map_err(at(root))?;
+        machine.remove(root)?;
+        fs::create_dir_all(root).map_err(io_error(root))?;
         machine.is_limited = machine.can_limit()?;
         if !machine.is_limited {
-            lacking("no control group can be made here: the trial is run without its limits")?;
+            skip_or_fail("no control group can be made here: the trial is run without its limits")?;
         }
         Ok(Some(machine))
     }
 
     /// Where a path of the machine's lies.
-    pub fn inside(&self, path: &str) -> PathBuf {
+    pub fn host_path(&self, path: &str) -> PathBuf {
         self.root.join(path.trim_start_matches('/'))
     }
 
     /// Takes a folder away, whosever it is.
-    pub fn clear(&self, folder: &Path) -> Result<(), NotTried> {
-        let mut command = self.as_root("rm");
+    pub fn remove(&self, folder: &Path) -> Result<(), TrialError> {
+        let mut command = self.root_command("rm");
         command.arg("-rf").arg(folder);
-        command.status().map_err(at(folder)).map(drop)
+        command.status().map_err(io_error(folder)).map(drop)
     }
 
     /// Runs a job there.
-    pub fn run(&self, job: Job) -> Result<Ended, NotTried> {
+    pub fn run(&self, job: Job) -> Result<JobResult, TrialError> {
         let used = &self.root.with_extension("used");
         let is_limited = self.is_limited && job.limits == Limits::Platform;
         let mut command = match is_limited {
             true => {
-                let mut command = self.as_root("sh");
-                command.args(["-c", LIMIT, "sh"]).arg(used).arg("unshare");
+                let mut command = self.root_command("sh");
+                command
+                    .args(["-c", LIMIT_SCRIPT, "sh"])
+                    .arg(used)
+                    .arg("unshare");
                 command
             }
-            false => self.as_root("unshare"),
+            false => self.root_command("unshare"),
         };
-        let who = match job.who {
-            Who::Container => "container",
-            Who::Runner => "runner",
+        let who = match job.user {
+            User::Container => "container",
+            User::Runner => "runner",
         };
         command
             .args(NAMESPACES)
-            .args(["sh", "-c", ENTER, "sh"])
+            .args(["sh", "-c", ENTER_SCRIPT, "sh"])
             .args([&self.root, &self.toolchain])
             .args([who, job.folder, "LANG=C.UTF-8"])
-            .arg(self.path())
+            .arg(self.path_variable())
             .args(job.variables)
-            .args(job.words);
+            .args(job.command);
         let began = Instant::now();
-        let output = command.output().map_err(at(Path::new("unshare")))?;
+        let output = command.output().map_err(io_error(Path::new("unshare")))?;
         let said = [output.stdout, output.stderr].concat();
         let used = is_limited.then(|| fs::read_to_string(used)).transpose();
-        let used = used.map_err(at(&self.root))?;
-        Ok(Ended {
+        let used = used.map_err(io_error(&self.root))?;
+        Ok(JobResult {
             code: output.status.code(),
-            said: String::from_utf8_lossy(&said).into_owned(),
-            took: began.elapsed(),
-            used: used.map(|text| Used::read(&text)),
+            output: String::from_utf8_lossy(&said).into_owned(),
+            wall_time: began.elapsed(),
+            usage: used.map(|text| ResourceUsage::read(&text)),
         })
     }
 
     /// `env -i` forgets where programs are.
-    fn path(&self) -> String {
+    fn path_variable(&self) -> String {
         let toolchain = self.toolchain.display();
         format!("PATH={toolchain}/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin")
     }
 
-    fn can_limit(&self) -> Result<bool, NotTried> {
-        let mut command = self.as_root("sh");
+    fn can_limit(&self) -> Result<bool, TrialError> {
+        let mut command = self.root_command("sh");
         command
-            .args(["-c", LIMIT, "sh", "/dev/null", "true"])
+            .args(["-c", LIMIT_SCRIPT, "sh", "/dev/null", "true"])
             .status()
-            .map(|status| status.code() != Some(NO_LIMITS))
-            .map_err(at(Path::new("sh")))
+            .map(|status| status.code() != Some(NO_LIMITS_CODE))
+            .map_err(io_error(Path::new("sh")))
     }
 
-    fn as_root(&self, program: &str) -> Command {
-        started(&self.as_root, program)
+    fn root_command(&self, program: &str) -> Command {
+        prefixed_command(&self.root_prefix, program)
     }
 }
 
-impl Used {
+impl ResourceUsage {
     /// From what `LIMIT` writes.
     fn read(text: &str) -> Self {
-        let mut used = Used::default();
+        let mut used = ResourceUsage::default();
         for line in text.lines() {
             let Some((what, number)) = line.split_once(' ') else {
                 continue;
@@ -192,7 +195,7 @@ impl Used {
             match what {
                 "cpu_us" => used.cpu = Duration::from_micros(number),
                 "cpu_ns" => used.cpu = Duration::from_nanos(number),
-                "memory" => used.memory = Some(number),
+                "memory" => used.peak_memory = Some(number),
                 _ => {}
             }
         }
@@ -201,9 +204,9 @@ impl Used {
 }
 
 /// What the machine lacks is skipped loudly, but where `CI` is set: there it has to be had.
-fn lacking(what: &str) -> Result<(), NotTried> {
+fn skip_or_fail(what: &str) -> Result<(), TrialError> {
     match env::var_os("CI") {
-        Some(_) => Err(NotTried::Lacking(what.to_owned())),
+        Some(_) => Err(TrialError::Unsupported(what.to_owned())),
         None => {
             eprintln!("SKIPPED: {what}");
             Ok(())
@@ -212,15 +215,15 @@ fn lacking(what: &str) -> Result<(), NotTried> {
 }
 
 /// Whether this system gives us a machine of our own in this way.
-fn can_enter(as_root: &[&'static str]) -> bool {
-    let tried = started(as_root, "unshare")
+fn can_unshare(as_root: &[&'static str]) -> bool {
+    let tried = prefixed_command(as_root, "unshare")
         .args(NAMESPACES)
         .arg("true")
         .output();
     matches!(tried, Ok(output) if output.status.success())
 }
 
-fn started(as_root: &[&'static str], program: &str) -> Command {
+fn prefixed_command(as_root: &[&'static str], program: &str) -> Command {
     let mut words = as_root.iter().copied().chain([program]);
     let mut command = Command::new(words.next().unwrap_or(program));
     command.args(words);
@@ -232,10 +235,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_used_is_read_from_either_version_of_control_groups() {
-        let new = Used::read("cpu_us 2500000\nmemory 4096\n");
-        assert_eq!(new, Used::read("cpu_ns 2500000000\nmemory 4096\n"));
-        assert_eq!((new.cpu.as_millis(), new.memory), (2500, Some(4096)));
-        assert_eq!(Used::read("cpu_us 1\n").memory, None);
+    fn reads_resource_usage_of_either_cgroup_version() {
+        let new = ResourceUsage::read("cpu_us 2500000\nmemory 4096\n");
+        assert_eq!(new, ResourceUsage::read("cpu_ns 2500000000\nmemory 4096\n"));
+        assert_eq!((new.cpu.as_millis(), new.peak_memory), (2500, Some(4096)));
+        assert_eq!(ResourceUsage::read("cpu_us 1\n").peak_memory, None);
     }
 }

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::bundle::crates;
-use crate::package::trial::machine::{Ended, Job, Limits, Machine, Who};
-use crate::package::trial::{NotTried, at};
+use crate::package::trial::machine::{Job, JobResult, Limits, Machine, User};
+use crate::package::trial::{TrialError, io_error};
 
 const HOME: &str = "/home/runner";
 /// Where GitHub's own runners check out a repository of this name.
@@ -31,43 +31,43 @@ pub struct Runner(Machine);
 
 /// What a step left.
 #[derive(Debug)]
-pub struct Step {
+pub struct StepResult {
     /// How it ended.
-    pub ended: Ended,
+    pub job: JobResult,
     /// What is shown on the run's page.
     pub summary: String,
 }
 
 impl Runner {
     /// One with the crates that this lock file names. None where this system gives us no machine.
-    pub fn empty(root: &Path, lock: &str) -> Result<Option<Self>, NotTried> {
-        let Some(machine) = Machine::empty(root)? else {
+    pub fn create(root: &Path, lock: &str) -> Result<Option<Self>, TrialError> {
+        let Some(machine) = Machine::create(root)? else {
             return Ok(None);
         };
-        let registry = machine.inside(HOME).join(".cargo/registry");
-        for (path, contents) in crates::fetched(lock)? {
-            put(&registry.join(path), &contents)?;
+        let registry = machine.host_path(HOME).join(".cargo/registry");
+        for (path, contents) in crates::registry_files(lock)? {
+            write_file(&registry.join(path), &contents)?;
         }
         Ok(Some(Runner(machine)))
     }
 
     /// Where a path of its lies.
-    pub fn inside(&self, path: &str) -> PathBuf {
-        self.0.inside(path)
+    pub fn host_path(&self, path: &str) -> PathBuf {
+        self.0.host_path(path)
     }
 
     /// A repository with one commit, of what `fill` puts into it.
-    pub fn check_out(
+    pub fn create_checkout(
         &self,
-        fill: impl FnOnce(&Path) -> Result<(), NotTried>,
-    ) -> Result<(), NotTried> {
-        let checkout = &self.inside(CHECKOUT);
-        for folder in [checkout, &self.inside("/home/runner/step")] {
-            self.0.clear(folder)?;
-            fs::create_dir_all(folder).map_err(at(folder))?;
+        fill: impl FnOnce(&Path) -> Result<(), TrialError>,
+    ) -> Result<(), TrialError> {
+        let checkout = &self.host_path(CHECKOUT);
+        for folder in [checkout, &self.host_path("/home/runner/step")] {
+            self.0.remove(folder)?;
+            fs::create_dir_all(folder).map_err(io_error(folder))?;
         }
         for file in ["output", "summary.md"] {
-            put(&self.inside("/home/runner/step").join(file), b"")?;
+            write_file(&self.host_path("/home/runner/step").join(file), b"")?;
         }
         fill(checkout)?;
         for words in [
@@ -85,34 +85,34 @@ impl Runner {
             .args(words.split(' '))
             .env("GIT_COMMITTER_DATE", "2026-11-20T21:09:58+01:00")
             .current_dir(checkout);
-            git.output().map_err(at(Path::new("git")))?;
+            git.output().map_err(io_error(Path::new("git")))?;
         }
         Ok(())
     }
 
     /// Runs a step there.
-    pub fn step(&self, variables: &[&str], words: &[&str]) -> Result<Step, NotTried> {
+    pub fn run_step(&self, variables: &[&str], words: &[&str]) -> Result<StepResult, TrialError> {
         let workspace = format!("GITHUB_WORKSPACE={CHECKOUT}");
         let own = VARIABLES.into_iter().chain([workspace.as_str()]);
         let variables: Vec<&str> = own.chain(variables.iter().copied()).collect();
         let ended = self.0.run(Job {
-            who: Who::Runner,
+            user: User::Runner,
             limits: Limits::Platform,
             folder: CHECKOUT,
             variables: &variables,
-            words,
+            command: words,
         })?;
-        let summary = self.inside("/home/runner/step/summary.md");
-        Ok(Step {
-            ended,
+        let summary = self.host_path("/home/runner/step/summary.md");
+        Ok(StepResult {
+            job: ended,
             summary: fs::read_to_string(summary).unwrap_or_default(),
         })
     }
 }
 
-fn put(path: &Path, contents: &[u8]) -> Result<(), NotTried> {
+fn write_file(path: &Path, contents: &[u8]) -> Result<(), TrialError> {
     if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(at(folder))?;
+        fs::create_dir_all(folder).map_err(io_error(folder))?;
     }
-    fs::write(path, contents).map_err(at(path))
+    fs::write(path, contents).map_err(io_error(path))
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::bundle::Bundle;
 use crate::bundle::secrets::Secrets;
-use crate::package::trial::{NotTried, at};
+use crate::package::trial::{TrialError, io_error};
 
 /// What it does, by file: each into the head of this method.
 const ATTACKS: [(&str, &str, &str); 5] = [
@@ -65,18 +65,18 @@ const ATTACKS: [(&str, &str, &str); 5] = [
     ),
 ];
 /// So much of a key is told by no accident.
-const LONG_ENOUGH: usize = 30;
+const KEY_PREFIX_LENGTH: usize = 30;
 
 /// Its five files: the starter's, each with an attack.
-pub fn files(workspace: &Path) -> Result<Vec<(&'static str, String)>, NotTried> {
+pub fn files(workspace: &Path) -> Result<Vec<(&'static str, String)>, TrialError> {
     let one = |(file, head, attack): (&'static str, &str, &str)| {
         let path = workspace.join("grader/starter").join(file);
-        let text = std::fs::read_to_string(&path).map_err(at(&path))?;
+        let text = std::fs::read_to_string(&path).map_err(io_error(&path))?;
         match text.matches(head).count() {
             1 => Ok((file, text.replace(head, &format!("{head}{attack}")))),
-            _ => Err(NotTried::NoPlace {
+            _ => Err(TrialError::MissingAttackPoint {
                 file,
-                head: head.to_owned(),
+                signature: head.to_owned(),
             }),
         }
     };
@@ -85,25 +85,25 @@ pub fn files(workspace: &Path) -> Result<Vec<(&'static str, String)>, NotTried> 
 
 /// What it is after.
 #[derive(Clone, Debug)]
-pub struct Loot {
+pub struct ProtectedData {
     solutions: Secrets,
     keys: BTreeSet<String>,
 }
 
-impl Loot {
+impl ProtectedData {
     /// The reference's lines and the exam's keys.
-    pub fn of(workspace: &Path, exam: &str) -> Result<Self, NotTried> {
-        Ok(Loot {
+    pub fn collect(workspace: &Path, exam: &str) -> Result<Self, TrialError> {
+        Ok(ProtectedData {
             solutions: Secrets::gather(workspace, &Bundle::collect(workspace, None)?)?,
             keys: keys(exam),
         })
     }
 
     /// What of it is told in a text, however it is quoted.
-    pub fn told_in(&self, text: &str) -> Vec<String> {
+    pub fn found_in(&self, text: &str) -> Vec<String> {
         let text = text.replace("\\n", "\n").replace('\\', "");
         let mut bundle = Bundle::default();
-        bundle.put("what was said", text.as_str());
+        bundle.insert("what was said", text.as_str());
         let lines = self.solutions.search(&bundle).into_iter();
         let lines = lines.map(|leak| leak.to_string());
         let keys = self.keys.iter().filter(|key| text.contains(key.as_str()));
@@ -120,14 +120,14 @@ fn keys(exam: &str) -> BTreeSet<String> {
     let lists = keys.flat_map(|key| {
         let key = key.split("\"question\":").next().unwrap_or(key);
         key.split(move |c| !is_of_list(c))
-            .filter_map(|list| list.get(..LONG_ENOUGH))
+            .filter_map(|list| list.get(..KEY_PREFIX_LENGTH))
     });
     lists.map(str::to_owned).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use grader::given::TASK_FILES;
+    use grader::given_files::TASK_FILES;
 
     use super::*;
 
@@ -143,18 +143,18 @@ mod tests {
     }
 
     #[test]
-    fn what_is_told_is_found_in_any_quotes_and_what_is_not_is_not() {
+    fn finds_leaked_solutions_and_keys_even_when_quoted() {
         let exam = std::fs::read_to_string(workspace().join("grader/exams/practice.json")).unwrap();
-        let loot = Loot::of(workspace(), &exam).unwrap();
+        let loot = ProtectedData::collect(workspace(), &exam).unwrap();
         assert!(loot.keys.len() > 100, "{}", loot.keys.len());
         let solved = std::fs::read_to_string(workspace().join("reference/src/sphere.rs")).unwrap();
         let key = &exam[exam.find("\"key\"").unwrap()..][..1500];
         for (stolen, least) in [(solved.as_str(), 3), (key, 1)] {
             let quoted = format!("{{\"output\": {stolen:?}}}");
-            assert!(loot.told_in(&quoted).len() >= least, "{quoted}");
+            assert!(loot.found_in(&quoted).len() >= least, "{quoted}");
         }
         let starter =
             std::fs::read_to_string(workspace().join("grader/starter/sphere.rs")).unwrap();
-        assert_eq!(loot.told_in(&format!("{starter:?}")), [""; 0]);
+        assert_eq!(loot.found_in(&format!("{starter:?}")), [""; 0]);
     }
 }

@@ -4,8 +4,8 @@
 //! must be well beyond, in each item that it is said to fail. How far off an answer is, the judge
 //! itself says.
 
+mod deviations;
 pub mod margins;
-mod observed;
 pub mod table;
 
 use std::ops::Range;
@@ -15,10 +15,10 @@ use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
 use crate::exams;
-use crate::proof::calibrate::margins::{Margin, Margins, Sighting};
-use crate::proof::exhibits::{Exhibits, NotProven, what_rests_on};
+use crate::proof::calibrate::margins::{DeviationSample, Margin, Margins};
+use crate::proof::solutions::{ProofError, Solutions, tasks_and_dependents};
 use crate::proof::sources::Sources;
-use crate::proof::workbench::{NotTried, Solution};
+use crate::proof::workbench::{BuiltSolution, WorkbenchError};
 use crate::seed::Seed;
 
 /// What the table in the repository was measured with.
@@ -32,7 +32,7 @@ pub struct Calibration {
     /// The exams that the variants were asked.
     pub seeds: Range<u64>,
     /// Those of them that the mistakes were asked as well.
-    pub seeds_of_mistakes: Range<u64>,
+    pub mistake_seeds: Range<u64>,
     /// How many variants there are.
     pub variants: usize,
     /// How many mistakes there are.
@@ -43,9 +43,9 @@ pub struct Calibration {
 
 impl Calibration {
     /// The closing line.
-    pub fn line(&self) -> String {
+    pub fn summary_line(&self) -> String {
         let margin = |of: fn(&Margin) -> f64| {
-            let margins = Threshold::ALL.map(|threshold| of(&self.margins.of(threshold)));
+            let margins = Threshold::ALL.map(|threshold| of(&self.margins.margin(threshold)));
             margins.into_iter().fold(f64::INFINITY, f64::min)
         };
         format!(
@@ -54,9 +54,9 @@ impl Calibration {
             self.variants,
             self.seeds.end - self.seeds.start,
             self.mistakes,
-            self.seeds_of_mistakes.end - self.seeds_of_mistakes.start,
-            margin(Margin::of_right),
-            margin(Margin::of_wrong),
+            self.mistake_seeds.end - self.mistake_seeds.start,
+            margin(Margin::correct_margin),
+            margin(Margin::mistake_margin),
         )
     }
 }
@@ -64,40 +64,40 @@ impl Calibration {
 /// Asks all variants in the exams of these seeds, and all mistakes in the first `with_mistakes` of
 /// them.
 pub fn calibrate(
-    exhibits: &Exhibits,
+    exhibits: &Solutions,
     seeds: Range<u64>,
     with_mistakes: u64,
-) -> Result<Calibration, NotProven> {
-    let asked = Asked::build(exhibits)?;
+) -> Result<Calibration, ProofError> {
+    let asked = BuiltSolutions::build(exhibits)?;
     let seeds_of_mistakes = seeds.start..seeds.end.min(seeds.start + with_mistakes);
-    let of_seeds: Result<Vec<Margins>, NotProven> = seeds
+    let of_seeds: Result<Vec<Margins>, ProofError> = seeds
         .clone()
         .into_par_iter()
-        .progress_with(bar(seeds.end - seeds.start, "seeds"))
+        .progress_with(progress_bar(seeds.end - seeds.start, "seeds"))
         .map(|seed| asked.margins(seed, seeds_of_mistakes.contains(&seed)))
         .collect();
     Ok(Calibration {
         seeds,
-        seeds_of_mistakes,
+        mistake_seeds: seeds_of_mistakes,
         variants: exhibits.variants.len(),
         mistakes: exhibits.mistakes.len(),
         margins: of_seeds?
             .into_iter()
-            .fold(Margins::default(), Margins::join),
+            .fold(Margins::default(), Margins::merge),
     })
 }
 
 /// All solutions, built.
-struct Asked<'a> {
-    exhibits: &'a Exhibits,
+struct BuiltSolutions<'a> {
+    exhibits: &'a Solutions,
     /// In the order of the exhibits.
-    variants: Vec<Solution>,
+    variants: Vec<BuiltSolution>,
     /// In the order of the exhibits.
-    mistakes: Vec<Solution>,
+    mistakes: Vec<BuiltSolution>,
 }
 
-impl<'a> Asked<'a> {
-    fn build(exhibits: &'a Exhibits) -> Result<Self, NotTried> {
+impl<'a> BuiltSolutions<'a> {
+    fn build(exhibits: &'a Solutions) -> Result<Self, WorkbenchError> {
         let variants = exhibits.variants.iter();
         let variants = variants.map(|(variant, sources)| (&variant.id, sources));
         let mistakes = exhibits.mistakes.iter();
@@ -107,11 +107,11 @@ impl<'a> Asked<'a> {
         let count = all.len() as u64;
         let built = all
             .into_par_iter()
-            .progress_with(bar(count, "solutions built"))
+            .progress_with(progress_bar(count, "solutions built"))
             .map(build);
-        let mut variants = built.collect::<Result<Vec<Solution>, NotTried>>()?;
+        let mut variants = built.collect::<Result<Vec<BuiltSolution>, WorkbenchError>>()?;
         let mistakes = variants.split_off(exhibits.variants.len());
-        Ok(Asked {
+        Ok(BuiltSolutions {
             exhibits,
             variants,
             mistakes,
@@ -119,23 +119,23 @@ impl<'a> Asked<'a> {
     }
 
     /// What one seed's exam adds.
-    fn margins(&self, seed: u64, with_mistakes: bool) -> Result<Margins, NotProven> {
-        let exam = exams::whole("calibration", Seed(seed), &self.exhibits.recorder)?;
-        let sighting = |deviation, of: &str, item: &str| Sighting {
+    fn margins(&self, seed: u64, with_mistakes: bool) -> Result<Margins, ProofError> {
+        let exam = exams::generate("calibration", Seed(seed), &self.exhibits.recorder)?;
+        let sighting = |deviation, of: &str, item: &str| DeviationSample {
             deviation,
-            of: of.to_owned(),
+            solution: of.to_owned(),
             item: item.to_owned(),
             seed,
         };
         let mut margins = Margins::default();
 
         for ((variant, _), solution) in self.exhibits.variants.iter().zip(&self.variants) {
-            let exam = what_rests_on(&exam, &variant.tasks());
+            let exam = tasks_and_dependents(&exam, &variant.tasks());
             for item in &exam.items {
-                let answers = solution.answers(item).map_err(NotTried::from)?;
+                let answers = solution.answers(item).map_err(WorkbenchError::from)?;
                 let may_lose = variant.may_lose.contains(&item.id);
-                for deviation in observed::of_right(item, &answers, may_lose) {
-                    margins.add_right(sighting(deviation, &variant.id, &item.id));
+                for deviation in deviations::of_correct(item, &answers, may_lose) {
+                    margins.add_correct(sighting(deviation, &variant.id, &item.id));
                 }
             }
         }
@@ -145,16 +145,16 @@ impl<'a> Asked<'a> {
             let must_fail = |id: &String| mistake.fails.contains(id);
             let items = exam.items.iter().filter(|item| must_fail(&item.id));
             for item in items {
-                let answers = solution.answers(item).map_err(NotTried::from)?;
-                let deviation = observed::of_wrong(item, &answers);
-                margins.add_wrong(sighting(deviation, &mistake.id, &item.id));
+                let answers = solution.answers(item).map_err(WorkbenchError::from)?;
+                let deviation = deviations::of_mistake(item, &answers);
+                margins.add_mistake(sighting(deviation, &mistake.id, &item.id));
             }
         }
         Ok(margins)
     }
 }
 
-fn bar(count: u64, of: &'static str) -> ProgressBar {
+fn progress_bar(count: u64, of: &'static str) -> ProgressBar {
     let style = ProgressStyle::with_template("{wide_bar} {pos} of {len} {msg}, {eta} left");
     ProgressBar::new(count)
         .with_style(style.expect("a template that was tried"))

@@ -6,58 +6,58 @@ use std::path::Path;
 
 use grader::judge::Threshold;
 
-use crate::generated::Generated;
+use crate::generated_file::GeneratedFile;
 use crate::proof::calibrate::Calibration;
-use crate::proof::calibrate::margins::{ENOUGH, Margin, Sighting};
-use crate::proof::sources::{Unreadable, read};
+use crate::proof::calibrate::margins::{DeviationSample, MIN_MARGIN, Margin};
+use crate::proof::sources::{ReadError, read};
 
 /// Where the table stands.
 pub const PATH: &str = "reference/calibration.md";
 
 /// The table.
-pub fn generated(calibration: &Calibration) -> Generated {
-    let mut text = head(calibration);
+pub fn generated_file(calibration: &Calibration) -> GeneratedFile {
+    let mut text = header(calibration);
     for threshold in Threshold::ALL {
-        let margin = calibration.margins.of(threshold);
-        writeln!(text, "{}{}", begins(threshold), row(&margin)).expect("text takes text");
+        let margin = calibration.margins.margin(threshold);
+        writeln!(text, "{}{}", row_start(threshold), row(&margin)).expect("text takes text");
     }
-    Generated::new(PATH, text)
+    GeneratedFile::new(PATH, text)
 }
 
 /// Why a table does not tell of the thresholds as they are.
 #[derive(Debug, thiserror::Error)]
-pub enum OldTable {
+pub enum TableError {
     /// It can not be read.
     #[error(transparent)]
-    Unreadable(#[from] Unreadable),
+    Read(#[from] ReadError),
     /// Thresholds were moved since.
     #[error(
         "{PATH} was measured before these were as they are now: {}\nmeasure them with \
          `cargo author calibrate`",
         .0.join(", ")
     )]
-    Moved(Vec<&'static str>),
+    Outdated(Vec<&'static str>),
 }
 
 /// Checks that the table of the workspace at `root` tells of every threshold as it is.
-pub fn check(root: &Path) -> Result<(), OldTable> {
-    match missing(&read(&root.join(PATH))?) {
+pub fn check(root: &Path) -> Result<(), TableError> {
+    match outdated_thresholds(&read(&root.join(PATH))?) {
         missing if missing.is_empty() => Ok(()),
-        missing => Err(OldTable::Moved(missing)),
+        missing => Err(TableError::Outdated(missing)),
     }
 }
 
 /// The thresholds of which this table does not tell, as they are now.
-fn missing(table: &str) -> Vec<&'static str> {
+fn outdated_thresholds(table: &str) -> Vec<&'static str> {
     let told = |threshold: &Threshold| {
-        let begins = begins(*threshold);
+        let begins = row_start(*threshold);
         table.lines().any(|line| line.starts_with(&begins))
     };
     let missing = Threshold::ALL.into_iter().filter(|it| !told(it));
     missing.map(Threshold::title).collect()
 }
 
-fn head(calibration: &Calibration) -> String {
+fn header(calibration: &Calibration) -> String {
     format!(
         "# How far the thresholds stand from right and wrong\n\n\
          Written by `cargo author calibrate`: {} right solutions (`reference/variants`) in the exams \
@@ -65,7 +65,7 @@ fn head(calibration: &Calibration) -> String {
          Values are multiples of the threshold, as the judge itself tells them: up to 1 is right. A \
          margin is the factor by which the threshold could be moved: made stricter before the first \
          right answer is wrong, or more lenient before a mistake is not told by an item that it must \
-         fail. Below {ENOUGH} on either side, `cargo author calibrate --check` fails.\n\n\
+         fail. Below {MIN_MARGIN} on either side, `cargo author calibrate --check` fails.\n\n\
          - Where positions or pixels are counted, as many of the worst as may be wrong are passed \
          over, and a mistake is held against what tells it less: how far off, or at how many places.\n\
          - What a tree costs beyond the exact sweep's tree counts: at the same cost it is at 0. Right \
@@ -75,13 +75,13 @@ fn head(calibration: &Calibration) -> String {
          | threshold | value | stands in | worst right answer | margin | mildest mistake | margin |\n\
          |---|---|---|---|--:|---|--:|\n",
         calibration.variants,
-        seeds(&calibration.seeds),
+        seed_range(&calibration.seeds),
         calibration.mistakes,
-        seeds(&calibration.seeds_of_mistakes),
+        seed_range(&calibration.mistake_seeds),
     )
 }
 
-fn seeds(seeds: &Range<u64>) -> String {
+fn seed_range(seeds: &Range<u64>) -> String {
     match seeds.end - seeds.start {
         0 => "no seed".to_owned(),
         1 => format!("seed {}", seeds.start),
@@ -90,32 +90,32 @@ fn seeds(seeds: &Range<u64>) -> String {
 }
 
 /// What does not depend on what was measured.
-fn begins(threshold: Threshold) -> String {
+fn row_start(threshold: Threshold) -> String {
     format!(
         "| {} | {} | `{}` |",
         threshold.title(),
         threshold.limit(),
-        threshold.place()
+        threshold.location()
     )
 }
 
 fn row(margin: &Margin) -> String {
-    let sighting = |sighting: &Option<Sighting>| match sighting {
+    let sighting = |sighting: &Option<DeviationSample>| match sighting {
         None => "none".to_owned(),
         Some(sighting) if sighting.deviation.value == 0.0 => "0".to_owned(),
-        Some(sighting) => format!("{}: {sighting}", number(sighting.deviation.value)),
+        Some(sighting) => format!("{}: {sighting}", format_number(sighting.deviation.value)),
     };
     format!(
         " {} | {} | {} | {} |",
-        sighting(&margin.worst),
-        number(margin.of_right()),
-        sighting(&margin.mildest),
-        number(margin.of_wrong()),
+        sighting(&margin.worst_correct),
+        format_number(margin.correct_margin()),
+        sighting(&margin.mildest_mistake),
+        format_number(margin.mistake_margin()),
     )
 }
 
 /// As exactly as anybody wants to know.
-fn number(value: f64) -> String {
+fn format_number(value: f64) -> String {
     match value {
         value if value.is_infinite() => "∞".to_owned(),
         0.0 => "0".to_owned(),
@@ -134,21 +134,21 @@ mod tests {
     use crate::proof::calibrate::margins::Margins;
 
     fn calibration() -> Calibration {
-        let sighting = |of: &str, value| Sighting {
+        let sighting = |of: &str, value| DeviationSample {
             deviation: Deviation {
                 threshold: Some(Threshold::Uv),
                 value,
             },
-            of: of.to_owned(),
+            solution: of.to_owned(),
             item: "sphere.uv".to_owned(),
             seed: 17,
         };
         let mut margins = Margins::default();
-        margins.add_right(sighting("sphere.geometric", 0.25));
-        margins.add_wrong(sighting("sphere.u_shifted", 12.3));
+        margins.add_correct(sighting("sphere.geometric", 0.25));
+        margins.add_mistake(sighting("sphere.u_shifted", 12.3));
         Calibration {
             seeds: 0..200,
-            seeds_of_mistakes: 0..3,
+            mistake_seeds: 0..3,
             variants: 78,
             mistakes: 209,
             margins,
@@ -156,8 +156,8 @@ mod tests {
     }
 
     #[test]
-    fn a_row_tells_both_sides_and_where() {
-        let table = generated(&calibration()).contents;
+    fn a_row_shows_both_margins_and_their_solutions() {
+        let table = generated_file(&calibration()).contents;
         let row = "| uv of a hit | 2e-3 | `measure.rs: UV` \
                    | 0.25: `sphere.geometric` in `sphere.uv`, seed 17 | 4.00 \
                    | 12: `sphere.u_shifted` in `sphere.uv`, seed 17 | 12 |\n";
@@ -167,16 +167,16 @@ mod tests {
     }
 
     #[test]
-    fn a_threshold_that_was_moved_is_missing_from_an_older_table() {
-        let table = generated(&calibration()).contents;
-        assert_eq!(missing(&table), [""; 0]);
+    fn a_changed_threshold_makes_a_table_outdated() {
+        let table = generated_file(&calibration()).contents;
+        assert_eq!(outdated_thresholds(&table), [""; 0]);
         let older = table.replace("| uv of a hit | 2e-3 |", "| uv of a hit | 1e-3 |");
-        assert_eq!(missing(&older), ["uv of a hit"]);
+        assert_eq!(outdated_thresholds(&older), ["uv of a hit"]);
     }
 
     #[test]
     fn numbers_are_short() {
-        let numbers = [0.0, 1e-4, 0.123, 99.5, 1e7, f64::INFINITY].map(number);
+        let numbers = [0.0, 1e-4, 0.123, 99.5, 1e7, f64::INFINITY].map(format_number);
         assert_eq!(numbers, ["0", "< 0.01", "0.12", "100", "> 1000", "∞"]);
     }
 }

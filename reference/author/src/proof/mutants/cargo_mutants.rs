@@ -6,16 +6,16 @@ use std::io;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use grader::given::{TASK_FILES, TaskFile};
+use grader::given_files::{TASK_FILES, TaskFile};
 use serde::Deserialize;
 
-use crate::proof::mutants::list::{self, List, OfFile, Unnamed};
-use crate::proof::mutants::span::{Place, Span};
+use crate::proof::mutants::list::{self, FileMutants, MutantList, UnnamedMutant};
+use crate::proof::mutants::span::{SourcePosition, SourceSpan};
 use crate::proof::sources::Sources;
 
 /// There is no list, though there is cargo-mutants.
 #[derive(Debug, thiserror::Error)]
-pub enum NoList {
+pub enum CargoMutantsError {
     /// Cargo can not be started.
     #[error("can not run cargo: {0}")]
     Cargo(#[from] io::Error),
@@ -27,7 +27,7 @@ pub enum NoList {
         "can not read the list of {made_by} ({why}): install the version that {path} names",
         path = list::PATH
     )]
-    Unknown {
+    UnknownFormat {
         /// The program and its version.
         made_by: String,
         /// What is strange.
@@ -37,17 +37,17 @@ pub enum NoList {
 
 /// A mutant, as it is listed.
 #[derive(Debug, Deserialize)]
-struct Listed {
+struct ListedMutant {
     name: String,
     file: String,
-    span: Range,
+    span: ListedSpan,
     replacement: String,
 }
 
 #[derive(Debug, Deserialize)]
-struct Range {
-    start: Place,
-    end: Place,
+struct ListedSpan {
+    start: SourcePosition,
+    end: SourcePosition,
 }
 
 /// The program and its version, if it is installed.
@@ -61,13 +61,17 @@ pub fn version() -> Option<String> {
 }
 
 /// What it makes of the reference of the workspace at `root`.
-pub fn list(made_by: &str, root: &Path, reference: &Sources) -> Result<List, NoList> {
+pub fn list(
+    made_by: &str,
+    root: &Path,
+    reference: &Sources,
+) -> Result<MutantList, CargoMutantsError> {
     let output = run(root)?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr);
-        return Err(NoList::Failed(said.trim().to_owned()));
+        return Err(CargoMutantsError::Failed(said.trim().to_owned()));
     }
-    from_json(made_by, &output.stdout, reference).map_err(|why| NoList::Unknown {
+    parse_list(made_by, &output.stdout, reference).map_err(|why| CargoMutantsError::UnknownFormat {
         made_by: made_by.to_owned(),
         why,
     })
@@ -88,35 +92,38 @@ fn path(file: TaskFile) -> String {
     format!("reference/src/{}", file.name)
 }
 
-fn from_json(made_by: &str, json: &[u8], reference: &Sources) -> Result<List, String> {
-    let all: Vec<Listed> = serde_json::from_slice(json).map_err(|error| error.to_string())?;
-    let mut by_file: BTreeMap<String, Vec<Unnamed>> = BTreeMap::new();
+fn parse_list(made_by: &str, json: &[u8], reference: &Sources) -> Result<MutantList, String> {
+    let all: Vec<ListedMutant> = serde_json::from_slice(json).map_err(|error| error.to_string())?;
+    let mut by_file: BTreeMap<String, Vec<UnnamedMutant>> = BTreeMap::new();
     for listed in all {
         let file = listed.file.clone();
-        by_file.entry(file).or_default().push(listed.unnamed()?);
+        by_file
+            .entry(file)
+            .or_default()
+            .push(listed.into_unnamed()?);
     }
     let files = TASK_FILES.into_iter().map(|file| {
         let text = reference.text(file.name).unwrap_or_default();
         match by_file.remove(&path(file)) {
-            Some(unnamed) => Ok(OfFile::new(file.name, text, unnamed)),
+            Some(unnamed) => Ok(FileMutants::new(file.name, text, unnamed)),
             None => Err(format!("there is none of {}", file.name)),
         }
     });
-    Ok(List {
+    Ok(MutantList {
         made_by: made_by.to_owned(),
         files: files.collect::<Result<_, String>>()?,
     })
 }
 
-impl Listed {
+impl ListedMutant {
     /// Without the place in its name.
-    fn unnamed(self) -> Result<Unnamed, String> {
-        let Range { start, end } = self.span;
+    fn into_unnamed(self) -> Result<UnnamedMutant, String> {
+        let ListedSpan { start, end } = self.span;
         let place = format!("{}:{}:{}: ", self.file, start.line, start.column);
         match self.name.strip_prefix(&place) {
-            Some(what) => Ok(Unnamed {
+            Some(what) => Ok(UnnamedMutant {
                 what: what.to_owned(),
-                span: Span { start, end },
+                span: SourceSpan { start, end },
                 now: self.replacement,
             }),
             None => Err(format!("`{}` does not begin with its place", self.name)),
@@ -128,7 +135,7 @@ impl Listed {
 mod tests {
     use super::*;
 
-    fn listed(name: &str) -> Listed {
+    fn listed(name: &str) -> ListedMutant {
         let json = format!(
             r#"{{"name": "{name}", "file": "reference/src/bvh.rs", "replacement": "-", "genre": "x",
                 "span": {{"start": {{"line": 7, "column": 9}}, "end": {{"line": 7, "column": 10}}}}}}"#
@@ -137,17 +144,18 @@ mod tests {
     }
 
     #[test]
-    fn a_name_is_kept_without_its_place() {
-        let unnamed = listed("reference/src/bvh.rs:7:9: replace + with - in Bvh::hit").unnamed();
+    fn removes_the_position_from_a_name() {
+        let unnamed =
+            listed("reference/src/bvh.rs:7:9: replace + with - in Bvh::hit").into_unnamed();
         let unnamed = unnamed.expect("a mutant");
         assert_eq!(unnamed.what, "replace + with - in Bvh::hit");
         assert_eq!(unnamed.span.to_string(), "7:9-7:10");
     }
 
     #[test]
-    fn a_name_of_another_form_is_refused() {
+    fn rejects_a_name_without_a_position() {
         listed("+ to - at 7:9")
-            .unnamed()
+            .into_unnamed()
             .expect_err("no place in front");
     }
 }

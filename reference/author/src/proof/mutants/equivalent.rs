@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use crate::proof::sources::{Unreadable, read};
+use crate::proof::sources::{ReadError, read};
 
 /// Where they stand, from the workspace's root.
 pub const PATH: &str = "reference/mutants/equivalent.toml";
@@ -13,7 +13,7 @@ pub const PATH: &str = "reference/mutants/equivalent.toml";
 /// A mutant that earns all points, as it should.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Equivalent {
+pub struct EquivalentMutant {
     /// The mutant's, as in the list of all.
     pub name: String,
     /// Why no answer can differ, or which promise is not made of the answers that do.
@@ -22,10 +22,10 @@ pub struct Equivalent {
 
 /// They can not be used.
 #[derive(Debug, thiserror::Error)]
-pub enum BadEquivalents {
+pub enum EquivalentsError {
     /// The file can not be read.
     #[error(transparent)]
-    Unreadable(#[from] Unreadable),
+    Read(#[from] ReadError),
     /// It is not as it has to be.
     #[error("{}: {source}", path.display())]
     Toml {
@@ -40,23 +40,23 @@ pub enum BadEquivalents {
 }
 
 /// Those of the workspace at `root`.
-pub fn equivalents(root: &Path) -> Result<Vec<Equivalent>, BadEquivalents> {
+pub fn equivalent_mutants(root: &Path) -> Result<Vec<EquivalentMutant>, EquivalentsError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct File {
-        equivalent: Vec<Equivalent>,
+        equivalent: Vec<EquivalentMutant>,
     }
 
     let path = root.join(PATH);
     let file: Result<File, _> = toml::from_str(&read(&path)?);
     let all = match file {
         Ok(file) => file.equivalent,
-        Err(source) => return Err(BadEquivalents::Toml { path, source }),
+        Err(source) => return Err(EquivalentsError::Toml { path, source }),
     };
-    for (place, Equivalent { name, why }) in all.iter().enumerate() {
+    for (place, EquivalentMutant { name, why }) in all.iter().enumerate() {
         let known = all[..place].iter().any(|other| other.name == *name);
         if known || why.trim().is_empty() {
-            return Err(BadEquivalents::Entry(name.clone()));
+            return Err(EquivalentsError::Entry(name.clone()));
         }
     }
     Ok(all)

@@ -2,74 +2,79 @@
 
 use std::collections::BTreeMap;
 
-use crate::proof::mutants::equivalent::{self, Equivalent};
+use crate::proof::mutants::equivalent::{self, EquivalentMutant};
 
 /// What became of one mutant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
+pub enum MutantOutcome {
     /// The compiler refuses it: nobody can hand it in.
     NotCompiled,
     /// It loses points.
     Caught,
     /// It earns them all.
-    Survives,
+    Survived,
     /// It was left out, in haste.
-    NotAsked,
+    Skipped,
 }
 
 /// What became of all.
 #[derive(Clone, Debug)]
 pub struct Findings {
     /// By name.
-    pub fates: BTreeMap<String, Fate>,
+    pub outcomes: BTreeMap<String, MutantOutcome>,
     /// Those that should survive, and no others.
-    pub equivalent: Vec<Equivalent>,
+    pub equivalent: Vec<EquivalentMutant>,
 }
 
 impl Findings {
     /// The closing line.
-    pub fn line(&self) -> String {
-        let count = |fate: Fate| self.fates.values().filter(|found| **found == fate).count();
-        let survive = self.survivors().count();
+    pub fn summary_line(&self) -> String {
+        let count = |fate: MutantOutcome| {
+            self.outcomes
+                .values()
+                .filter(|found| **found == fate)
+                .count()
+        };
+        let survive = self.unexpected_survivors().count();
         format!(
             "mutants: {} made, {} do not compile, {} caught, {} equivalent, {survive} survive",
-            self.fates.len() - count(Fate::NotAsked),
-            count(Fate::NotCompiled),
-            count(Fate::Caught),
-            count(Fate::Survives) - survive,
+            self.outcomes.len() - count(MutantOutcome::Skipped),
+            count(MutantOutcome::NotCompiled),
+            count(MutantOutcome::Caught),
+            count(MutantOutcome::Survived) - survive,
         )
     }
 
     /// What is not as it should be, a line each.
-    pub fn complaints(&self) -> Vec<String> {
-        let survive = self.survivors().map(|name| {
+    pub fn problems(&self) -> Vec<String> {
+        let survive = self.unexpected_survivors().map(|name| {
             format!(
                 "`{name}` survives: sharpen the exam; if no answer can differ, say why in {}",
                 equivalent::PATH
             )
         });
-        let wrongly_listed = self
-            .equivalent
-            .iter()
-            .filter_map(|Equivalent { name, .. }| {
-                let found = match self.fates.get(name) {
-                    Some(Fate::Survives | Fate::NotAsked) => return None,
-                    Some(Fate::Caught) => "is caught",
-                    Some(Fate::NotCompiled) => "does not compile",
-                    None => "does not exist",
-                };
-                let path = equivalent::PATH;
-                Some(format!("`{name}` {found}: take it out of {path}"))
-            });
+        let wrongly_listed =
+            self.equivalent
+                .iter()
+                .filter_map(|EquivalentMutant { name, .. }| {
+                    let found = match self.outcomes.get(name) {
+                        Some(MutantOutcome::Survived | MutantOutcome::Skipped) => return None,
+                        Some(MutantOutcome::Caught) => "is caught",
+                        Some(MutantOutcome::NotCompiled) => "does not compile",
+                        None => "does not exist",
+                    };
+                    let path = equivalent::PATH;
+                    Some(format!("`{name}` {found}: take it out of {path}"))
+                });
         survive.chain(wrongly_listed).collect()
     }
 
     /// Those that should not.
-    fn survivors(&self) -> impl Iterator<Item = &String> {
+    fn unexpected_survivors(&self) -> impl Iterator<Item = &String> {
         let survive = self
-            .fates
+            .outcomes
             .iter()
-            .filter(|(_, fate)| **fate == Fate::Survives);
+            .filter(|(_, fate)| **fate == MutantOutcome::Survived);
         let unforeseen = |name: &String| !self.equivalent.iter().any(|known| known.name == *name);
         survive
             .map(|(name, _)| name)
@@ -81,15 +86,15 @@ impl Findings {
 mod tests {
     use super::*;
 
-    fn findings(fates: &[(&str, Fate)], equivalent: &[&str]) -> Findings {
+    fn findings(fates: &[(&str, MutantOutcome)], equivalent: &[&str]) -> Findings {
         Findings {
-            fates: fates
+            outcomes: fates
                 .iter()
                 .map(|(name, fate)| ((*name).to_owned(), *fate))
                 .collect(),
             equivalent: equivalent
                 .iter()
-                .map(|name| Equivalent {
+                .map(|name| EquivalentMutant {
                     name: (*name).to_owned(),
                     why: "it is".to_owned(),
                 })
@@ -98,32 +103,32 @@ mod tests {
     }
 
     #[test]
-    fn survivors_that_were_foretold_are_no_complaint() {
+    fn expected_survivors_are_no_problem() {
         let fates = [
-            ("a", Fate::Survives),
-            ("b", Fate::Caught),
-            ("c", Fate::NotCompiled),
-            ("d", Fate::NotAsked),
+            ("a", MutantOutcome::Survived),
+            ("b", MutantOutcome::Caught),
+            ("c", MutantOutcome::NotCompiled),
+            ("d", MutantOutcome::Skipped),
         ];
         let findings = findings(&fates, &["a", "d"]);
         assert_eq!(
-            findings.line(),
+            findings.summary_line(),
             "mutants: 3 made, 1 do not compile, 1 caught, 1 equivalent, 0 survive"
         );
-        assert_eq!(findings.complaints(), [""; 0]);
+        assert_eq!(findings.problems(), [""; 0]);
     }
 
     #[test]
-    fn each_survivor_and_each_wrong_listing_is_named() {
+    fn reports_each_survivor_and_each_wrong_entry() {
         let fates = [
-            ("a", Fate::Survives),
-            ("b", Fate::Caught),
-            ("c", Fate::NotCompiled),
+            ("a", MutantOutcome::Survived),
+            ("b", MutantOutcome::Caught),
+            ("c", MutantOutcome::NotCompiled),
         ];
         let findings = findings(&fates, &["b", "c", "d"]);
-        assert!(findings.line().ends_with("0 equivalent, 1 survive"));
+        assert!(findings.summary_line().ends_with("0 equivalent, 1 survive"));
         assert_eq!(
-            findings.complaints(),
+            findings.problems(),
             [
                 "`a` survives: sharpen the exam; if no answer can differ, say why in \
                  reference/mutants/equivalent.toml",

@@ -1,11 +1,11 @@
 //! The list of all mutants, `reference/mutants/list.json`: as cargo-mutants makes them, and as it is
 //! committed for where that is not installed.
 
-use grader::given::{TASK_FILES, TaskFile};
+use grader::given_files::{TASK_FILES, TaskFile};
 use serde::{Deserialize, Serialize};
 
-use crate::generated::Generated;
-use crate::proof::mutants::span::Span;
+use crate::generated_file::GeneratedFile;
+use crate::proof::mutants::span::SourceSpan;
 use crate::proof::sources::Sources;
 
 /// Where the list stands, from the workspace's root.
@@ -19,7 +19,7 @@ pub struct Mutant {
     /// the function does. Where one function has several alike, they are numbered as they stand.
     pub name: String,
     /// What is replaced.
-    pub span: Span,
+    pub span: SourceSpan,
     /// By what.
     pub now: String,
 }
@@ -27,7 +27,7 @@ pub struct Mutant {
 /// The mutants of one of the five files.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct OfFile {
+pub struct FileMutants {
     /// Its name.
     pub file: String,
     /// The text that the spans are meant for: the first digits of its BLAKE2b hash, as `b2sum` prints it.
@@ -39,11 +39,11 @@ pub struct OfFile {
 /// All mutants.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct List {
+pub struct MutantList {
     /// The program that made them, and its version.
     pub made_by: String,
     /// In lecture order.
-    pub files: Vec<OfFile>,
+    pub files: Vec<FileMutants>,
 }
 
 /// The list is of another reference than the present one.
@@ -52,27 +52,27 @@ pub struct List {
     "{PATH} does not fit reference/src/{file}, which has changed since: install cargo-mutants \
      (`cargo install cargo-mutants --locked`) and run `cargo author mutants`"
 )]
-pub struct DoesNotFit {
+pub struct OutdatedListError {
     /// The file that the list does not fit.
     pub file: String,
 }
 
 /// A mutant before it has a name that no other has.
 #[derive(Clone, Debug)]
-pub struct Unnamed {
+pub struct UnnamedMutant {
     /// What is changed in which function.
     pub what: String,
     /// What is replaced.
-    pub span: Span,
+    pub span: SourceSpan,
     /// By what.
     pub now: String,
 }
 
-impl OfFile {
+impl FileMutants {
     /// The mutants of a file with this text, put in order and named.
-    pub fn new(file: &str, text: &str, mut unnamed: Vec<Unnamed>) -> Self {
+    pub fn new(file: &str, text: &str, mut unnamed: Vec<UnnamedMutant>) -> Self {
         unnamed.sort_by(|a, b| (a.span, &a.what).cmp(&(b.span, &b.what)));
-        let alike = |others: &[Unnamed], what: &str| {
+        let alike = |others: &[UnnamedMutant], what: &str| {
             let alike = others.iter().filter(|other| other.what == what);
             alike.count()
         };
@@ -91,7 +91,7 @@ impl OfFile {
             span: mutant.span,
             now: mutant.now.clone(),
         });
-        OfFile {
+        FileMutants {
             file: file.to_owned(),
             blake2b: hash(text),
             mutants: mutants.collect(),
@@ -103,12 +103,15 @@ fn hash(text: &str) -> String {
     blake2b_simd::blake2b(text.as_bytes()).to_hex()[..16].to_owned()
 }
 
-impl List {
+impl MutantList {
     /// Every mutant with the reference that has it, by name.
-    pub fn solutions(&self, reference: &Sources) -> Result<Vec<(&Mutant, Sources)>, DoesNotFit> {
+    pub fn solutions(
+        &self,
+        reference: &Sources,
+    ) -> Result<Vec<(&Mutant, Sources)>, OutdatedListError> {
         let mut solutions = Vec::new();
         for TaskFile { name: file, .. } in TASK_FILES {
-            let no_fit = || DoesNotFit {
+            let no_fit = || OutdatedListError {
                 file: file.to_owned(),
             };
             let text = reference.text(file).unwrap_or_default();
@@ -116,7 +119,7 @@ impl List {
             let of_file = of_file.filter(|of_file| of_file.blake2b == hash(text));
             for mutant in &of_file.ok_or_else(no_fit)?.mutants {
                 let text = mutant.span.replace(text, &mutant.now).ok_or_else(no_fit)?;
-                solutions.push((mutant, reference.clone().with(file, text)));
+                solutions.push((mutant, reference.clone().with_file(file, text)));
             }
         }
         solutions.sort_by_key(|(mutant, _)| &mutant.name);
@@ -124,27 +127,27 @@ impl List {
     }
 
     /// The file that holds it: a line for each mutant, so that changes are easy to read.
-    pub fn generated(&self) -> Generated {
+    pub fn generated_file(&self) -> GeneratedFile {
         let files = self.files.iter().map(|of_file| {
-            let mutants: Vec<String> = of_file.mutants.iter().map(json).collect();
+            let mutants: Vec<String> = of_file.mutants.iter().map(to_json).collect();
             format!(
                 "    {{\"file\": {}, \"blake2b\": {}, \"mutants\": [\n      {}\n    ]}}",
-                json(&of_file.file),
-                json(&of_file.blake2b),
+                to_json(&of_file.file),
+                to_json(&of_file.blake2b),
                 mutants.join(",\n      "),
             )
         });
         let files: Vec<String> = files.collect();
         let text = format!(
             "{{\n  \"made_by\": {},\n  \"files\": [\n{}\n  ]\n}}\n",
-            json(&self.made_by),
+            to_json(&self.made_by),
             files.join(",\n")
         );
-        Generated::new(PATH, text)
+        GeneratedFile::new(PATH, text)
     }
 }
 
-fn json(value: &impl Serialize) -> String {
+fn to_json(value: &impl Serialize) -> String {
     serde_json::to_string(value).expect("texts and numbers can be written")
 }
 
@@ -160,19 +163,19 @@ mod tests {
     }
 
     /// One mutant in each file: the first character becomes another.
-    fn list(reference: &Sources) -> List {
+    fn list(reference: &Sources) -> MutantList {
         let of_file = |file: TaskFile| {
             let text = reference.text(file.name).unwrap_or_default();
-            OfFile::new(file.name, text, vec![unnamed("spoil", "1:1-1:2")])
+            FileMutants::new(file.name, text, vec![unnamed("spoil", "1:1-1:2")])
         };
-        List {
+        MutantList {
             made_by: "hand".to_owned(),
             files: TASK_FILES.into_iter().map(of_file).collect(),
         }
     }
 
-    fn unnamed(what: &str, span: &str) -> Unnamed {
-        Unnamed {
+    fn unnamed(what: &str, span: &str) -> UnnamedMutant {
+        UnnamedMutant {
             what: what.to_owned(),
             span: span.to_owned().try_into().expect("a span"),
             now: "#".to_owned(),
@@ -180,13 +183,13 @@ mod tests {
     }
 
     #[test]
-    fn mutants_that_are_alike_are_numbered_as_they_stand() {
+    fn identical_mutants_are_numbered_in_order() {
         let unnamed = vec![
             unnamed("replace + with -", "7:2-7:3"),
             unnamed("delete !", "8:1-8:2"),
             unnamed("replace + with -", "6:9-6:10"),
         ];
-        let of_file = OfFile::new("a.rs", "", unnamed);
+        let of_file = FileMutants::new("a.rs", "", unnamed);
         let names: Vec<String> = of_file
             .mutants
             .iter()
@@ -219,12 +222,12 @@ mod tests {
     }
 
     #[test]
-    fn a_list_that_does_not_fit_the_reference_is_refused() {
+    fn rejects_a_list_of_an_older_reference() {
         let list = list(&reference());
         let text = reference()
             .text("sphere.rs")
             .map(|text| format!("{text}\n"));
-        let later = reference().with("sphere.rs", text.unwrap_or_default());
+        let later = reference().with_file("sphere.rs", text.unwrap_or_default());
         let error = list.solutions(&later).expect_err("a line was added");
         assert_eq!(error.file, "sphere.rs");
         let said = error.to_string();
@@ -233,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn a_list_without_one_of_the_files_is_refused() {
+    fn rejects_a_list_without_one_of_the_files() {
         let mut list = list(&reference());
         list.files.remove(1);
         let error = list.solutions(&reference()).expect_err("it is not whole");
@@ -241,9 +244,10 @@ mod tests {
     }
 
     #[test]
-    fn a_list_is_read_as_it_is_written() {
+    fn a_written_list_is_read_back() {
         let list = list(&reference());
-        let again: List = serde_json::from_str(&list.generated().contents).expect("it is JSON");
+        let again: MutantList =
+            serde_json::from_str(&list.generated_file().contents).expect("it is JSON");
         assert_eq!(again, list);
     }
 }

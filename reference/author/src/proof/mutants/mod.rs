@@ -13,49 +13,49 @@ pub mod span;
 use std::path::Path;
 
 use grader::exam::Exam;
-use grader::exam_file::BadExam;
+use grader::exam_file::ExamError;
 use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
 use crate::exams;
-use crate::generated::Mode;
-use crate::proof::mutants::cargo_mutants::NoList;
-use crate::proof::mutants::equivalent::{BadEquivalents, equivalents};
-use crate::proof::mutants::findings::{Fate, Findings};
-use crate::proof::mutants::list::{DoesNotFit, List};
-use crate::proof::sources::{Sources, Unreadable, read};
-use crate::proof::workbench::{NotTried, Workbench};
+use crate::generated_file::Mode;
+use crate::proof::mutants::cargo_mutants::CargoMutantsError;
+use crate::proof::mutants::equivalent::{EquivalentsError, equivalent_mutants};
+use crate::proof::mutants::findings::{Findings, MutantOutcome};
+use crate::proof::mutants::list::{MutantList, OutdatedListError};
+use crate::proof::sources::{ReadError, Sources, read};
+use crate::proof::workbench::{Workbench, WorkbenchError};
 
 /// In haste, one in so many is asked, in the order of their names.
-const FAST: usize = 8;
+const SAMPLE_STEP: usize = 8;
 
 /// The mutants were not asked: our fault, or the machine's.
 #[derive(Debug, thiserror::Error)]
-pub enum NotAsked {
+pub enum MutantsError {
     /// A file can not be read.
     #[error(transparent)]
-    Unreadable(#[from] Unreadable),
+    Read(#[from] ReadError),
     /// Cargo-mutants makes no list.
     #[error(transparent)]
-    NoList(#[from] NoList),
+    CargoMutants(#[from] CargoMutantsError),
     /// The list that is committed is not one.
     #[error(
         "{path}: {0}; run `cargo author mutants` where cargo-mutants is installed",
         path = list::PATH
     )]
-    BadList(#[from] serde_json::Error),
+    CommittedList(#[from] serde_json::Error),
     /// The list is of another reference.
     #[error(transparent)]
-    DoesNotFit(#[from] DoesNotFit),
+    OutdatedList(#[from] OutdatedListError),
     /// The list of those that survive can not be used.
     #[error(transparent)]
-    Equivalents(#[from] BadEquivalents),
+    Equivalents(#[from] EquivalentsError),
     /// The practice exam can not be used.
     #[error(transparent)]
-    Exam(#[from] BadExam),
+    Exam(#[from] ExamError),
     /// A mutant can not be built or asked.
     #[error(transparent)]
-    NotTried(#[from] NotTried),
+    Workbench(#[from] WorkbenchError),
     /// Then a mutant that loses points says nothing.
     #[error("the reference itself loses points: see `cargo grade reference`")]
     Reference,
@@ -63,42 +63,50 @@ pub enum NotAsked {
 
 /// Which of the mutants are asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Extent {
+pub enum MutantSelection {
     /// All.
-    Whole,
+    All,
     /// A part that is the same every time.
-    Fast,
+    Sample,
 }
 
-impl Extent {
+impl MutantSelection {
     /// A part if `fast`.
     pub fn new(fast: bool) -> Self {
-        if fast { Extent::Fast } else { Extent::Whole }
+        if fast {
+            MutantSelection::Sample
+        } else {
+            MutantSelection::All
+        }
     }
 
     /// Whether it takes in the mutant of this number.
-    fn holds(self, number: usize) -> bool {
+    fn includes(self, number: usize) -> bool {
         match self {
-            Extent::Whole => true,
-            Extent::Fast => number.is_multiple_of(FAST),
+            MutantSelection::All => true,
+            MutantSelection::Sample => number.is_multiple_of(SAMPLE_STEP),
         }
     }
 
     /// What was asked, for the closing lines.
-    pub fn words(self) -> String {
+    pub fn description(self) -> String {
         match self {
-            Extent::Whole => "asked: all".to_owned(),
-            Extent::Fast => format!("asked: one in {FAST}, in the order of their names"),
+            MutantSelection::All => "asked: all".to_owned(),
+            MutantSelection::Sample => {
+                format!("asked: one in {SAMPLE_STEP}, in the order of their names")
+            }
         }
     }
 }
 
 /// All mutants of the reference of the workspace at `root`: from cargo-mutants where it is
 /// installed, else as they are committed. To check what is committed takes the version that made it.
-pub fn list(root: &Path, mode: Mode) -> Result<List, NotAsked> {
+pub fn list(root: &Path, mode: Mode) -> Result<MutantList, MutantsError> {
     match (cargo_mutants::version(), mode) {
-        (None, _) => committed(root),
-        (Some(version), Mode::Check) if committed(root)?.made_by != version => committed(root),
+        (None, _) => committed_list(root),
+        (Some(version), Mode::Check) if committed_list(root)?.made_by != version => {
+            committed_list(root)
+        }
         (Some(version), Mode::Check | Mode::Write) => {
             let reference = Sources::reference(root)?;
             Ok(cargo_mutants::list(&version, root, &reference)?)
@@ -106,18 +114,18 @@ pub fn list(root: &Path, mode: Mode) -> Result<List, NotAsked> {
     }
 }
 
-fn committed(root: &Path) -> Result<List, NotAsked> {
+fn committed_list(root: &Path) -> Result<MutantList, MutantsError> {
     Ok(serde_json::from_str(&read(&root.join(list::PATH))?)?)
 }
 
 /// Builds the mutants and asks each the practice exam.
-pub fn ask(list: &List, extent: Extent) -> Result<Findings, NotAsked> {
+pub fn run(list: &MutantList, extent: MutantSelection) -> Result<Findings, MutantsError> {
     let workbench = Workbench::open()?;
     let root = workbench.root();
-    let exam = exams::practice(root)?;
+    let exam = exams::load_practice(root)?;
     let reference = Sources::reference(root)?;
-    if fate(&workbench, &reference, "reference", &exam)? != Fate::Survives {
-        return Err(NotAsked::Reference);
+    if outcome(&workbench, &reference, "reference", &exam)? != MutantOutcome::Survived {
+        return Err(MutantsError::Reference);
     }
 
     let all = list.solutions(&reference)?;
@@ -125,39 +133,39 @@ pub fn ask(list: &List, extent: Extent) -> Result<Findings, NotAsked> {
         ProgressStyle::with_template("{wide_bar} {pos} of {len} mutants, {eta} left")
             .expect("a template that was tried"),
     );
-    let fates: Result<_, NotTried> = all
+    let fates: Result<_, WorkbenchError> = all
         .into_par_iter()
         .enumerate()
         .progress_with(bar)
         .map(|(number, (mutant, sources))| {
             let name = &mutant.name;
-            let fate = match extent.holds(number) {
-                true => fate(&workbench, &sources, name, &exam)?,
-                false => Fate::NotAsked,
+            let fate = match extent.includes(number) {
+                true => outcome(&workbench, &sources, name, &exam)?,
+                false => MutantOutcome::Skipped,
             };
             Ok((name.clone(), fate))
         })
         .collect();
     Ok(Findings {
-        fates: fates?,
-        equivalent: equivalents(root)?,
+        outcomes: fates?,
+        equivalent: equivalent_mutants(root)?,
     })
 }
 
-fn fate(
+fn outcome(
     workbench: &Workbench,
     sources: &Sources,
     name: &str,
     exam: &Exam,
-) -> Result<Fate, NotTried> {
+) -> Result<MutantOutcome, WorkbenchError> {
     let solution = match workbench.build(sources, name) {
-        Err(NotTried::NotCompiled { .. }) => return Ok(Fate::NotCompiled),
+        Err(WorkbenchError::NotCompiled { .. }) => return Ok(MutantOutcome::NotCompiled),
         built => built?,
     };
     let score = solution.score(exam)?;
     Ok(if score.points < score.max_points {
-        Fate::Caught
+        MutantOutcome::Caught
     } else {
-        Fate::Survives
+        MutantOutcome::Survived
     })
 }

@@ -19,14 +19,14 @@ pub(super) enum Symmetry {
 }
 
 impl Patch {
-    const fn round(points: [usize; 16]) -> Self {
+    const fn all_around(points: [usize; 16]) -> Self {
         Patch {
             symmetry: Symmetry::AllAround,
             points,
         }
     }
 
-    const fn halved(points: [usize; 16]) -> Self {
+    const fn left_and_right(points: [usize; 16]) -> Self {
         Patch {
             symmetry: Symmetry::LeftAndRight,
             points,
@@ -34,7 +34,7 @@ impl Patch {
     }
 
     /// The control points, row by row.
-    pub(super) fn control(&self) -> [[DVec3; 4]; 4] {
+    pub(super) fn control_points(&self) -> [[DVec3; 4]; 4] {
         let row = |j: usize| [0, 1, 2, 3].map(|i| POINTS[self.points[4 * j + i]]);
         [0, 1, 2, 3].map(row)
     }
@@ -43,16 +43,16 @@ impl Patch {
 /// All patches: rim, body (two), knob, lid, bottom, handle (two), spout (two).
 #[rustfmt::skip]
 pub(super) const PATCHES: &[Patch] = &[
-    Patch::round([102, 103, 104, 105, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15]),
-    Patch::round([12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27]),
-    Patch::round([24, 25, 26, 27, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40]),
-    Patch::round([96, 96, 96, 96, 97, 98, 99, 100, 101, 101, 101, 101, 0, 1, 2, 3]),
-    Patch::round([0, 1, 2, 3, 106, 107, 108, 109, 110, 111, 112, 113, 114, 115, 116, 117]),
-    Patch::round([118, 118, 118, 118, 124, 122, 119, 121, 123, 126, 125, 120, 40, 39, 38, 37]),
-    Patch::halved([41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56]),
-    Patch::halved([53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 28, 65, 66, 67]),
-    Patch::halved([68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83]),
-    Patch::halved([80, 81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95]),
+    Patch::all_around([102, 103, 104, 105, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15]),
+    Patch::all_around([12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27]),
+    Patch::all_around([24, 25, 26, 27, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40]),
+    Patch::all_around([96, 96, 96, 96, 97, 98, 99, 100, 101, 101, 101, 101, 0, 1, 2, 3]),
+    Patch::all_around([0, 1, 2, 3, 106, 107, 108, 109, 110, 111, 112, 113, 114, 115, 116, 117]),
+    Patch::all_around([118, 118, 118, 118, 124, 122, 119, 121, 123, 126, 125, 120, 40, 39, 38, 37]),
+    Patch::left_and_right([41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56]),
+    Patch::left_and_right([53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 28, 65, 66, 67]),
+    Patch::left_and_right([68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83]),
+    Patch::left_and_right([80, 81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95]),
 ];
 
 /// All control points. A table: three to a line.

@@ -1,0 +1,69 @@
+//! How points spread over a class: pure.
+
+use serde::Serialize;
+
+/// How many bars a distribution has.
+pub const BINS: usize = 10;
+
+/// How numbers spread.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Distribution {
+    /// The most that could be had.
+    pub of: u32,
+    /// The least.
+    pub least: u32,
+    /// A quarter has no more.
+    pub lower_quartile: u32,
+    /// Half have no more.
+    pub median: u32,
+    /// A quarter has no less.
+    pub upper_quartile: u32,
+    /// The most.
+    pub most: u32,
+    /// Rounded to tenths.
+    pub mean: f64,
+    /// How many are in each tenth of what could be had; the last holds those with all.
+    pub bins: [usize; BINS],
+}
+
+impl Distribution {
+    /// Of these points. None where there are none.
+    pub fn new(mut points: Vec<u32>, of: u32) -> Option<Self> {
+        points.sort_unstable();
+        let (&least, &most) = (points.first()?, points.last()?);
+        let count = points.len();
+        // The nearest rank, which is somebody's.
+        let at = |quarter: usize| points[(quarter * count).div_ceil(4).max(1) - 1];
+        let mut bins = [0; BINS];
+        for &points in &points {
+            let bin = points as usize * BINS / of.max(1) as usize;
+            bins[bin.min(BINS - 1)] += 1;
+        }
+        let sum: u32 = points.iter().sum();
+        Some(Distribution {
+            of,
+            least,
+            lower_quartile: at(1),
+            median: at(2),
+            upper_quartile: at(3),
+            most,
+            mean: (10.0 * f64::from(sum) / count as f64).round() / 10.0,
+            bins,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quartiles_are_values_from_the_data() {
+        let spread = Distribution::new(vec![100, 0, 55, 90, 55], 100).unwrap();
+        assert_eq!((spread.least, spread.median, spread.most), (0, 55, 100));
+        assert_eq!((spread.lower_quartile, spread.upper_quartile), (55, 90));
+        assert_eq!(spread.mean, 60.0);
+        assert_eq!(spread.bins, [1, 0, 0, 0, 0, 2, 0, 0, 0, 2]);
+        assert_eq!(Distribution::new(Vec::new(), 100), None);
+    }
+}

@@ -1,0 +1,100 @@
+//! What is wrong with a hit, in a sentence.
+
+use glam::DVec3;
+
+use super::{DrawnHit, Focus, HitAnswer, HitComparison};
+use crate::describe;
+use crate::drawing::numbers::short;
+
+impl HitComparison {
+    /// What is wrong, in a sentence.
+    pub(in crate::drawing) fn caption(&self) -> String {
+        match (self.wanted, self.got) {
+            (None, HitAnswer::NoAnswer) => "Right is no hit; your code gave no answer.".to_owned(),
+            (Some(wanted), HitAnswer::NoAnswer) => format!(
+                "Right is a hit at {}; your code gave no answer.",
+                short(wanted.distance)
+            ),
+            (None, HitAnswer::Miss) => "Right is no hit.".to_owned(),
+            (None, HitAnswer::Hit(got)) => format!(
+                "Right is no hit; you answer one at {}{}.",
+                short(got.distance),
+                self.range_note(got.distance)
+            ),
+            (Some(wanted), HitAnswer::Miss) => format!(
+                "You answer no hit; the ray hits at {}.",
+                short(wanted.distance)
+            ),
+            (Some(wanted), HitAnswer::Hit(got)) => self.difference(&wanted, &got),
+        }
+    }
+
+    fn range_note(&self, distance: f64) -> String {
+        let range = self.ray.range;
+        if range.contains(distance as f32) {
+            return String::new();
+        }
+        match self.limited_range() {
+            Some(range) => format!(", outside the range {}", describe::interval(range)),
+            None if distance < 0.0 => ", behind the ray's origin".to_owned(),
+            None => ", which is no distance".to_owned(),
+        }
+    }
+
+    fn difference(&self, wanted: &DrawnHit, got: &DrawnHit) -> String {
+        match self.focus {
+            Focus::Distance => format!(
+                "You answer a hit at {}{}; the first that counts is at {}.",
+                number(got.distance),
+                self.range_note(got.distance),
+                number(wanted.distance)
+            ),
+            Focus::Position => format!(
+                "You answer the position {}; the ray hits at {}.",
+                describe::point(got.position.as_vec3()),
+                describe::point(wanted.position.as_vec3())
+            ),
+            Focus::Normal => normal_difference(wanted.normal, got.normal),
+            Focus::Uv => format!(
+                "You answer uv {}; right is {}.",
+                describe::uv(got.uv.as_vec2()),
+                describe::uv(wanted.uv.as_vec2())
+            ),
+            Focus::Origin => format!(
+                "You name {} as the ray's origin; it starts at {}.",
+                describe::point(got.origin.as_vec3()),
+                describe::point(wanted.origin.as_vec3())
+            ),
+            Focus::Material => {
+                let name =
+                    |met: &DrawnHit| met.material.map_or("none".to_owned(), |id| id.to_string());
+                format!(
+                    "You name material {}; what is hit has {}.",
+                    name(got),
+                    name(wanted)
+                )
+            }
+        }
+    }
+}
+
+/// A distance with all digits that are judged.
+fn number(value: f64) -> String {
+    describe::number(value as f32)
+}
+
+fn normal_difference(wanted: DVec3, got: DVec3) -> String {
+    let length = got.length();
+    if !(length.is_finite() && length > 0.0) {
+        return format!(
+            "Your normal {} has no direction.",
+            describe::point(got.as_vec3())
+        );
+    }
+    let degrees = got.angle_between(wanted).to_degrees();
+    match degrees {
+        _ if degrees > 179.5 => "Your normal points the opposite way.".to_owned(),
+        _ if degrees > 0.05 => format!("Your normal is off by {}°.", short(degrees)),
+        _ => format!("Your normal has length {}; it must be 1.", number(length)),
+    }
+}

@@ -1,0 +1,228 @@
+//! A ray, what it should meet, and what the submission says that it meets.
+
+mod caption;
+
+use glam::{DVec2, DVec3};
+use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Trace};
+
+use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, Surface};
+
+/// A meeting of a ray and a surface; the key of a picture does not tell all of it.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::drawing) struct DrawnHit {
+    pub(in crate::drawing) distance: f64,
+    pub(in crate::drawing) position: DVec3,
+    pub(in crate::drawing) normal: DVec3,
+    pub(in crate::drawing) uv: DVec2,
+    pub(in crate::drawing) origin: DVec3,
+    pub(in crate::drawing) material: Option<u32>,
+}
+
+/// What came.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::drawing) enum HitAnswer {
+    /// Nothing that could be drawn: a panic, or no answer.
+    NoAnswer,
+    /// No hit.
+    Miss,
+    /// A hit.
+    Hit(DrawnHit),
+}
+
+/// What of a hit the drawing is about: the first that is judged and not right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::drawing) enum Focus {
+    /// Whether there is one, and how far away.
+    Distance,
+    /// Where it is, be that on the ray or not.
+    Position,
+    /// The normal there.
+    Normal,
+    /// The texture coordinates there.
+    Uv,
+    /// The origin that the answer names.
+    Origin,
+    /// The material that the answer names.
+    Material,
+}
+
+/// One ray of a question, with both answers.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::drawing) struct HitComparison {
+    pub(in crate::drawing) ray: Ray,
+    pub(in crate::drawing) wanted: Option<DrawnHit>,
+    pub(in crate::drawing) got: HitAnswer,
+    pub(in crate::drawing) focus: Focus,
+}
+
+impl HitComparison {
+    /// The element of a question about rays; none of any other question, or if there is no such
+    /// element, or if its ray is none.
+    pub(in crate::drawing) fn new(
+        asked: &ExamQuestion,
+        element: usize,
+        answer: Option<&Answer>,
+    ) -> Option<HitComparison> {
+        let ray = *rays(&asked.question)?.get(element)?;
+        let along = ray.dir.is_finite() && ray.dir.length() > 0.0;
+        if !(ray.origin.is_finite() && along) {
+            return None;
+        }
+        let (judged, wanted) = match &asked.key {
+            Key::Hits {
+                checks: judged,
+                hits,
+            } => {
+                let hit = hits.get(element)?.as_ref();
+                (judged.clone(), hit.map(|hit| DrawnHit::from_hit(hit, &ray)))
+            }
+            Key::FirstHits { hits, .. } => {
+                let surface = hits.get(element)?.as_ref();
+                let judged = vec![HitCheck::Distance, HitCheck::Normal, HitCheck::Uv];
+                (
+                    judged,
+                    surface.map(|surface| DrawnHit::from_surface(surface, &ray)),
+                )
+            }
+            Key::Rays { .. } | Key::Spans { .. } | Key::Tree { .. } | Key::Radiance { .. } => {
+                return None;
+            }
+        };
+        let got = hit_answer(element, answer);
+        let focus = choose_focus(&judged, wanted.as_ref(), &got);
+        Some(HitComparison {
+            ray,
+            wanted,
+            got,
+            focus,
+        })
+    }
+
+    /// Where the answer is drawn.
+    pub(in crate::drawing) fn got_point(&self) -> Option<DVec3> {
+        match (self.got, self.focus) {
+            (HitAnswer::NoAnswer | HitAnswer::Miss, _) => None,
+            (HitAnswer::Hit(met), Focus::Position) => Some(met.position),
+            (
+                HitAnswer::Hit(met),
+                Focus::Distance | Focus::Normal | Focus::Uv | Focus::Origin | Focus::Material,
+            ) => Some(self.at(met.distance)),
+        }
+    }
+
+    /// The point of the ray at this distance.
+    pub(in crate::drawing) fn at(&self, distance: f64) -> DVec3 {
+        self.ray.origin.as_dvec3() + distance * self.dir()
+    }
+
+    /// The ray's direction, of length one.
+    pub(in crate::drawing) fn dir(&self) -> DVec3 {
+        self.ray.dir.as_dvec3().normalize()
+    }
+
+    /// The range, if it is not all that lies ahead.
+    pub(in crate::drawing) fn limited_range(&self) -> Option<Interval> {
+        (self.ray.range != Interval::AHEAD).then_some(self.ray.range)
+    }
+}
+
+fn rays(question: &Question) -> Option<Vec<Ray>> {
+    match question {
+        Question::Shapes { rays, .. }
+        | Question::Traverse { rays, .. }
+        | Question::BuildAndTraverse { rays, .. } => Some(rays.to_vec()),
+        Question::Camera { .. }
+        | Question::BBox { .. }
+        | Question::Build { .. }
+        | Question::Radiance { .. }
+        | Question::Done => None,
+    }
+}
+
+fn hit_answer(element: usize, answer: Option<&Answer>) -> HitAnswer {
+    let outcome = match answer {
+        Some(Answer::Hits(hits)) => hits.get(element),
+        Some(
+            Answer::Rays(_)
+            | Answer::Spans(_)
+            | Answer::Tree(_)
+            | Answer::Picture(_)
+            | Answer::Done,
+        )
+        | None => None,
+    };
+    match outcome {
+        Some(ElementOutcome::Value(Some(trace))) => HitAnswer::Hit(DrawnHit::from_trace(trace)),
+        Some(ElementOutcome::Value(None)) => HitAnswer::Miss,
+        Some(ElementOutcome::Panicked(_) | ElementOutcome::Skipped) | None => HitAnswer::NoAnswer,
+    }
+}
+
+fn choose_focus(judged: &[HitCheck], wanted: Option<&DrawnHit>, got: &HitAnswer) -> Focus {
+    let (Some(wanted), HitAnswer::Hit(got)) = (wanted, got) else {
+        return Focus::Distance;
+    };
+    let is_wrong = |part: &&HitCheck| match part {
+        HitCheck::Distance => numbers_differ(got.distance, wanted.distance),
+        HitCheck::Position => vectors_differ(got.position, wanted.position),
+        HitCheck::Normal => vectors_differ(got.normal.normalize(), wanted.normal),
+        HitCheck::UnitNormal => numbers_differ(got.normal.length(), 1.0),
+        HitCheck::Uv => vectors_differ(got.uv.extend(0.0), wanted.uv.extend(0.0)),
+        HitCheck::Origin => vectors_differ(got.origin, wanted.origin),
+        HitCheck::Material => got.material != wanted.material,
+    };
+    let part = judged.iter().find(is_wrong).or(judged.first());
+    match part {
+        Some(HitCheck::Distance) | None => Focus::Distance,
+        Some(HitCheck::Position) => Focus::Position,
+        Some(HitCheck::Normal | HitCheck::UnitNormal) => Focus::Normal,
+        Some(HitCheck::Uv) => Focus::Uv,
+        Some(HitCheck::Origin) => Focus::Origin,
+        Some(HitCheck::Material) => Focus::Material,
+    }
+}
+
+/// Only to choose what is drawn: the judge has finer measures.
+fn numbers_differ(a: f64, b: f64) -> bool {
+    let close = (a - b).abs() <= 1e-4 * b.abs().max(1.0);
+    !close
+}
+
+fn vectors_differ(a: DVec3, b: DVec3) -> bool {
+    numbers_differ(a.distance(b), 0.0)
+}
+
+impl DrawnHit {
+    fn from_hit(hit: &ExpectedHit, ray: &Ray) -> DrawnHit {
+        DrawnHit {
+            distance: hit.distance.into(),
+            position: hit.position.as_dvec3(),
+            normal: hit.normal.as_dvec3(),
+            uv: hit.uv.as_dvec2(),
+            origin: ray.origin.as_dvec3(),
+            material: Some(hit.material),
+        }
+    }
+
+    fn from_surface(surface: &Surface, ray: &Ray) -> DrawnHit {
+        DrawnHit {
+            distance: surface.depth.into(),
+            position: ray.at(surface.depth).as_dvec3(),
+            normal: surface.normal.as_dvec3(),
+            uv: surface.uv.as_dvec2(),
+            origin: ray.origin.as_dvec3(),
+            material: None,
+        }
+    }
+
+    fn from_trace(trace: &Trace) -> DrawnHit {
+        DrawnHit {
+            distance: trace.distance.into(),
+            position: trace.position.as_dvec3(),
+            normal: trace.normal.as_dvec3(),
+            uv: trace.uv.as_dvec2(),
+            origin: trace.origin.as_dvec3(),
+            material: Some(trace.material),
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Numbers in drawings.
+
+use glam::DVec3;
+
+/// Four digits that count, for places where six have no room.
+pub(super) fn short(value: f64) -> String {
+    if value.is_nan() {
+        return "NaN".to_owned();
+    }
+    if value.is_infinite() {
+        return if value > 0.0 { "∞" } else { "-∞" }.to_owned();
+    }
+    let magnitude = value.abs().max(1e-300).log10().floor();
+    if value != 0.0 && !(-4.0..6.0).contains(&magnitude) {
+        return format!("{value:.2e}");
+    }
+    let decimals = (3.0 - magnitude).clamp(0.0, 6.0) as usize;
+    let text = format!("{value:.decimals$}");
+    let text = match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => &text,
+    };
+    if text == "-0" { "0" } else { text }.to_owned()
+}
+
+/// A direction, or a place where four digits do.
+pub(super) fn point(value: DVec3) -> String {
+    let [x, y, z] = value.to_array().map(short);
+    format!("({x}, {y}, {z})")
+}
+
+/// One of something, or so many.
+pub(super) fn pluralize(count: usize, one: &str, many: &str) -> String {
+    match count {
+        1 => format!("1 {one}"),
+        _ => format!("{count} {many}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounds_to_four_significant_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (12.3456, "12.35"),
+            (1234.56, "1235"),
+            (0.012345, "0.01235"),
+            (-2.5, "-2.5"),
+            (1e38, "1.00e38"),
+            (f64::NAN, "NaN"),
+            (f64::NEG_INFINITY, "-∞"),
+        ] {
+            assert_eq!(short(value), text);
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! When a submission was handed in and due, as Gradescope tells its autograders: in a file
+//! `submission_metadata.json`
+//! (<https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/>).
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use toml::value::Datetime;
+
+use crate::policy::Policy;
+use crate::policy::late::{Lateness, unix_seconds};
+
+/// The two moments, in seconds since 1970, UTC.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SubmissionTime {
+    submitted: i64,
+    /// None where the assignment has no due date.
+    due: Option<i64>,
+}
+
+/// The platform's file can not be used: nothing that a student could mend.
+#[derive(Debug, thiserror::Error)]
+pub enum SubmissionTimeError {
+    /// It can not be read.
+    #[error("can not read Gradescope's {}: {source}", path.display())]
+    Io {
+        /// Which.
+        path: PathBuf,
+        /// The system's words.
+        source: io::Error,
+    },
+    /// It is not what Gradescope documents.
+    #[error(
+        "{} does not say when the submission was handed in and due ({why}): leave --gradescope-metadata away, and nothing counts as late",
+        path.display()
+    )]
+    Invalid {
+        /// Which.
+        path: PathBuf,
+        /// What is wrong.
+        why: String,
+    },
+}
+
+/// What is read of the file. There is more in it, and it may become more still.
+#[derive(Deserialize)]
+struct Metadata {
+    created_at: String,
+    assignment: Assignment,
+}
+
+#[derive(Deserialize)]
+struct Assignment {
+    due_date: Option<String>,
+}
+
+impl SubmissionTime {
+    /// Reads Gradescope's file at `path`.
+    pub fn read(path: &Path) -> Result<Self, SubmissionTimeError> {
+        let text = fs::read_to_string(path).map_err(|source| SubmissionTimeError::Io {
+            path: path.to_owned(),
+            source,
+        })?;
+        SubmissionTime::parse(&text).map_err(|why| SubmissionTimeError::Invalid {
+            path: path.to_owned(),
+            why,
+        })
+    }
+
+    fn parse(text: &str) -> Result<Self, String> {
+        let metadata: Metadata = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        let due = metadata.assignment.due_date;
+        Ok(SubmissionTime {
+            submitted: parse_time(&metadata.created_at)?,
+            due: due.as_deref().map(parse_time).transpose()?,
+        })
+    }
+}
+
+fn parse_time(text: &str) -> Result<i64, String> {
+    let moment: Option<Datetime> = text.parse().ok();
+    let seconds = moment.as_ref().and_then(unix_seconds);
+    seconds.ok_or_else(|| format!("{text:?} is no moment"))
+}
+
+impl Policy {
+    /// How late that is: by the policy's due time, else by the platform's.
+    pub fn lateness_of(&self, handed_in: SubmissionTime) -> Lateness {
+        let late = |due: i64| Lateness {
+            seconds: u64::try_from(handed_in.submitted - due).unwrap_or(0),
+        };
+        let by_policy = self.lateness(handed_in.submitted);
+        by_policy.unwrap_or(handed_in.due.map_or(Lateness::NONE, late))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse_with_due(due: &str) -> Result<SubmissionTime, String> {
+        let at = "2026-11-20T23:00:10.365935-08:00";
+        SubmissionTime::parse(&format!(
+            r#"{{"id": 1, "created_at": "{at}", "assignment": {{"due_date": {due}, "late_due_date": null}}}}"#
+        ))
+    }
+
+    #[test]
+    fn platform_due_date_applies_without_a_policy_due_date() {
+        let handed_in = parse_with_due(r#""2026-11-20T23:00:00.000000-08:00""#).unwrap();
+        let silent = Policy::default();
+        assert_eq!(silent.lateness_of(handed_in), Lateness { seconds: 10 });
+        let own: Policy = toml::from_str("[late]\ndue = 2026-11-21T07:00:05Z").unwrap();
+        assert_eq!(own.lateness_of(handed_in), Lateness { seconds: 5 });
+        let without = parse_with_due("null").unwrap();
+        assert_eq!(silent.lateness_of(without), Lateness::NONE);
+        let early = parse_with_due(r#""2026-11-22T00:00:00.000000-08:00""#).unwrap();
+        assert_eq!(silent.lateness_of(early), Lateness::NONE);
+    }
+
+    #[test]
+    fn reports_an_invalid_time() {
+        assert_eq!(
+            parse_with_due(r#""tomorrow""#),
+            Err("\"tomorrow\" is no moment".to_owned())
+        );
+        assert!(
+            SubmissionTime::parse("{}")
+                .unwrap_err()
+                .contains("created_at")
+        );
+    }
+}

@@ -1,0 +1,71 @@
+//! The command that asks the same once more.
+
+use std::path::{Path, PathBuf};
+
+/// What of a command line says who was asked what: it stands in every command that a report gives.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct RerunCommand {
+    /// The submission, unless it is the student's own.
+    pub submission: Option<PathBuf>,
+    /// The exam, unless it is the practice exam.
+    pub exam: Option<PathBuf>,
+}
+
+impl RerunCommand {
+    /// One question alone.
+    pub fn replay(&self, item: &str, number: usize) -> String {
+        self.command(&format!("--replay {item}#{number}"))
+    }
+
+    /// One task alone.
+    pub fn task(&self, task: &str) -> String {
+        self.command(&format!("--task {task}"))
+    }
+
+    fn command(&self, what: &str) -> String {
+        let submission = self.submission.iter().map(|path| shell_word(path));
+        let exam = self
+            .exam
+            .iter()
+            .flat_map(|path| ["--exam".to_owned(), shell_word(path)]);
+        let words = ["cargo grade".to_owned()].into_iter();
+        let words: Vec<String> = words
+            .chain(submission)
+            .chain(exam)
+            .chain([what.to_owned()])
+            .collect();
+        words.join(" ")
+    }
+}
+
+/// A path as one word of a command line.
+fn shell_word(path: &Path) -> String {
+    let text = path.to_string_lossy().into_owned();
+    let is_plain = |c: char| c.is_alphanumeric() || "_-./:\\+,@%".contains(c);
+    match !text.is_empty() && text.chars().all(is_plain) {
+        true => text,
+        false => format!("'{}'", text.replace('\'', r"'\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::RerunCommand;
+
+    #[test]
+    fn command_names_a_given_submission_and_exam() {
+        let own = RerunCommand::default();
+        assert_eq!(
+            own.replay("sphere.uv", 7),
+            "cargo grade --replay sphere.uv#7"
+        );
+        let others = RerunCommand {
+            submission: Some("handed in/O'Hara".into()),
+            exam: Some("final.json".into()),
+        };
+        assert_eq!(
+            others.task("sphere"),
+            r"cargo grade 'handed in/O'\''Hara' --exam final.json --task sphere"
+        );
+    }
+}

@@ -1,0 +1,199 @@
+//! The numbers of system calls. Those that only x86 has stand apart: newer architectures do the same
+//! by others.
+
+#[cfg(target_arch = "x86_64")]
+use libc::{
+    SYS_access, SYS_alarm, SYS_arch_prctl, SYS_chmod, SYS_creat, SYS_dup2, SYS_fork, SYS_getpgrp,
+    SYS_link, SYS_lstat, SYS_mkdir, SYS_open, SYS_pipe, SYS_poll, SYS_readlink, SYS_rename,
+    SYS_renameat, SYS_rmdir, SYS_select, SYS_stat, SYS_symlink, SYS_time, SYS_unlink, SYS_utime,
+    SYS_vfork,
+};
+use libc::{
+    SYS_brk, SYS_chdir, SYS_clock_getres, SYS_clock_gettime, SYS_clock_nanosleep, SYS_clone3,
+    SYS_close, SYS_copy_file_range, SYS_dup, SYS_dup3, SYS_eventfd2, SYS_execve, SYS_execveat,
+    SYS_exit, SYS_exit_group, SYS_faccessat, SYS_faccessat2, SYS_fadvise64, SYS_fallocate,
+    SYS_fchdir, SYS_fchmod, SYS_fchmodat, SYS_fcntl, SYS_fdatasync, SYS_flock, SYS_fstat,
+    SYS_fstatfs, SYS_fsync, SYS_ftruncate, SYS_futex, SYS_getcpu, SYS_getcwd, SYS_getdents64,
+    SYS_getegid, SYS_geteuid, SYS_getgid, SYS_getgroups, SYS_getpgid, SYS_getpid, SYS_getppid,
+    SYS_getpriority, SYS_getrandom, SYS_getrusage, SYS_gettid, SYS_gettimeofday, SYS_getuid,
+    SYS_ioctl, SYS_linkat, SYS_lseek, SYS_madvise, SYS_membarrier, SYS_mincore, SYS_mkdirat,
+    SYS_mlock, SYS_mmap, SYS_mprotect, SYS_mremap, SYS_msync, SYS_munlock, SYS_munmap,
+    SYS_nanosleep, SYS_newfstatat, SYS_openat, SYS_pidfd_open, SYS_pipe2, SYS_ppoll, SYS_prctl,
+    SYS_pread64, SYS_preadv, SYS_prlimit64, SYS_pselect6, SYS_pwrite64, SYS_pwritev, SYS_read,
+    SYS_readlinkat, SYS_readv, SYS_recvfrom, SYS_recvmsg, SYS_renameat2, SYS_restart_syscall,
+    SYS_rseq, SYS_rt_sigaction, SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_rt_sigsuspend,
+    SYS_rt_sigtimedwait, SYS_sched_getaffinity, SYS_sched_getparam, SYS_sched_getscheduler,
+    SYS_sched_setaffinity, SYS_sched_yield, SYS_sendfile, SYS_sendmsg, SYS_sendto,
+    SYS_set_robust_list, SYS_set_tid_address, SYS_setitimer, SYS_setpgid, SYS_sigaltstack,
+    SYS_statfs, SYS_statx, SYS_symlinkat, SYS_sysinfo, SYS_tgkill, SYS_times, SYS_truncate,
+    SYS_umask, SYS_uname, SYS_unlinkat, SYS_utimensat, SYS_wait4, SYS_waitid, SYS_write,
+    SYS_writev, c_long,
+};
+
+/// What every program calls to begin, to compute and to end.
+pub(super) const COMMON: &[c_long] = &[
+    // its own memory
+    SYS_brk,
+    SYS_mmap,
+    SYS_munmap,
+    SYS_mprotect,
+    SYS_mremap,
+    SYS_madvise,
+    // what is open already
+    SYS_read,
+    SYS_write,
+    SYS_readv,
+    SYS_writev,
+    SYS_close,
+    SYS_fstat,
+    SYS_lseek,
+    SYS_dup,
+    SYS_dup3,
+    SYS_pipe2,
+    SYS_ppoll,
+    // its own threads and signals
+    SYS_clone3,
+    SYS_futex,
+    SYS_set_robust_list,
+    SYS_set_tid_address,
+    SYS_rseq,
+    SYS_sched_yield,
+    SYS_sched_getaffinity,
+    SYS_gettid,
+    SYS_getpid,
+    SYS_rt_sigaction,
+    SYS_rt_sigprocmask,
+    SYS_rt_sigreturn,
+    SYS_sigaltstack,
+    SYS_restart_syscall,
+    // time and chance
+    SYS_nanosleep,
+    SYS_clock_nanosleep,
+    SYS_clock_gettime,
+    SYS_clock_getres,
+    SYS_gettimeofday,
+    SYS_getrandom,
+    // beginning and end
+    SYS_execve,
+    SYS_exit,
+    SYS_exit_group,
+];
+
+/// What a compiler and a linker do beyond that.
+pub(super) const COMPILER: &[c_long] = &[
+    // files; which ones is Landlock's and the namespace's matter
+    SYS_openat,
+    SYS_newfstatat,
+    SYS_statx,
+    SYS_statfs,
+    SYS_fstatfs,
+    SYS_faccessat,
+    SYS_faccessat2,
+    SYS_readlinkat,
+    SYS_getdents64,
+    SYS_getcwd,
+    SYS_chdir,
+    SYS_fchdir,
+    SYS_mkdirat,
+    SYS_unlinkat,
+    SYS_renameat2,
+    SYS_linkat,
+    SYS_symlinkat,
+    SYS_fchmod,
+    SYS_fchmodat,
+    SYS_umask,
+    SYS_truncate,
+    SYS_ftruncate,
+    SYS_fallocate,
+    SYS_fsync,
+    SYS_fdatasync,
+    SYS_msync,
+    SYS_pread64,
+    SYS_pwrite64,
+    SYS_preadv,
+    SYS_pwritev,
+    SYS_copy_file_range,
+    SYS_sendfile,
+    SYS_fadvise64,
+    SYS_utimensat,
+    SYS_fcntl,
+    SYS_flock,
+    SYS_ioctl,
+    SYS_eventfd2,
+    // other programs, of its own
+    SYS_wait4,
+    SYS_waitid,
+    SYS_pidfd_open,
+    SYS_pselect6,
+    SYS_recvfrom,
+    SYS_recvmsg,
+    SYS_sendto,
+    SYS_sendmsg,
+    SYS_execveat,
+    SYS_getppid,
+    SYS_getpgid,
+    SYS_setpgid,
+    SYS_tgkill,
+    SYS_prlimit64,
+    SYS_prctl,
+    SYS_getrusage,
+    SYS_times,
+    SYS_membarrier,
+    SYS_rt_sigtimedwait,
+    SYS_rt_sigsuspend,
+    SYS_setitimer,
+    SYS_sched_setaffinity,
+    SYS_sched_getparam,
+    SYS_sched_getscheduler,
+    SYS_mincore,
+    SYS_mlock,
+    SYS_munlock,
+    // who and where it is
+    SYS_getuid,
+    SYS_geteuid,
+    SYS_getgid,
+    SYS_getegid,
+    SYS_getgroups,
+    SYS_uname,
+    SYS_sysinfo,
+    SYS_getcpu,
+    SYS_getpriority,
+];
+
+/// The same for what every program calls, by the names that only x86 has.
+#[cfg(target_arch = "x86_64")]
+pub(super) const COMMON_X86: &[c_long] = &[SYS_arch_prctl, SYS_dup2, SYS_pipe, SYS_poll];
+
+/// The same for what a compiler calls.
+#[cfg(target_arch = "x86_64")]
+pub(super) const COMPILER_X86: &[c_long] = &[
+    SYS_open,
+    SYS_creat,
+    SYS_stat,
+    SYS_lstat,
+    SYS_access,
+    SYS_readlink,
+    SYS_mkdir,
+    SYS_rmdir,
+    SYS_unlink,
+    SYS_rename,
+    SYS_renameat,
+    SYS_link,
+    SYS_symlink,
+    SYS_chmod,
+    SYS_select,
+    SYS_vfork,
+    SYS_fork,
+    SYS_getpgrp,
+    SYS_time,
+    SYS_alarm,
+    SYS_utime,
+];
+
+/// There are none.
+#[cfg(not(target_arch = "x86_64"))]
+pub(super) const COMMON_OF_X86: &[c_long] = &[];
+
+/// There are none.
+#[cfg(not(target_arch = "x86_64"))]
+pub(super) const COMPILER_OF_X86: &[c_long] = &[];

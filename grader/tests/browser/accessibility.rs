@@ -1,0 +1,53 @@
+//! What axe-core finds: all of WCAG 2.2 AA that a program can tell, and its best practices.
+
+use crate::chromium::Chromium;
+use crate::devtools::{DESKTOP, Tab, Viewer};
+use crate::pages;
+
+/// axe-core 4.14.1 by Deque Systems, MPL-2.0, as its package has it.
+const AXE: &str = include_str!("axe/axe.min.js");
+
+/// What is wrong with the page that is loaded, with all of it unfolded.
+fn violations(tab: &mut Tab) -> Vec<String> {
+    tab.eval("for (const details of document.querySelectorAll('details')) details.open = true; 0");
+    tab.eval(&format!("{AXE}; 0"));
+    let violations = tab.eval(
+        "axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] })
+            .then((found) => found.violations.map((rule) =>
+                `${rule.id}: ${rule.help}: ${rule.nodes.slice(0, 3).map((node) => node.html).join(' ')}`))",
+    );
+    serde_json::from_value(violations).unwrap()
+}
+
+#[test]
+fn axe_finds_nothing_in_light_and_dark_mode() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    for page in pages::all() {
+        for dark in [false, true] {
+            let mut tab = chromium.tab();
+            tab.load(page, Viewer { dark, ..DESKTOP });
+            assert_eq!(violations(&mut tab), [""; 0], "dark: {dark}");
+        }
+    }
+}
+
+#[test]
+fn axe_finds_the_problems_of_a_broken_page() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let page = std::fs::read_to_string(&*pages::STARTER).unwrap();
+    let broken = page
+        .replace("<html lang=\"en\">", "<html>")
+        .replace("<body>", "<body><img src=\"data:,\"><a href=\"#next\"></a>");
+    let place = pages::STARTER.with_file_name("broken.html");
+    std::fs::write(&place, broken).unwrap();
+    let mut tab = chromium.tab();
+    tab.load(&place, DESKTOP);
+    let found = violations(&mut tab);
+    for rule in ["html-has-lang", "image-alt", "link-name"] {
+        assert!(found.iter().any(|text| text.starts_with(rule)), "{found:?}");
+    }
+}

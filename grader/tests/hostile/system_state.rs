@@ -1,0 +1,142 @@
+//! What may outlive a submission: processes, files, objects of the kernel's.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::canary::Canaries;
+
+/// How long a process that was killed may take to be gone.
+const EXIT_TIMEOUT: Duration = Duration::from_millis(500);
+
+/// All there is of such things, as lines of text.
+pub struct SystemState(BTreeSet<String>);
+
+impl SystemState {
+    pub fn snapshot(canaries: &Canaries) -> Self {
+        let mut all = BTreeSet::new();
+        all.extend(adopted_processes());
+        all.extend(marked_files(&canaries.mark));
+        all.extend(cache_entries());
+        for list in [
+            "sysvipc/shm",
+            "sysvipc/sem",
+            "sysvipc/msg",
+            "keys",
+            "self/mounts",
+        ] {
+            all.extend(kernel_table(list));
+        }
+        SystemState(all)
+    }
+
+    /// What is there and was not, or is not and was.
+    pub fn differences(&self, after: &SystemState) -> Vec<String> {
+        self.0.symmetric_difference(&after.0).cloned().collect()
+    }
+}
+
+/// A table of the kernel's, without the numbers that age.
+fn kernel_table(list: &str) -> Vec<String> {
+    let text = fs::read_to_string(Path::new("/proc").join(list)).unwrap_or_default();
+    // The second to fourth words of a key tell its flags, users and age.
+    let lasting = |line: &str| match list {
+        "keys" => {
+            let mut words = line.split_whitespace();
+            let name = words.next().unwrap_or_default().to_owned();
+            words
+                .skip(3)
+                .fold(name, |all, word| format!("{all} {word}"))
+        }
+        _ => line.to_owned(),
+    };
+    let lines = text.lines().filter(|line| !line.trim().is_empty());
+    lines
+        .map(|line| format!("{list}: {}", lasting(line)))
+        .collect()
+}
+
+/// Processes that were left to us. Gives those that were just killed the time to be gone.
+fn adopted_processes() -> Vec<String> {
+    let deadline = Instant::now() + EXIT_TIMEOUT;
+    loop {
+        let orphans = children();
+        if orphans.is_empty() || Instant::now() >= deadline {
+            return orphans;
+        }
+        thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn children() -> Vec<String> {
+    let own = std::process::id().to_string();
+    let processes = fs::read_dir("/proc").expect("Linux has it").flatten();
+    let stats = processes.filter_map(|entry| fs::read_to_string(entry.path().join("stat")).ok());
+    stats
+        .filter_map(|stat| {
+            // `pid (name) state ppid ...`; the name may hold anything.
+            let (name, rest) = stat.rsplit_once(')')?;
+            let mut words = rest.split_whitespace();
+            let (state, parent) = (words.next()?, words.next()?);
+            (parent == own && state != "Z").then(|| format!("process {name})"))
+        })
+        .collect()
+}
+
+/// Files that an entry has left on purpose, wherever everybody may write.
+fn marked_files(mark: &str) -> Vec<String> {
+    let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let home = std::env::var_os("HOME").map(PathBuf::from);
+    let places = [
+        Some(PathBuf::from("/tmp")),
+        Some(PathBuf::from("/var/tmp")),
+        Some(PathBuf::from("/dev/shm")),
+        Some(project.join("target/grade")),
+        Some(project),
+        home,
+    ];
+    let entries = places
+        .iter()
+        .flatten()
+        .filter_map(|place| fs::read_dir(place).ok());
+    let paths = entries
+        .flat_map(Iterator::flatten)
+        .map(|entry| entry.path());
+    let marked = paths.filter(|path| path.to_string_lossy().contains(mark));
+    marked
+        .map(|path| format!("file {}", path.display()))
+        .collect()
+}
+
+/// What the grader keeps from one submission to the next: nothing of it may change.
+fn cache_entries() -> Vec<String> {
+    let grade = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/grade");
+    let mut found = Vec::new();
+    for cache in ["dependencies", "parts"] {
+        list_files(&grade.join(cache), &mut found);
+    }
+    let rooms = fs::read_dir(grade.join("work")).into_iter().flatten();
+    let rooms = rooms.flatten().map(|room| room.path());
+    found.extend(rooms.map(|room| format!("room {}", room.display())));
+    found
+}
+
+fn list_files(folder: &Path, found: &mut Vec<String>) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        let Ok(metadata) = path.symlink_metadata() else {
+            continue;
+        };
+        if metadata.is_dir() {
+            list_files(&path, found);
+        }
+        // A folder's own time changes when somebody uses it.
+        let detail = match metadata.is_dir() {
+            true => String::new(),
+            false => format!(" {} {:?}", metadata.len(), metadata.modified().ok()),
+        };
+        found.push(format!("cache {}{detail}", path.display()));
+    }
+}

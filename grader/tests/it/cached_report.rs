@@ -1,0 +1,101 @@
+//! A submission is graded once as it is, unless somebody wants it anew.
+
+use std::fs;
+use std::path::PathBuf;
+
+use crate::formats::small_exam;
+use crate::harness::{Submission, grader, workspace};
+
+const NOTICE: &str = "Nothing has changed since this was graded";
+
+/// Grades it with few items, in its usual place; what was said.
+fn grade_output(submission: &Submission, arguments: &[&str]) -> String {
+    let exam_file = submission.path().join("../exam.json");
+    fs::write(&exam_file, small_exam("few")).unwrap();
+    let output = grader()
+        .arg(submission.path())
+        .args(["--no-reference", "--exam"])
+        .arg(exam_file)
+        .args(arguments)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The usual place, as if nothing of this name had been graded yet.
+fn clean_output_folder(name: &str) -> PathBuf {
+    let place = workspace().join("target/grade").join(name);
+    fs::remove_dir_all(&place).ok();
+    place
+}
+
+#[test]
+fn prints_the_cached_report_if_nothing_changed() {
+    let place = clean_output_folder("told-again");
+    let submission = Submission::reference("told-again");
+    let first = grade_output(&submission, &[]);
+    let score = fs::read(place.join("score.json")).unwrap();
+    let second = grade_output(&submission, &[]);
+    assert!(
+        !first.contains(NOTICE) && second.contains(NOTICE),
+        "{second}"
+    );
+    assert_eq!(
+        lines_without(&second, NOTICE),
+        lines_without(&first, NOTICE),
+        "but for that, the same is said"
+    );
+    assert_eq!(fs::read(place.join("score.json")).unwrap(), score);
+    assert!(!grade_output(&submission, &["--fresh"]).contains(NOTICE));
+
+    // What it is required to have is no part of the score.
+    assert!(grade_output(&submission, &["--require", "1"]).contains(NOTICE));
+    fs::remove_dir_all(place).unwrap();
+}
+
+#[test]
+fn grades_again_after_any_change() {
+    let place = clean_output_folder("graded-anew");
+    let submission = Submission::reference("graded-anew");
+    grade_output(&submission, &[]);
+    assert!(
+        !grade_output(&submission, &["--hints"]).contains(NOTICE),
+        "options"
+    );
+    grade_output(&submission, &[]);
+    fs::write(place.join("score.json"), "{\"points\": 100}").unwrap();
+    assert!(
+        !grade_output(&submission, &[]).contains(NOTICE),
+        "the score"
+    );
+    fs::write(place.join("earlier.json"), "{\"key\": ").unwrap();
+    assert!(
+        !grade_output(&submission, &[]).contains(NOTICE),
+        "half a record"
+    );
+    assert!(grade_output(&submission, &[]).contains(NOTICE), "nothing");
+    let submission =
+        submission.with_replaced("sphere.rs", "discriminant < 0.0", "discriminant < 1e-9");
+    assert!(!grade_output(&submission, &[]).contains(NOTICE), "a file");
+    fs::remove_dir_all(place).unwrap();
+}
+
+#[test]
+fn does_not_cache_results_that_may_differ_next_time() {
+    let place = clean_output_folder("crashing-again");
+    let head = "pub fn hit(&self, ray: &Ray) -> Option<Trace> {";
+    let crash = format!("{head}\n        std::process::abort();");
+    let submission =
+        Submission::reference("crashing-again").with_replaced("sphere.rs", head, &crash);
+    let report = grade_output(&submission, &[]);
+    assert!(report.contains("crashed"), "{report}");
+    assert!(!grade_output(&submission, &[]).contains(NOTICE));
+    fs::remove_dir_all(place).unwrap();
+}
+
+/// The lines that do not hold this, nor are empty.
+fn lines_without<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
+    let lines = text.lines().filter(|line| !line.is_empty());
+    lines.filter(|line| !line.contains(word)).collect()
+}

@@ -1,0 +1,169 @@
+//! Who may touch whom: by what Cargo knows, not by asking.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::process::Command;
+
+use crate::harness::workspace;
+
+/// All that a package is built with, however far down, in this format. Without what only tests need.
+fn tree(package: &str, format: &str) -> String {
+    let output = Command::new(env!("CARGO"))
+        .args(["tree", "--offline", "--locked", "--prefix=none"])
+        .args(["--edges=normal,build", "--no-default-features"])
+        .args(["--package", package, "--format", format])
+        .current_dir(workspace())
+        .output()
+        .unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The names of all those.
+fn dependencies(package: &str) -> BTreeSet<String> {
+    let text = tree(package, "{p}");
+    let names = text
+        .lines()
+        .filter_map(|line| line.split_whitespace().next());
+    names
+        .filter(|name| *name != package)
+        .map(str::to_owned)
+        .collect()
+}
+
+fn forbidden_dependencies(package: &str, forbidden: &[&str]) -> Vec<String> {
+    let dependencies = dependencies(package);
+    let met = forbidden
+        .iter()
+        .filter(|name| dependencies.contains(**name));
+    met.map(|name| (*name).to_owned()).collect()
+}
+
+#[test]
+fn the_grader_depends_only_on_the_protocol_of_the_student_crates() {
+    assert!(dependencies("grader").contains("protocol"));
+    assert_eq!(
+        forbidden_dependencies("grader", &["framework", "student", "reference", "author"]),
+        [""; 0]
+    );
+}
+
+#[test]
+fn judging_depends_on_no_process_or_terminal_crates() {
+    assert!(dependencies("grader").contains("judging"));
+    let ours = [
+        "grader",
+        "class",
+        "framework",
+        "student",
+        "reference",
+        "author",
+    ];
+    // What processes, sandboxes and terminals need.
+    let machine = ["rustix", "landlock", "clap", "anstream", "tempfile"];
+    assert_eq!(forbidden_dependencies("judging", &ours), [""; 0]);
+    assert_eq!(forbidden_dependencies("judging", &machine), [""; 0]);
+}
+
+#[test]
+fn the_author_crate_does_not_link_the_reference() {
+    assert!(dependencies("author").contains("grader"));
+    assert_eq!(
+        forbidden_dependencies("author", &["framework", "student", "reference"]),
+        [""; 0]
+    );
+}
+
+#[test]
+fn the_class_crate_depends_only_on_the_grader() {
+    assert!(dependencies("class").contains("grader"));
+    assert_eq!(
+        forbidden_dependencies("class", &["framework", "student", "reference", "author"]),
+        [""; 0]
+    );
+}
+
+#[test]
+fn student_crates_do_not_depend_on_the_grader() {
+    for package in ["student", "framework", "protocol"] {
+        assert_eq!(
+            forbidden_dependencies(
+                package,
+                &["grader", "judging", "class", "reference", "author"]
+            ),
+            [""; 0]
+        );
+    }
+    assert_eq!(forbidden_dependencies("protocol", &["framework"]), [""; 0]);
+}
+
+/// Of `syn`, one takes as long as a tenth of the rest: `serde`, `clap` and `thiserror` are held back in
+/// the lock file until `maud` and `landlock` follow them.
+#[test]
+fn the_grader_has_no_crate_in_two_versions() {
+    let text = tree("grader", "{p}");
+    let all: BTreeSet<&str> = text
+        .lines()
+        .map(|line| line.trim_end_matches(" (*)"))
+        .filter(|line| !line.is_empty())
+        .collect();
+    let mut versions: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for (name, version) in all.iter().filter_map(|package| package.split_once(' ')) {
+        versions.entry(name).or_default().push(version);
+    }
+    assert!(versions.len() > 50, "{versions:?}");
+    versions.retain(|_, versions| versions.len() > 1);
+    assert_eq!(versions, BTreeMap::new());
+}
+
+/// Cargo would else compile them, and all that rests on them, twice before the first grade: for the
+/// grader, and for what submissions are linked with.
+#[test]
+fn crates_shared_with_submissions_have_the_same_features() {
+    let of = |package| -> BTreeMap<String, String> {
+        let text = tree(package, "{p}|{f}");
+        let lines = text.lines().filter_map(|line| line.split_once('|'));
+        lines
+            .map(|(package, features)| (package.to_owned(), features.replace(" (*)", "")))
+            .collect()
+    };
+    let (grader, framework) = (of("grader"), of("framework"));
+    let shared = framework.iter().filter_map(|(package, features)| {
+        let graders = grader.get(package)?;
+        Some((package, graders, features))
+    });
+    let shared: Vec<_> = shared.collect();
+    assert!(shared.len() > 10, "{shared:?}");
+    for (package, of_grader, of_framework) in shared {
+        assert_eq!(of_grader, of_framework, "{package}");
+    }
+}
+
+#[test]
+fn student_manifests_inherit_nothing_from_the_workspace() {
+    for package in ["student", "student/framework", "student/protocol"] {
+        let manifest = workspace().join(package).join("Cargo.toml");
+        let text = std::fs::read_to_string(manifest).unwrap();
+        assert!(
+            !text.contains("workspace") && !text.contains("[profile"),
+            "{package}"
+        );
+    }
+}
+
+#[test]
+fn starters_contain_no_solution_markers() {
+    for file in crate::harness::TASK_FILES {
+        for folder in ["student/src", "grader/starter"] {
+            let path = workspace().join(folder).join(file);
+            let text = std::fs::read_to_string(path).unwrap();
+            assert!(
+                !text.contains("solution") && !text.contains("// starter"),
+                "{file}"
+            );
+        }
+    }
+}

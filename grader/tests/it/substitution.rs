@@ -1,0 +1,95 @@
+//! One mistake costs once: what rests on a failed task is asked again with the reference's part.
+
+use insta::assert_snapshot;
+
+use crate::harness::{FULL_POINTS, Submission};
+
+const BBOX: usize = 3;
+const TRAVERSE: usize = 5;
+
+/// A box test for rays that go up, right and back: it does not swap what they cross first.
+fn without_swap() -> Submission {
+    Submission::reference("no-swap").with_replaced(
+        "bbox.rs",
+        "at_min.min(at_max).max_element()",
+        "at_min.max_element()",
+    )
+}
+
+#[test]
+fn a_wrong_box_test_does_not_cost_traversal_points() {
+    let submission = without_swap();
+    let points = submission.grade_with_reference().points();
+    assert!(points[BBOX] < FULL_POINTS[BBOX], "{points:?}");
+    assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE]);
+    // Without the reference nobody can tell.
+    assert!(submission.grade().points()[TRAVERSE] < FULL_POINTS[TRAVERSE]);
+    assert!(
+        submission
+            .grade()
+            .verdicts("traverse")
+            .contains(&"blocked".to_owned())
+    );
+}
+
+#[test]
+fn a_wrong_traversal_with_a_wrong_box_test_costs_both() {
+    let graded = without_swap()
+        .with_replaced(
+            "bvh.rs",
+            "if in_l.min <= in_r.min =>",
+            "if in_l.min > in_r.min =>",
+        )
+        .grade_with_reference();
+    let points = graded.points();
+    assert!(
+        points[BBOX] < FULL_POINTS[BBOX] && points[TRAVERSE] < FULL_POINTS[TRAVERSE],
+        "{points:?}"
+    );
+    assert_snapshot!(graded.report());
+}
+
+#[test]
+fn finds_two_mistakes_that_hide_each_other() {
+    // Boxes that do not look at `times`, and a walk that asks for the times from 0 to 0.
+    let graded = Submission::reference("hiding")
+        .with_replaced(
+            "bbox.rs",
+            "(inside.min <= inside.max).then_some(inside)",
+            "let (_, inside) = (inside, Interval::new(enter.max(0.0), leave));\n(inside.min <= inside.max).then_some(inside)",
+        )
+        .with_replaced(
+            "bvh.rs",
+            "bbox.hit(ray, ray.range)",
+            "bbox.hit(ray, protocol::Interval::new(0.0, 0.0))",
+        );
+    let points = graded.grade_with_reference().points();
+    assert!(points[BBOX] < FULL_POINTS[BBOX], "{points:?}");
+    assert_eq!(points[TRAVERSE], 0);
+    // By itself, the walk goes well.
+    assert!(graded.grade().points()[TRAVERSE] > 15);
+}
+
+#[test]
+fn keeps_the_first_result_if_substitution_does_not_compile() {
+    let graded = without_swap()
+        .with_replaced(
+            "sphere.rs",
+            "impl Sphere {",
+            "/// Mine.\npub const ZERO: f32 = 0.0;\n\nimpl Sphere {",
+        )
+        .with_replaced(
+            "bvh.rs",
+            "if in_l.min <= in_r.min =>",
+            "if in_l.min <= in_r.min + crate::sphere::ZERO =>",
+        )
+        .grade_with_reference();
+    assert!(graded.points()[TRAVERSE] < FULL_POINTS[TRAVERSE]);
+    assert!(!graded.verdicts("traverse").contains(&"blocked".to_owned()));
+    assert!(
+        !graded
+            .score()
+            .to_string()
+            .contains("\"carried_forward\":true")
+    );
+}

@@ -1,0 +1,168 @@
+//! What drawings show of the right way: added to an exam when its questions stand.
+
+use grader::drawing_data::{DrawingData, TraversalStep};
+use grader::exam::{Exam, ExamQuestion};
+use protocol::{Interval, Question, Ray, Rays};
+
+use crate::oracle::bbox::Bounds;
+use crate::oracle::{Ray64, scan, sweep};
+use crate::tree::Tree;
+use crate::tree::traversal::{Traversal, TraversalRule};
+
+/// The way that is shown, of all that are right: as a student would write it.
+const RULE: TraversalRule = TraversalRule {
+    left_first: true,
+    tests_on_entry: false,
+    conservative: false,
+};
+
+/// The exam, with the right way beside every key of which there is one.
+pub fn with_drawing_data(mut exam: Exam) -> Exam {
+    let asked = exam.items.iter_mut().flat_map(|item| &mut item.questions);
+    for ExamQuestion {
+        question,
+        drawing_data: shown,
+        ..
+    } in asked
+    {
+        *shown = drawing_data(question);
+    }
+    exam
+}
+
+fn drawing_data(question: &Question) -> DrawingData {
+    match question {
+        Question::BBox {
+            min,
+            max,
+            queries: shots,
+        } => {
+            let bounds = Bounds {
+                min: min.as_dvec3(),
+                max: max.as_dvec3(),
+            };
+            DrawingData::Slabs(shots.iter().map(|(ray, _)| slabs(&bounds, ray)).collect())
+        }
+        // A tree over nothing has no area to compare with.
+        Question::Build { shapes, .. } if shapes.is_empty() => DrawingData::None,
+        Question::Build {
+            shapes,
+            max_leaf_size,
+        } => {
+            let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
+            DrawingData::Sweep(sweep::upper_levels(&boxes, *max_leaf_size as usize))
+        }
+        Question::Traverse {
+            shapes,
+            nodes,
+            root,
+            rays: Rays::List(rays),
+        } => {
+            let tree = Tree {
+                shapes: shapes.clone(),
+                nodes: nodes.clone(),
+                root: *root as usize,
+            };
+            DrawingData::Traversals(rays.iter().map(|ray| traversal_steps(&tree, ray)).collect())
+        }
+        Question::Traverse {
+            rays: Rays::View(_),
+            ..
+        }
+        | Question::Camera { .. }
+        | Question::Shapes { .. }
+        | Question::BuildAndTraverse { .. }
+        | Question::Radiance { .. }
+        | Question::Done => DrawingData::None,
+    }
+}
+
+/// When the ray's line is between the planes of each axis.
+fn slabs(bounds: &Bounds, ray: &Ray) -> [Interval; 3] {
+    let line = Ray64::from(ray).within(Interval::new(f32::NEG_INFINITY, f32::INFINITY));
+    [0, 1, 2].map(|axis| {
+        // A box without end along the other axes.
+        let mut slab = Bounds {
+            min: glam::DVec3::NEG_INFINITY,
+            max: glam::DVec3::INFINITY,
+        };
+        slab.min[axis] = bounds.min[axis];
+        slab.max[axis] = bounds.max[axis];
+        match slab.span(&line) {
+            Some((enter, leave)) => Interval::new(enter as f32, leave as f32),
+            None => Interval::new(f32::INFINITY, f32::NEG_INFINITY),
+        }
+    })
+}
+
+fn traversal_steps(tree: &Tree, ray: &Ray) -> Vec<TraversalStep> {
+    let beam = Ray64::from(ray);
+    let walk = Traversal::correct(tree, &beam, RULE);
+    let step = |&(place, is_entered): &(usize, bool)| TraversalStep {
+        node: place as u32,
+        is_entered,
+        span: tree
+            .bounds(place)
+            .span(&beam.ahead())
+            .map(|(enter, leave)| Interval::new(enter as f32, leave as f32)),
+    };
+    walk.reached_nodes.iter().map(step).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec3, Vec3, vec3};
+
+    use super::*;
+    use crate::items::meshes;
+    use crate::seed::Seed;
+    use crate::tree::construction;
+
+    #[test]
+    fn an_axis_parallel_ray_is_between_the_other_planes_always_or_never() {
+        let bounds = Bounds {
+            min: DVec3::NEG_ONE,
+            max: DVec3::ONE,
+        };
+        let ray = Ray::new(vec3(-3.0, 0.5, 7.0), Vec3::X);
+        let always = Interval::new(f32::NEG_INFINITY, f32::INFINITY);
+        let never = Interval::new(f32::INFINITY, f32::NEG_INFINITY);
+        let expected = [Interval::new(2.0, 4.0), always, never];
+        assert_eq!(slabs(&bounds, &ray), expected);
+    }
+
+    #[test]
+    fn traversal_visits_the_nearer_leaf_first_and_prunes_the_farther() {
+        let wall = |x: f64, material| {
+            let corner = |y: f64, z: f64| DVec3::new(x + 0.1 * y, y, z);
+            let corners = [corner(-2.0, -1.0), corner(2.0, -1.0), corner(0.0, 2.0)];
+            meshes::flat_triangle(corners, material)
+        };
+        let tree = construction::median_split(vec![wall(1.0, 0), wall(5.0, 1)], 1);
+        let steps = traversal_steps(&tree, &Ray::new(Vec3::ZERO, Vec3::X));
+        let came: Vec<_> = steps
+            .iter()
+            .map(|step| (step.node, step.is_entered))
+            .collect();
+        assert_eq!(came, [(2, true), (0, true), (1, false)]);
+        assert!(
+            steps[2].span.is_some(),
+            "it begins beyond, and is not missed"
+        );
+    }
+
+    #[test]
+    fn drawing_data_fits_its_questions() {
+        let exam = Exam {
+            schema: 1,
+            id: "small".to_owned(),
+            mistakes: Vec::new(),
+            items: crate::items::bbox::items(Seed(1)),
+        };
+        let exam = with_drawing_data(exam);
+        for asked in exam.items.iter().flat_map(|item| &item.questions) {
+            assert!(!asked.drawing_data.is_none());
+            assert_eq!(asked.drawing_data.problem(&asked.question), None);
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Growing trees over shapes.
+
+use glam::{DVec3, Vec3};
+use protocol::{Shape, TreeNode};
+
+use super::Tree;
+use crate::oracle::bbox::Bounds;
+use crate::oracle::scan;
+
+/// A tree by halves: along the longest axis of the centers, as many to one side as to the other.
+pub fn median_split(shapes: Vec<Shape>, max_leaf_size: usize) -> Tree {
+    let mut tree = Tree {
+        shapes: Vec::new(),
+        nodes: Vec::new(),
+        root: 0,
+    };
+    tree.root = tree.add_median_split(shapes, max_leaf_size);
+    tree
+}
+
+/// A chain: at each level one leaf goes off, with the first shape that is left, on the left.
+pub fn chain(shapes: Vec<Shape>) -> Tree {
+    let mut tree = Tree {
+        shapes: Vec::new(),
+        nodes: Vec::new(),
+        root: 0,
+    };
+    // From the deep end upward.
+    let mut below: Option<usize> = None;
+    for shape in shapes.into_iter().rev() {
+        let leaf = tree.add_leaf(vec![shape]);
+        below = Some(match below {
+            None => leaf,
+            Some(rest) => tree.add_interior(leaf, rest),
+        });
+    }
+    tree.root = below.expect("a chain has shapes");
+    tree
+}
+
+impl Tree {
+    /// Adds a leaf with these shapes and a tight box; returns its place.
+    pub fn add_leaf(&mut self, shapes: Vec<Shape>) -> usize {
+        let boxes = shapes.iter().map(scan::bounds);
+        let bounds = boxes.fold(Bounds::around([]), |all, next| all.union(&next));
+        let node = TreeNode {
+            min: rounded_outward(bounds.min, f32::next_down),
+            max: rounded_outward(bounds.max, f32::next_up),
+            start: self.shapes.len() as u32,
+            size: shapes.len() as u32,
+            l: 0,
+            r: 0,
+        };
+        self.shapes.extend(shapes);
+        self.nodes.push(node);
+        self.nodes.len() - 1
+    }
+
+    /// Adds a node around two others; returns its place.
+    pub fn add_interior(&mut self, l: usize, r: usize) -> usize {
+        let (left, right) = (&self.nodes[l], &self.nodes[r]);
+        let node = TreeNode {
+            min: left.min.min(right.min),
+            max: left.max.max(right.max),
+            start: 0,
+            size: 0,
+            l: l as u32,
+            r: r as u32,
+        };
+        self.nodes.push(node);
+        self.nodes.len() - 1
+    }
+
+    fn add_median_split(&mut self, mut shapes: Vec<Shape>, max_leaf_size: usize) -> usize {
+        if shapes.len() <= max_leaf_size {
+            return self.add_leaf(shapes);
+        }
+        let center = |shape: &Shape| scan::bounds(shape).center();
+        let size = {
+            let centers = Bounds::around(shapes.iter().map(center));
+            centers.max - centers.min
+        };
+        let axis = (0..3)
+            .max_by(|&a, &b| size[a].total_cmp(&size[b]))
+            .unwrap_or(0);
+        shapes.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
+        let right = shapes.split_off(shapes.len() / 2);
+        let l = self.add_median_split(shapes, max_leaf_size);
+        let r = self.add_median_split(right, max_leaf_size);
+        self.add_interior(l, r)
+    }
+}
+
+/// In single precision; where that is not exact, one step outward. Corners of facets are exact, so
+/// flat boxes stay flat; a sphere's ends may not be.
+fn rounded_outward(exact: DVec3, outward: fn(f32) -> f32) -> Vec3 {
+    let component = |axis: usize| {
+        let close = exact[axis] as f32;
+        if f64::from(close) == exact[axis] {
+            close
+        } else {
+            outward(close)
+        }
+    };
+    Vec3::new(component(0), component(1), component(2))
+}

@@ -1,4 +1,4 @@
-//! Answers to the grader's questions, element by element: a panic costs only its own.
+//! Answers the grader's questions element by element, so that a panic affects only its own element.
 
 use glam::Vec3;
 use protocol::{
@@ -11,13 +11,13 @@ use crate::integrator::{RenderSettings, render};
 use crate::scene::Scene;
 use crate::submission::{Hierarchy, Submission};
 
-/// What a submission answers. A panic outside any element, in one of its constructors, is told as
-/// the first element's; the others are given up.
+/// Returns a submission's answer to a question. A panic outside any element, such as in a
+/// constructor, is reported for the first element, and the others are skipped.
 pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answer {
     match attempt(|| answer(submission, question)) {
         ElementOutcome::Value(answer) => answer,
         ElementOutcome::Panicked(panic) => panicked(question, panic),
-        ElementOutcome::Skipped => unreachable!("nothing is given up at the first attempt"),
+        ElementOutcome::Skipped => unreachable!("`attempt` never skips"),
     }
 }
 
@@ -28,11 +28,7 @@ fn answer(submission: &dyn Submission, question: &Question) -> Answer {
             let list = submission.primitive_list(shapes);
             hits(rays, |ray| list.closest_hit(ray))
         }
-        Question::BBox {
-            min,
-            max,
-            queries: shots,
-        } => spans(submission, *min, *max, shots),
+        Question::BBox { min, max, queries } => spans(submission, *min, *max, queries),
         Question::Build {
             shapes,
             max_leaf_size,
@@ -53,7 +49,7 @@ fn answer(submission: &dyn Submission, question: &Question) -> Answer {
             max_leaf_size,
             rays,
         } => {
-            // Built at the first ray, so that a panic in `build` is told like any other.
+            // Builds the tree at the first ray, so that a panic in `build` is reported like others.
             let build = || submission.build(shapes, *max_leaf_size as usize);
             let mut bvh = None;
             hits(rays, |ray| bvh.get_or_insert_with(build).closest_hit(ray))
@@ -65,18 +61,19 @@ fn answer(submission: &dyn Submission, question: &Question) -> Answer {
             bounces,
             seed,
         } => {
-            let sampling = RenderSettings {
+            let settings = RenderSettings {
                 film: *film,
                 samples: *samples,
                 bounces: *bounces,
                 seed: *seed,
             };
-            picture(submission, scene, &sampling)
+            picture(submission, scene, &settings)
         }
         Question::Done => Answer::Done,
     }
 }
 
+/// Returns the answer to a question in which the panic is reported for the first element.
 fn panicked(question: &Question, panic: Panic) -> Answer {
     match question {
         Question::Camera { .. } => Answer::Rays(first_panicked(panic, question.count())),
@@ -90,41 +87,42 @@ fn panicked(question: &Question, panic: Panic) -> Answer {
     }
 }
 
+/// Returns `count` outcomes: the panic for the first element, and the others skipped.
 fn first_panicked<T>(panic: Panic, count: usize) -> Vec<ElementOutcome<T>> {
-    let given_up = std::iter::repeat_with(|| ElementOutcome::Skipped);
-    let outcomes = std::iter::once(ElementOutcome::Panicked(panic)).chain(given_up);
+    let skipped = std::iter::repeat_with(|| ElementOutcome::Skipped);
+    let outcomes = std::iter::once(ElementOutcome::Panicked(panic)).chain(skipped);
     outcomes.take(count).collect()
 }
 
-/// A ray for each sample.
-fn rays(submission: &dyn Submission, lens: &PinholeCamera, samples: &Samples) -> Answer {
-    let camera = submission.camera(lens);
+/// Generates a ray for each sample.
+fn rays(submission: &dyn Submission, pinhole: &PinholeCamera, samples: &Samples) -> Answer {
+    let camera = submission.camera(pinhole);
     Answer::Rays(attempt_each(
-        &samples.to_vec(lens.film),
+        &samples.to_vec(pinhole.film),
         |sample: &Sample| camera.ray(sample.pixel, sample.offset),
     ))
 }
 
-/// A hit, or none, for each ray.
+/// Finds the hit of each ray.
 fn hits(rays: &Rays, hit: impl FnMut(&Ray) -> Option<Trace>) -> Answer {
     Answer::Hits(attempt_each(&rays.to_vec(), hit))
 }
 
-/// The times inside a box, or none, for each shot.
-fn spans(submission: &dyn Submission, min: Vec3, max: Vec3, shots: &[(Ray, Interval)]) -> Answer {
-    Answer::Spans(attempt_each(shots, |(ray, times)| {
+/// Finds the times inside a box for each query.
+fn spans(submission: &dyn Submission, min: Vec3, max: Vec3, queries: &[(Ray, Interval)]) -> Answer {
+    Answer::Spans(attempt_each(queries, |(ray, times)| {
         submission.intersect_box(min, max, ray, *times)
     }))
 }
 
-/// The tree that is built over so many primitives.
+/// Builds the tree over this number of primitives.
 fn tree(primitives: usize, build: impl FnOnce() -> Box<dyn Hierarchy>) -> Answer {
-    let most = Question::max_nodes(primitives);
+    let max = Question::max_nodes(primitives);
     Answer::Tree(attempt(|| {
         let tree = build().tree();
         assert!(
-            tree.nodes.len() <= most && tree.order.len() <= most,
-            "{primitives} primitives became {} nodes over {} primitives",
+            tree.nodes.len() <= max && tree.order.len() <= max,
+            "the tree over {primitives} primitives has {} nodes and {} primitives: too many",
             tree.nodes.len(),
             tree.order.len(),
         );
@@ -132,13 +130,14 @@ fn tree(primitives: usize, build: impl FnOnce() -> Box<dyn Hierarchy>) -> Answer
     }))
 }
 
-/// The path-traced picture of the scene that this text describes.
-fn picture(submission: &dyn Submission, scene: &str, sampling: &RenderSettings) -> Answer {
+/// Renders the path-traced picture of the scene in this text.
+fn picture(submission: &dyn Submission, scene: &str, settings: &RenderSettings) -> Answer {
     Answer::Picture(match Scene::from_text(scene) {
-        Ok(scene) => attempt(|| render(submission, &scene, sampling)),
-        // Not the submission's fault, and it must not look so: no answer is the grader's to tell.
+        Ok(scene) => attempt(|| render(submission, &scene, settings)),
+        // This is not the submission's fault, so it must not look like a wrong answer or a panic.
+        // The grader reports the missing answer.
         Err(error) => {
-            eprintln!("the exam's scene: {error}");
+            eprintln!("error in the exam's scene: {error}");
             ElementOutcome::Skipped
         }
     })

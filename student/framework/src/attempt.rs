@@ -1,4 +1,4 @@
-//! Running a submission's code so that a panic becomes a value.
+//! Runs a submission's code and turns panics into values.
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -7,30 +7,32 @@ use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
 use protocol::{ElementOutcome, Panic};
 
 thread_local! {
-    /// Where this thread panicked last: only the hook is told, only the catcher can say.
+    /// The location of this thread's last panic. Only the panic hook gets the location, and only
+    /// [`attempt`] can report it.
     static LOCATION: RefCell<String> = const { RefCell::new(String::new()) };
     /// Whether this thread is inside an [`attempt`].
     static ATTEMPTING: Cell<bool> = const { Cell::new(false) };
 }
 
-/// From now on panics inside an [`attempt`] print nothing: it reports them, with their place. All
-/// others are mistakes of the framework, and as loud as before.
+/// Installs a panic hook that prints nothing for panics inside an [`attempt`], which returns their
+/// message and location instead. Other panics are bugs in the framework and are printed as before.
 pub fn keep_panics_quiet() {
-    let loud = take_hook();
+    let previous_hook = take_hook();
     set_hook(Box::new(move |panic| {
         if !ATTEMPTING.get() {
-            return loud(panic);
+            return previous_hook(panic);
         }
-        let place = panic.location().map_or(String::new(), |location| {
+        let text = panic.location().map_or(String::new(), |location| {
             format!("{}:{}", location.file(), location.line())
         });
-        LOCATION.with(|cell| *cell.borrow_mut() = place);
+        LOCATION.with(|cell| *cell.borrow_mut() = text);
     }));
 }
 
-/// What `code` returns, or how it panicked.
+/// Runs `code` and returns its value, or the panic if it panicked.
 pub fn attempt<T>(code: impl FnOnce() -> T) -> ElementOutcome<T> {
-    // Nothing that a panic leaves half done is looked at again: each question has its own values.
+    // Unwind safe: values that a panic leaves half changed are not used again, because each
+    // question has its own values.
     let before = ATTEMPTING.replace(true);
     let result = catch_unwind(AssertUnwindSafe(code));
     ATTEMPTING.set(before);
@@ -43,9 +45,10 @@ pub fn attempt<T>(code: impl FnOnce() -> T) -> ElementOutcome<T> {
     }
 }
 
-/// [`attempt`] for each element. After [`Panic::PATIENCE`] panics the rest are given up: a stub
-/// asked for a whole picture would otherwise panic twenty thousand times.
-pub fn attempt_each<Q, T>(asked: &[Q], mut code: impl FnMut(&Q) -> T) -> Vec<ElementOutcome<T>> {
+/// Runs `code` for each element, like [`attempt`]. After [`Panic::MAX_PER_QUESTION`] panics, the
+/// remaining elements are skipped: otherwise, a stub would panic twenty thousand times for one
+/// picture.
+pub fn attempt_each<Q, T>(elements: &[Q], mut code: impl FnMut(&Q) -> T) -> Vec<ElementOutcome<T>> {
     let mut panics = 0;
     let answer = |element| {
         if panics == Panic::MAX_PER_QUESTION {
@@ -55,10 +58,10 @@ pub fn attempt_each<Q, T>(asked: &[Q], mut code: impl FnMut(&Q) -> T) -> Vec<Ele
         panics += usize::from(matches!(outcome, ElementOutcome::Panicked(_)));
         outcome
     };
-    asked.iter().map(answer).collect()
+    elements.iter().map(answer).collect()
 }
 
-/// What `panic!` was given; anything but text has no words.
+/// Returns the message of a panic from its payload.
 fn panic_message(payload: &(dyn Any + Send)) -> &str {
     payload
         .downcast_ref::<String>()
@@ -67,6 +70,7 @@ fn panic_message(payload: &(dyn Any + Send)) -> &str {
         .unwrap_or("a panic without a message")
 }
 
+/// Truncates a text to [`Panic::MAX_TEXT_BYTES`], at a character boundary.
 fn truncate(text: &str) -> String {
     text[..text.floor_char_boundary(Panic::MAX_TEXT_BYTES)].to_owned()
 }
@@ -96,7 +100,7 @@ mod tests {
         let outcome: ElementOutcome<()> =
             attempt(|| panic!("{}", "é".repeat(Panic::MAX_TEXT_BYTES)));
         let ElementOutcome::Panicked(panic) = outcome else {
-            unreachable!("it panicked")
+            unreachable!("the code panics")
         };
         assert!(panic.message.len() <= Panic::MAX_TEXT_BYTES && !panic.message.is_empty());
     }

@@ -1,4 +1,4 @@
-//! The command that draws a scene with a submission's code.
+//! The command that renders a scene with a submission's code.
 
 mod error;
 mod files;
@@ -26,14 +26,14 @@ use crate::scene::Scene;
 use crate::submission::{Submission, World};
 use crate::view::{self, ViewMode};
 
-/// Draws what the command line asks for. Exit codes: 0 drawn, 1 the submission's code did not get
-/// through, 2 bad input.
+/// Runs the command. Exit codes: 0 for success, 1 if the submission's code panicked, 2 for invalid
+/// input.
 pub fn main(submission: &dyn Submission) -> ExitCode {
     let options = match Options::try_parse() {
         Ok(options) => options,
         Err(error) => {
-            // Help goes to standard output, mistakes to standard error; neither can be told if
-            // the stream is closed.
+            // Prints help to standard output, and errors to standard error. If the stream is
+            // closed, there is no way to report that.
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
@@ -41,9 +41,9 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
     keep_panics_quiet();
     match run(submission, &options) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            eprintln!("{failure}");
-            failure.exit_code()
+        Err(error) => {
+            eprintln!("{error}");
+            error.exit_code()
         }
     }
 }
@@ -53,18 +53,18 @@ fn run(submission: &dyn Submission, options: &Options) -> Result<(), RenderError
     let scene = Scene::load(&path)?;
     let scene = scene.on_film(options.size.unwrap_or(scene.camera.pinhole.film));
     let out = files::output_path(options, &path)?;
-    let canvas = RenderPool::new(scene.camera.pinhole.film, options.threads)?;
+    let pool = RenderPool::new(scene.camera.pinhole.film, options.threads)?;
 
-    canvas.run(|| render_or_print(submission, options, &scene, &out, &canvas))
+    pool.run(|| render_or_print(submission, options, &scene, &out, &pool))
 }
 
-/// Makes the submission's world, and of it a picture or the words for one pixel.
+/// Converts the scene to the submission's types, and renders a picture or prints one pixel.
 fn render_or_print(
     submission: &dyn Submission,
     options: &Options,
     scene: &Scene,
     out: &Path,
-    canvas: &RenderPool,
+    pool: &RenderPool,
 ) -> Result<(), RenderError> {
     let world = value_or_error(attempt(|| World::new(submission, scene)), None)?;
     let tree = value_or_error(attempt(|| world.tree()), None)?;
@@ -72,31 +72,31 @@ fn render_or_print(
         return print_pixel(pixel, options, scene, &world);
     }
 
-    // A stub is met by the first ray, and then is all that there is to tell.
+    // Traces one ray first: if it reaches a stub, that is the only message.
     let corner = UVec2::ZERO;
     let first = || first_hit(scene, &world, corner, &mut RenderStats::default());
     value_or_error(attempt(first), Some(corner))?;
     if tree.nodes.is_empty() && !scene.shapes.is_empty() {
         let count = scene.shapes.len();
-        eprintln!("note: task 3, build: no tree yet, so each ray may ask all {count} primitives");
+        eprintln!("note: task 3, build: no tree yet, so each ray may test all {count} primitives");
     }
     let started = Instant::now();
-    let (film, tally) = render(canvas, options, scene, &world, &tree)?;
+    let (film, stats) = render(pool, options, scene, &world, &tree)?;
     let time = started.elapsed();
     image_file::write(&film, options.tone(), out)?;
-    println!("{}", progress::summary(out, film.size, tally, time));
-    if tally.invalid_paths > 0 {
-        let spoiled = tally.invalid_paths;
+    println!("{}", progress::summary(out, film.size, stats, time));
+    if stats.invalid_paths > 0 {
         eprintln!(
-            "note: {spoiled} paths are black, since an answer held NaN or infinity, a normal of \
-             length zero, or an unknown material"
+            "note: paths that are black, because a hit contains NaN or infinity, a normal of \
+             length zero, or an unknown material: {}",
+            stats.invalid_paths
         );
     }
     Ok(())
 }
 
 fn render(
-    canvas: &RenderPool,
+    pool: &RenderPool,
     options: &Options,
     scene: &Scene,
     world: &World,
@@ -104,29 +104,29 @@ fn render(
 ) -> Result<(Film, RenderStats), RenderError> {
     let size = scene.camera.pinhole.film;
     let progress = Progress::new(size.y);
-    let integrator = Integrator::new(scene, world, options.sampling(size));
-    let (pixels, tally) = match options.view {
-        ViewMode::Shaded => canvas.render(&progress, |pixel, tally| {
-            integrator.pixel_radiance(pixel, tally)
+    let integrator = Integrator::new(scene, world, options.settings(size));
+    let (pixels, stats) = match options.view {
+        ViewMode::Shaded => pool.render(&progress, |pixel, stats| {
+            integrator.pixel_radiance(pixel, stats)
         })?,
         ViewMode::Normals | ViewMode::Depth | ViewMode::Uv | ViewMode::Bvh => {
-            let first = |pixel, tally: &mut RenderStats| first_hit(scene, world, pixel, tally);
-            let (hits, tally) = canvas.render(&progress, first)?;
+            let first = |pixel, stats: &mut RenderStats| first_hit(scene, world, pixel, stats);
+            let (hits, stats) = pool.render(&progress, first)?;
             let epsilon = integrator.epsilon();
-            (view::picture(options.view, &hits, tree, epsilon), tally)
+            (view::picture(options.view, &hits, tree, epsilon), stats)
         }
     };
-    Ok((Film { size, pixels }, tally))
+    Ok((Film { size, pixels }, stats))
 }
 
-/// What the ray through the middle of a pixel meets.
-fn first_hit(scene: &Scene, world: &World, pixel: UVec2, tally: &mut RenderStats) -> Option<Trace> {
-    tally.rays += 1;
+/// Returns the hit of the ray through the centre of a pixel.
+fn first_hit(scene: &Scene, world: &World, pixel: UVec2, stats: &mut RenderStats) -> Option<Trace> {
+    stats.rays += 1;
     let ray = world.camera_ray(pixel, Vec2::splat(0.5));
     world.hit(&scene.camera.placement.to_world(&ray))
 }
 
-/// One pixel alone, for a debugger: what its middle meets, and its light.
+/// Prints the hit and the radiance of one pixel, and renders nothing else. Useful in a debugger.
 fn print_pixel(
     pixel: UVec2,
     options: &Options,
@@ -137,16 +137,16 @@ fn print_pixel(
     if pixel.cmpge(size).any() {
         return Err(RenderError::PixelOutsideFilm { pixel, size });
     }
-    let integrator = Integrator::new(scene, world, options.sampling(size));
-    let mut tally = RenderStats::default();
+    let integrator = Integrator::new(scene, world, options.settings(size));
+    let mut stats = RenderStats::default();
     let first = value_or_error(
-        attempt(|| first_hit(scene, world, pixel, &mut tally)),
+        attempt(|| first_hit(scene, world, pixel, &mut stats)),
         Some(pixel),
     )?;
-    println!("pixel {pixel}, its middle: {first:#?}");
-    let light = attempt(|| integrator.pixel_radiance(pixel, &mut tally));
+    println!("pixel {pixel}, hit at its centre: {first:#?}");
+    let light = attempt(|| integrator.pixel_radiance(pixel, &mut stats));
     let light: Vec3 = value_or_error(light, Some(pixel))?;
-    println!("light: {light} by {} rays", tally.rays);
+    println!("radiance: {light}, traced rays: {}", stats.rays);
     Ok(())
 }
 

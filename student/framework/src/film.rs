@@ -1,4 +1,4 @@
-//! The picture: linear radiance as it is gathered, and what becomes of it on a screen.
+//! A picture of linear radiance, and its conversion to the colours of a screen.
 
 use glam::{UVec2, Vec3};
 
@@ -9,24 +9,24 @@ use crate::math::pow;
 pub struct Film {
     /// The number of pixels, across and up.
     pub size: UVec2,
-    /// Row by row **from the bottom**, as the camera counts: pixel (0, 0) comes first.
+    /// The pixels, row by row **from the bottom**, as for the camera: pixel (0, 0) comes first.
     pub pixels: Vec<Vec3>,
 }
 
-/// How a picture's numbers become a screen's.
+/// The conversion of a picture's values to the colours of a screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tone {
-    /// Radiance: times two to the power of `stops`, then sRGB.
+    /// For radiance: multiplies by two to the power of `stops`, then encodes as sRGB.
     Light {
-        /// Each one doubles the brightness.
+        /// The exposure. Each stop doubles the brightness.
         stops: f32,
     },
-    /// Directions, distances and the like: as they are.
+    /// For data such as directions and distances: leaves the values unchanged.
     Data,
 }
 
 impl Film {
-    /// The pixels row by row **from the top**, as files of pictures count.
+    /// Returns the pixels row by row **from the top**, which is the order in image files.
     pub fn pixels_top_down(&self) -> impl Iterator<Item = Vec3> {
         let width = self.size.x.max(1) as usize;
         self.pixels.chunks(width).rev().flatten().copied()
@@ -34,7 +34,7 @@ impl Film {
 }
 
 impl Tone {
-    /// Three bytes for the screen. What is out of `[0, 1]` is clamped.
+    /// Converts a pixel to three bytes for the screen. Values outside `[0, 1]` are clamped.
     pub fn to_bytes(self, pixel: Vec3) -> [u8; 3] {
         let shown = match self {
             Tone::Light { stops } => (pixel * pow(2.0, stops)).to_array().map(srgb),
@@ -44,7 +44,7 @@ impl Tone {
     }
 }
 
-/// The transfer curve of sRGB, IEC 61966-2-1, from linear light to the screen's numbers.
+/// Applies the sRGB transfer function (IEC 61966-2-1), which encodes linear light for a screen.
 fn srgb(linear: f32) -> f32 {
     if linear <= 0.003_130_8 {
         12.92 * linear
@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn tones_follow_the_srgb_curve() {
         let tone = Tone::Light { stops: 0.0 };
-        // 18 % grey is byte 118; the ends are the ends, and nothing wraps beyond them.
+        // 18 % grey is byte 118. 0 and 1 become 0 and 255, and values beyond them do not wrap.
         let pixel = Vec3::new(0.18, 0.0, 1.0);
         assert_eq!(tone.to_bytes(pixel), [118, 0, 255]);
         assert_eq!(tone.to_bytes(Vec3::new(17.0, -1.0, 0.5)), [255, 0, 188]);

@@ -1,4 +1,4 @@
-//! Directions around a direction.
+//! Coordinate frames around a direction, and sampling of directions.
 
 use std::f32::consts::TAU;
 
@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 
 use crate::math::sin_cos;
 
-/// Three axes at right angles, of length one; z is the one that was asked for.
+/// An orthonormal frame: three perpendicular axes of length one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     x: Vec3,
@@ -15,7 +15,7 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// A frame around `z`, of length one.
+    /// Creates a frame with the given z-axis, which must have length one.
     ///
     /// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
     pub(crate) fn from_z(z: Vec3) -> Self {
@@ -29,19 +29,20 @@ impl Frame {
         }
     }
 
-    /// A direction given in this frame, in the world.
+    /// Converts a direction from this frame to world space.
     pub(crate) fn to_world(self, v: Vec3) -> Vec3 {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 }
 
-/// A direction around +z, the more likely the nearer: its density is its cosine, over π.
+/// Samples a direction in the hemisphere around +z with the density cosine / π, from two random
+/// numbers.
 ///
-/// Malley's method: an even disc, lifted to the hemisphere.
-pub(crate) fn sample_cosine_hemisphere(place: Vec2) -> Vec3 {
-    let radius = place.x.sqrt();
-    let (sin, cos) = sin_cos(TAU * place.y);
-    Vec3::new(radius * cos, radius * sin, (1.0 - place.x).sqrt())
+/// Malley's method: samples a disc uniformly and projects the point up to the hemisphere.
+pub(crate) fn sample_cosine_hemisphere(random: Vec2) -> Vec3 {
+    let radius = random.x.sqrt();
+    let (sin, cos) = sin_cos(TAU * random.y);
+    Vec3::new(radius * cos, radius * sin, (1.0 - random.x).sqrt())
 }
 
 #[cfg(test)]
@@ -61,14 +62,14 @@ mod tests {
     #[test]
     fn cosine_directions_have_length_one_and_the_right_mean() {
         let side = 100_u16;
-        let place = |n: u16| (f32::from(n) + 0.5) / f32::from(side);
+        let midpoint = |n: u16| (f32::from(n) + 0.5) / f32::from(side);
         let mut mean = 0.0;
         for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
-            let direction = sample_cosine_hemisphere(Vec2::new(place(i), place(j)));
+            let direction = sample_cosine_hemisphere(Vec2::new(midpoint(i), midpoint(j)));
             assert!(direction.is_normalized());
             mean += direction.z / f32::from(side * side);
         }
-        // ∫ cos² / π over the hemisphere.
+        // The expected mean is ∫ cos² / π over the hemisphere.
         assert!((mean - 2.0 / 3.0).abs() < 1e-3, "{mean}");
     }
 }

@@ -1,9 +1,9 @@
-//! From a scene to its light: path tracing.
+//! The path tracer, which renders a scene.
 //!
-//! Kajiya, "The Rendering Equation", SIGGRAPH 1986, with lamps asked for directly at each matte
-//! surface. Everything is in `f32` and in a fixed order, and each random number depends only on
-//! what it is for (see [`sampler`](crate::sampler)): so a picture has the same bytes wherever and
-//! by however many threads it is drawn.
+//! Kajiya, "The Rendering Equation", SIGGRAPH 1986, with light sampling at each matte surface.
+//! Everything is computed in `f32` and in a fixed order, and each random number depends only on
+//! what it is used for (see [`sampler`](crate::sampler)). So a picture has the same bytes on every
+//! machine and with any number of threads.
 
 mod optics;
 mod path;
@@ -14,31 +14,32 @@ use crate::light::Lights;
 use crate::scene::Scene;
 use crate::submission::{Submission, World};
 
-/// How much work to put into a picture.
+/// The settings of a picture: its size, its quality and its seed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderSettings {
     /// The number of pixels, across and up.
     pub film: UVec2,
-    /// Paths for each pixel.
+    /// The number of paths per pixel.
     pub samples: u32,
-    /// The most times that a path may be scattered: 0 shows only what shines by itself, 1 adds
-    /// direct light.
+    /// The maximum number of times that a path is scattered: 0 shows only emitters and the
+    /// environment, 1 adds direct light.
     pub bounces: u32,
-    /// What all random numbers follow from.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 
-/// What was done for a picture.
+/// Statistics of rendering a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RenderStats {
-    /// Rays asked of the submission, shadow rays among them.
+    /// The number of rays traced by the submission, including shadow rays.
     pub rays: u64,
-    /// Paths given up, and black, because an answer held NaN, infinity or an unknown material.
+    /// The number of paths that were discarded and count as black, because a hit contained NaN,
+    /// infinity, a normal of length zero or an unknown material.
     pub invalid_paths: u64,
 }
 
 impl RenderStats {
-    /// Both together.
+    /// Returns the sum of both statistics.
     pub fn merge(self, other: RenderStats) -> RenderStats {
         RenderStats {
             rays: self.rays + other.rays,
@@ -47,68 +48,70 @@ impl RenderStats {
     }
 }
 
-/// A scene, and a submission's view of it, ready for paths.
+/// A path tracer for a scene and a submission's version of it.
 pub struct Integrator<'a> {
     scene: &'a Scene,
     world: &'a World,
     lights: Lights,
-    sampling: RenderSettings,
-    /// No ray counts before this distance: see [`Integrator::new`].
+    settings: RenderSettings,
+    /// The start of every ray's range, so that it does not hit the surface that it leaves: see
+    /// [`Integrator::new`].
     epsilon: f32,
 }
 
 impl<'a> Integrator<'a> {
-    /// `world` is the submission's own of `scene`, which is on a film of `sampling.film`.
+    /// Creates a path tracer. `world` must be made from `scene`, and the film of `scene` must have
+    /// the size `settings.film`.
     ///
-    /// A ray that leaves a surface must not meet it again where it starts. An `f32` carries 24
-    /// bits, so a position is known to 6e-8 of the scene's largest coordinate, and the formulas
-    /// for triangles and spheres lose some hundred times as much where the ray grazes. 1e-4 of
-    /// that coordinate stays clear of it, and is less than a picture can show.
-    pub fn new(scene: &'a Scene, world: &'a World, sampling: RenderSettings) -> Self {
+    /// A ray that leaves a surface must not hit the surface again at its start. An `f32` has 24
+    /// significant bits, so a position is known to 6e-8 of the scene's largest coordinate. At
+    /// grazing angles, the formulas for triangles and spheres lose about a hundred times as much.
+    /// So rays start 1e-4 of that coordinate away, which is too little to be visible in a picture.
+    pub fn new(scene: &'a Scene, world: &'a World, settings: RenderSettings) -> Self {
         Integrator {
             scene,
             world,
             lights: Lights::of(scene),
-            sampling,
+            settings,
             epsilon: 1e-4 * scene.extent(),
         }
     }
 
-    /// Positions less than this apart are the same to an `f32`.
+    /// Returns the distance below which two positions cannot be told apart.
     #[cfg(feature = "cli")]
     pub(crate) fn epsilon(&self) -> f32 {
         self.epsilon
     }
 
-    /// The mean of all paths through a pixel.
-    pub fn pixel_radiance(&self, pixel: UVec2, tally: &mut RenderStats) -> Vec3 {
+    /// Returns the mean radiance of all paths through a pixel.
+    pub fn pixel_radiance(&self, pixel: UVec2, stats: &mut RenderStats) -> Vec3 {
         let mut sum = Vec3::ZERO;
-        for sample in 0..self.sampling.samples {
-            match self.trace_path(pixel, sample, tally) {
+        for sample in 0..self.settings.samples {
+            match self.trace_path(pixel, sample, stats) {
                 Ok(light) => sum += light,
-                Err(path::InvalidSample) => tally.invalid_paths += 1,
+                Err(path::InvalidSample) => stats.invalid_paths += 1,
             }
         }
-        sum / self.sampling.samples.max(1) as f32
+        sum / self.settings.samples.max(1) as f32
     }
 }
 
-/// The picture of a scene, in linear red, green and blue, row by row from the bottom, drawn by
-/// this thread alone.
-pub fn render(submission: &dyn Submission, scene: &Scene, sampling: &RenderSettings) -> Vec<Vec3> {
-    let scene = scene.on_film(sampling.film);
+/// Renders a scene on the current thread. Returns linear red, green and blue, row by row from the
+/// bottom.
+pub fn render(submission: &dyn Submission, scene: &Scene, settings: &RenderSettings) -> Vec<Vec3> {
+    let scene = scene.on_film(settings.film);
     let world = World::new(submission, &scene);
-    let integrator = Integrator::new(&scene, &world, *sampling);
-    let mut tally = RenderStats::default();
-    let rows = 0..sampling.film.y;
-    rows.flat_map(|y| (0..sampling.film.x).map(move |x| UVec2::new(x, y)))
-        .map(|pixel| integrator.pixel_radiance(pixel, &mut tally))
+    let integrator = Integrator::new(&scene, &world, *settings);
+    let mut stats = RenderStats::default();
+    let rows = 0..settings.film.y;
+    rows.flat_map(|y| (0..settings.film.x).map(move |x| UVec2::new(x, y)))
+        .map(|pixel| integrator.pixel_radiance(pixel, &mut stats))
         .collect()
 }
 
 #[cfg(test)]
 mod tests;
 
-// Former names, so that submissions written before they changed still compile.
+// Former names, kept so that older submissions still compile.
 #[doc(hidden)]
 pub use self::{RenderSettings as Sampling, RenderStats as Tally, render as radiance};

@@ -1,7 +1,7 @@
-//! All that students are given: scenes, random numbers, the path tracer, pictures, and the probe
+//! The code given to students: scenes, random numbers, the path tracer, pictures, and the probe
 //! that answers the grader.
 //!
-//! Nothing here solves a task. What students write is reached through the one seam in
+//! Nothing here solves a task. This crate calls the students' code only through the traits in
 //! [`submission`].
 
 pub mod answer;

@@ -1,7 +1,7 @@
-//! Lamps, as a matte surface asks for them: next-event estimation.
+//! Light sampling for direct illumination (next-event estimation).
 //!
-//! What is known of a lamp here comes from the scene, not from a submission's `hit`: only whether
-//! something stands between is asked of the submission.
+//! The positions and shapes of lights come from the scene, and not from a submission's `hit`. The
+//! submission only decides whether something blocks the light.
 
 mod shape;
 
@@ -11,22 +11,21 @@ use protocol::Shape;
 use self::shape::LightShape;
 use crate::scene::Scene;
 
-/// All lamps of a scene, to be picked by power: the more light, the more often.
+/// The lights of a scene. They are picked with probabilities proportional to their power.
 pub struct Lights {
     lights: Vec<AreaLight>,
-    /// The power of each lamp and all before it.
+    /// For each light, the total power of this light and all before it.
     cumulative_power: Vec<f32>,
 }
 
-/// A direction in which a lamp can be seen, unless something stands between.
+/// A direction toward a light, from a given point. Other shapes can block it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSample {
-    /// Of length one.
+    /// The direction to the light, of length one.
     pub direction: Vec3,
-    /// To the lamp.
+    /// The distance to the light.
     pub distance: f32,
-    /// The lamp's radiance, divided by the density (per solid angle) of having picked this
-    /// direction.
+    /// The light's radiance divided by the probability density of this direction, per solid angle.
     pub radiance: Vec3,
 }
 
@@ -36,46 +35,44 @@ struct AreaLight {
 }
 
 impl Lights {
-    /// The lamps among the scene's shapes.
+    /// Collects the lights among the scene's shapes.
     pub fn of(scene: &Scene) -> Self {
-        let lamp = |shape: &Shape| {
+        let light = |shape: &Shape| {
             let material = scene.materials.get(shape.material() as usize)?;
             let radiance = material.emitted()?;
-            let form = LightShape::of(shape);
-            // What has no power is never picked, and would divide by zero.
-            let shines = radiance != Vec3::ZERO && form.area() > 0.0;
-            shines.then_some(AreaLight {
-                radiance,
-                shape: form,
-            })
+            let shape = LightShape::of(shape);
+            // A light without power would never be picked, and its probability would be 0 / 0.
+            let has_power = radiance != Vec3::ZERO && shape.area() > 0.0;
+            has_power.then_some(AreaLight { radiance, shape })
         };
-        let lamps: Vec<AreaLight> = scene.shapes.iter().filter_map(lamp).collect();
-        let sum = |total: &mut f32, lamp: &AreaLight| {
-            *total += lamp.shape.area() * lamp.radiance.element_sum();
+        let lights: Vec<AreaLight> = scene.shapes.iter().filter_map(light).collect();
+        let sum = |total: &mut f32, light: &AreaLight| {
+            *total += light.shape.area() * light.radiance.element_sum();
             Some(*total)
         };
-        let power = lamps.iter().scan(0.0, sum).collect();
+        let cumulative_power = lights.iter().scan(0.0, sum).collect();
         Lights {
-            lights: lamps,
-            cumulative_power: power,
+            lights,
+            cumulative_power,
         }
     }
 
     /// Former name of [`Lights::sample`].
     #[doc(hidden)]
-    pub fn illuminate(&self, point: Vec3, choice: f32, place: Vec2) -> Option<LightSample> {
-        self.sample(point, choice, place)
+    pub fn illuminate(&self, point: Vec3, choice: f32, position: Vec2) -> Option<LightSample> {
+        self.sample(point, choice, position)
     }
 
-    /// How a point is lit by one lamp, picked by `choice`, from one place on it, picked by
-    /// `place`; all in `[0, 1)`. `None` if there is no lamp, or that place does not shine on it.
-    pub fn sample(&self, point: Vec3, choice: f32, place: Vec2) -> Option<LightSample> {
+    /// Samples the light that reaches `point` from one light. The random numbers `choice` and
+    /// `position`, in `[0, 1)`, pick the light and the position on it. Returns `None` if there is
+    /// no light, or if that position does not emit light toward `point`.
+    pub fn sample(&self, point: Vec3, choice: f32, position: Vec2) -> Option<LightSample> {
         let total = *self.cumulative_power.last()?;
-        let wanted = choice * total;
-        // Rounding may take `wanted` up to `total`: then it is the last lamp.
+        let target = choice * total;
+        // Rounding can make `target` equal to `total`. Then the last light is picked.
         let picked = self
             .cumulative_power
-            .partition_point(|&power| power <= wanted);
+            .partition_point(|&power| power <= target);
         let picked = picked.min(self.lights.len() - 1);
         let before = if picked == 0 {
             0.0
@@ -84,12 +81,12 @@ impl Lights {
         };
         let probability = (self.cumulative_power[picked] - before) / total;
 
-        let lamp = &self.lights[picked];
-        let seen = lamp.shape.sample(point, place)?;
+        let light = &self.lights[picked];
+        let sample = light.shape.sample(point, position)?;
         Some(LightSample {
-            direction: seen.direction,
-            distance: seen.distance,
-            radiance: lamp.radiance * (seen.solid_angle / probability),
+            direction: sample.direction,
+            distance: sample.distance,
+            radiance: light.radiance * (sample.solid_angle / probability),
         })
     }
 }
@@ -116,7 +113,7 @@ mod tests {
                 "shapes": [{shapes}]
             }}"#
         );
-        Lights::of(&Scene::from_text(&text).expect("a scene"))
+        Lights::of(&Scene::from_text(&text).expect("the scene is valid"))
     }
 
     const OVERHEAD: &str =
@@ -125,17 +122,18 @@ mod tests {
         r#"{ "sphere": { "center": [4, 3, 0], "radius": 1, "material": "bright" } }"#;
     const DARK: &str = r#"{ "sphere": { "center": [0, 9, 0], "radius": 5, "material": "dark" } }"#;
 
-    /// On a floor at the origin that faces up, and how often the lamp overhead was asked.
+    /// Returns the irradiance at the origin on a floor that faces up, and how often the light
+    /// overhead was picked.
     fn irradiance(lights: &Lights) -> (f32, u32) {
         let (mut light, mut overhead) = (0.0, 0);
         let count = 40_000;
         for n in 0..count {
             let sampler = Sampler::new(0, Default::default(), n);
             let choice = sampler.one(0, Purpose::Light);
-            let place = sampler.pair(0, Purpose::PointOnLight);
-            if let Some(lit) = lights.sample(Vec3::ZERO, choice, place) {
-                light += lit.radiance.x * lit.direction.y / count as f32;
-                overhead += u32::from(lit.distance < 2.0);
+            let position = sampler.pair(0, Purpose::PointOnLight);
+            if let Some(sample) = lights.sample(Vec3::ZERO, choice, position) {
+                light += sample.radiance.x * sample.direction.y / count as f32;
+                overhead += u32::from(sample.distance < 2.0);
             }
         }
         (light, overhead)
@@ -144,12 +142,12 @@ mod tests {
     #[test]
     fn two_lights_add_up_and_are_picked_by_power() {
         let (together, overhead) = irradiance(&lights(&format!("{OVERHEAD}, {ASIDE}, {DARK}")));
-        let apart = irradiance(&lights(OVERHEAD)).0 + irradiance(&lights(ASIDE)).0;
+        let sum = irradiance(&lights(OVERHEAD)).0 + irradiance(&lights(ASIDE)).0;
         assert!(
-            (together / apart - 1.0).abs() < 0.02,
-            "{together} for {apart}"
+            (together / sum - 1.0).abs() < 0.02,
+            "expected about {sum}, got {together}"
         );
-        // One in ten of 40,000, with a standard deviation of 60.
+        // Expected: one in ten of 40,000, with a standard deviation of 60.
         assert!(overhead.abs_diff(4_000) < 300, "{overhead}");
     }
 

@@ -1,27 +1,27 @@
-//! Trigonometry with the same result on every machine: the system's own differs in the last bit
-//! between systems, and so would pictures.
+//! Trigonometry and powers with the same results on every machine. The functions of the standard
+//! library differ in the last bit between systems, and so would pictures.
 
-/// The angle in `[0, π]` whose cosine is `x`, in radians.
+/// Returns the angle in `[0, π]` whose cosine is `x`, in radians.
 pub fn acos(x: f32) -> f32 {
     libm::acosf(x)
 }
 
-/// The angle in `(-π, π]` from the x-axis to `(x, y)`, in radians.
+/// Returns the angle in `(-π, π]` from the x-axis to `(x, y)`, in radians.
 pub fn atan2(y: f32, x: f32) -> f32 {
     libm::atan2f(y, x)
 }
 
-/// The sine and the cosine of an angle in radians.
+/// Returns the sine and the cosine of an angle in radians.
 pub fn sin_cos(angle: f32) -> (f32, f32) {
     libm::sincosf(angle)
 }
 
-/// The tangent of an angle in radians.
+/// Returns the tangent of an angle in radians.
 pub fn tan(angle: f32) -> f32 {
     libm::tanf(angle)
 }
 
-/// `base` to the power of `exponent`.
+/// Returns `base` to the power of `exponent`.
 pub fn pow(base: f32, exponent: f32) -> f32 {
     libm::powf(base, exponent)
 }

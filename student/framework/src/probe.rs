@@ -1,7 +1,7 @@
-//! The process that holds a submission and answers the grader's questions.
+//! The probe: the process that contains a submission and answers the grader's questions.
 //!
-//! It is told questions, never what counts as right, and nothing that it says of itself earns a
-//! point: exit code, output and claims are diagnosis only.
+//! It receives questions and never the correct answers. Only its answers earn points: its exit code
+//! and its output are used for diagnosis only.
 
 use std::io::{BufReader, BufWriter, Read, Write};
 use std::process::ExitCode;
@@ -14,19 +14,19 @@ use crate::attempt::keep_panics_quiet;
 use crate::submission::Submission;
 use crate::system::{claim_standard_streams, end_with_the_grader};
 
-/// The stack that a submission's recursion may use.
+/// The stack size of the thread that runs a submission's code.
 pub const STACK_BYTES: usize = 64 << 20;
 
-/// The longest question that is taken; the grader is trusted, so this only guards a slip.
+/// The maximum size of a question. The grader is trusted, so this only guards against bugs.
 const MAX_QUESTION_BYTES: usize = 256 << 20;
 
-/// Answers questions until there are no more.
+/// Answers questions from standard input until it ends.
 pub fn main(submission: &dyn Submission) -> ExitCode {
     end_with_the_grader();
     let (questions, answers) = match claim_standard_streams() {
         Ok(streams) => streams,
         Err(error) => {
-            eprintln!("probe: can not take over the standard streams: {error}");
+            eprintln!("probe: cannot redirect the standard streams: {error}");
             return ExitCode::from(3);
         }
     };
@@ -45,14 +45,14 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
             ExitCode::from(3)
         }
         Err(error) => {
-            eprintln!("probe: can not start a thread: {error}");
+            eprintln!("probe: cannot start a thread: {error}");
             ExitCode::from(3)
         }
     }
 }
 
-/// Answers each question in turn. Answers are held back while more questions are waiting, so that
-/// a batch costs one switch between the processes.
+/// Answers each question in turn. Answers are flushed only when no more questions are buffered, so
+/// that a batch of questions costs one switch between the processes.
 fn serve(
     submission: &dyn Submission,
     questions: impl Read,

@@ -1,59 +1,60 @@
-//! Random numbers that depend on what they are for, not on what was drawn before.
+//! Random numbers that depend on what they are used for, and not on earlier numbers.
 //!
-//! A running stream would let one wrong hit shift every later number of its path, and the picture
-//! of an almost right submission would look nothing like the reference's. Here each number is a
-//! hash of (seed, pixel, sample, bounce, purpose): the same place in the same path gets the same
-//! number in every submission, on every machine, in every order of evaluation.
+//! With a stream of random numbers, one wrong hit would shift all later numbers of its path, and
+//! the picture of an almost correct submission would look nothing like the reference's. Here, each
+//! number is a hash of (seed, pixel, sample, bounce, purpose). So the same decision in the same
+//! path gets the same number in every submission, on every machine and in every order of
+//! evaluation.
 
 use glam::{UVec2, Vec2, vec2};
 
-/// What a random number decides.
+/// The decision that a random number is used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// The place in the pixel.
+    /// The position within the pixel.
     Pixel,
-    /// Which light is asked.
+    /// The light to sample.
     Light,
-    /// The place on that light.
+    /// The point on that light.
     PointOnLight,
-    /// The direction in which a matte surface scatters.
+    /// The direction in which a matte surface scatters the path.
     Direction,
     /// Whether glass reflects or refracts.
     ReflectOrRefract,
 }
 
-/// All random numbers of one path.
+/// The random numbers of one path.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler {
     key: u64,
 }
 
 impl Sampler {
-    /// The random numbers of the `sample`-th path through a pixel.
+    /// Returns the random numbers of path number `sample` through a pixel.
     pub fn new(seed: u64, pixel: UVec2, sample: u32) -> Self {
         let pixel = u64::from(pixel.y) << 32 | u64::from(pixel.x);
         let key = mix(mix(mix(seed) ^ pixel) ^ u64::from(sample));
         Sampler { key }
     }
 
-    /// A number in `[0, 1)`.
+    /// Returns a number in `[0, 1)`.
     pub fn one(&self, bounce: u32, purpose: Purpose) -> f32 {
         self.pair(bounce, purpose).x
     }
 
-    /// Two independent numbers, each in `[0, 1)`.
+    /// Returns two independent numbers, each in `[0, 1)`.
     pub fn pair(&self, bounce: u32, purpose: Purpose) -> Vec2 {
-        let place = u64::from(bounce) << 32 | purpose as u64;
-        let bits = mix(self.key ^ place);
+        let decision = u64::from(bounce) << 32 | purpose as u64;
+        let bits = mix(self.key ^ decision);
         vec2(unit((bits >> 32) as u32), unit(bits as u32))
     }
 }
 
-/// One step of SplitMix64: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
+/// Computes one step of SplitMix64: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
 /// Generators", OOPSLA 2014, with Stafford's constants ("mix13").
 ///
-/// A bijection in which each bit of the input flips about half of the output's bits: nested, it
-/// hashes words one after the other, at three multiplications and shifts each, without tables.
+/// This is a bijection in which each bit of the input flips about half of the output bits. Nested
+/// calls hash one word after the other, with a few multiplications and shifts each and no tables.
 fn mix(word: u64) -> u64 {
     let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -61,7 +62,8 @@ fn mix(word: u64) -> u64 {
     word ^ (word >> 31)
 }
 
-/// The upper 24 bits as a fraction. All 32 would round up to 1, which is not in `[0, 1)`.
+/// Converts the upper 24 bits to a fraction in `[0, 1)`. With all 32 bits, the largest fraction
+/// would round up to 1.
 fn unit(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / 16_777_216.0)
 }
@@ -75,23 +77,23 @@ mod tests {
     #[test]
     fn the_same_arguments_give_the_same_numbers() {
         let sampler = Sampler::new(7, uvec2(3, 4), 5);
-        let early = sampler.pair(2, Purpose::Direction);
+        let first = sampler.pair(2, Purpose::Direction);
         sampler.one(0, Purpose::Light);
-        assert_eq!(sampler.pair(2, Purpose::Direction), early);
-        let again = Sampler::new(7, uvec2(3, 4), 5);
-        assert_eq!(again.pair(2, Purpose::Direction), early);
+        assert_eq!(sampler.pair(2, Purpose::Direction), first);
+        let equal = Sampler::new(7, uvec2(3, 4), 5);
+        assert_eq!(equal.pair(2, Purpose::Direction), first);
     }
 
     #[test]
     fn numbers_match_those_in_recorded_exams() {
-        // Keys of exams are recorded with them.
+        // The keys of exams were recorded with these numbers, so they must never change.
         let pair = Sampler::new(1, uvec2(2, 3), 4).pair(5, Purpose::PointOnLight);
         assert_eq!(pair * 16_777_216.0, vec2(4_298_788.0, 7_366_984.0));
     }
 
     #[test]
     fn mix_matches_the_published_splitmix64() {
-        // The first number of SplitMix64 from seed 0.
+        // The first number of SplitMix64 with seed 0.
         assert_eq!(mix(0), 0xe220_a839_7b1d_cdaf);
     }
 
@@ -125,7 +127,7 @@ mod tests {
             let cell = (pair * 4.0).as_uvec2();
             cells[(4 * cell.y + cell.x) as usize] += 1;
         }
-        // 625 each, with a standard deviation of 24.
+        // Expected: 625 pairs per cell, with a standard deviation of 24.
         assert!(cells.iter().all(|n| n.abs_diff(625) < 120), "{cells:?}");
     }
 }

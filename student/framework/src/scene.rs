@@ -1,7 +1,7 @@
-//! What is to be drawn: a camera, materials, shapes, and the light from around.
+//! Scenes: a camera, materials, shapes and the light of the environment.
 //!
-//! A scene is data. It is read from a JSON file (the keys are those of the types in `file`), and
-//! a submission makes its own types of it.
+//! A scene is plain data, read from a JSON file whose keys are defined by the types in `file`. A
+//! submission converts it to its own types.
 
 mod camera;
 mod error;
@@ -26,49 +26,51 @@ pub use camera::{Camera, Placement};
 pub use error::{SceneError, SceneErrorKind, TextPosition};
 pub use material::Material;
 
-// Former names, so that submissions written before they changed still compile.
+pub(crate) use material::checker;
+
+// Former names, kept so that older submissions still compile.
 #[doc(hidden)]
 pub use self::MAX_FILM_SIDE as LONGEST_SIDE;
 #[doc(hidden)]
 pub use error::{SceneErrorKind as Problem, TextPosition as Place};
-pub(crate) use material::checker;
 
-/// The most primitives in a leaf of the tree that is built for a picture.
+/// The maximum number of primitives in a leaf of the tree that is built for a picture.
 const MAX_LEAF_SIZE: usize = 4;
 
-/// The most pixels along one side of the film.
+/// The maximum number of pixels along one side of the film.
 pub const MAX_FILM_SIDE: u32 = 16_384;
 
-/// All that is to be drawn.
+/// A scene that can be rendered.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// What the scene shows, in its author's words; may be empty.
+    /// A description of the scene by its author; can be empty.
     pub about: String,
-    /// Who looks, from where.
+    /// The camera and its position in the scene.
     pub camera: Camera,
-    /// The radiance of all that no shape hides.
+    /// The radiance of the environment, which is visible where no shape is.
     pub environment: Vec3,
-    /// What `Shape::material` counts.
+    /// The materials, indexed by `Shape::material`.
     pub materials: Vec<Material>,
-    /// All shapes, in world space; meshes are triangles here.
+    /// All shapes, in world space. Meshes are converted to triangles.
     pub shapes: Vec<Shape>,
-    /// What to ask of `Bvh::build`.
+    /// The `max_leaf_size` to pass to `Bvh::build`.
     pub max_leaf_size: usize,
 }
 
 impl Scene {
-    /// The scene in a text that needs no other file.
+    /// Parses a scene from the text of a scene file that uses no other file.
     ///
     /// # Errors
-    /// If the text is no scene, or asks for a mesh's file.
+    /// Fails if the text is not a valid scene, or if the scene uses a mesh.
     pub fn from_text(text: &str) -> Result<Scene, SceneError> {
         read::scene(text, &mut |_| Err(SceneErrorKind::MeshWithoutFolder))
     }
 
-    /// The scene in a file; meshes are looked for beside it.
+    /// Loads a scene from a file. Paths of meshes are relative to the file's folder.
     ///
     /// # Errors
-    /// If a file can not be read or is no scene or mesh. The error begins with the file's name.
+    /// Fails if the scene's file or a mesh's file cannot be read or is invalid. The message begins
+    /// with the name of the file.
     #[cfg(feature = "cli")]
     pub fn load(path: &Path) -> Result<Scene, SceneError> {
         let text = error::read_text(path)?;
@@ -77,8 +79,8 @@ impl Scene {
             .map_err(|error| error.in_file(path))
     }
 
-    /// The same scene on a film of another size. The sensor keeps the shape that the scene's
-    /// author gave it, or else takes the film's.
+    /// Returns the same scene with a film of another size. If the scene file sets the aspect ratio
+    /// of the sensor, it stays the same; otherwise, it becomes that of the film.
     pub fn on_film(&self, film: UVec2) -> Scene {
         Scene {
             camera: self.camera.on_film(film),
@@ -86,7 +88,7 @@ impl Scene {
         }
     }
 
-    /// The largest coordinate, without its sign, of anything in the scene.
+    /// Returns the largest absolute value of any coordinate in the scene.
     pub fn extent(&self) -> f32 {
         let of_shape = |shape: &Shape| match shape {
             Shape::Triangle { vertices, .. } => vertices

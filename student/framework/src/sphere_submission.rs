@@ -1,16 +1,16 @@
-//! A submission to test the framework with: no real one is at hand here.
+//! A minimal submission for tests of the framework.
 
 use glam::{UVec2, Vec2, Vec3};
 use protocol::{Interval, PinholeCamera, Ray, Shape, Trace, TreeNode};
 
 use crate::submission::{Aggregate, CameraRays, Hierarchy, Submission};
 
-/// Spheres only, by a formula of our own; `spoil` is applied to every answer.
+/// A submission that intersects rays with spheres only. It applies `alter` to each hit.
 pub(crate) struct SphereSubmission {
     pub(crate) alter: fn(Trace) -> Trace,
 }
 
-/// Answers as it should.
+/// A submission that returns correct hits.
 pub(crate) const CORRECT: SphereSubmission = SphereSubmission {
     alter: |trace| trace,
 };
@@ -21,18 +21,18 @@ struct SquareCamera {
 
 struct SphereList {
     shapes: Vec<Shape>,
-    spoil: fn(Trace) -> Trace,
+    alter: fn(Trace) -> Trace,
 }
 
 impl Submission for SphereSubmission {
-    fn camera(&self, lens: &PinholeCamera) -> Box<dyn CameraRays> {
-        Box::new(SquareCamera { film: lens.film })
+    fn camera(&self, pinhole: &PinholeCamera) -> Box<dyn CameraRays> {
+        Box::new(SquareCamera { film: pinhole.film })
     }
 
     fn build(&self, shapes: &[Shape], _: usize) -> Box<dyn Hierarchy> {
         Box::new(SphereList {
             shapes: shapes.to_vec(),
-            spoil: self.alter,
+            alter: self.alter,
         })
     }
 
@@ -50,22 +50,22 @@ impl Submission for SphereSubmission {
 }
 
 impl CameraRays for SquareCamera {
-    /// A field of view of 90° on a square sensor.
+    /// Returns a ray for a field of view of 90° on a square sensor.
     fn ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
-        let place = (pixel.as_vec2() + offset) / self.film.as_vec2() * 2.0 - 1.0;
-        Ray::new(Vec3::ZERO, place.extend(-1.0))
+        let position = (pixel.as_vec2() + offset) / self.film.as_vec2() * 2.0 - 1.0;
+        Ray::new(Vec3::ZERO, position.extend(-1.0))
     }
 }
 
 impl Aggregate for SphereList {
     fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
-        let meet = |shape: &Shape| intersect(shape, ray);
-        let nearest = self.shapes.iter().map(meet).fold(None, Trace::nearer);
-        nearest.map(self.spoil)
+        let hit = |shape: &Shape| intersect(shape, ray);
+        let nearest = self.shapes.iter().map(hit).fold(None, Trace::nearer);
+        nearest.map(self.alter)
     }
 }
 
-/// No tree: asked about all of them.
+/// There is no tree: each ray is tested with all shapes.
 impl Hierarchy for SphereList {
     fn root(&self) -> usize {
         0
@@ -75,20 +75,21 @@ impl Hierarchy for SphereList {
         0
     }
 
-    fn node(&self, place: usize) -> TreeNode {
-        unreachable!("there is no node {place}")
+    fn node(&self, index: usize) -> TreeNode {
+        unreachable!("there is no node {index}")
     }
 
     fn primitive_count(&self) -> usize {
         0
     }
 
-    fn material(&self, place: usize) -> u32 {
-        unreachable!("none is told of, nor the material of {place}")
+    fn material(&self, index: usize) -> u32 {
+        unreachable!("there is no primitive {index}")
     }
 }
 
-/// Geometrically: the closest approach to the centre, then half a chord to either side.
+/// Intersects a ray with a sphere geometrically: finds the point of the ray that is closest to the
+/// centre, then goes half a chord to either side.
 fn intersect(shape: &Shape, ray: &Ray) -> Option<Trace> {
     let Shape::Sphere {
         center,

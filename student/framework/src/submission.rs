@@ -1,30 +1,31 @@
-//! The one seam between what is given and what students write.
+//! The interface between the framework and the code that students write.
 //!
-//! Called through `dyn`, and as narrow as it can be: what is on the other side is compiled with every
-//! submission, and every submission waits for it. No method has the name of one that students write:
-//! where theirs is missing, the compiler has to say so, and not to call this one in its place.
+//! The traits are used through `dyn` and are as small as possible, because their implementations
+//! are compiled together with every submission. The methods have other names than those that
+//! students write. Otherwise, if a student's method were missing, the compiler could resolve the
+//! call to the trait's method instead of reporting an error.
 
 use glam::{UVec2, Vec2, Vec3};
 use protocol::{Interval, PinholeCamera, Ray, Shape, Trace, Tree, TreeNode};
 
 use crate::scene::Scene;
 
-/// The five files of a submission, behind what is given in `world.rs`: makes its own types of what a
-/// scene or a question describes.
+/// A submission's five files, as implemented in the given file `world.rs`. The methods convert what
+/// a scene or a question describes to the submission's own types.
 pub trait Submission: Sync {
-    /// `Camera::new`.
-    fn camera(&self, lens: &PinholeCamera) -> Box<dyn CameraRays>;
+    /// Calls `Camera::new`.
+    fn camera(&self, pinhole: &PinholeCamera) -> Box<dyn CameraRays>;
 
-    /// Primitives by themselves, without a tree.
+    /// Creates a list of primitives, without a tree.
     fn primitive_list(&self, shapes: &[Shape]) -> Box<dyn Aggregate>;
 
-    /// `BBox::hit`, of the box between these corners.
+    /// Calls `BBox::hit` of the box between these corners.
     fn intersect_box(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval>;
 
-    /// `Bvh::build`.
+    /// Calls `Bvh::build`.
     fn build(&self, shapes: &[Shape], max_leaf_size: usize) -> Box<dyn Hierarchy>;
 
-    /// `Bvh::from_nodes`.
+    /// Calls `Bvh::from_nodes`.
     fn prebuilt_tree(
         &self,
         shapes: &[Shape],
@@ -35,57 +36,58 @@ pub trait Submission: Sync {
 
 /// A submission's camera.
 pub trait CameraRays: Sync {
-    /// `Camera::sample_ray`, in camera space.
+    /// Calls `Camera::sample_ray`. The ray is in camera space.
     fn ray(&self, pixel: UVec2, offset: Vec2) -> Ray;
 }
 
-/// Primitives of a submission.
+/// A list or tree of a submission's primitives.
 pub trait Aggregate: Sync {
-    /// The closest hit of all.
+    /// Returns the closest hit on any of the primitives.
     fn closest_hit(&self, ray: &Ray) -> Option<Trace>;
 }
 
 /// A submission's tree.
 pub trait Hierarchy: Aggregate {
-    /// The place of the root.
+    /// Returns the index of the root.
     fn root(&self) -> usize;
 
-    /// How many nodes there are.
+    /// Returns the number of nodes.
     fn node_count(&self) -> usize;
 
-    /// One of them.
-    fn node(&self, place: usize) -> TreeNode;
+    /// Returns the node at `index`.
+    fn node(&self, index: usize) -> TreeNode;
 
-    /// How many primitives there are.
+    /// Returns the number of primitives.
     fn primitive_count(&self) -> usize;
 
-    /// The material of one of them, in the order that the leaves count.
-    fn material(&self, place: usize) -> u32;
+    /// Returns the material of the primitive at `index`, in the order that the leaves index them.
+    fn material(&self, index: usize) -> u32;
 }
 
 impl dyn Hierarchy {
-    /// The same, as data.
+    /// Returns the whole tree as data.
     pub fn tree(&self) -> Tree {
         Tree {
             nodes: (0..self.node_count())
-                .map(|place| self.node(place))
+                .map(|index| self.node(index))
                 .collect(),
             root: TreeNode::saturating_index(self.root()),
             order: (0..self.primitive_count())
-                .map(|place| self.material(place))
+                .map(|index| self.material(index))
                 .collect(),
         }
     }
 }
 
-/// A scene made of a submission's own types: all that the integrator sees of it.
+/// A scene's camera and primitives, converted to a submission's own types. The integrator calls the
+/// submission only through this type.
 pub struct World {
     camera: Box<dyn CameraRays>,
     bvh: Box<dyn Hierarchy>,
 }
 
 impl World {
-    /// The submission's own of this scene.
+    /// Converts a scene to the submission's types, which includes building its tree.
     pub fn new(submission: &dyn Submission, scene: &Scene) -> Self {
         World {
             camera: submission.camera(&scene.camera.pinhole),
@@ -93,17 +95,17 @@ impl World {
         }
     }
 
-    /// `Camera::sample_ray`, in camera space.
+    /// Calls `Camera::sample_ray`. The ray is in camera space.
     pub fn camera_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
         self.camera.ray(pixel, offset)
     }
 
-    /// `Bvh::hit`, in world space.
+    /// Calls `Bvh::hit`, with a ray in world space.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         self.bvh.closest_hit(ray)
     }
 
-    /// The tree that `Bvh::build` made.
+    /// Returns the tree that `Bvh::build` has built.
     pub fn tree(&self) -> Tree {
         self.bvh.tree()
     }

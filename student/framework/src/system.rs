@@ -1,26 +1,27 @@
-//! What differs between operating systems, and nothing else: all of this crate's `cfg` for them
-//! stands here.
+//! Code that depends on the operating system. All `cfg` attributes for operating systems in this
+//! crate are in this module.
 
 use std::fs::File;
 use std::io;
 
-/// Moves the grader's pipes away from standard input and output: the first is where questions come
-/// from, the second where answers go. What a submission prints then goes to standard error, and
-/// what it tries to read is at its end.
+/// Moves the grader's pipes away from standard input and output, and returns them: questions are
+/// read from the first, and answers are written to the second. Afterwards, what a submission prints
+/// goes to standard error, and its standard input is empty.
 #[cfg(unix)]
 pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
     use std::os::fd::AsFd;
 
     let questions = io::stdin().as_fd().try_clone_to_owned()?;
     let answers = io::stdout().as_fd().try_clone_to_owned()?;
-    // A pipe whose other end is closed: no file is opened, so this also works in a sandbox.
+    // A pipe whose write end is closed. No file is opened, so this also works in a sandbox.
     let (nothing, _) = rustix::pipe::pipe()?;
     rustix::stdio::dup2_stdin(nothing)?;
     rustix::stdio::dup2_stdout(io::stderr())?;
     Ok((File::from(questions), File::from(answers)))
 }
 
-/// The same. The standard library looks its streams up each time, so that it follows.
+/// Does the same on Windows. The standard library looks up its streams at each use, so it uses the
+/// redirected ones.
 #[cfg(windows)]
 pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
     use filedescriptor::{FileDescriptor, Pipe, StdioDescriptor};
@@ -30,13 +31,14 @@ pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
         FileDescriptor::redirect_stdio(instead, stream)?.as_file()
     };
     let questions = claim(StdioDescriptor::Stdin, &nothing).map_err(io::Error::other)?;
-    let words = FileDescriptor::dup(&io::stderr()).map_err(io::Error::other)?;
-    let answers = claim(StdioDescriptor::Stdout, &words).map_err(io::Error::other)?;
+    let stderr = FileDescriptor::dup(&io::stderr()).map_err(io::Error::other)?;
+    let answers = claim(StdioDescriptor::Stdout, &stderr).map_err(io::Error::other)?;
     Ok((questions, answers))
 }
 
-/// Ends this process when the grader ends, however that does: what hangs would go on for minutes
-/// after a Ctrl-C. A sandbox may forbid it, and sees to it itself.
+/// Makes the operating system kill this process when the grader ends, however the grader ends.
+/// Otherwise, an endless loop would run on for minutes after a Ctrl-C. A sandbox may forbid this
+/// call; it then ends the process itself.
 #[cfg(target_os = "linux")]
 pub(crate) fn end_with_the_grader() {
     use rustix::process::{Signal, set_parent_process_death_signal};
@@ -44,7 +46,7 @@ pub(crate) fn end_with_the_grader() {
     set_parent_process_death_signal(Some(Signal::KILL)).ok();
 }
 
-/// The same, where nothing tells: what computes goes on to its limit, what waits ends with the
-/// questions.
+/// Does nothing, because other systems have no such notification. A probe that computes runs on
+/// until its time limit, and one that waits ends when the stream of questions ends.
 #[cfg(not(target_os = "linux"))]
 pub(crate) fn end_with_the_grader() {}

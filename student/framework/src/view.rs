@@ -1,26 +1,26 @@
-//! Pictures of what rays meet first: not light, but the answers themselves.
+//! Pictures of first hits, which show the fields of the [`Trace`] instead of light.
 
 use glam::Vec3;
 use protocol::{Trace, Tree};
 
-/// What a picture shows.
+/// The quantity that a picture shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum ViewMode {
-    /// The scene, lit.
+    /// The scene with its lighting.
     Shaded,
-    /// `Trace::normal`: x, y, z from −1 to 1 as red, green, blue.
+    /// `Trace::normal`: x, y and z from −1 to 1 as red, green and blue.
     Normals,
-    /// `Trace::distance`: the nearest is white, the farthest almost black.
+    /// `Trace::distance`: the nearest hit is white, the farthest almost black.
     Depth,
-    /// `Trace::uv`: the fractions of u and v as red and green.
+    /// `Trace::uv`: the fractional parts of u and v as red and green.
     Uv,
-    /// How many boxes of the tree hold the place that is met, from blue to red, and a tint of its
-    /// own for each leaf.
+    /// The number of boxes of the tree around the hit, from blue (few) to red (many), with a
+    /// different brightness for each leaf.
     Bvh,
 }
 
-/// The picture of the first hits, pixel by pixel; `Shaded` has none of its own and is left black.
-/// What is missed, or is not finite, is black.
+/// Computes the colour of each pixel from its first hit. Pixels without a hit, or with a value that
+/// is not finite, are black. For `Shaded`, all pixels are black.
 pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, epsilon: f32) -> Vec<Vec3> {
     let each = |colour: &dyn Fn(&Trace) -> Vec3| {
         let pixel = |hit: &Option<Trace>| hit.as_ref().map_or(Vec3::ZERO, colour);
@@ -38,12 +38,12 @@ pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, epsilon: f32
             let (near, far) = finite.fold((f32::INFINITY, 0.0_f32), |(near, far), distance| {
                 (near.min(distance), far.max(distance))
             });
-            // All at one distance: all white.
+            // Not zero: if all hits are at the same distance, they are all white.
             let span = (far - near).max(f32::MIN_POSITIVE);
             each(&|hit| Vec3::splat(1.0 - 0.95 * (hit.distance - near) / span))
         }
         ViewMode::Bvh => {
-            let around: Vec<TreeLocation> = hits
+            let locations: Vec<TreeLocation> = hits
                 .iter()
                 .map(|hit| {
                     hit.map_or(TreeLocation::default(), |hit| {
@@ -51,37 +51,38 @@ pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, epsilon: f32
                     })
                 })
                 .collect();
-            let most = around.iter().map(|around| around.boxes).max().unwrap_or(0);
-            let colour = |around: &TreeLocation| {
-                leaf_brightness(around.leaf) * heat_colour(around.boxes, most)
+            let counts = locations.iter().map(|location| location.boxes);
+            let max = counts.max().unwrap_or(0);
+            let colour = |location: &TreeLocation| {
+                leaf_brightness(location.leaf) * heat_colour(location.boxes, max)
             };
-            let show = |(hit, around): (&Option<Trace>, &TreeLocation)| match hit {
-                Some(_) => colour(around),
+            let pixel = |(hit, location): (&Option<Trace>, &TreeLocation)| match hit {
+                Some(_) => colour(location),
                 None => Vec3::ZERO,
             };
-            hits.iter().zip(&around).map(show).collect()
+            hits.iter().zip(&locations).map(pixel).collect()
         }
     }
 }
 
-/// What of a tree is around a point.
+/// The boxes of a tree around a point.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
 struct TreeLocation {
-    /// The nodes whose boxes hold the point.
+    /// The number of nodes whose boxes contain the point.
     boxes: u32,
-    /// The place of one of the leaves among them.
+    /// The index of one of the leaves among them.
     leaf: u32,
 }
 
-/// Descends into each box that holds `point`, give or take `epsilon`. No ray is followed: that is
-/// for the submission to do. The tree may be nonsense; then as much of it is seen as can be.
+/// Finds the boxes that contain `point`, with the tolerance `epsilon`. This does not trace a ray,
+/// which is the submission's task. If the tree is invalid, the result covers only part of it.
 fn locate(tree: &Tree, point: Vec3, epsilon: f32) -> TreeLocation {
     let mut found = TreeLocation::default();
-    let mut waiting = vec![tree.root];
-    // In a tree each node is met once: whoever meets more has met a circle.
+    let mut stack = vec![tree.root];
+    // A valid tree has each node once. The limit ends the loop if the tree has a cycle.
     for _ in 0..tree.nodes.len() {
-        let Some(place) = waiting.pop() else { break };
-        let Some(node) = tree.nodes.get(place as usize) else {
+        let Some(index) = stack.pop() else { break };
+        let Some(node) = tree.nodes.get(index as usize) else {
             continue;
         };
         let below = point.cmplt(node.min - epsilon);
@@ -91,29 +92,29 @@ fn locate(tree: &Tree, point: Vec3, epsilon: f32) -> TreeLocation {
         }
         found.boxes += 1;
         if node.is_leaf() {
-            found.leaf = place;
+            found.leaf = index;
         } else {
-            waiting.extend([node.r, node.l]);
+            stack.extend([node.r, node.l]);
         }
     }
     found
 }
 
-/// From blue, for few, over green to red, for the most.
-fn heat_colour(count: u32, most: u32) -> Vec3 {
+/// Returns a colour from blue (for 0) through green to red (for `max`).
+fn heat_colour(count: u32, max: u32) -> Vec3 {
     const STOPS: [Vec3; 4] = [
         Vec3::new(0.15, 0.25, 0.85),
         Vec3::new(0.1, 0.75, 0.65),
         Vec3::new(0.95, 0.85, 0.2),
         Vec3::new(0.9, 0.15, 0.1),
     ];
-    let along = count as f32 / most.max(1) as f32 * 3.0;
-    let stop = (along as usize).min(2);
-    STOPS[stop].lerp(STOPS[stop + 1], along - stop as f32)
+    let position = count as f32 / max.max(1) as f32 * 3.0;
+    let stop = (position as usize).min(2);
+    STOPS[stop].lerp(STOPS[stop + 1], position - stop as f32)
 }
 
-/// A brightness for each leaf that sets it off from its neighbours: steps of the golden ratio
-/// never come near each other soon.
+/// Returns a brightness for a leaf that distinguishes it from its neighbours. Multiples of the
+/// golden ratio, modulo 1, are well spread, so leaves with close indices get different values.
 fn leaf_brightness(leaf: u32) -> f32 {
     let step = (f64::from(leaf) * 0.618_033_988_749_895).fract();
     0.55 + 0.45 * step as f32

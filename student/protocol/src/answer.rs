@@ -1,4 +1,4 @@
-//! What a submission's probe answers.
+//! Answers that the probe sends to the grader.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -8,52 +8,53 @@ use crate::ray::Ray;
 use crate::trace::Trace;
 use crate::tree::Tree;
 
-/// The answer to the [`Question`](crate::Question) of the same kind, element by element.
+/// The answer to one [`Question`](crate::Question), with one outcome per element.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Answer {
-    /// To `Camera`: a ray for each sample.
+    /// Answers `Camera`: a ray for each sample.
     Rays(Vec<ElementOutcome<Ray>>),
-    /// To `Shapes`, `Traverse` and `BuildAndTraverse`: the closest hit of each ray.
+    /// Answers `Shapes`, `Traverse` and `BuildAndTraverse`: the closest hit of each ray.
     Hits(Vec<ElementOutcome<Option<Trace>>>),
-    /// To `BBox`: the part of each shot's times that lies in the box.
+    /// Answers `BBox`: for each query, the part of its times that is inside the box.
     Spans(Vec<ElementOutcome<Option<Interval>>>),
-    /// To `Build`.
+    /// Answers `Build`: the tree.
     Tree(ElementOutcome<Tree>),
-    /// To `Radiance`: linear red, green and blue, row by row from the bottom.
+    /// Answers `Radiance`: linear red, green and blue, row by row from the bottom.
     Picture(ElementOutcome<Vec<Vec3>>),
-    /// To `Done`.
+    /// Answers `Done`.
     Done,
 }
 
-/// What became of one element of a question.
+/// The outcome of one element of a question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ElementOutcome<T> {
     /// The submission's value.
     Value(T),
     /// The submission's code panicked.
     Panicked(Panic),
-    /// Not asked any more, after [`Panic::PATIENCE`] panics in the same question.
+    /// The element was not run, because [`Panic::MAX_PER_QUESTION`] earlier ones panicked.
     #[serde(alias = "GivenUp")]
     Skipped,
 }
 
-/// A panic, as much of it as is worth telling.
+/// The message and location of a panic, as sent to the grader.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Panic {
-    /// The panic's own words, cut at [`Panic::LONGEST`] bytes.
+    /// The panic message, truncated to [`Panic::MAX_TEXT_BYTES`].
     pub message: String,
-    /// The file and line, such as `sphere.rs:34`.
+    /// The file and line, such as `sphere.rs:34`; truncated likewise.
     #[serde(alias = "place")]
     pub location: String,
 }
 
 impl Panic {
-    /// The most bytes of a message or place that are kept.
+    /// Maximum length of `message` and of `location`, in bytes.
     pub const MAX_TEXT_BYTES: usize = 600;
-    /// After so many panics in one question, its other elements are not asked.
+    /// Number of panics in one question after which its remaining elements are skipped.
     pub const MAX_PER_QUESTION: usize = 3;
 
-    /// Whether the panic is `todo!` or `unimplemented!`: the task is not written yet.
+    /// Returns whether the panic came from `todo!` or `unimplemented!`, so that the task is not
+    /// written yet.
     pub fn is_unimplemented(&self) -> bool {
         self.message.starts_with("not yet implemented")
             || self.message.starts_with("not implemented")

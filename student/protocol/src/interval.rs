@@ -1,6 +1,6 @@
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// The numbers from `min` to `max`, both ends included; empty if `min > max`.
+/// The closed interval from `min` to `max`: both ends are included. Empty if `min > max`.
 ///
 /// Used for distances along a ray, in units of its (unit) direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,25 +12,25 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// All that lies ahead: `[0, ∞)`.
+    /// The interval `[0, ∞)`: every distance ahead of a ray's origin.
     pub const AHEAD: Interval = Interval {
         min: 0.0,
         max: f32::INFINITY,
     };
 
-    /// The interval from `min` to `max`.
+    /// Creates the interval from `min` to `max`.
     pub const fn new(min: f32, max: f32) -> Self {
         Interval { min, max }
     }
 
-    /// Whether `t` lies in the interval; never true of NaN.
+    /// Returns whether `t` is in the interval. NaN never is.
     pub fn contains(&self, t: f32) -> bool {
         self.min <= t && t <= self.max
     }
 
-    /// Whether no number lies in the interval (also if an end is NaN).
+    /// Returns whether the interval contains no number. An interval with a NaN end is empty.
     pub fn is_empty(&self) -> bool {
-        // Not `min > max`: a NaN must make the interval empty.
+        // `min > max` would be false for NaN, so the interval would not count as empty.
         !matches!(
             self.min.partial_cmp(&self.max),
             Some(std::cmp::Ordering::Less | std::cmp::Ordering::Equal)
@@ -38,7 +38,7 @@ impl Interval {
     }
 }
 
-// JSON has no infinity: in text an unbounded end is `null`. The binary form is two floats.
+// JSON has no infinity, so an unbounded end is written as `null`. The binary form is two floats.
 
 impl Serialize for Interval {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

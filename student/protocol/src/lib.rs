@@ -1,8 +1,8 @@
-//! The words that both towers of this project speak: the grader, which asks, and a submission's
-//! probe, which answers.
+//! Types shared by the grader, which asks questions, and the probe, the process that runs a
+//! submission and answers them.
 //!
-//! Plain data only: nothing here knows how a ray meets a sphere. What may travel is a [`Question`]
-//! and its [`Answer`]; how they travel is in [`wire`].
+//! This crate holds plain data only, and no intersection code. The grader sends a [`Question`] and
+//! receives an [`Answer`]; the module [`wire`] defines how they are encoded.
 
 pub mod answer;
 mod interval;
@@ -26,7 +26,7 @@ pub use tree::{Tree, TreeNode};
 pub use vertex::Vertex;
 pub use view::{ExamCamera, PIXEL_OFFSETS, PinholeCamera, Rays, Sample, Samples, every_pixel};
 
-// Former names, so that submissions written before they changed still compile.
+// Former names, kept so that older submissions still compile.
 #[doc(hidden)]
 pub use answer::ElementOutcome as Outcome;
 #[doc(hidden)]

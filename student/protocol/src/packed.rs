@@ -1,6 +1,8 @@
-//! Long lists in text formats: `#[serde(with = "packed")]` writes a list of more than
-//! [`PLAIN`] elements as one string, the base64 form of its binary encoding. Short lists stay
-//! readable, and the binary wire format is not touched.
+//! Compact serialisation of long lists in text formats such as JSON.
+//!
+//! `#[serde(with = "packed")]` writes a list of more than [`MAX_PLAIN_LEN`] elements as one string:
+//! the base64 form of its binary encoding. Shorter lists stay readable, and binary formats are not
+//! affected.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -11,10 +13,10 @@ use serde::de::{DeserializeOwned, Error as _, SeqAccess, Visitor};
 use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// The longest list that is written element by element in text.
+/// Maximum length of a list that is written element by element in text formats.
 pub const MAX_PLAIN_LEN: usize = 32;
 
-/// See the module's description.
+/// Serialises a list as described in the module documentation.
 pub fn serialize<T: Serialize, S: Serializer>(list: &[T], out: S) -> Result<S::Ok, S::Error> {
     if !out.is_human_readable() || list.len() <= MAX_PLAIN_LEN {
         return list.serialize(out);
@@ -23,7 +25,7 @@ pub fn serialize<T: Serialize, S: Serializer>(list: &[T], out: S) -> Result<S::O
     out.serialize_str(&STANDARD_NO_PAD.encode(bytes))
 }
 
-/// See the module's description. Takes either form at any length.
+/// Deserialises a list from either form, whatever its length.
 pub fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de>>(
     from: D,
 ) -> Result<Vec<T>, D::Error> {
@@ -40,7 +42,7 @@ impl<'de, T: DeserializeOwned> Visitor<'de> for ListOrText<T> {
     type Value = Vec<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a list, or the base64 form of its binary encoding")
+        f.write_str("a list, or a string with the base64 form of its binary encoding")
     }
 
     fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Vec<T>, E> {
@@ -53,17 +55,19 @@ impl<'de, T: DeserializeOwned> Visitor<'de> for ListOrText<T> {
             list.push(element);
         }
         if list.len() > 10_000_000 {
-            return Err(A::Error::custom("more than ten million elements"));
+            return Err(A::Error::custom(
+                "a list has more than ten million elements",
+            ));
         }
         Ok(list)
     }
 }
 
-/// The same for any value, however short: `#[serde(with = "packed::text")]`.
+/// Compact serialisation of a value of any type and size: `#[serde(with = "packed::text")]`.
 pub mod text {
     use super::*;
 
-    /// See the module's description.
+    /// Serialises a value as described in the module documentation.
     pub fn serialize<T: Serialize, S: Serializer>(value: &T, out: S) -> Result<S::Ok, S::Error> {
         if !out.is_human_readable() {
             return value.serialize(out);
@@ -72,7 +76,7 @@ pub mod text {
         out.serialize_str(&STANDARD_NO_PAD.encode(bytes))
     }
 
-    /// See the module's description.
+    /// Deserialises a value as described in the module documentation.
     pub fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de>>(
         from: D,
     ) -> Result<T, D::Error> {
@@ -88,7 +92,10 @@ fn decode<T: DeserializeOwned, E: serde::de::Error>(text: &str) -> Result<T, E> 
     let bytes = STANDARD_NO_PAD.decode(text).map_err(E::custom)?;
     match postcard::take_from_bytes(&bytes).map_err(E::custom)? {
         (value, []) => Ok(value),
-        (_, rest) => Err(E::custom(format!("{} bytes too many", rest.len()))),
+        (_, rest) => Err(E::custom(format!(
+            "unexpected trailing bytes: {}",
+            rest.len()
+        ))),
     }
 }
 
@@ -130,6 +137,7 @@ mod tests {
         bytes.push(0);
         let text = format!(r#"{{"list":"{}"}}"#, STANDARD_NO_PAD.encode(bytes));
         let error = serde_json::from_str::<Holder>(&text).unwrap_err();
-        assert!(error.to_string().contains("1 bytes too many"), "{error}");
+        let message = error.to_string();
+        assert!(message.contains("trailing bytes: 1"), "{message}");
     }
 }

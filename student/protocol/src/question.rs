@@ -1,4 +1,4 @@
-//! What a submission can be asked.
+//! Questions that the grader asks the probe.
 
 use glam::{UVec2, Vec3};
 use serde::{Deserialize, Serialize};
@@ -10,111 +10,112 @@ use crate::shape::Shape;
 use crate::tree::TreeNode;
 use crate::view::{PinholeCamera, Rays, Samples};
 
-/// One subject, and all that is asked of it. Each element (a ray, a sample, a tree) is answered
-/// apart: a panic costs only its own.
+/// A question about one subject, such as a camera, a list of shapes or a tree. It consists of
+/// elements (samples, rays, a tree to build) that are answered separately, so that a panic affects
+/// only its own element.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Question {
-    /// `Camera::sample_ray`, once for each sample.
+    /// Calls `Camera::sample_ray` once for each sample.
     Camera {
-        /// The camera to ask.
+        /// The camera.
         camera: PinholeCamera,
-        /// The places on its film.
+        /// The positions on its film.
         samples: Samples,
     },
-    /// The nearest of the answers that each shape's own `hit` gives, for each ray: no tree.
+    /// Calls `hit` of every shape for each ray, and takes the closest hit. No tree is involved.
     Shapes {
-        /// The shapes, asked one after the other.
+        /// The shapes, tested one after the other.
         #[serde(with = "packed")]
         shapes: Vec<Shape>,
         /// The rays.
         rays: Rays,
     },
-    /// `BBox::hit`, once for each ray and its times.
+    /// Calls `BBox::hit` once for each ray and its times.
     #[serde(rename = "bbox")]
     BBox {
         /// The smallest corner of the box.
         min: Vec3,
         /// The largest corner of the box.
         max: Vec3,
-        /// The rays, each with the times that count.
+        /// The rays, each with the `times` argument of the call.
         #[serde(with = "packed")]
         #[serde(alias = "shots")]
         queries: Vec<(Ray, Interval)>,
     },
-    /// `Bvh::build`: the whole tree is the answer.
+    /// Calls `Bvh::build` once. The answer is the whole tree.
     Build {
-        /// The primitives, each with its own material.
+        /// The primitives, each with a different material.
         #[serde(with = "packed")]
         shapes: Vec<Shape>,
-        /// The most primitives that a leaf may hold.
+        /// The maximum number of primitives in a leaf.
         max_leaf_size: u32,
     },
-    /// `Bvh::hit` on this tree, once for each ray.
+    /// Calls `Bvh::hit` on the given tree, once for each ray.
     Traverse {
-        /// The primitives, in the order that the leaves count.
+        /// The primitives, in the order that the leaves index them.
         #[serde(with = "packed")]
         shapes: Vec<Shape>,
         /// The nodes, in any order.
         #[serde(with = "packed")]
         nodes: Vec<TreeNode>,
-        /// The place of the node where everything starts.
+        /// The index of the root in `nodes`.
         root: u32,
         /// The rays.
         rays: Rays,
     },
-    /// `Bvh::hit` on the tree that the submission's own `Bvh::build` makes, once for each ray.
+    /// Calls `Bvh::hit` once for each ray, on the tree that the submission's `Bvh::build` returns.
     BuildAndTraverse {
         /// The primitives.
         #[serde(with = "packed")]
         shapes: Vec<Shape>,
-        /// The most primitives that a leaf may hold.
+        /// The maximum number of primitives in a leaf.
         max_leaf_size: u32,
         /// The rays.
         rays: Rays,
     },
-    /// A path-traced picture, with every random number drawn by the framework.
+    /// Renders a path-traced picture. The framework draws every random number.
     Radiance {
         /// The scene, as the text of a scene file that needs no other file.
         scene: String,
         /// The number of pixels, across and up.
         film: UVec2,
-        /// Paths for each pixel.
+        /// The number of paths per pixel.
         samples: u32,
-        /// The most times that a path may be scattered.
+        /// The maximum number of times that a path is scattered.
         bounces: u32,
-        /// What all random numbers follow from.
+        /// The seed of all random numbers.
         seed: u64,
     },
-    /// Nothing: whoever answers has answered all that came before.
+    /// Has no elements. Its answer shows that all earlier questions have been answered.
     Done,
 }
 
 impl Question {
-    /// How many elements are asked, and so answered.
+    /// Returns the number of elements, which is also the number of outcomes in the answer.
     pub fn count(&self) -> usize {
         match self {
             Question::Camera { camera, samples } => samples.count(camera.film),
             Question::Shapes { rays, .. }
             | Question::Traverse { rays, .. }
             | Question::BuildAndTraverse { rays, .. } => rays.count(),
-            Question::BBox { queries: shots, .. } => shots.len(),
+            Question::BBox { queries, .. } => queries.len(),
             Question::Build { .. } | Question::Radiance { .. } => 1,
             Question::Done => 0,
         }
     }
 
-    /// The most nodes that are read of a tree over this many primitives: a binary tree with a
-    /// primitive in each leaf needs `2n - 1`; the rest is room for nodes left unused.
+    /// Returns the maximum number of nodes in a tree over this many primitives. A binary tree with
+    /// one primitive per leaf has `2n - 1`; the limit is higher to allow for unused nodes.
     pub fn max_nodes(primitives: usize) -> usize {
         primitives.saturating_mul(4).saturating_add(64)
     }
 
-    /// The most bytes that an honest answer takes on the wire.
+    /// Returns an upper bound for the size of a well-formed answer on the wire, in bytes.
     pub fn max_answer_bytes(&self) -> usize {
         // A Trace is 12 floats and a varint; a Panic is bounded text.
-        const ELEMENT: usize = 64;
-        const PANICS: usize = 16 * 1024;
+        const ELEMENT_BYTES: usize = 64;
+        const PANIC_BYTES: usize = 16 * 1024;
         let elements = match self {
             Question::Camera { .. }
             | Question::Shapes { .. }
@@ -127,6 +128,8 @@ impl Question {
             }
             Question::Radiance { film, .. } => (film.x as usize).saturating_mul(film.y as usize),
         };
-        elements.saturating_mul(ELEMENT).saturating_add(PANICS)
+        elements
+            .saturating_mul(ELEMENT_BYTES)
+            .saturating_add(PANIC_BYTES)
     }
 }

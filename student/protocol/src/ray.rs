@@ -3,19 +3,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::interval::Interval;
 
-/// The points `origin + t * dir` for every `t` in `range`.
+/// A ray: the points `origin + t * dir` for every `t` in `range`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ray {
-    /// Where the ray starts.
+    /// The point where the ray starts.
     pub origin: Vec3,
-    /// Where it goes; of length one, so that `t` is a distance.
+    /// The direction, of length one, so that `t` is a distance.
     pub dir: Vec3,
-    /// The part of the ray that counts, as distances from `origin`; both ends included.
+    /// The distances from `origin` at which hits count; both ends are included.
     pub range: Interval,
 }
 
 impl Ray {
-    /// The ray from `origin` toward `dir`, of any length but zero, with range `[0, ∞)`.
+    /// Creates the ray from `origin` in the direction `dir`, with range `[0, ∞)`. `dir` may have
+    /// any length except zero; it is normalised.
     pub fn new(origin: Vec3, dir: Vec3) -> Self {
         Ray {
             origin,
@@ -24,7 +25,7 @@ impl Ray {
         }
     }
 
-    /// The same ray, of which only `range` counts.
+    /// Returns the same ray with the range from `min` to `max`.
     pub fn within(self, min: f32, max: f32) -> Self {
         Ray {
             range: Interval::new(min, max),
@@ -32,7 +33,7 @@ impl Ray {
         }
     }
 
-    /// The point at distance `t` from the origin.
+    /// Returns the point at distance `t` from the origin.
     pub fn at(&self, t: f32) -> Vec3 {
         self.origin + t * self.dir
     }

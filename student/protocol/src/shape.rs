@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::vertex::Vertex;
 
-/// One primitive, as it is described to a submission, which makes its own type of it.
+/// A primitive as described to a submission, which converts it to its own type.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Shape {
@@ -11,31 +11,32 @@ pub enum Shape {
     Triangle {
         /// The corners p0, p1, p2.
         vertices: [Vertex; 3],
-        /// What its `Trace` shall name.
+        /// The material to report in the `Trace`.
         material: u32,
     },
-    /// A triangle given by its corners alone; see [`Shape::facet_vertices`].
+    /// A triangle given by its corners alone; see [`Shape::flat_triangle_vertices`].
     #[serde(alias = "facet")]
     FlatTriangle {
         /// The corners p0, p1, p2.
         corners: [Vec3; 3],
-        /// What its `Trace` shall name.
+        /// The material to report in the `Trace`.
         material: u32,
     },
     /// A sphere.
     Sphere {
-        /// Its centre.
+        /// The centre.
         center: Vec3,
-        /// Its radius, above zero.
+        /// The radius, greater than zero.
         radius: f32,
-        /// What its `Trace` shall name.
+        /// The material to report in the `Trace`.
         material: u32,
     },
 }
 
 impl Shape {
-    /// The vertices of a [`Shape::Facet`]: the face's normal (of `(p1 - p0) × (p2 - p0)`, or zero
-    /// where the corners are in line) and the texture coordinates (0, 0), (1, 0), (0, 1).
+    /// Returns the vertices of a [`Shape::FlatTriangle`]. Each has the normal of the face, which is
+    /// `(p1 - p0) × (p2 - p0)` normalised, or zero if the corners are collinear. The texture
+    /// coordinates are (0, 0), (1, 0) and (0, 1).
     pub fn flat_triangle_vertices(corners: [Vec3; 3]) -> [Vertex; 3] {
         let [p0, p1, p2] = corners;
         let normal = (p1 - p0).cross(p2 - p0).normalize_or_zero();
@@ -52,7 +53,8 @@ impl Shape {
         Shape::flat_triangle_vertices(corners)
     }
 
-    /// What its `Trace` shall name; in questions about trees, distinct for each primitive.
+    /// Returns the material to report in the `Trace`. In questions about trees, each primitive has
+    /// a different one.
     pub fn material(&self) -> u32 {
         match *self {
             Shape::Triangle { material, .. }

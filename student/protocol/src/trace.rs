@@ -1,27 +1,27 @@
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// What is known of the place where a ray meets a surface.
+/// A hit: the point where a ray intersects a surface, and the surface's properties there.
 ///
-/// There is no flag for "no hit": that is `None` of `Option<Trace>`.
+/// There is no flag for "no hit": a miss is the `None` of `Option<Trace>`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trace {
-    /// From the ray's origin to the meeting, along the ray.
+    /// The distance from the ray's origin to the hit, along the ray.
     pub distance: f32,
-    /// The meeting itself.
+    /// The point that was hit.
     pub position: Vec3,
-    /// The surface normal there.
+    /// The surface normal at that point.
     pub normal: Vec3,
-    /// The surface's texture coordinates there.
+    /// The texture coordinates at that point.
     pub uv: Vec2,
-    /// The origin of the ray that was asked.
+    /// The origin of the ray.
     pub origin: Vec3,
-    /// The material of the primitive that was met.
+    /// The material of the primitive that was hit.
     pub material: u32,
 }
 
 impl Trace {
-    /// The nearer of two answers; a miss is farther than any hit.
+    /// Returns the nearer of two hits. A miss counts as farther away than any hit.
     pub fn nearer(a: Option<Trace>, b: Option<Trace>) -> Option<Trace> {
         match (a, b) {
             (Some(a), Some(b)) => Some(if b.distance < a.distance { b } else { a }),

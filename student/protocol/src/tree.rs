@@ -1,25 +1,25 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-/// One node of a [`Tree`]: a leaf if and only if `l == r`.
+/// A node of a [`Tree`]. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TreeNode {
     /// The smallest corner of the node's box.
     pub min: Vec3,
     /// The largest corner of the node's box.
     pub max: Vec3,
-    /// In a leaf, the place of its first primitive; not read elsewhere.
+    /// In a leaf, the index of its first primitive; ignored in interior nodes.
     pub start: u32,
-    /// In a leaf, the number of its primitives; not read elsewhere.
+    /// In a leaf, the number of its primitives; ignored in interior nodes.
     pub size: u32,
-    /// In an interior node, the place of one child.
+    /// In an interior node, the index of one child.
     pub l: u32,
-    /// In an interior node, the place of the other child.
+    /// In an interior node, the index of the other child.
     pub r: u32,
 }
 
 impl TreeNode {
-    /// A node between two corners, with places as programs count them.
+    /// Creates a node with the box from `min` to `max`, converting indices to `u32`.
     pub fn new(min: Vec3, max: Vec3, start: usize, size: usize, l: usize, r: usize) -> Self {
         TreeNode {
             min,
@@ -31,9 +31,10 @@ impl TreeNode {
         }
     }
 
-    /// A place as it is told. What does not fit is out of range anyway, and must not wrap into range.
-    pub fn saturating_index(place: usize) -> u32 {
-        u32::try_from(place).unwrap_or(u32::MAX)
+    /// Converts an index to `u32`. An index that does not fit becomes `u32::MAX`: it is out of
+    /// range anyway, and must not wrap around to a valid one.
+    pub fn saturating_index(index: usize) -> u32 {
+        u32::try_from(index).unwrap_or(u32::MAX)
     }
 
     /// Former name of [`TreeNode::saturating_index`].
@@ -42,20 +43,20 @@ impl TreeNode {
         TreeNode::saturating_index(index)
     }
 
-    /// Whether the node is a leaf.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
 }
 
-/// A bounding volume hierarchy, as data. The primitives that `start` and `size` count are listed
-/// beside it: as shapes in a question, as materials (`order`) in an answer.
+/// A bounding volume hierarchy as data. The primitives that the leaves index are listed separately:
+/// as shapes in a question, and as materials (`order`) in an answer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tree {
     /// The nodes, in any order.
     pub nodes: Vec<TreeNode>,
-    /// The place of the node where everything starts.
+    /// The index of the root in `nodes`.
     pub root: u32,
-    /// The material of each primitive, in the order that the leaves count.
+    /// The material of each primitive, in the order that the leaves index them.
     pub order: Vec<u32>,
 }

@@ -4,28 +4,28 @@ use serde::{Deserialize, Serialize};
 use crate::packed;
 use crate::ray::Ray;
 
-/// What `Camera::sample_ray` needs to know of a camera.
+/// The parameters of the camera that a submission's `Camera` is made from.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PinholeCamera {
-    /// The full opening angle from bottom to top, in degrees.
+    /// The full vertical field of view, in degrees.
     pub vertical_fov: f32,
-    /// The sensor's width divided by its height; independent of `film`.
+    /// The width of the sensor divided by its height; independent of `film`.
     pub aspect_ratio: f32,
     /// The number of pixels, across and up.
     pub film: UVec2,
 }
 
-/// One place on the film: a pixel, and the place in it.
+/// A position on the film: a pixel, and the position in that pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// The pixel; (0, 0) is at the bottom left.
     pub pixel: UVec2,
-    /// The place in the pixel, each component in `[0, 1)`.
+    /// The position in the pixel, each component in `[0, 1)`.
     pub offset: Vec2,
 }
 
-/// The five places of every pixel at which deterministic pictures are compared.
+/// The five positions in every pixel at which deterministic pictures are compared.
 pub const PIXEL_OFFSETS: [Vec2; 5] = [
     vec2(0.5, 0.5),
     vec2(0.375, 0.125),
@@ -34,18 +34,18 @@ pub const PIXEL_OFFSETS: [Vec2; 5] = [
     vec2(0.625, 0.875),
 ];
 
-/// The places on the film that a question asks about.
+/// The positions on the film that a question asks about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Samples {
-    /// These places.
+    /// The listed positions.
     List(Vec<Sample>),
-    /// The five [`OFFSETS`] of each pixel, row by row from the bottom.
+    /// The five [`PIXEL_OFFSETS`] in every pixel, row by row from the bottom.
     EveryPixel,
 }
 
 impl Samples {
-    /// Every place, in order.
+    /// Returns all positions on this film, in order.
     pub fn to_vec(&self, film: UVec2) -> Vec<Sample> {
         match self {
             Samples::List(list) => list.clone(),
@@ -53,11 +53,11 @@ impl Samples {
         }
     }
 
-    /// How many places there are on this film.
+    /// Returns the number of positions on this film.
     pub fn count(&self, film: UVec2) -> usize {
         match self {
             Samples::List(list) => list.len(),
-            // As many as there can be, where there are too many to be counted.
+            // Saturates if the film has more positions than a `usize` can count.
             Samples::EveryPixel => (film.x as usize)
                 .saturating_mul(film.y as usize)
                 .saturating_mul(PIXEL_OFFSETS.len()),
@@ -65,37 +65,38 @@ impl Samples {
     }
 }
 
-/// The [`OFFSETS`] of each pixel of a film, row by row from the bottom.
+/// Returns the [`PIXEL_OFFSETS`] in every pixel of a film, row by row from the bottom.
 pub fn every_pixel(film: UVec2) -> impl Iterator<Item = Sample> {
     (0..film.y)
         .flat_map(move |y| (0..film.x).map(move |x| UVec2::new(x, y)))
         .flat_map(|pixel| PIXEL_OFFSETS.map(|offset| Sample { pixel, offset }))
 }
 
-/// A pinhole camera of the exam's own, so that a picture of shapes does not depend on the
+/// A pinhole camera defined by the exam, so that a picture of shapes does not depend on the
 /// submission's camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExamCamera {
-    /// Where every ray starts.
+    /// The origin of every ray.
     pub eye: Vec3,
-    /// From the eye to the middle of the film.
+    /// The vector from the eye to the centre of the film.
     pub forward: Vec3,
-    /// From the middle of the film to the middle of its right edge.
+    /// The vector from the centre of the film to the centre of its right edge.
     pub right: Vec3,
-    /// From the middle of the film to the middle of its upper edge.
+    /// The vector from the centre of the film to the centre of its upper edge.
     pub up: Vec3,
     /// The number of pixels, across and up.
     pub film: UVec2,
 }
 
 impl ExamCamera {
-    /// The ray through a place on the film, with range `[0, ∞)`. The offset may leave `[0, 1)`.
+    /// Returns the ray through a position on the film, with range `[0, ∞)`. The offset may be
+    /// outside `[0, 1)`.
     pub fn ray(&self, sample: Sample) -> Ray {
-        let place = (sample.pixel.as_vec2() + sample.offset) / self.film.as_vec2() * 2.0 - 1.0;
+        let position = (sample.pixel.as_vec2() + sample.offset) / self.film.as_vec2() * 2.0 - 1.0;
         Ray::new(
             self.eye,
-            self.forward + self.right * place.x + self.up * place.y,
+            self.forward + self.right * position.x + self.up * position.y,
         )
     }
 }
@@ -104,14 +105,14 @@ impl ExamCamera {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rays {
-    /// These rays.
+    /// The listed rays.
     List(#[serde(with = "packed")] Vec<Ray>),
-    /// The rays of a picture, through the five [`OFFSETS`] of each pixel.
+    /// The rays of a picture, through the five [`PIXEL_OFFSETS`] in every pixel.
     View(ExamCamera),
 }
 
 impl Rays {
-    /// Every ray, in order.
+    /// Returns all rays, in order.
     pub fn to_vec(&self) -> Vec<Ray> {
         match self {
             Rays::List(list) => list.clone(),
@@ -121,7 +122,7 @@ impl Rays {
         }
     }
 
-    /// How many rays there are.
+    /// Returns the number of rays.
     pub fn count(&self) -> usize {
         match self {
             Rays::List(list) => list.len(),

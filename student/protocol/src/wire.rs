@@ -1,11 +1,11 @@
-//! How questions and answers travel: frames of
+//! The wire format of questions and answers. Each is one frame:
 //!
 //! ```text
 //!   length: u32 LE | nonce: u64 LE | body: `length` bytes, postcard
 //! ```
 //!
-//! An answer echoes the nonce of its question. A reader states the longest body that it takes
-//! *before* anything is allocated, and a body must be used up to its last byte.
+//! An answer repeats the nonce of its question. The reader passes the maximum length of a body,
+//! which is checked *before* anything is allocated. Decoding fails if bytes are left over.
 
 use std::io::{self, Read, Write};
 
@@ -14,28 +14,28 @@ use serde::de::DeserializeOwned;
 
 use crate::{Answer, Question};
 
-/// What is wrong with the bytes that came.
+/// An error in reading or writing a frame.
 #[derive(Debug, thiserror::Error)]
 pub enum WireError {
-    /// The stream ended, inside a frame or between two.
+    /// The stream ended, within a frame or between two.
     #[error("the stream ended")]
     EndOfStream,
-    /// The stream failed.
+    /// Reading from or writing to the stream failed.
     #[error("the stream failed: {0}")]
     Io(io::Error),
-    /// The frame announces more than an honest one can hold.
-    #[error("a frame of {length} bytes, where {limit} is the most")]
+    /// The header states a length above the limit.
+    #[error("a frame has {length} bytes, and at most {limit} are allowed")]
     TooLong {
-        /// What the frame announces.
+        /// The length in the header, in bytes.
         length: usize,
-        /// What was allowed.
+        /// The maximum length, in bytes.
         limit: usize,
     },
-    /// The body is not an encoding of what was expected.
-    #[error("a frame that can not be read: {0}")]
+    /// The body does not encode a value of the expected type.
+    #[error("a frame cannot be decoded: {0}")]
     Malformed(postcard::Error),
-    /// The body goes on after its end.
-    #[error("{0} bytes after the end of an answer")]
+    /// The body has bytes after the end of the value.
+    #[error("unexpected bytes after the value in a frame: {0}")]
     TrailingBytes(usize),
 }
 
@@ -49,22 +49,23 @@ impl From<io::Error> for WireError {
     }
 }
 
-/// A frame as it came.
+/// A frame that was received and is not decoded yet.
 #[derive(Debug)]
 pub struct Frame {
-    /// Chosen by whoever asked.
+    /// A number chosen by the sender of the question; the answer repeats it.
     pub nonce: u64,
     /// The encoded value.
     pub body: Vec<u8>,
 }
 
 impl Frame {
-    /// The answer in the frame. Compiled here, and so as fast as this crate is, whoever reads it.
+    /// Decodes the answer in the frame. This is not generic, so it is compiled in this crate and
+    /// with its optimisation level, whichever crate calls it.
     pub fn answer(&self) -> Result<Answer, WireError> {
         self.decode()
     }
 
-    /// The value in the frame.
+    /// Decodes the value in the frame.
     pub fn decode<T: DeserializeOwned>(&self) -> Result<T, WireError> {
         match postcard::take_from_bytes(&self.body).map_err(WireError::Malformed)? {
             (value, []) => Ok(value),
@@ -73,12 +74,12 @@ impl Frame {
     }
 }
 
-/// The bytes of a frame that holds `value`.
+/// Returns a frame that holds `value`.
 pub fn encode<T: Serialize>(nonce: u64, value: &T) -> Result<Vec<u8>, WireError> {
     append(Vec::new(), nonce, value)
 }
 
-/// These bytes, and after them a frame that holds `value`: many frames go out as one.
+/// Appends a frame that holds `value` to `bytes`, so that many frames can be sent in one write.
 pub fn append<T: Serialize>(
     mut bytes: Vec<u8>,
     nonce: u64,
@@ -99,7 +100,7 @@ pub fn append<T: Serialize>(
     Ok(bytes)
 }
 
-/// These bytes, and after them a frame with this question. Compiled here, as [`Frame::answer`] is.
+/// Appends a frame that holds a question. Not generic, for the same reason as [`Frame::answer`].
 pub fn append_question(
     bytes: Vec<u8>,
     nonce: u64,
@@ -108,7 +109,7 @@ pub fn append_question(
     append(bytes, nonce, question)
 }
 
-/// Writes one frame; does not flush.
+/// Writes one frame, without flushing.
 pub fn write<T: Serialize>(out: &mut impl Write, nonce: u64, value: &T) -> Result<(), WireError> {
     Ok(out.write_all(&encode(nonce, value)?)?)
 }

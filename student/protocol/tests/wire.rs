@@ -1,4 +1,5 @@
-//! Whatever is written comes back; whatever else comes is refused, and nothing is allocated for it.
+//! Property tests of the wire format: every value round-trips, and malformed input is rejected
+//! without a large allocation.
 
 use glam::{UVec2, Vec2, Vec3};
 use proptest::prelude::*;
@@ -55,9 +56,9 @@ fn shape() -> impl Strategy<Value = Shape> {
             radius,
             material,
         });
-    let facet = (prop::array::uniform3(vec3()), any::<u32>())
+    let flat_triangle = (prop::array::uniform3(vec3()), any::<u32>())
         .prop_map(|(corners, material)| Shape::FlatTriangle { corners, material });
-    prop_oneof![sphere, facet]
+    prop_oneof![sphere, flat_triangle]
 }
 
 fn question() -> impl Strategy<Value = Question> {
@@ -92,10 +93,7 @@ fn question() -> impl Strategy<Value = Question> {
 }
 
 fn answer() -> impl Strategy<Value = Answer> {
-    let panic = (".{0,30}", ".{0,30}").prop_map(|(message, place)| Panic {
-        message,
-        location: place,
-    });
+    let panic = (".{0,30}", ".{0,30}").prop_map(|(message, location)| Panic { message, location });
     let outcome = prop_oneof![
         prop::option::of(trace()).prop_map(ElementOutcome::Value),
         panic.prop_map(ElementOutcome::Panicked),
@@ -113,9 +111,9 @@ fn answer() -> impl Strategy<Value = Answer> {
     ]
 }
 
-/// Two values are the same if their bytes are: NaN is not equal to itself.
+/// Encodes a value. The tests compare bytes instead of values, because NaN is not equal to itself.
 fn bytes<T: serde::Serialize>(value: &T) -> Vec<u8> {
-    wire::encode(0, value).expect("it can be encoded")
+    wire::encode(0, value).expect("every value can be encoded")
 }
 
 proptest! {
@@ -168,8 +166,8 @@ proptest! {
 fn rejects_an_oversized_frame_before_reading_its_body() {
     let mut header = u32::MAX.to_le_bytes().to_vec();
     header.extend([0; 8]);
-    let refused = wire::read(&mut header.as_slice(), 1000);
+    let result = wire::read(&mut header.as_slice(), 1000);
     assert!(
-        matches!(refused, Err(WireError::TooLong { length, limit: 1000 }) if length == u32::MAX as usize)
+        matches!(result, Err(WireError::TooLong { length, limit: 1000 }) if length == u32::MAX as usize)
     );
 }

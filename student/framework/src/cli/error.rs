@@ -1,4 +1,4 @@
-//! Why there is no picture, in the user's words.
+//! Errors of the render command, as shown to the user.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -9,42 +9,42 @@ use protocol::Panic;
 
 use crate::scene::SceneError;
 
-/// Why there is no picture.
+/// A reason why no picture is rendered.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum RenderError {
-    #[error("{}: no such scene{}", .path.display(), list_of_scenes(.known))]
+    #[error("cannot find the scene {}{}", .path.display(), list_of_scenes(.known))]
     SceneNotFound { path: PathBuf, known: Vec<String> },
     #[error("{0}")]
     Scene(#[from] SceneError),
-    #[error("{}: end the picture's name with .png or .exr", .0.display())]
+    #[error("cannot write {}: use a file name that ends in .png or .exr", .0.display())]
     UnknownFormat(PathBuf),
-    #[error("{}: there is no such folder to write to", .0.display())]
+    #[error("cannot write to the folder {}: it does not exist", .0.display())]
     FolderNotFound(PathBuf),
-    #[error("pixel {pixel} is outside of the film of {} x {}", .size.x, .size.y)]
+    #[error("pixel {pixel} is outside the film, which has {} x {} pixels", .size.x, .size.y)]
     PixelOutsideFilm { pixel: UVec2, size: UVec2 },
-    #[error("can not start threads: {0}")]
+    #[error("cannot start threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
-    #[error("{}: can not be written: {source}", .path.display())]
+    #[error("cannot write {}: {source}", .path.display())]
     Unwritable {
         path: PathBuf,
         source: image::ImageError,
     },
     #[error("{0}")]
-    Accident(SubmissionPanic),
+    SubmissionPanic(SubmissionPanic),
 }
 
 /// A panic of the submission's code.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct SubmissionPanic {
     pub(super) panic: Panic,
-    /// Where in the picture, if it was in the picture.
+    /// The pixel that was being rendered, if any.
     pub(super) pixel: Option<UVec2>,
 }
 
 impl RenderError {
     pub(super) fn exit_code(&self) -> ExitCode {
         match self {
-            RenderError::Accident(_) => ExitCode::from(1),
+            RenderError::SubmissionPanic(_) => ExitCode::from(1),
             RenderError::SceneNotFound { .. }
             | RenderError::Scene(_)
             | RenderError::UnknownFormat(_)
@@ -58,16 +58,13 @@ impl RenderError {
 
 impl fmt::Display for SubmissionPanic {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Panic {
-            message,
-            location: place,
-        } = &self.panic;
+        let Panic { message, location } = &self.panic;
         if self.panic.is_unimplemented() {
-            // `todo!("task 1, camera: which ray ...")`: the task, without the question.
+            // Of `todo!("task 1, camera: which ray ...")`, prints the task without the question.
             let task = message.split(": ").nth(1).unwrap_or("this part");
-            return write!(f, "{task}: not written yet ({place})");
+            return write!(f, "{task}: not written yet ({location})");
         }
-        write!(f, "panicked: {message} ({place})")?;
+        write!(f, "panicked: {message} ({location})")?;
         let Some(pixel) = self.pixel else {
             return Ok(());
         };
@@ -75,15 +72,16 @@ impl fmt::Display for SubmissionPanic {
         let (UVec2 { x, y }, arguments) = (pixel, arguments.join(" "));
         write!(
             f,
-            "\n  at pixel {pixel}; again: cargo render {arguments} --pixel {x},{y}"
+            "\n  at pixel {pixel}; rerun with: cargo render {arguments} --pixel {x},{y}"
         )
     }
 }
 
+/// Returns the end of an error message, which lists the known scenes.
 fn list_of_scenes(known: &[String]) -> String {
     match known {
         [] => String::new(),
-        known => format!("; the folder `scenes` holds: {}", known.join(", ")),
+        known => format!("; the folder `scenes` contains: {}", known.join(", ")),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Which scene is meant, and where the picture goes.
+//! The paths of the scene and of the picture.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -6,44 +6,49 @@ use std::path::{Path, PathBuf};
 use super::error::RenderError;
 use super::options::Options;
 
-/// The folder of scenes, beside which a workspace's root is known.
+/// The folder of scenes. The folder that contains it is taken as the root of the workspace.
 const SCENES: &str = "scenes";
 
-/// The scene's file: relative to where we are, then to the workspace around us; then by its name
-/// alone, in the workspace's folder of scenes. `.json` may be left out.
-pub(super) fn find_scene(asked: &Path) -> Result<PathBuf, RenderError> {
+/// Finds the file of a scene. The path is tried relative to the current folder, to the root of the
+/// workspace and to the workspace's folder of scenes. `.json` can be left out.
+pub(super) fn find_scene(scene: &Path) -> Result<PathBuf, RenderError> {
     let here = env::current_dir().unwrap_or_default();
     let root = here.ancestors().find(|folder| folder.join(SCENES).is_dir());
-    let mut places = vec![asked.to_owned()];
+    let mut candidates = vec![scene.to_owned()];
     if let Some(root) = root {
-        places.extend([root.join(asked), root.join(SCENES).join(asked)]);
+        candidates.extend([root.join(scene), root.join(SCENES).join(scene)]);
     }
-    let with_ending = |place: &PathBuf| [place.clone(), place.with_added_extension("json")];
-    let found = places
+    let with_extension = |path: &PathBuf| [path.clone(), path.with_added_extension("json")];
+    let found = candidates
         .iter()
-        .flat_map(with_ending)
-        .find(|place| place.is_file());
+        .flat_map(with_extension)
+        .find(|path| path.is_file());
     found.ok_or_else(|| RenderError::SceneNotFound {
-        path: asked.to_owned(),
+        path: scene.to_owned(),
         known: root.map(scene_names).unwrap_or_default(),
     })
 }
 
+/// Returns the sorted names of the scenes in a workspace.
 fn scene_names(root: &Path) -> Vec<String> {
     let entries = root.join(SCENES).read_dir().into_iter().flatten().flatten();
     let paths = entries.map(|entry| entry.path());
     let mut names: Vec<String> = paths
-        .filter(|path| path.extension().is_some_and(|ending| ending == "json"))
+        .filter(|path| {
+            path.extension()
+                .is_some_and(|extension| extension == "json")
+        })
         .filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()))
         .collect();
     names.sort();
     names
 }
 
-/// Where the picture goes. Looked at before anything is drawn: it would be a pity after.
+/// Returns the path of the picture, after checking its format and its folder. This is called before
+/// rendering, so that an error does not waste a finished picture.
 pub(super) fn output_path(options: &Options, scene: &Path) -> Result<PathBuf, RenderError> {
-    let asked = options.out.as_ref().or(options.out_option.as_ref());
-    let out = match asked {
+    let given = options.out.as_ref().or(options.out_option.as_ref());
+    let out = match given {
         Some(out) => out.clone(),
         None => PathBuf::from(scene.file_stem().unwrap_or_default()).with_added_extension("png"),
     };

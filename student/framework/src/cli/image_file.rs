@@ -1,4 +1,4 @@
-//! Pictures as files.
+//! Writing pictures to image files.
 
 use std::path::Path;
 
@@ -7,7 +7,8 @@ use image::{ImageFormat, Rgb32FImage, RgbImage};
 use super::error::RenderError;
 use crate::film::{Film, Tone};
 
-/// Writes linear floats to an EXR file, and bytes for a screen to any other.
+/// Writes a picture to a file: linear floats to an EXR file, and bytes for a screen to other
+/// formats.
 pub(super) fn write(film: &Film, tone: Tone, path: &Path) -> Result<(), RenderError> {
     let (width, height) = film.size.into();
     let written = match ImageFormat::from_path(path) {
@@ -30,4 +31,4 @@ pub(super) fn write(film: &Film, tone: Tone, path: &Path) -> Result<(), RenderEr
     })
 }
 
-const FITS: &str = "a film holds as many pixels as its size says";
+const FITS: &str = "a film has as many pixels as its size says";

@@ -1,4 +1,4 @@
-//! The command line, as data.
+//! The options of the command line.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use crate::integrator::RenderSettings;
 use crate::scene::MAX_FILM_SIDE;
 use crate::view::ViewMode;
 
-/// Draws a scene with the code of a submission.
+/// Renders a scene with your code
 #[derive(Debug, Parser)]
 #[command(
     name = "cargo render",
@@ -21,38 +21,39 @@ pub(super) struct Options {
     /// A scene file, or the name of one in the folder `scenes`
     pub(super) scene: PathBuf,
 
-    /// The picture: .png for screens, .exr for linear floats [default: <scene's name>.png here]
+    /// The picture to write: .png for screens, .exr for linear floats [default: the scene's name
+    /// with .png, in the current folder]
     pub(super) out: Option<PathBuf>,
 
-    /// The same as OUT
+    /// Same as OUT
     #[arg(long = "out", value_name = "OUT", conflicts_with = "out")]
     pub(super) out_option: Option<PathBuf>,
 
-    /// Pixels across and up [default: the scene's own]
+    /// Number of pixels across and up [default: as in the scene]
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub(super) size: Option<UVec2>,
 
-    /// Paths for each pixel
+    /// Number of paths per pixel
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) samples: u32,
 
-    /// The most times that a path is scattered
+    /// Maximum number of times that a path is scattered
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(..=10_000))]
     pub(super) bounces: u32,
 
-    /// What all random numbers follow from
+    /// Seed of all random numbers
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(super) seed: u64,
 
-    /// Threads to draw with; the picture is the same for any number [default: one for each core]
+    /// Number of threads; the picture does not depend on it [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
 
-    /// What the picture shows
+    /// Quantity to show in the picture
     #[arg(long, value_enum, default_value_t = ViewMode::Shaded)]
     pub(super) view: ViewMode,
 
-    /// Brighter or darker: each stop doubles the light (PNG only)
+    /// Exposure: each stop doubles the brightness (PNG only)
     #[arg(
         long,
         value_name = "STOPS",
@@ -61,14 +62,15 @@ pub(super) struct Options {
     )]
     pub(super) exposure: f32,
 
-    /// Only this pixel, counted from the bottom left, in words and without a picture
+    /// Print the hit and the radiance of this pixel, counted from the bottom left, instead of
+    /// writing a picture
     #[arg(long, value_name = "X,Y", value_parser = pixel)]
     pub(super) pixel: Option<UVec2>,
 }
 
 impl Options {
-    /// How much work to put into a picture of this size.
-    pub(super) fn sampling(&self, film: UVec2) -> RenderSettings {
+    /// Returns the settings for a picture of this size.
+    pub(super) fn settings(&self, film: UVec2) -> RenderSettings {
         RenderSettings {
             film,
             samples: self.samples,
@@ -79,7 +81,7 @@ impl Options {
 }
 
 fn size(text: &str) -> Result<UVec2, String> {
-    let size = pair(text, 'x').ok_or("not a size, such as 640x480")?;
+    let size = pair(text, 'x').ok_or("expected a size such as 640x480")?;
     let sides = size.to_array();
     if sides.iter().all(|side| (1..=MAX_FILM_SIDE).contains(side)) {
         Ok(size)
@@ -89,11 +91,12 @@ fn size(text: &str) -> Result<UVec2, String> {
 }
 
 fn pixel(text: &str) -> Result<UVec2, String> {
-    pair(text, ',').ok_or_else(|| "not a pixel, such as 12,34".to_owned())
+    pair(text, ',').ok_or_else(|| "expected a pixel such as 12,34".to_owned())
 }
 
-fn pair(text: &str, between: char) -> Option<UVec2> {
-    let (x, y) = text.split_once(between)?;
+/// Parses two numbers with a separator between them.
+fn pair(text: &str, separator: char) -> Option<UVec2> {
+    let (x, y) = text.split_once(separator)?;
     Some(UVec2::new(x.trim().parse().ok()?, y.trim().parse().ok()?))
 }
 

@@ -1,4 +1,4 @@
-//! How far a picture is, and what it took.
+//! The progress bar, and the summary after rendering.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -9,8 +9,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::integrator::RenderStats;
 
-/// A bar on the terminal, with the time left and the rays per second. Where standard error is no
-/// terminal, nothing is shown.
+/// A progress bar with the remaining time and the rays per second. It is not shown if standard
+/// error is not a terminal.
 pub(super) struct Progress {
     bar: ProgressBar,
     rays: AtomicU64,
@@ -28,9 +28,9 @@ impl Progress {
         }
     }
 
-    /// One more row is there.
-    pub(super) fn finish_row(&self, tally: RenderStats) {
-        let rays = self.rays.fetch_add(tally.rays, Ordering::Relaxed) + tally.rays;
+    /// Records that one more row is finished.
+    pub(super) fn finish_row(&self, stats: RenderStats) {
+        let rays = self.rays.fetch_add(stats.rays, Ordering::Relaxed) + stats.rays;
         self.bar.set_message(rate(rays, self.started.elapsed()));
         self.bar.inc(1);
     }
@@ -42,16 +42,16 @@ impl Drop for Progress {
     }
 }
 
-/// The line at the end.
-pub(super) fn summary(path: &Path, size: UVec2, tally: RenderStats, time: Duration) -> String {
+/// Returns the line that is printed after rendering.
+pub(super) fn summary(path: &Path, size: UVec2, stats: RenderStats, time: Duration) -> String {
     format!(
         "{}: {} x {}, {:.1} s, {:.1} Mrays, {}",
         path.display(),
         size.x,
         size.y,
         time.as_secs_f64(),
-        tally.rays as f64 * 1e-6,
-        rate(tally.rays, time),
+        stats.rays as f64 * 1e-6,
+        rate(stats.rays, time),
     )
 }
 

@@ -1,4 +1,4 @@
-//! The command, from its arguments to the file, with a submission of our own.
+//! Tests of the whole command, from its arguments to the written file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,34 +19,40 @@ const SCENE: &str = r#"{
   "materials": {
     "grey": { "lambertian": { "albedo": [0.5, 0.5, 0.5] } },
     "glass": { "glass": { "ior": 1.5 } },
-    "lamp": { "emitter": { "radiance": [4, 4, 4] } }
+    "light": { "emitter": { "radiance": [4, 4, 4] } }
   },
   "shapes": [
     { "sphere": { "center": [-1, 0, -3], "radius": 1, "material": "grey" } },
     { "sphere": { "center": [1, 0, -3], "radius": 1, "material": "glass" } },
-    { "sphere": { "center": [0, 4, -3], "radius": 2, "material": "lamp" } }
+    { "sphere": { "center": [0, 4, -3], "radius": 2, "material": "light" } }
   ]
 }"#;
 
-/// A folder of our own with a scene in it.
+/// Creates a temporary folder with a scene in it.
 fn folder(test: &str) -> PathBuf {
     let name = format!("framework-cli-{test}-{}", std::process::id());
     let folder = std::env::temp_dir().join(name);
-    fs::create_dir_all(&folder).expect("a folder");
-    fs::write(folder.join("balls.json"), SCENE).expect("a scene");
+    fs::create_dir_all(&folder).expect("the folder can be created");
+    fs::write(folder.join("spheres.json"), SCENE).expect("the scene can be written");
     folder
 }
 
-/// Draws to a file of this name; its bytes, or what went wrong.
-fn draw(submission: &dyn Submission, test: &str, out: &str, more: &str) -> Result<Vec<u8>, String> {
+/// Runs the command with the output file `out` and more arguments. Returns the bytes of the file,
+/// or the error message.
+fn render(
+    submission: &dyn Submission,
+    test: &str,
+    out: &str,
+    more: &str,
+) -> Result<Vec<u8>, String> {
     let folder = folder(test);
     let path = |name: &str| folder.join(name).display().to_string();
-    let mut arguments = vec!["render".to_owned(), path("balls.json"), path(out)];
+    let mut arguments = vec!["render".to_owned(), path("spheres.json"), path(out)];
     arguments.extend(more.split_whitespace().map(str::to_owned));
     let options = Options::try_parse_from(arguments).map_err(|error| error.to_string())?;
-    let drawn = run(submission, &options).map_err(|failure| failure.to_string());
-    let bytes = drawn.and_then(|()| fs::read(path(out)).map_err(|error| error.to_string()));
-    // If it can not be removed, the system does so later.
+    let result = run(submission, &options).map_err(|error| error.to_string());
+    let bytes = result.and_then(|()| fs::read(path(out)).map_err(|error| error.to_string()));
+    // If this fails, the system removes the temporary folder later.
     let _ = fs::remove_dir_all(&folder);
     bytes
 }
@@ -54,49 +60,55 @@ fn draw(submission: &dyn Submission, test: &str, out: &str, more: &str) -> Resul
 #[test]
 fn any_number_of_threads_writes_the_same_bytes() {
     for out in ["a.png", "a.exr"] {
-        let one = draw(&CORRECT, "one", out, "--samples 3 --threads 1").expect("a picture");
-        let three = draw(&CORRECT, "three", out, "--samples 3 --threads 3").expect("a picture");
+        let one =
+            render(&CORRECT, "one", out, "--samples 3 --threads 1").expect("rendering succeeds");
+        let three =
+            render(&CORRECT, "three", out, "--samples 3 --threads 3").expect("rendering succeeds");
         assert!(one == three, "{out}");
-        let seed = draw(&CORRECT, "seed", out, "--samples 3 --seed 1").expect("a picture");
+        let seed =
+            render(&CORRECT, "seed", out, "--samples 3 --seed 1").expect("rendering succeeds");
         assert!(one != seed, "{out}: the seed makes no difference");
     }
 }
 
 #[test]
 fn the_upper_rows_of_the_picture_come_first_in_the_file() {
-    let bytes = draw(&CORRECT, "top", "a.png", "--size 3x3 --bounces 0").expect("a picture");
-    let picture = image::load_from_memory(&bytes).expect("a PNG").to_rgb8();
-    // The lamp fills most of the upper pixel, and the lower one sees the environment alone.
+    let bytes =
+        render(&CORRECT, "top", "a.png", "--size 3x3 --bounces 0").expect("rendering succeeds");
+    let picture = image::load_from_memory(&bytes).expect("the file is a PNG");
+    let picture = picture.to_rgb8();
+    // The light fills most of the upper pixel, and the lower pixel shows only the environment.
     assert_eq!(picture.get_pixel(1, 0).0[0], 255);
     assert_eq!(picture.get_pixel(1, 2).0, [188, 203, 218]);
 }
 
 #[test]
-fn every_view_is_drawn() {
+fn every_view_can_be_rendered() {
     for view in ["shaded", "normals", "depth", "uv", "bvh"] {
         let test = format!("view-{view}");
-        let drawn = draw(
+        let result = render(
             &CORRECT,
             &test,
             "a.png",
             &format!("--samples 1 --view {view}"),
         );
-        assert!(drawn.is_ok(), "{view}: {drawn:?}");
+        assert!(result.is_ok(), "{view}: {result:?}");
     }
 }
 
 #[test]
 fn reports_bad_input_before_rendering() {
-    let refused =
-        |out: &str, more: &str| draw(&CORRECT, "refused", out, more).expect_err("refused");
-    assert!(refused("a.jpg", "").ends_with("end the picture's name with .png or .exr"));
-    assert!(refused("none/a.png", "").ends_with("there is no such folder to write to"));
-    assert!(refused("a.png", "--size 0x4").contains("each side must be from 1 to 16384"));
-    assert!(refused("a.png", "--view heat").contains("possible values: shaded, normals"));
-    assert!(refused("a.png", "--pixel 12,0").contains("outside of the film of 12 x 8"));
+    let error = |out: &str, more: &str| {
+        render(&CORRECT, "invalid", out, more).expect_err("the input is invalid")
+    };
+    assert!(error("a.jpg", "").ends_with("use a file name that ends in .png or .exr"));
+    assert!(error("none/a.png", "").ends_with("none: it does not exist"));
+    assert!(error("a.png", "--size 0x4").contains("each side must be from 1 to 16384"));
+    assert!(error("a.png", "--view heat").contains("possible values: shaded, normals"));
+    assert!(error("a.png", "--pixel 12,0").contains("outside the film, which has 12 x 8"));
 }
 
-/// A submission that has come as far as `camera` lets it.
+/// A submission whose camera calls the given function, which can panic.
 struct Unfinished {
     camera: fn() -> Ray,
 }
@@ -140,12 +152,15 @@ fn reports_an_unwritten_task_in_one_line() {
     let stub = Unfinished {
         camera: || todo!("task 1, camera: which ray of {:?} is it?", "Camera { .. }"),
     };
-    let told = draw(&stub, "stub", "a.png", "").expect_err("it is not written");
+    let message = render(&stub, "stub", "a.png", "").expect_err("the camera is not written");
     assert!(
-        told.starts_with("task 1, camera: not written yet ("),
-        "{told}"
+        message.starts_with("task 1, camera: not written yet ("),
+        "{message}"
     );
-    assert!(told.contains("tests.rs:") && !told.contains('\n'), "{told}");
+    assert!(
+        message.contains("tests.rs:") && !message.contains('\n'),
+        "{message}"
+    );
 }
 
 #[test]
@@ -154,24 +169,25 @@ fn reports_the_pixel_of_a_panic_and_the_command_to_rerun_it() {
     let bug = Unfinished {
         camera: || panic!("attempt to subtract with overflow"),
     };
-    let told = draw(&bug, "bug", "a.png", "--threads 1").expect_err("it panics");
+    let message = render(&bug, "bug", "a.png", "--threads 1").expect_err("the camera panics");
     assert!(
-        told.starts_with("panicked: attempt to subtract with overflow ("),
-        "{told}"
+        message.starts_with("panicked: attempt to subtract with overflow ("),
+        "{message}"
     );
     assert!(
-        told.contains("\n  at pixel [0, 0]; again: cargo render "),
-        "{told}"
+        message.contains("\n  at pixel [0, 0]; rerun with: cargo render "),
+        "{message}"
     );
-    assert!(told.ends_with("--pixel 0,0"), "{told}");
+    assert!(message.ends_with("--pixel 0,0"), "{message}");
 }
 
 #[test]
 fn reports_the_name_of_a_missing_scene() {
-    let options = Options::try_parse_from(["render", "no-such-scene"]).expect("options");
-    let told = run(&CORRECT, &options)
-        .expect_err("there is none")
+    let options = Options::try_parse_from(["render", "no-such-scene"]).expect("the options parse");
+    let message = run(&CORRECT, &options)
+        .expect_err("the scene does not exist")
         .to_string();
-    assert!(told.starts_with("no-such-scene: no such scene"), "{told}");
+    let expected = "cannot find the scene no-such-scene";
+    assert!(message.starts_with(expected), "{message}");
     assert!(!Path::new("no-such-scene.png").exists());
 }

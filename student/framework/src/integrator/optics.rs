@@ -1,26 +1,26 @@
-//! Mirrors and glass.
+//! Reflection and refraction, for mirrors and glass.
 
 use glam::Vec3;
 
-/// The mirror image of a direction. `normal` has length one and may point to either side.
+/// Reflects a direction. `normal` must have length one and can point to either side.
 pub(super) fn reflect(direction: Vec3, normal: Vec3) -> Vec3 {
     direction - 2.0 * direction.dot(normal) * normal
 }
 
-/// What an interface between two clear media does with a ray.
+/// The reflection and refraction of a ray at an interface between two dielectrics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interface {
-    /// The share of light that is reflected.
+    /// The fraction of light that is reflected.
     pub(super) reflectance: f32,
-    /// Where the rest goes; `None` if there is no rest: total reflection.
+    /// The direction of the refracted light, or `None` for total internal reflection.
     pub(super) refracted: Option<Vec3>,
 }
 
-/// An interface, after Fresnel for unpolarised light and Snell; Pharr, Jakob and Humphreys,
-/// "Physically Based Rendering", 4th edition, section 9.3.
+/// Computes reflection and refraction by the Fresnel equations for unpolarised light and Snell's
+/// law: Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th edition, section 9.3.
 ///
-/// `direction` and `normal` have length one, and the normal points against the direction. `eta` is
-/// the index of refraction behind the interface, divided by the one before it.
+/// `direction` and `normal` must have length one, and the normal points against the direction.
+/// `eta` is the index of refraction behind the interface divided by the one before it.
 pub(super) fn interface(direction: Vec3, normal: Vec3, eta: f32) -> Interface {
     let cos_before = -direction.dot(normal);
     let sin_squared = (1.0 - cos_before * cos_before).max(0.0) / (eta * eta);
@@ -49,26 +49,26 @@ mod tests {
     }
 
     #[test]
-    fn head_on_glass_reflects_one_part_in_twenty_five() {
+    fn at_normal_incidence_glass_reflects_four_percent() {
         for eta in [1.5, 1.0 / 1.5] {
-            let met = interface(Vec3::NEG_Y, Vec3::Y, eta);
-            assert!((met.reflectance - 0.04).abs() < 1e-6, "{met:?}");
-            assert_eq!(met.refracted, Some(Vec3::NEG_Y));
+            let glass = interface(Vec3::NEG_Y, Vec3::Y, eta);
+            assert!((glass.reflectance - 0.04).abs() < 1e-6, "{glass:?}");
+            assert_eq!(glass.refracted, Some(Vec3::NEG_Y));
         }
     }
 
     #[test]
-    fn light_bends_by_snells_law() {
-        let met = interface(slanted(0.6), Vec3::Y, 1.5);
-        let refracted = met.refracted.expect("into glass there is always a way");
+    fn refraction_follows_snells_law() {
+        let glass = interface(slanted(0.6), Vec3::Y, 1.5);
+        let refracted = glass.refracted.expect("light can always enter glass");
         assert!((refracted.x - 0.4).abs() < 1e-6, "{refracted}");
         assert!(refracted.is_normalized() && refracted.y < 0.0);
     }
 
     #[test]
-    fn beyond_the_critical_angle_all_is_reflected() {
-        let met = interface(slanted(0.7), Vec3::Y, 1.0 / 1.5);
-        assert_eq!((met.reflectance, met.refracted), (1.0, None));
+    fn beyond_the_critical_angle_all_light_is_reflected() {
+        let glass = interface(slanted(0.7), Vec3::Y, 1.0 / 1.5);
+        assert_eq!((glass.reflectance, glass.refracted), (1.0, None));
         assert!(
             interface(slanted(0.6), Vec3::Y, 1.0 / 1.5)
                 .refracted
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mirror_turns_what_is_along_the_normal() {
+    fn reflection_reverses_the_component_along_the_normal() {
         let mirrored = reflect(slanted(0.6), Vec3::Y);
         assert!(
             mirrored.abs_diff_eq(Vec3::new(0.6, 0.8, 0.0), 1e-6),

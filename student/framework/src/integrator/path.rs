@@ -1,4 +1,4 @@
-//! One path, from the camera until it is lost.
+//! Tracing of one path, which starts at the camera.
 
 use glam::{UVec2, Vec2, Vec3};
 use protocol::{Interval, Ray};
@@ -9,69 +9,72 @@ use crate::frame::{Frame, sample_cosine_hemisphere};
 use crate::sampler::{Purpose, Sampler};
 use crate::scene::{Material, checker};
 
-/// An answer that no light can be computed from.
+/// The error for a sample whose path contains an unusable hit from the submission, such as one with
+/// NaN.
 pub(super) struct InvalidSample;
 
-/// Where a path meets something.
+/// The surface at the point where a path hits it.
 struct Surface {
     position: Vec3,
-    /// Of length one, on the side that the ray comes from.
+    /// The normal, of length one, on the side that the ray comes from.
     normal: Vec3,
-    /// Whether that is the side that the submission's normal points to.
+    /// Whether the submission's normal points to that side, too.
     outside: bool,
     uv: Vec2,
     material: Material,
 }
 
-/// How a path goes on.
+/// The continuation of a path after it is scattered.
 struct Scattered {
     direction: Vec3,
-    /// What the light from there is worth here.
-    weight: Vec3,
-    /// Whether lamps were asked for already, so that meeting one by chance must not count.
+    /// The factor for light that arrives from `direction`.
+    attenuation: Vec3,
+    /// Whether light sampling has already covered direct light, so that hitting a light by chance
+    /// must not count.
     direct_light_sampled: bool,
 }
 
 impl Integrator<'_> {
-    /// The light that one path brings.
+    /// Returns the radiance along one path.
     pub(super) fn trace_path(
         &self,
         pixel: UVec2,
         sample: u32,
-        tally: &mut RenderStats,
+        stats: &mut RenderStats,
     ) -> Result<Vec3, InvalidSample> {
-        let sampler = Sampler::new(self.sampling.seed, pixel, sample);
+        let sampler = Sampler::new(self.settings.seed, pixel, sample);
         let offset = sampler.pair(0, Purpose::Pixel);
         let camera_ray = self.world.camera_ray(pixel, offset);
         let mut ray = self.scene.camera.placement.to_world(&camera_ray);
 
         let mut light = Vec3::ZERO;
-        let mut weight = Vec3::ONE;
-        let mut lamps_asked = false;
-        for bounce in 0..=self.sampling.bounces {
-            let Some(surface) = self.intersect(&ray, tally)? else {
-                light += weight * self.scene.environment;
+        let mut throughput = Vec3::ONE;
+        let mut direct_light_sampled = false;
+        for bounce in 0..=self.settings.bounces {
+            let Some(surface) = self.intersect(&ray, stats)? else {
+                light += throughput * self.scene.environment;
                 break;
             };
             if let Some(radiance) = surface.material.emitted()
                 && surface.outside
-                && !lamps_asked
+                && !direct_light_sampled
             {
-                light += weight * radiance;
+                light += throughput * radiance;
             }
-            if bounce == self.sampling.bounces {
+            if bounce == self.settings.bounces {
                 break;
             }
-            let direct = self.direct_light(&surface, bounce, &sampler, tally)?;
-            light += weight * direct;
+            let direct = self.direct_light(&surface, bounce, &sampler, stats)?;
+            light += throughput * direct;
             let Some(scattered) = surface.scatter(ray.dir, bounce, &sampler) else {
                 break;
             };
-            weight *= scattered.weight;
-            lamps_asked = scattered.direct_light_sampled;
-            // The last ray after a matte surface could only bring light from around.
-            let last = bounce + 1 == self.sampling.bounces;
-            if weight == Vec3::ZERO || last && lamps_asked && self.scene.environment == Vec3::ZERO {
+            throughput *= scattered.attenuation;
+            direct_light_sampled = scattered.direct_light_sampled;
+            // After a matte surface, the last ray can only add light from the environment.
+            let last = bounce + 1 == self.settings.bounces;
+            let dark = self.scene.environment == Vec3::ZERO;
+            if throughput == Vec3::ZERO || last && direct_light_sampled && dark {
                 break;
             }
             ray = self.ray_from(&surface, scattered.direction, f32::INFINITY);
@@ -83,32 +86,32 @@ impl Integrator<'_> {
         }
     }
 
-    /// The light that comes straight from a lamp, and is scattered toward where the path comes
-    /// from.
+    /// Returns the direct light from one sampled light that the surface scatters back along the
+    /// path.
     fn direct_light(
         &self,
         surface: &Surface,
         bounce: u32,
         sampler: &Sampler,
-        tally: &mut RenderStats,
+        stats: &mut RenderStats,
     ) -> Result<Vec3, InvalidSample> {
         let Some(albedo) = surface.albedo() else {
             return Ok(Vec3::ZERO);
         };
         let choice = sampler.one(bounce, Purpose::Light);
-        let place = sampler.pair(bounce, Purpose::PointOnLight);
-        let Some(lit) = self.lights.sample(surface.position, choice, place) else {
+        let position = sampler.pair(bounce, Purpose::PointOnLight);
+        let Some(sample) = self.lights.sample(surface.position, choice, position) else {
             return Ok(Vec3::ZERO);
         };
-        let cosine = lit.direction.dot(surface.normal);
-        // The ray ends short of the lamp, which would else hide itself.
-        let shadow = self.ray_from(surface, lit.direction, lit.distance - self.epsilon);
+        let cosine = sample.direction.dot(surface.normal);
+        // The ray ends just before the light, so that the light does not block itself.
+        let shadow = self.ray_from(surface, sample.direction, sample.distance - self.epsilon);
         if cosine <= 0.0 || shadow.range.is_empty() {
             return Ok(Vec3::ZERO);
         }
-        match self.intersect(&shadow, tally)? {
+        match self.intersect(&shadow, stats)? {
             Some(_) => Ok(Vec3::ZERO),
-            None => Ok(albedo * std::f32::consts::FRAC_1_PI * cosine * lit.radiance),
+            None => Ok(albedo * std::f32::consts::FRAC_1_PI * cosine * sample.radiance),
         }
     }
 
@@ -120,13 +123,13 @@ impl Integrator<'_> {
         }
     }
 
-    /// Asks the submission, and looks at its answer before anything is computed from it.
+    /// Traces a ray with the submission's code, and checks the result before it is used.
     fn intersect(
         &self,
         ray: &Ray,
-        tally: &mut RenderStats,
+        stats: &mut RenderStats,
     ) -> Result<Option<Surface>, InvalidSample> {
-        tally.rays += 1;
+        stats.rays += 1;
         if !ray.origin.is_finite() || !ray.dir.is_finite() {
             return Err(InvalidSample);
         }
@@ -152,7 +155,7 @@ impl Integrator<'_> {
 }
 
 impl Surface {
-    /// What a matte surface scatters; `None` for all others.
+    /// Returns the albedo of a matte surface, or `None` for other materials.
     fn albedo(&self) -> Option<Vec3> {
         match self.material {
             Material::Lambertian { albedo } => Some(albedo),
@@ -161,7 +164,7 @@ impl Surface {
         }
     }
 
-    /// Where a path goes on; `None` where it ends.
+    /// Samples the continuation of a path, or returns `None` if the path ends at this surface.
     fn scatter(&self, incoming: Vec3, bounce: u32, sampler: &Sampler) -> Option<Scattered> {
         match self.material {
             Material::Lambertian { .. } | Material::Checker { .. } => {
@@ -169,26 +172,29 @@ impl Surface {
                     sample_cosine_hemisphere(sampler.pair(bounce, Purpose::Direction));
                 Some(Scattered {
                     direction: Frame::from_z(self.normal).to_world(around_normal),
-                    // The cosine and π are those of the density, and cancel.
-                    weight: self.albedo()?,
+                    // The cosine and the 1/π of the BRDF cancel with the probability density.
+                    attenuation: self.albedo()?,
                     direct_light_sampled: true,
                 })
             }
             Material::Mirror { reflectance } => Some(Scattered {
                 direction: reflect(incoming, self.normal),
-                weight: reflectance,
+                attenuation: reflectance,
                 direct_light_sampled: false,
             }),
             Material::Glass { ior } => {
                 let eta = if self.outside { ior } else { 1.0 / ior };
-                let met = interface(incoming, self.normal, eta);
+                let interface = interface(incoming, self.normal, eta);
                 let choice = sampler.one(bounce, Purpose::ReflectOrRefract);
-                let direction = met.refracted.filter(|_| choice >= met.reflectance);
+                let direction = interface
+                    .refracted
+                    .filter(|_| choice >= interface.reflectance);
                 Some(Scattered {
                     direction: direction.unwrap_or_else(|| reflect(incoming, self.normal)),
-                    // Picked as often as it counts. Radiance grows by eta² on the way in and
-                    // shrinks by as much on the way out: neither is counted.
-                    weight: Vec3::ONE,
+                    // The probability of each direction equals its share of the light, so the two
+                    // cancel. The factor eta², by which radiance grows on entry and shrinks on
+                    // exit, is left out both times.
+                    attenuation: Vec3::ONE,
                     direct_light_sampled: false,
                 })
             }

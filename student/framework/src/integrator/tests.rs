@@ -1,4 +1,5 @@
-//! Truths that any integrator must reproduce, on worlds made here: no submission is at hand.
+//! Analytic checks that any correct path tracer passes, on scenes that are intersected by
+//! `sphere_submission`.
 
 use glam::{Vec3, uvec2, vec2, vec3};
 use protocol::Trace;
@@ -18,10 +19,10 @@ fn scene(environment: f32, materials: &str, shapes: &str) -> Scene {
             "shapes": [ {shapes} ]
         }}"#
     );
-    Scene::from_text(&text).expect("a scene")
+    Scene::from_text(&text).expect("the scene is valid")
 }
 
-fn sampling(samples: u32, bounces: u32) -> RenderSettings {
+fn settings(samples: u32, bounces: u32) -> RenderSettings {
     RenderSettings {
         film: uvec2(8, 8),
         samples,
@@ -33,9 +34,9 @@ fn sampling(samples: u32, bounces: u32) -> RenderSettings {
 const GREY: &str = r#""grey": { "lambertian": { "albedo": [0.5, 0.5, 0.5] } }"#;
 const WHITE: &str = r#""white": { "lambertian": { "albedo": [1, 1, 1] } }"#;
 const GLASS: &str = r#""glass": { "glass": { "ior": 1.5 } }"#;
-const EMITTER: &str = r#""lamp": { "emitter": { "radiance": [1, 1, 1] } }"#;
+const EMITTER: &str = r#""light": { "emitter": { "radiance": [1, 1, 1] } }"#;
 
-fn ball(z: f32, radius: f32, material: &str) -> String {
+fn sphere(z: f32, radius: f32, material: &str) -> String {
     format!(
         r#"{{ "sphere": {{ "center": [0, 0, {z}], "radius": {radius}, "material": "{material}" }} }}"#
     )
@@ -43,40 +44,40 @@ fn ball(z: f32, radius: f32, material: &str) -> String {
 
 #[test]
 fn a_white_sphere_is_invisible_in_a_white_furnace() {
-    // Light 1 from everywhere, and nothing is lost: every pixel is 1.
-    let scene = scene(1.0, WHITE, &ball(-3.0, 2.0, "white"));
-    let pixels = render(&CORRECT, &scene, &sampling(4, 4));
+    // Radiance 1 arrives from everywhere, and none is absorbed, so every pixel is 1.
+    let scene = scene(1.0, WHITE, &sphere(-3.0, 2.0, "white"));
+    let pixels = render(&CORRECT, &scene, &settings(4, 4));
     assert!(pixels.iter().all(|pixel| *pixel == Vec3::ONE), "{pixels:?}");
 }
 
 #[test]
 fn glass_is_invisible_in_a_white_furnace() {
-    let scene = scene(1.0, GLASS, &ball(-3.0, 2.0, "glass"));
-    let pixels = render(&CORRECT, &scene, &sampling(4, 200));
+    let scene = scene(1.0, GLASS, &sphere(-3.0, 2.0, "glass"));
+    let pixels = render(&CORRECT, &scene, &settings(4, 200));
     assert!(pixels.iter().all(|pixel| *pixel == Vec3::ONE), "{pixels:?}");
 }
 
 #[test]
 fn a_grey_sphere_shows_its_albedo_in_a_white_furnace() {
-    let scene = scene(1.0, GREY, &ball(-3.0, 2.0, "grey"));
-    let pixels = render(&CORRECT, &scene, &sampling(4, 4));
-    // In the middle of the picture there is only the ball, and nothing to scatter twice.
+    let scene = scene(1.0, GREY, &sphere(-3.0, 2.0, "grey"));
+    let pixels = render(&CORRECT, &scene, &settings(4, 4));
+    // The central pixel sees only the sphere, whose scattered rays hit nothing else.
     assert_eq!(pixels[8 * 4 + 4], Vec3::splat(0.5));
 }
 
 #[test]
 fn light_inside_a_grey_shell_is_a_geometric_series() {
-    // All that leaves the lamp is caught by the shell. Behind the lamp's own share, each bounce
-    // passes half on: what the shell shows is the same everywhere, but for the lamp's shadow of
-    // itself, which is small.
-    let shapes = [ball(0.0, 10.0, "grey"), ball(5.0, 0.1, "lamp")].join(",");
+    // The shell catches all light, and each bounce passes half of it on. From the second bounce on,
+    // the radiance of the shell is the same everywhere, except for the small shadow of the light
+    // itself.
+    let shapes = [sphere(0.0, 10.0, "grey"), sphere(5.0, 0.1, "light")].join(",");
     let scene = scene(0.0, &format!("{GREY}, {EMITTER}"), &shapes);
     let mean = |bounces| {
-        let pixels = render(&CORRECT, &scene, &sampling(400, bounces));
+        let pixels = render(&CORRECT, &scene, &settings(400, bounces));
         pixels.iter().map(|pixel| pixel.x).sum::<f32>() / pixels.len() as f32
     };
-    // Inside a sphere every scattering spreads light evenly, so from the second bounce on the
-    // terms are: power · albedoⁿ / (π · area of the shell).
+    // Inside a sphere, scattering spreads the light evenly over the shell. So from the second
+    // bounce on, the terms are power · albedoⁿ / (π · area of the shell).
     let term = |n: i32| {
         let power_over_pi = 4.0 * std::f32::consts::PI * 0.01;
         power_over_pi * 0.5_f32.powi(n) / (4.0 * std::f32::consts::PI * 100.0)
@@ -84,43 +85,46 @@ fn light_inside_a_grey_shell_is_a_geometric_series() {
     let second = mean(2) - mean(1);
     assert!(
         (second / term(2) - 1.0).abs() < 0.03,
-        "{second} for {}",
+        "expected {}, got {second}",
         term(2)
     );
     let rest = mean(12) - mean(2);
-    let truth: f32 = (3..=12).map(term).sum();
-    assert!((rest / truth - 1.0).abs() < 0.03, "{rest} for {truth}");
+    let expected: f32 = (3..=12).map(term).sum();
+    assert!(
+        (rest / expected - 1.0).abs() < 0.03,
+        "expected {expected}, got {rest}"
+    );
 }
 
 #[test]
 fn a_large_light_on_a_sphere_matches_the_closed_form() {
-    let shapes = [ball(-3.0, 1.0, "grey"), ball(7.0, 5.0, "lamp")].join(",");
+    let shapes = [sphere(-3.0, 1.0, "grey"), sphere(7.0, 5.0, "light")].join(",");
     let scene = scene(0.0, &format!("{GREY}, {EMITTER}"), &shapes);
-    // The pixel in the middle of a large film sees no more than the ball's near pole.
+    // The central pixel of a large film sees only a small area around the sphere's nearest point.
     let narrow = RenderSettings {
         film: uvec2(101, 101),
-        ..sampling(2000, 1)
+        ..settings(2000, 1)
     };
     let scene = scene.on_film(narrow.film);
     let world = World::new(&CORRECT, &scene);
     let integrator = Integrator::new(&scene, &world, narrow);
     let middle = integrator.pixel_radiance(uvec2(50, 50), &mut RenderStats::default());
-    // Albedo · sin² of the lamp's half angle, seen from z = −2.
-    let truth = 0.5 * (5.0_f32 / 9.0).powi(2);
+    // Albedo · sin² of the half angle that the light subtends at z = −2.
+    let expected = 0.5 * (5.0_f32 / 9.0).powi(2);
     assert!(
-        (middle.x / truth - 1.0).abs() < 0.01,
-        "{middle} for {truth}"
+        (middle.x / expected - 1.0).abs() < 0.01,
+        "expected {expected}, got {middle}"
     );
 }
 
 #[test]
 fn a_mirror_shows_a_light_at_its_radiance_times_the_reflectance() {
     let mirror = r#""mirror": { "mirror": { "reflectance": [0.5, 0.5, 0.5] } }"#;
-    let shapes = [ball(-3.0, 1.0, "mirror"), ball(30.0, 25.0, "lamp")].join(",");
+    let shapes = [sphere(-3.0, 1.0, "mirror"), sphere(30.0, 25.0, "light")].join(",");
     let scene = scene(0.0, &format!("{mirror}, {EMITTER}"), &shapes);
     let narrow = RenderSettings {
         film: uvec2(101, 101),
-        ..sampling(4, 1)
+        ..settings(4, 1)
     };
     let pixels = render(&CORRECT, &scene, &narrow);
     assert_eq!(pixels[101 * 50 + 50], Vec3::splat(0.5));
@@ -128,9 +132,9 @@ fn a_mirror_shows_a_light_at_its_radiance_times_the_reflectance() {
 
 #[test]
 fn without_bounces_only_emitters_and_the_environment_are_visible() {
-    let shapes = [ball(-3.0, 1.0, "grey"), ball(7.0, 5.0, "lamp")].join(",");
+    let shapes = [sphere(-3.0, 1.0, "grey"), sphere(7.0, 5.0, "light")].join(",");
     let scene = scene(0.25, &format!("{GREY}, {EMITTER}"), &shapes);
-    let pixels = render(&CORRECT, &scene, &sampling(1, 0));
+    let pixels = render(&CORRECT, &scene, &settings(1, 0));
     assert_eq!(pixels[8 * 4 + 4], Vec3::ZERO);
     assert_eq!(pixels[0], Vec3::splat(0.25));
 }
@@ -138,9 +142,9 @@ fn without_bounces_only_emitters_and_the_environment_are_visible() {
 #[test]
 fn the_first_pixel_is_at_the_bottom_left() {
     let low_and_left =
-        r#"{ "sphere": { "center": [-3, -3, -3], "radius": 1, "material": "lamp" } }"#;
+        r#"{ "sphere": { "center": [-3, -3, -3], "radius": 1, "material": "light" } }"#;
     let scene = scene(0.0, EMITTER, low_and_left);
-    let pixels = render(&CORRECT, &scene, &sampling(16, 0));
+    let pixels = render(&CORRECT, &scene, &settings(16, 0));
     assert!(pixels[0].x > 0.5, "bottom left: {}", pixels[0]);
     let others = [pixels[7], pixels[8 * 7], pixels[8 * 7 + 7]];
     assert_eq!(others, [Vec3::ZERO; 3]);
@@ -148,8 +152,8 @@ fn the_first_pixel_is_at_the_bottom_left() {
 
 #[test]
 fn counts_and_discards_paths_with_an_invalid_answer() {
-    let scene = scene(1.0, GREY, &ball(-3.0, 2.0, "grey"));
-    let bad: [fn(Trace) -> Trace; 4] = [
+    let scene = scene(1.0, GREY, &sphere(-3.0, 2.0, "grey"));
+    let alterations: [fn(Trace) -> Trace; 4] = [
         |trace| Trace {
             position: Vec3::NAN,
             ..trace
@@ -167,16 +171,16 @@ fn counts_and_discards_paths_with_an_invalid_answer() {
             ..trace
         },
     ];
-    for spoil in bad {
-        let world = World::new(&SphereSubmission { alter: spoil }, &scene);
-        let integrator = Integrator::new(&scene, &world, sampling(3, 4));
-        let mut tally = RenderStats::default();
+    for alter in alterations {
+        let world = World::new(&SphereSubmission { alter }, &scene);
+        let integrator = Integrator::new(&scene, &world, settings(3, 4));
+        let mut stats = RenderStats::default();
         assert_eq!(
-            integrator.pixel_radiance(uvec2(4, 4), &mut tally),
+            integrator.pixel_radiance(uvec2(4, 4), &mut stats),
             Vec3::ZERO
         );
         assert_eq!(
-            tally,
+            stats,
             RenderStats {
                 rays: 3,
                 invalid_paths: 3
@@ -187,22 +191,22 @@ fn counts_and_discards_paths_with_an_invalid_answer() {
 
 #[test]
 fn the_length_of_a_normal_makes_no_difference() {
-    let scene = scene(1.0, GLASS, &ball(-3.0, 2.0, "glass"));
+    let scene = scene(1.0, GLASS, &sphere(-3.0, 2.0, "glass"));
     let long = SphereSubmission {
         alter: |trace| Trace {
             normal: trace.normal * 3.0,
             ..trace
         },
     };
-    let honest = render(&CORRECT, &scene, &sampling(2, 4));
-    let pixels = render(&long, &scene, &sampling(2, 4));
+    let expected = render(&CORRECT, &scene, &settings(2, 4));
+    let pixels = render(&long, &scene, &settings(2, 4));
     let close = |(a, b): (&Vec3, &Vec3)| a.abs_diff_eq(*b, 1e-3);
-    assert!(honest.iter().zip(&pixels).all(close));
+    assert!(expected.iter().zip(&pixels).all(close));
 }
 
 #[test]
 fn the_extent_covers_shapes_and_camera() {
-    let near = scene(0.0, GREY, &ball(-3.0, 2.0, "grey"));
+    let near = scene(0.0, GREY, &sphere(-3.0, 2.0, "grey"));
     assert_eq!(near.extent(), 5.0);
     let moved = vec3(0.0, 0.0, 50.0);
     let mut far = near.clone();

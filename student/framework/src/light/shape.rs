@@ -1,4 +1,4 @@
-//! The shape of a lamp, and which directions it fills.
+//! The shapes of lights, and sampling of points on them.
 
 use std::f32::consts::TAU;
 
@@ -8,28 +8,28 @@ use protocol::Shape;
 use crate::frame::Frame;
 use crate::math::sin_cos;
 
-/// The shape of a lamp.
+/// The shape of a light.
 pub(super) enum LightShape {
-    /// Shines to the side of `normal`, which has length one.
+    /// A triangle that emits on the side of `normal`, which has length one.
     Triangle {
         corners: [Vec3; 3],
         normal: Vec3,
         area: f32,
     },
-    /// Shines outward.
+    /// A sphere that emits outward.
     Sphere { center: Vec3, radius: f32 },
 }
 
-/// A place on a lamp, seen from a point.
+/// A point on a light, as seen from a given point.
 pub(super) struct ShapeSample {
     pub(super) direction: Vec3,
     pub(super) distance: f32,
-    /// One over the density of having picked this direction.
+    /// The inverse of the probability density of this direction.
     pub(super) solid_angle: f32,
 }
 
 impl LightShape {
-    /// That of a shape of the scene.
+    /// Converts a shape of the scene.
     pub(super) fn of(shape: &Shape) -> Self {
         match *shape {
             Shape::Triangle { vertices, .. } => {
@@ -41,7 +41,7 @@ impl LightShape {
         }
     }
 
-    /// The side that shines is that of `outward`, whichever way the corners turn.
+    /// Creates a triangle that emits on the side of `outward`, whatever the order of its corners.
     fn triangle(corners: [Vec3; 3], outward: Vec3) -> Self {
         let [p0, p1, p2] = corners;
         let cross = (p1 - p0).cross(p2 - p0);
@@ -57,7 +57,7 @@ impl LightShape {
         }
     }
 
-    /// All of its surface that shines.
+    /// Returns the area of the emitting surface.
     pub(super) fn area(&self) -> f32 {
         match *self {
             LightShape::Triangle { area, .. } => area,
@@ -65,8 +65,9 @@ impl LightShape {
         }
     }
 
-    /// A place on the lamp, picked by `place` in `[0, 1)`, if it shines on `point`.
-    pub(super) fn sample(&self, point: Vec3, place: Vec2) -> Option<ShapeSample> {
+    /// Samples a point on the light with two random numbers in `[0, 1)`. Returns `None` if it does
+    /// not emit toward `point`.
+    pub(super) fn sample(&self, point: Vec3, random: Vec2) -> Option<ShapeSample> {
         match *self {
             LightShape::Triangle {
                 corners: [p0, p1, p2],
@@ -74,11 +75,11 @@ impl LightShape {
                 area,
             } => {
                 // Turk, "Generating Random Points in Triangles", Graphics Gems, 1990.
-                let root = place.x.sqrt();
-                let on_lamp = p0 * (1.0 - root) + (p1 * (1.0 - place.y) + p2 * place.y) * root;
-                let way = on_lamp - point;
-                let distance = way.length();
-                let direction = way / distance;
+                let root = random.x.sqrt();
+                let on_light = p0 * (1.0 - root) + (p1 * (1.0 - random.y) + p2 * random.y) * root;
+                let to_light = on_light - point;
+                let distance = to_light.length();
+                let direction = to_light / distance;
                 let cosine = -direction.dot(normal);
                 (cosine > 0.0 && distance > 0.0).then_some(ShapeSample {
                     direction,
@@ -86,35 +87,36 @@ impl LightShape {
                     solid_angle: area * cosine / (distance * distance),
                 })
             }
-            LightShape::Sphere { center, radius } => sample_cone(center, radius, point, place),
+            LightShape::Sphere { center, radius } => sample_cone(center, radius, point, random),
         }
     }
 }
 
-/// A direction of the cone that a sphere fills, seen from outside: Shirley, Wang and Zimmerman,
-/// "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1), 1996.
-fn sample_cone(center: Vec3, radius: f32, point: Vec3, place: Vec2) -> Option<ShapeSample> {
-    let way = center - point;
-    let squared = way.length_squared();
-    // From inside nothing shines: spheres shine outward.
+/// Samples a direction in the cone that a sphere subtends, seen from outside: Shirley, Wang and
+/// Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1), 1996.
+fn sample_cone(center: Vec3, radius: f32, point: Vec3, random: Vec2) -> Option<ShapeSample> {
+    let to_center = center - point;
+    let squared = to_center.length_squared();
+    // A point inside gets no light, because spheres emit outward.
     if squared <= radius * radius {
         return None;
     }
     let sine_squared = (radius * radius / squared).min(1.0);
-    // 1 − cos of the cone's half angle, without cancellation for a sphere far away.
+    // 1 − cos of the cone's half angle, computed without cancellation for a sphere far away.
     let span = sine_squared / (1.0 + (1.0 - sine_squared).sqrt());
-    let rise = place.x * span;
+    let rise = random.x * span;
     let cosine = 1.0 - rise;
     let sine = (rise * (2.0 - rise)).max(0.0).sqrt();
-    let (sin, cos) = sin_cos(TAU * place.y);
-    let far = squared.sqrt();
-    let direction = Frame::from_z(way / far).to_world(Vec3::new(sine * cos, sine * sin, cosine));
+    let (sin, cos) = sin_cos(TAU * random.y);
+    let center_distance = squared.sqrt();
+    let frame = Frame::from_z(to_center / center_distance);
+    let direction = frame.to_world(Vec3::new(sine * cos, sine * sin, cosine));
 
-    // How deep the ray's closest approach to the centre lies in the sphere; at the rim, 0.
-    let depth = (radius * radius - squared * sine * sine).max(0.0).sqrt();
+    // Half of the chord that the ray cuts from the sphere; 0 at the silhouette.
+    let half_chord = (radius * radius - squared * sine * sine).max(0.0).sqrt();
     Some(ShapeSample {
         direction,
-        distance: far * cosine - depth,
+        distance: center_distance * cosine - half_chord,
         solid_angle: TAU * span,
     })
 }
@@ -126,26 +128,29 @@ mod tests {
     use super::*;
     use crate::sampler::{Purpose, Sampler};
 
-    /// The irradiance on a floor at the origin that faces up, from many places of one lamp.
-    fn irradiance(form: &LightShape) -> f32 {
+    /// Returns the irradiance at the origin on a floor that faces up, from many samples of one
+    /// light.
+    fn irradiance(shape: &LightShape) -> f32 {
         let count = 20_000;
         let light = (0..count).map(|n| {
-            let place = Sampler::new(0, Default::default(), n).pair(0, Purpose::PointOnLight);
-            let seen = form.sample(Vec3::ZERO, place);
-            seen.map_or(0.0, |seen| seen.direction.y.max(0.0) * seen.solid_angle)
+            let random = Sampler::new(0, Default::default(), n).pair(0, Purpose::PointOnLight);
+            let sample = shape.sample(Vec3::ZERO, random);
+            sample.map_or(0.0, |sample| {
+                sample.direction.y.max(0.0) * sample.solid_angle
+            })
         });
         light.sum::<f32>() / count as f32
     }
 
     #[test]
     fn the_irradiance_of_a_sphere_matches_the_closed_form() {
-        // π sin² of the half angle, for a sphere of radiance 1 wholly above the horizon.
-        let form = LightShape::Sphere {
+        // π sin² of the half angle, for a sphere of radiance 1 entirely above the horizon.
+        let shape = LightShape::Sphere {
             center: vec3(0.0, 2.0, 0.0),
             radius: 1.0,
         };
-        let truth = std::f32::consts::PI * 0.25;
-        assert!((irradiance(&form) / truth - 1.0).abs() < 0.01);
+        let expected = std::f32::consts::PI * 0.25;
+        assert!((irradiance(&shape) / expected - 1.0).abs() < 0.01);
     }
 
     #[test]
@@ -155,12 +160,13 @@ mod tests {
             vec3(0.0, 1.0, 1.0),
             vec3(-1.0, 1.5, -0.5),
         ];
-        let form = LightShape::triangle(corners, Vec3::NEG_Y);
-        // Lambert 1760: half the sum, over the edges, of the angle times the edge's normal.
+        let shape = LightShape::triangle(corners, Vec3::NEG_Y);
+        // Lambert 1760: half of the sum over the edges of the angle times the edge's normal.
         let d = corners.map(Vec3::normalize);
         let edge = |a: Vec3, b: Vec3| a.angle_between(b) * a.cross(b).normalize().y;
-        let truth = 0.5 * (edge(d[0], d[1]) + edge(d[1], d[2]) + edge(d[2], d[0])).abs();
-        assert!((irradiance(&form) / truth - 1.0).abs() < 0.01, "{truth}");
+        let expected = 0.5 * (edge(d[0], d[1]) + edge(d[1], d[2]) + edge(d[2], d[0])).abs();
+        let ratio = irradiance(&shape) / expected;
+        assert!((ratio - 1.0).abs() < 0.01, "{ratio}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Who looks, from where.
+//! The camera and its position in the scene.
 
 use glam::{Mat3, UVec2, Vec3};
 use protocol::{PinholeCamera, Ray};
@@ -6,29 +6,30 @@ use serde::Deserialize;
 
 use super::{MAX_FILM_SIDE, number};
 
-/// A camera and its place in the scene.
+/// A camera and its position in the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(try_from = "CameraInFile")]
+#[serde(try_from = "CameraEntry")]
 pub struct Camera {
-    /// What the submission's `Camera` is made of.
+    /// The parameters of the submission's `Camera`.
     pub pinhole: PinholeCamera,
-    /// From the camera's space to the world's.
+    /// The transformation from camera space to world space.
     pub placement: Placement,
-    /// Whether the author chose the sensor's shape, so that it does not follow the film's.
+    /// Whether the scene file sets the aspect ratio of the sensor, so that it does not follow that
+    /// of the film.
     pub fixed_aspect: bool,
 }
 
-/// A camera's place: a rotation, then a translation.
+/// A transformation from camera space to world space: a rotation, then a translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// Where the camera is, in world space.
+    /// The position of the camera in world space.
     pub position: Vec3,
-    /// The camera's x, y and z in world space, as columns; it looks down −z, with y up.
+    /// The camera's x-, y- and z-axes in world space, as columns. It looks down −z, with y up.
     pub axes: Mat3,
 }
 
 impl Camera {
-    /// See [`Scene::on_film`](super::Scene::on_film).
+    /// Implements [`Scene::on_film`](super::Scene::on_film).
     pub(super) fn on_film(self, film: UVec2) -> Camera {
         let aspect_ratio = if self.fixed_aspect {
             self.pinhole.aspect_ratio
@@ -47,7 +48,7 @@ impl Camera {
 }
 
 impl Placement {
-    /// A ray of the camera's in world space. Its direction keeps its length.
+    /// Transforms a ray from camera space to world space. The length of its direction is unchanged.
     pub fn to_world(&self, ray: &Ray) -> Ray {
         Ray {
             origin: self.position + self.axes * ray.origin,
@@ -57,44 +58,45 @@ impl Placement {
     }
 }
 
-/// `camera` in a scene file.
+/// The entry `camera` of a scene file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct CameraInFile {
-    /// The full angle from bottom to top, in degrees.
+struct CameraEntry {
+    /// The full vertical field of view, in degrees.
     #[serde(deserialize_with = "number::positive")]
     vertical_fov: f32,
     /// The number of pixels, across and up.
     film: [u32; 2],
-    /// The sensor's width divided by its height; without it, the film's.
+    /// The width of the sensor divided by its height; default: that of the film.
     #[serde(default, deserialize_with = "number::optional")]
     aspect_ratio: Option<f32>,
     #[serde(deserialize_with = "number::triple")]
     position: Vec3,
     #[serde(deserialize_with = "number::triple")]
     look_at: Vec3,
-    /// What shall point upward in the picture; need not be at a right angle to the view.
+    /// The direction that points upward in the picture. It does not have to be perpendicular to the
+    /// view direction.
     #[serde(deserialize_with = "number::triple")]
     up: Vec3,
 }
 
-/// What is wrong with a camera whose numbers are fine one by one.
+/// An error in a camera whose numbers are valid by themselves.
 #[derive(Debug, thiserror::Error)]
 enum CameraError {
-    #[error("a film of {0} x {1} pixels: each side must be from 1 to {MAX_FILM_SIDE}")]
+    #[error("`film` is {0} x {1} pixels: each side must be from 1 to {MAX_FILM_SIDE}")]
     Film(u32, u32),
-    #[error("`vertical_fov` is {0}: degrees, below 180")]
+    #[error("`vertical_fov` is {0}: it must be less than 180 degrees")]
     FieldOfView(f32),
-    #[error("`look_at` is the camera's own `position`: move one of them")]
+    #[error("`look_at` and `position` are the same point: change one of them")]
     LooksAtItself,
-    #[error("`up` is along the view: turn it")]
+    #[error("`up` is parallel to the view direction: change it")]
     UpAlongTheView,
 }
 
-impl TryFrom<CameraInFile> for Camera {
+impl TryFrom<CameraEntry> for Camera {
     type Error = CameraError;
 
-    fn try_from(file: CameraInFile) -> Result<Self, CameraError> {
+    fn try_from(file: CameraEntry) -> Result<Self, CameraError> {
         let [width, height] = file.film;
         let side = 1..=MAX_FILM_SIDE;
         if !side.contains(&width) || !side.contains(&height) {
@@ -105,7 +107,7 @@ impl TryFrom<CameraInFile> for Camera {
         }
         let view = (file.look_at - file.position).try_normalize();
         let forward = view.ok_or(CameraError::LooksAtItself)?;
-        // Both have length one, so this is the sine of the angle between them.
+        // Both vectors have length one, so this length is the sine of the angle between them.
         let across = forward.cross(file.up.normalize_or_zero());
         if across.length() < 1e-4 {
             return Err(CameraError::UpAlongTheView);
@@ -143,7 +145,7 @@ mod tests {
             r#"{{ "vertical_fov": 90, "film": [4, 2], {extra}
                  "position": [1, 2, 3], "look_at": [5, 2, 3], "up": [1, 1, 0] }}"#
         );
-        serde_json::from_str(&text).expect("a camera")
+        serde_json::from_str(&text).expect("the camera is valid")
     }
 
     #[test]
@@ -154,13 +156,13 @@ mod tests {
         assert_eq!(ray.origin, vec3(1.0, 2.0, 3.0));
         let forward_and_up = vec3(1.0, 1.0, 0.0).normalize();
         assert!(ray.dir.abs_diff_eq(forward_and_up, 1e-6), "{ray:?}");
-        // Looking along +x with y up, +z is to the right.
+        // The camera looks along +x with y up, so +z is to the right.
         let right = camera("").placement.axes.x_axis;
         assert!(right.abs_diff_eq(Vec3::Z, 1e-6), "{right}");
     }
 
     #[test]
-    fn the_sensor_follows_the_film_unless_its_shape_is_given() {
+    fn the_aspect_ratio_follows_the_film_unless_it_is_given() {
         assert_eq!(camera("").pinhole.aspect_ratio, 2.0);
         assert_eq!(camera("").on_film(uvec2(3, 3)).pinhole.aspect_ratio, 1.0);
         let fixed = camera(r#""aspect_ratio": 1.5,"#).on_film(uvec2(3, 3));

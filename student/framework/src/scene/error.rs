@@ -1,89 +1,90 @@
-//! What can be wrong with a scene, where, and what to do.
+//! Errors in scenes, with their position and how to fix them.
 
 use std::fmt;
 #[cfg(feature = "cli")]
 use std::path::Path;
 use std::path::PathBuf;
 
-/// A place in a text file.
+/// A position in a text file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextPosition {
-    /// From 1.
+    /// The line number, starting at 1.
     pub line: usize,
-    /// From 1, in bytes; 0 if only the line is known.
+    /// The column in bytes, starting at 1, or 0 if only the line is known.
     pub column: usize,
-    /// The line's own text.
+    /// The text of the line.
     pub text: String,
 }
 
-/// A scene that can not be used: which file, where in it, and why.
+/// An error in a scene: the file, the position in it, and the reason.
 #[derive(Debug)]
 pub struct SceneError {
-    /// The file, if the scene came from one.
+    /// The file, if the scene was read from one.
     pub file: Option<PathBuf>,
-    /// The place in it, if the problem has one.
+    /// The position in the file, if known.
     pub position: Option<TextPosition>,
-    /// What is wrong.
+    /// The reason.
     pub kind: SceneErrorKind,
 }
 
-/// What is wrong with a scene or one of its meshes.
+/// The reason why a scene or one of its meshes is invalid.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneErrorKind {
-    /// The file can not be opened or read.
-    #[error("can not be read: {0}")]
+    /// The file cannot be opened or read.
+    #[error("cannot read the file: {0}")]
     Unreadable(std::io::Error),
-    /// The file is something else than text.
-    #[error("is not UTF-8 text: byte {0} fits no character; is it the right file?")]
+    /// The file is not UTF-8 text. Holds the offset of the first invalid byte.
+    #[error("the file is not UTF-8 text (invalid byte at offset {0}); is it the right file?")]
     NotUtf8(usize),
-    /// There is nothing in the file.
-    #[error("is empty: a scene has at least a camera, materials and shapes")]
+    /// The text is empty.
+    #[error("the scene is empty: it needs at least a camera, materials and shapes")]
     Empty,
-    /// The parser's words, which name the key or value and what would be right.
+    /// The text is not a valid scene file. Holds the parser's message.
     #[error("{0}")]
     Syntax(String),
-    /// A shape names a material that is not there.
-    #[error("no material is called `{name}`; there are: {known}")]
+    /// A shape uses a material that the scene does not define.
+    #[error("there is no material `{name}`; the scene defines: {known}")]
     UnknownMaterial {
-        /// What the shape names.
+        /// The name that the shape uses.
         name: String,
-        /// The names that would do.
+        /// The names that the scene defines.
         known: String,
     },
-    /// A mesh in a scene that came without a folder.
-    #[error("a mesh stands in a file of its own, which only a scene read from a file can name")]
+    /// The scene uses a mesh, but was not read from a file.
+    #[error("meshes are separate files, so only a scene that is read from a file can use one")]
     MeshWithoutFolder,
-    /// A mesh's file has a problem of its own.
+    /// The file of a mesh has an error.
     #[error("mesh: {0}")]
     Mesh(Box<SceneError>),
-    /// An OBJ file with a line that can not be used.
+    /// An OBJ file is invalid. Holds the message.
     #[error("{0}")]
     Obj(String),
-    /// Subdivision would not fit in memory.
+    /// The subdivided mesh would be too large.
     #[error(
-        "{levels} subdivisions make {triangles} triangles, and at most {limit} are drawn: take fewer"
+        "with `subdivide` {levels} the mesh has {triangles} triangles, and the limit is {limit}: \
+         use a smaller number"
     )]
     TooManyTriangles {
-        /// What was asked for.
+        /// The number of subdivisions.
         levels: u32,
-        /// What it would come to.
+        /// The number of triangles that the mesh would have.
         triangles: u64,
-        /// The limit.
+        /// The maximum number of triangles.
         limit: u64,
     },
 }
 
 impl SceneError {
-    /// A problem at a place of a file not yet known.
-    pub(super) fn new(place: Option<TextPosition>, problem: SceneErrorKind) -> Self {
+    /// Creates an error at a position in a file that is not known yet.
+    pub(super) fn new(position: Option<TextPosition>, kind: SceneErrorKind) -> Self {
         SceneError {
             file: None,
-            position: place,
-            kind: problem,
+            position,
+            kind,
         }
     }
 
-    /// The same error, now that the file is known.
+    /// Returns the same error with the name of the file.
     #[cfg(feature = "cli")]
     pub(super) fn in_file(self, file: &Path) -> Self {
         SceneError {
@@ -94,7 +95,7 @@ impl SceneError {
 }
 
 impl TextPosition {
-    /// A line and a column, from 1, of a text.
+    /// Creates the position at a line and a column of a text, both starting at 1.
     pub(super) fn new(text: &str, line: usize, column: usize) -> Self {
         let text = text.lines().nth(line.saturating_sub(1)).unwrap_or("");
         TextPosition {
@@ -104,7 +105,7 @@ impl TextPosition {
         }
     }
 
-    /// Where `key` has the value `value`, first of all.
+    /// Finds the first position at which `key` has the value `value`.
     pub(super) fn of_value(text: &str, key: &str, value: &str) -> Option<Self> {
         let (key, value) = (format!("{key:?}"), format!("{value:?}"));
         let follows_key = |start: usize| {
@@ -120,10 +121,10 @@ impl TextPosition {
     }
 }
 
-/// A whole text file.
+/// Reads a text file.
 #[cfg(feature = "cli")]
 pub(super) fn read_text(path: &Path) -> Result<String, SceneError> {
-    let failed = |problem| SceneError::new(None, problem).in_file(path);
+    let failed = |kind| SceneError::new(None, kind).in_file(path);
     let bytes = std::fs::read(path).map_err(|error| failed(SceneErrorKind::Unreadable(error)))?;
     String::from_utf8(bytes)
         .map_err(|error| failed(SceneErrorKind::NotUtf8(error.utf8_error().valid_up_to())))
@@ -135,21 +136,21 @@ impl fmt::Display for SceneError {
             Some(file) => write!(f, "{}:", file.display())?,
             None => f.write_str("scene:")?,
         }
-        if let Some(place) = &self.position {
-            write!(f, "{}:", place.line)?;
-            if place.column > 0 {
-                write!(f, "{}:", place.column)?;
+        if let Some(position) = &self.position {
+            write!(f, "{}:", position.line)?;
+            if position.column > 0 {
+                write!(f, "{}:", position.column)?;
             }
         }
         write!(f, " {}", self.kind)?;
         match &self.position {
-            Some(place) => write!(f, "{place}"),
+            Some(position) => write!(f, "{position}"),
             None => Ok(()),
         }
     }
 }
 
-/// The line itself with a mark under the column, if it fits on a terminal.
+/// Prints the line with a mark under the column, unless it is too long for a terminal.
 impl fmt::Display for TextPosition {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let shown = self.text.trim_end();
@@ -174,22 +175,22 @@ mod tests {
     #[test]
     fn finds_the_value_of_the_given_key() {
         let text = "{\n  \"about\": \"red\",\n  \"material\" : \"red\"\n}";
-        let place = TextPosition::of_value(text, "material", "red").expect("it is there");
-        assert_eq!((place.line, place.column), (3, 16));
+        let position = TextPosition::of_value(text, "material", "red");
+        let position = position.expect("the text contains this value");
+        assert_eq!((position.line, position.column), (3, 16));
         assert_eq!(TextPosition::of_value(text, "file", "red"), None);
     }
 
     #[test]
     fn an_error_shows_the_line_and_a_mark_under_the_column() {
         let text = "{\n  \"radius\": -2\n}";
-        let problem = SceneErrorKind::Syntax("-2 is not above 0".to_owned());
+        let kind = SceneErrorKind::Syntax("-2 is not above 0".to_owned());
         let error = SceneError {
             file: Some(PathBuf::from("ball.json")),
-            ..SceneError::new(Some(TextPosition::new(text, 2, 14)), problem)
+            ..SceneError::new(Some(TextPosition::new(text, 2, 14)), kind)
         };
-        let shown = error.to_string();
-        let wanted =
+        let expected =
             "ball.json:2:14: -2 is not above 0\n    2 |   \"radius\": -2\n      |              ^";
-        assert_eq!(shown, wanted);
+        assert_eq!(error.to_string(), expected);
     }
 }

@@ -1,4 +1,4 @@
-//! The keys of a scene file. A key that is not here is an error that lists those that are.
+//! The keys of a scene file. For any other key, the error lists the known ones.
 
 use glam::Vec3;
 use serde::Deserialize;
@@ -9,23 +9,23 @@ use super::number;
 use super::ordered_map::OrderedMap;
 use super::polygon::Polygon;
 
-/// A whole scene file.
+/// The contents of a scene file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SceneFile {
-    /// What the scene shows.
+    /// A description of the scene.
     #[serde(default)]
     pub(super) about: String,
     pub(super) camera: Camera,
-    /// The radiance from all around; without it, none.
+    /// The radiance of the environment; default: black.
     #[serde(default, deserialize_with = "number::radiance")]
     pub(super) environment: Vec3,
     pub(super) materials: OrderedMap<Material>,
     pub(super) shapes: Vec<ShapeEntry>,
 }
 
-/// An entry of `shapes`. Kinds are keys (`{ "sphere": { ... } }`), not values of a key `type`:
-/// so the parser still knows the line when it meets a mistake inside.
+/// An entry of `shapes`. The kind of shape is a key (`{ "sphere": { ... } }`) and not the value of
+/// a key `type`, because then the parser would not know the line of an error in the entry.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum ShapeEntry {
@@ -37,26 +37,26 @@ pub(super) enum ShapeEntry {
         radius: f32,
         material: String,
     },
-    /// A flat, convex outline.
+    /// A flat, convex polygon.
     Polygon(Polygon),
-    /// A mesh in an OBJ file of its own.
+    /// A mesh in a separate OBJ file.
     Mesh(MeshEntry),
 }
 
-/// A mesh: scaled, then turned about x, then y, then z, then moved.
+/// A mesh. It is scaled, rotated about the x-, y- and z-axes in this order, and then translated.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MeshEntry {
-    /// An OBJ file beside the scene's.
+    /// The path of the OBJ file, relative to the folder of the scene file.
     pub(super) file: String,
     pub(super) material: String,
-    /// How often to subdivide after Loop; every time makes four triangles of one, and the
-    /// normals smooth.
+    /// The number of Loop subdivisions. Each splits every triangle into four. The subdivided mesh
+    /// has smooth normals.
     #[serde(default)]
     pub(super) subdivide: u32,
     #[serde(default = "one", deserialize_with = "number::positive")]
     pub(super) scale: f32,
-    /// Angles about the x, y and z axes, in degrees.
+    /// The angles about the x-, y- and z-axes, in degrees.
     #[serde(default, deserialize_with = "number::triple")]
     pub(super) rotate: Vec3,
     #[serde(default, deserialize_with = "number::triple")]

@@ -1,4 +1,4 @@
-//! Scenes and meshes as files: what is wrong is told with the name of the file that must change.
+//! Tests of scene and mesh files. Errors begin with the name of the file to fix.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,27 +7,27 @@ use protocol::Shape;
 
 use super::Scene;
 
-/// A folder of our own that goes away with the test.
+/// A temporary folder that is removed at the end of the test.
 struct Folder(PathBuf);
 
 impl Folder {
     fn new(test: &str) -> Self {
         let name = format!("framework-{test}-{}", std::process::id());
         let folder = std::env::temp_dir().join(name);
-        fs::create_dir_all(&folder).expect("a folder");
+        fs::create_dir_all(&folder).expect("the folder can be created");
         Folder(folder)
     }
 
     fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> PathBuf {
         let path = self.0.join(name);
-        fs::write(&path, contents).expect("a file");
+        fs::write(&path, contents).expect("the file can be written");
         path
     }
 
-    /// The scene's error, without the folder's name.
+    /// Returns the error message for a scene, without the name of the folder.
     fn problem(&self, scene: &Path) -> String {
-        let error = Scene::load(scene).expect_err("it is refused").to_string();
-        error.replace(
+        let error = Scene::load(scene).expect_err("the scene is invalid");
+        error.to_string().replace(
             &format!("{}{}", self.0.display(), std::path::MAIN_SEPARATOR),
             "",
         )
@@ -36,7 +36,7 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // If it can not be removed, the system does so later.
+        // If this fails, the system removes the temporary folder later.
         let _ = fs::remove_dir_all(&self.0);
     }
 }
@@ -57,20 +57,21 @@ const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
 #[test]
 fn a_mesh_is_scaled_rotated_and_translated() {
-    let folder = Folder::new("placed");
+    let folder = Folder::new("transformed");
     folder.write("a.obj", SQUARE);
-    let put = r#", "scale": 2, "rotate": [90, 0, 0], "translate": [5, 0, 0]"#;
-    let scene = Scene::load(&folder.write("s.json", scene_with(put))).expect("a scene");
+    let keys = r#", "scale": 2, "rotate": [90, 0, 0], "translate": [5, 0, 0]"#;
+    let scene = Scene::load(&folder.write("s.json", scene_with(keys)));
+    let scene = scene.expect("the scene is valid");
     assert_eq!(scene.shapes.len(), 2);
     let Shape::Triangle { vertices, .. } = scene.shapes[0] else {
-        panic!("meshes are triangles: {:?}", scene.shapes[0]);
+        panic!("expected a triangle, got {:?}", scene.shapes[0]);
     };
     let far = vertices[2];
     assert!(
         far.position.abs_diff_eq(glam::vec3(7.0, 0.0, 2.0), 1e-5),
         "{far:?}"
     );
-    // The file gives no normals: the face's own, which was turned as well.
+    // The file has no normals, so the normal is that of the face, which is rotated as well.
     assert!(far.normal.abs_diff_eq(glam::Vec3::NEG_Y, 1e-5), "{far:?}");
 }
 
@@ -81,7 +82,7 @@ fn a_subdivided_mesh_has_four_times_the_triangles_and_smooth_normals() {
         "v 1 1 1\nv 1 -1 -1\nv -1 1 -1\nv -1 -1 1\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n";
     folder.write("a.obj", tetrahedron);
     let scene = Scene::load(&folder.write("s.json", scene_with(r#", "subdivide": 3"#)));
-    let scene = scene.expect("a scene");
+    let scene = scene.expect("the scene is valid");
     assert_eq!(scene.shapes.len(), 4 * 64);
     let outward = scene.shapes.iter().all(|shape| match shape {
         Shape::Triangle { vertices, .. } => vertices.iter().all(|vertex| {
@@ -95,10 +96,10 @@ fn a_subdivided_mesh_has_four_times_the_triangles_and_smooth_normals() {
 #[test]
 fn reports_a_missing_mesh_at_the_line_that_names_it() {
     let folder = Folder::new("missing");
-    let told = folder.problem(&folder.write("s.json", scene_with("")));
+    let message = folder.problem(&folder.write("s.json", scene_with("")));
     assert!(
-        told.starts_with("s.json:5:25: mesh: a.obj: can not be read: "),
-        "{told}"
+        message.starts_with("s.json:5:25: mesh: a.obj: cannot read the file: "),
+        "{message}"
     );
 }
 
@@ -106,40 +107,42 @@ fn reports_a_missing_mesh_at_the_line_that_names_it() {
 fn reports_a_bad_line_of_a_mesh_in_the_mesh_file() {
     let folder = Folder::new("range");
     folder.write("a.obj", SQUARE.replace("f 1 2 3 4", "f 1 2 9"));
-    let told = folder.problem(&folder.write("s.json", scene_with("")));
-    let wanted = "mesh: a.obj:5: there is no position 9: they count from 1 to 4\n    5 | f 1 2 9";
-    assert!(told.contains(wanted), "{told}");
+    let message = folder.problem(&folder.write("s.json", scene_with("")));
+    let expected = "mesh: a.obj:5: there is no position 9: the indices are 1 to 4\n    5 | f 1 2 9";
+    assert!(message.contains(expected), "{message}");
 }
 
 #[test]
 fn rejects_a_subdivision_that_would_not_fit_in_memory() {
     let folder = Folder::new("fine");
     folder.write("a.obj", SQUARE);
-    let told = folder.problem(&folder.write("s.json", scene_with(r#", "subdivide": 40"#)));
+    let message = folder.problem(&folder.write("s.json", scene_with(r#", "subdivide": 40"#)));
     assert!(
-        told.contains("40 subdivisions make") && told.contains("take fewer"),
-        "{told}"
+        message.contains("with `subdivide` 40 the mesh has") && message.contains("use a smaller"),
+        "{message}"
     );
 }
 
 #[test]
 fn reports_the_name_of_an_unreadable_file() {
     let folder = Folder::new("binary");
-    let told = folder.problem(&folder.write("s.json", [b'{', 0xff, 0xfe]));
+    let message = folder.problem(&folder.write("s.json", [b'{', 0xff, 0xfe]));
     assert_eq!(
-        told,
-        "s.json: is not UTF-8 text: byte 1 fits no character; is it the right file?"
+        message,
+        "s.json: the file is not UTF-8 text (invalid byte at offset 1); is it the right file?"
     );
-    let told = folder.problem(&folder.write("empty.json", ""));
-    assert!(told.starts_with("empty.json: is empty"), "{told}");
-    let told = folder.problem(&folder.0.join("none.json"));
-    assert!(told.starts_with("none.json: can not be read: "), "{told}");
+    let message = folder.problem(&folder.write("empty.json", ""));
+    let expected = "empty.json: the scene is empty";
+    assert!(message.starts_with(expected), "{message}");
+    let message = folder.problem(&folder.0.join("none.json"));
+    let expected = "none.json: cannot read the file: ";
+    assert!(message.starts_with(expected), "{message}");
 }
 
 #[test]
 fn every_scene_in_the_scenes_folder_loads() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    // A submission's bundle may stand without them.
+    // A bundle may have no scenes.
     let Ok(entries) = fs::read_dir(&scenes) else {
         return;
     };
@@ -153,6 +156,6 @@ fn every_scene_in_the_scenes_folder_loads() {
             );
         }
     }
-    let text = fs::read_to_string(scenes.join("cornell-box.json")).expect("the Cornell box");
-    Scene::from_text(&text).expect("it needs no other file");
+    let text = fs::read_to_string(scenes.join("cornell-box.json")).expect("the scene exists");
+    Scene::from_text(&text).expect("the scene uses no other file");
 }

@@ -1,54 +1,55 @@
-//! What surfaces are made of.
+//! Materials of surfaces.
 
 use glam::{Vec2, Vec3};
 use serde::Deserialize;
 
 use super::number;
 
-/// What a surface does with light.
+/// The way in which a surface scatters or emits light.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Material {
-    /// Matte on both sides: scatters evenly in all directions.
+    /// A matte surface, on both sides. It reflects the same radiance in all directions.
     Lambertian {
-        /// The share of light that is scattered.
+        /// The fraction of light that is scattered.
         #[serde(deserialize_with = "number::reflectance")]
         albedo: Vec3,
     },
-    /// Matte on both sides, with a chessboard of two albedos.
+    /// A matte surface, on both sides, with a chequerboard of two albedos.
     Checker {
         /// The albedo of the square at u = v = 0.
         #[serde(deserialize_with = "number::reflectance")]
         a: Vec3,
-        /// The albedo of its neighbours.
+        /// The albedo of the neighbouring squares.
         #[serde(deserialize_with = "number::reflectance")]
         b: Vec3,
-        /// How many squares there are from u = 0 to u = 1, and likewise along v.
+        /// The number of squares from u = 0 to u = 1, and also from v = 0 to v = 1.
         #[serde(deserialize_with = "number::positive")]
         scale: f32,
     },
-    /// A perfect mirror on both sides.
+    /// A perfect mirror, on both sides.
     Mirror {
-        /// The share of light that is reflected.
+        /// The fraction of light that is reflected.
         #[serde(deserialize_with = "number::reflectance")]
         reflectance: Vec3,
     },
-    /// Clear glass; the normal points out of it.
+    /// Clear glass. The normal points out of the glass.
     Glass {
-        /// The index of refraction inside; outside it is 1.
+        /// The index of refraction of the glass. Outside, it is 1.
         #[serde(deserialize_with = "number::positive")]
         ior: f32,
     },
-    /// A lamp: shines evenly from the side that the normal points to, and reflects nothing.
+    /// A light. It emits the same radiance in all directions on the side of the normal, and
+    /// reflects nothing.
     Emitter {
-        /// The radiance that leaves it.
+        /// The emitted radiance.
         #[serde(deserialize_with = "number::radiance")]
         radiance: Vec3,
     },
 }
 
 impl Material {
-    /// The radiance that leaves the surface on its own.
+    /// Returns the radiance that the surface emits, or `None` if it is not an emitter.
     pub fn emitted(&self) -> Option<Vec3> {
         match *self {
             Material::Emitter { radiance } => Some(radiance),
@@ -60,10 +61,10 @@ impl Material {
     }
 }
 
-/// Which of a chessboard's two albedos is at `uv`.
+/// Returns the albedo of a chequerboard at `uv`.
 pub(crate) fn checker(a: Vec3, b: Vec3, scale: f32, uv: Vec2) -> Vec3 {
     let square = (uv * scale).floor();
-    // In floats: far from zero the sum of two integers would overflow.
+    // Computed with floats, because far from zero the sum of two integers would overflow.
     let odd = (square.x + square.y).rem_euclid(2.0);
     if odd == 0.0 { a } else { b }
 }

@@ -1,4 +1,4 @@
-//! Meshes as they are handled between the file and the scene.
+//! Meshes, as an intermediate form between the OBJ file and the shapes of a scene.
 
 use glam::{Mat3, Vec2, Vec3};
 use protocol::{Shape, Vertex};
@@ -6,8 +6,9 @@ use protocol::{Shape, Vertex};
 use super::file::MeshEntry;
 use crate::math::sin_cos;
 
-/// Triangles that share their corners' positions, and so know their neighbours. Normals and
-/// texture coordinates belong to a triangle's corner: at seams they differ.
+/// An indexed triangle mesh. Triangles share positions, which subdivision uses to find neighbours.
+/// Normals and texture coordinates are stored per corner of a triangle, because they differ at
+/// seams.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Mesh {
     pub(super) positions: Vec<Vec3>,
@@ -17,25 +18,25 @@ pub(super) struct Mesh {
 /// One triangle of a [`Mesh`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
-    /// Places in [`Mesh::positions`].
+    /// Indices into [`Mesh::positions`].
     pub(super) corners: [usize; 3],
     pub(super) uv: [Vec2; 3],
-    /// `None` where the file gives none: then the face is flat.
+    /// The normals at the corners. `None` if the file gives none, so that the face is flat.
     pub(super) normals: Option<[Vec3; 3]>,
 }
 
 impl Mesh {
-    /// The shapes of the mesh, where the scene puts it. Triangles without area are left out: no
-    /// ray meets one, and it has no normal.
-    pub(super) fn shapes(&self, put: &MeshEntry, material: u32) -> Vec<Shape> {
-        let turn = rotation(put.rotate);
-        let place = |p: Vec3| turn * (p * put.scale) + put.translate;
-        let positions: Vec<Vec3> = self.positions.iter().copied().map(place).collect();
+    /// Returns the mesh's triangles, transformed as the scene file says. Triangles without area are
+    /// left out, because they have no normal and no ray can hit them.
+    pub(super) fn shapes(&self, entry: &MeshEntry, material: u32) -> Vec<Shape> {
+        let rotation = rotation(entry.rotate);
+        let transform = |p: Vec3| rotation * (p * entry.scale) + entry.translate;
+        let positions: Vec<Vec3> = self.positions.iter().copied().map(transform).collect();
         let shape = |face: &Face| {
             let corners = face.corners.map(|corner| positions[corner]);
             let flat = cross(corners).try_normalize()?;
             let normals = match face.normals {
-                Some(normals) => normals.map(|normal| (turn * normal).normalize_or(flat)),
+                Some(normals) => normals.map(|normal| (rotation * normal).normalize_or(flat)),
                 None => [flat; 3],
             };
             let vertex = |i: usize| Vertex::new(corners[i], normals[i], face.uv[i]);
@@ -47,8 +48,8 @@ impl Mesh {
         self.faces.iter().filter_map(shape).collect()
     }
 
-    /// The same mesh with a normal at each position, between those of the faces around it,
-    /// weighted by area.
+    /// Returns the same mesh with a normal at each position: the mean of the normals of the faces
+    /// around it, weighted by area.
     pub(super) fn with_smooth_normals(mut self) -> Self {
         let mut normals = vec![Vec3::ZERO; self.positions.len()];
         for face in &self.faces {
@@ -65,12 +66,12 @@ impl Mesh {
     }
 }
 
-/// Along a triangle's normal, twice as long as it has area.
+/// Returns a vector along a triangle's normal, whose length is twice the triangle's area.
 fn cross([p0, p1, p2]: [Vec3; 3]) -> Vec3 {
     (p1 - p0).cross(p2 - p0)
 }
 
-/// Turns about x, then y, then z, by angles in degrees.
+/// Returns the rotation about the x-, y- and z-axes, in this order, by angles in degrees.
 fn rotation(degrees: Vec3) -> Mat3 {
     let [(sx, cx), (sy, cy), (sz, cz)] = degrees.to_array().map(|a| sin_cos(a.to_radians()));
     let x = Mat3::from_cols_array_2d(&[[1.0, 0.0, 0.0], [0.0, cx, sx], [0.0, -sx, cx]]);
@@ -87,13 +88,13 @@ mod tests {
 
     #[test]
     fn a_quarter_turn_about_each_axis_is_right_handed() {
-        let turned = |degrees: Vec3, v: Vec3| rotation(degrees) * v;
+        let rotate = |degrees: Vec3, v: Vec3| rotation(degrees) * v;
         let quarter = 90.0;
-        assert!(turned(Vec3::X * quarter, Vec3::Y).abs_diff_eq(Vec3::Z, 1e-6));
-        assert!(turned(Vec3::Y * quarter, Vec3::Z).abs_diff_eq(Vec3::X, 1e-6));
-        assert!(turned(Vec3::Z * quarter, Vec3::X).abs_diff_eq(Vec3::Y, 1e-6));
-        // x first, then z.
-        let both = turned(vec3(quarter, 0.0, quarter), Vec3::Z);
+        assert!(rotate(Vec3::X * quarter, Vec3::Y).abs_diff_eq(Vec3::Z, 1e-6));
+        assert!(rotate(Vec3::Y * quarter, Vec3::Z).abs_diff_eq(Vec3::X, 1e-6));
+        assert!(rotate(Vec3::Z * quarter, Vec3::X).abs_diff_eq(Vec3::Y, 1e-6));
+        // About x first, then about z.
+        let both = rotate(vec3(quarter, 0.0, quarter), Vec3::Z);
         assert!(both.abs_diff_eq(Vec3::X, 1e-6), "{both}");
     }
 }

@@ -1,6 +1,7 @@
-//! Meshes in OBJ files, read by `tobj`.
+//! Meshes in OBJ files, read with `tobj`.
 //!
-//! It names no lines in its errors and lets NaN pass, so what can be wrong is looked for first.
+//! `tobj` reports no line numbers in its errors and accepts NaN, so this module validates the text
+//! first.
 
 use std::path::Path;
 
@@ -9,7 +10,7 @@ use glam::{Vec2, Vec3};
 use super::error::{SceneError, SceneErrorKind, TextPosition, read_text};
 use super::mesh::{Face, Mesh};
 
-/// The mesh in a file.
+/// Loads a mesh from an OBJ file.
 pub(super) fn load(path: &Path) -> Result<Mesh, SceneErrorKind> {
     let text = read_text(path).map_err(in_mesh)?;
     parse(&text).map_err(|error| in_mesh(error.in_file(path)))
@@ -19,7 +20,7 @@ fn in_mesh(error: SceneError) -> SceneErrorKind {
     SceneErrorKind::Mesh(Box::new(error))
 }
 
-/// All triangles of an OBJ text; faces of more corners become fans.
+/// Parses the triangles of an OBJ text. Faces with more than three corners become triangle fans.
 fn parse(text: &str) -> Result<Mesh, SceneError> {
     validate(text)?;
     let options = tobj::LoadOptions {
@@ -28,7 +29,7 @@ fn parse(text: &str) -> Result<Mesh, SceneError> {
         ignore_lines: true,
         ..tobj::LoadOptions::default()
     };
-    // Materials are the scene's: a library that the file names is not looked for.
+    // The scene defines the materials, so material libraries are ignored.
     let no_library = |_: &Path| Ok(Default::default());
     let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_library)
         .map_err(|error| SceneError::new(None, SceneErrorKind::Obj(error.to_string())))?;
@@ -58,7 +59,8 @@ fn parse(text: &str) -> Result<Mesh, SceneError> {
 }
 
 fn no_faces() -> SceneErrorKind {
-    SceneErrorKind::Obj("holds no faces (lines that begin with `f`): is it a mesh?".to_owned())
+    let message = "the file has no faces (lines that begin with `f`); is it a mesh?";
+    SceneErrorKind::Obj(message.to_owned())
 }
 
 fn triples(numbers: &[f32]) -> impl Iterator<Item = Vec3> {
@@ -69,10 +71,10 @@ fn three(indices: &[u32], face: usize) -> [usize; 3] {
     [0, 1, 2].map(|corner| indices[3 * face + corner] as usize)
 }
 
-/// The kinds of lines that faces count, in the order in which a corner names them.
+/// The kinds of lines that faces refer to by index, in the order of the indices in a face corner.
 const INDEXED: [(&str, &str); 3] = [("v", "position"), ("vt", "uv"), ("vn", "normal")];
 
-/// Looks at the numbers of positions, texture coordinates and normals, and at the faces' indices.
+/// Checks the numbers of positions, texture coordinates and normals, and the indices of faces.
 fn validate(text: &str) -> Result<(), SceneError> {
     let count = |kind: &str| text.lines().filter(|line| first_word(line) == kind).count();
     let totals = INDEXED.map(|(kind, _)| count(kind));
@@ -88,9 +90,9 @@ fn validate(text: &str) -> Result<(), SceneError> {
         } else {
             Ok(())
         };
-        let failed = |words| {
-            let place = Some(TextPosition::new(text, number, 0));
-            SceneError::new(place, SceneErrorKind::Obj(words))
+        let failed = |message| {
+            let position = Some(TextPosition::new(text, number, 0));
+            SceneError::new(position, SceneErrorKind::Obj(message))
         };
         checked.map_err(failed)?;
     }
@@ -108,26 +110,27 @@ fn number_is_finite(word: &str) -> Result<(), String> {
     }
 }
 
-/// `corner` is such as `7`, `7/1`, `7//3` or `7/1/3`; a negative index counts back from here.
+/// Checks the indices of a face corner such as `7`, `7/1`, `7//3` or `7/1/3`. A negative index
+/// counts backward from the current line.
 fn corner_exists(corner: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<(), String> {
     for (i, index) in corner.split('/').enumerate() {
         if index.is_empty() {
             continue;
         }
-        let (Some((_, name)), Ok(place)) = (INDEXED.get(i), index.parse::<i64>()) else {
+        let (Some((_, name)), Ok(index)) = (INDEXED.get(i), index.parse::<i64>()) else {
             return Err(format!(
-                "`{corner}` is not a corner, such as 7, 7/1, 7//3 or 7/1/3"
+                "`{corner}` is not a face corner; expected the form 7, 7/1, 7//3 or 7/1/3"
             ));
         };
-        let exists = match place {
-            1.. => place.unsigned_abs() <= totals[i] as u64,
+        let exists = match index {
+            1.. => index.unsigned_abs() <= totals[i] as u64,
             0 => false,
-            ..0 => place.unsigned_abs() <= so_far[i] as u64,
+            ..0 => index.unsigned_abs() <= so_far[i] as u64,
         };
         if !exists {
-            let there_are = totals[i];
+            let total = totals[i];
             return Err(format!(
-                "there is no {name} {place}: they count from 1 to {there_are}"
+                "there is no {name} {index}: the indices are 1 to {total}"
             ));
         }
     }
@@ -139,14 +142,14 @@ mod tests {
     use super::*;
 
     fn problem(text: &str) -> String {
-        parse(text).expect_err("it is refused").to_string()
+        parse(text).expect_err("the text is invalid").to_string()
     }
 
-    const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    const POSITIONS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
     #[test]
     fn a_face_without_normals_is_flat_and_a_square_is_two_triangles() {
-        let mesh = parse(&format!("{CORNERS}f 1 2 3 4\n")).expect("a square");
+        let mesh = parse(&format!("{POSITIONS}f 1 2 3 4\n")).expect("the text is valid");
         assert_eq!(mesh.faces.len(), 2);
         assert!(mesh.faces.iter().all(|face| face.normals.is_none()));
     }
@@ -154,7 +157,8 @@ mod tests {
     #[test]
     fn reads_normals_and_texture_coordinates_per_corner() {
         let attributes = "vt 0.5 0.25\nvn 0 0 1\nvn 1 0 0\n";
-        let mesh = parse(&format!("{CORNERS}{attributes}f 1/1/1 2/1/2 -2/-1/-2\n")).expect("valid");
+        let mesh = parse(&format!("{POSITIONS}{attributes}f 1/1/1 2/1/2 -2/-1/-2\n"));
+        let mesh = mesh.expect("the text is valid");
         let face = mesh.faces[0];
         assert_eq!(face.normals, Some([Vec3::Z, Vec3::X, Vec3::Z]));
         assert_eq!(face.uv, [Vec2::new(0.5, 0.25); 3]);
@@ -162,27 +166,27 @@ mod tests {
 
     #[test]
     fn reports_the_line_of_an_index_out_of_range() {
-        let error = problem(&format!("{CORNERS}f 1 2 5\n"));
+        let error = problem(&format!("{POSITIONS}f 1 2 5\n"));
         assert!(
-            error.contains(":5: there is no position 5: they count from 1 to 4"),
+            error.contains(":5: there is no position 5: the indices are 1 to 4"),
             "{error}"
         );
-        let error = problem(&format!("{CORNERS}f 1//1 2//1 3//1\n"));
+        let error = problem(&format!("{POSITIONS}f 1//1 2//1 3//1\n"));
         assert!(error.contains("there is no normal 1"), "{error}");
-        assert!(problem(&format!("{CORNERS}f 0 1 2\n")).contains("no position 0"));
-        assert!(problem(&format!("{CORNERS}f 1 2 -5\n")).contains("no position -5"));
+        assert!(problem(&format!("{POSITIONS}f 0 1 2\n")).contains("no position 0"));
+        assert!(problem(&format!("{POSITIONS}f 1 2 -5\n")).contains("no position -5"));
     }
 
     #[test]
     fn reports_the_line_of_an_invalid_number() {
         assert!(problem("v 0 nan 0\n").contains(":1: `nan` is not a finite number"));
         assert!(problem("v 0 1e99 0\n").contains("`1e99` is not"));
-        assert!(problem(&format!("{CORNERS}f a b c\n")).contains("`a` is not a corner"));
+        assert!(problem(&format!("{POSITIONS}f a b c\n")).contains("`a` is not a face corner"));
     }
 
     #[test]
     fn rejects_a_mesh_without_faces() {
-        assert!(problem("").contains("holds no faces"));
-        assert!(problem(CORNERS).contains("holds no faces"));
+        assert!(problem("").contains("has no faces"));
+        assert!(problem(POSITIONS).contains("has no faces"));
     }
 }

@@ -1,4 +1,4 @@
-//! Things by name, in the order of the file.
+//! A map that keeps the order of the file.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -6,8 +6,8 @@ use std::marker::PhantomData;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-/// Things by name, in the order of the file. A name that comes twice is an error: a map would
-/// silently keep the last.
+/// Named values in the order of the file. A duplicate name is an error, while a standard map would
+/// silently keep only the last value.
 #[derive(Debug)]
 pub(super) struct OrderedMap<T>(pub(super) Vec<(String, T)>);
 
@@ -23,17 +23,19 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for OrderedMapVisitor<T> {
     type Value = OrderedMap<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("names with their meaning, such as { \"white\": { ... } }")
+        f.write_str("an object with named entries, such as { \"white\": { ... } }")
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-        let mut things: Vec<(String, T)> = Vec::new();
+        let mut entries: Vec<(String, T)> = Vec::new();
         while let Some(name) = map.next_key::<String>()? {
-            if things.iter().any(|(taken, _)| *taken == name) {
-                return Err(A::Error::custom(format!("the name `{name}` comes twice")));
+            if entries.iter().any(|(other, _)| *other == name) {
+                return Err(A::Error::custom(format!(
+                    "the name `{name}` is defined twice"
+                )));
             }
-            things.push((name, map.next_value()?));
+            entries.push((name, map.next_value()?));
         }
-        Ok(OrderedMap(things))
+        Ok(OrderedMap(entries))
     }
 }

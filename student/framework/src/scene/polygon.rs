@@ -1,4 +1,4 @@
-//! Flat, convex outlines: walls, floors, lamps.
+//! Flat, convex polygons, such as walls, floors and lights.
 
 use glam::{Vec2, Vec3, vec2};
 use protocol::{Shape, Vertex};
@@ -6,22 +6,25 @@ use serde::Deserialize;
 
 use super::number;
 
-/// How far a point may be from the plane of the others, as a share of the polygon's size: room for
-/// rounded coordinates, not for a bend that can be seen.
+/// The maximum distance of a point from the plane of the polygon, relative to the polygon's size.
+/// It allows rounded coordinates, but no visible bend.
 const FLATNESS_TOLERANCE: f32 = 1e-3;
 
-/// A flat, convex outline, counter-clockwise around its normal.
+/// A flat, convex polygon, counter-clockwise around its normal.
 #[derive(Deserialize)]
-#[serde(try_from = "PolygonInFile")]
+#[serde(try_from = "PolygonEntry")]
 pub(super) struct Polygon {
     vertices: Vec<Vertex>,
     pub(super) material: String,
 }
 
 impl Polygon {
-    /// A fan of triangles from the first point.
+    /// Returns a triangle fan around the first point.
     pub(super) fn shapes(&self, material: u32) -> impl Iterator<Item = Shape> {
-        let (first, others) = self.vertices.split_first().expect("it has three or more");
+        let (first, others) = self
+            .vertices
+            .split_first()
+            .expect("a polygon has three or more vertices");
         others.windows(2).map(move |pair| Shape::Triangle {
             vertices: [*first, pair[0], pair[1]],
             material,
@@ -29,38 +32,38 @@ impl Polygon {
     }
 }
 
-/// A `polygon` in a scene file.
+/// An entry `polygon` of a scene file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct PolygonInFile {
+struct PolygonEntry {
     #[serde(deserialize_with = "number::triples")]
     points: Vec<Vec3>,
-    /// One for each point. Without it, u runs along the first side and v across it, each from 0
-    /// to 1 over the whole polygon.
+    /// The texture coordinates of each point. By default, u runs along the first side and v
+    /// perpendicular to it, each from 0 to 1 over the whole polygon.
     uv: Option<Vec<[f32; 2]>>,
     material: String,
 }
 
-/// What is wrong with an outline.
+/// An error in a polygon.
 #[derive(Debug, thiserror::Error)]
 enum PolygonError {
-    #[error("a polygon of {0} points: it takes three or more")]
+    #[error("`points` has length {0}: a polygon needs 3 or more points")]
     TooFew(usize),
-    #[error("a polygon without area: its points are in line")]
+    #[error("the polygon has no area: its points are collinear")]
     NoArea,
-    #[error("point {0} is out of the plane of the others: split the polygon")]
+    #[error("point {0} is not in the plane of the others: split the polygon")]
     NotFlat(usize),
-    #[error("the outline turns the other way at point {0}: split the polygon into convex ones")]
+    #[error("the polygon is not convex at point {0}: split it into convex polygons")]
     NotConvex(usize),
-    #[error("{uv} pairs in `uv` for {points} points: one for each")]
+    #[error("`uv` has length {uv} and `points` has length {points}: give one uv for each point")]
     Uv { uv: usize, points: usize },
 }
 
-impl TryFrom<PolygonInFile> for Polygon {
+impl TryFrom<PolygonEntry> for Polygon {
     type Error = PolygonError;
 
-    fn try_from(file: PolygonInFile) -> Result<Self, PolygonError> {
-        let PolygonInFile {
+    fn try_from(file: PolygonEntry) -> Result<Self, PolygonError> {
+        let PolygonEntry {
             points,
             uv,
             material,
@@ -83,11 +86,11 @@ impl TryFrom<PolygonInFile> for Polygon {
     }
 }
 
-/// The normal of a flat, convex outline.
+/// Returns the normal of a polygon, or an error if it is not flat and convex.
 fn normal(points: &[Vec3]) -> Result<Vec3, PolygonError> {
     let first = points[0];
     let size = points.iter().map(|p| p.distance(first)).fold(0.0, f32::max);
-    // Newell's sum: twice the area, along the normal, of however many points.
+    // Newell's method: the sum is along the normal, and its length is twice the area.
     let twice_area: Vec3 = sides(points)
         .map(|(a, b)| (a - first).cross(b - first))
         .sum();
@@ -97,19 +100,19 @@ fn normal(points: &[Vec3]) -> Result<Vec3, PolygonError> {
     let normal = twice_area.normalize();
 
     let off_plane = |p: &Vec3| (*p - first).dot(normal).abs() > FLATNESS_TOLERANCE * size;
-    if let Some(place) = points.iter().position(off_plane) {
-        return Err(PolygonError::NotFlat(place + 1));
+    if let Some(index) = points.iter().position(off_plane) {
+        return Err(PolygonError::NotFlat(index + 1));
     }
     let next = points.iter().cycle().skip(2);
-    for (place, ((a, b), c)) in sides(points).zip(next).enumerate() {
+    for (index, ((a, b), c)) in sides(points).zip(next).enumerate() {
         if (b - a).cross(*c - b).dot(normal) < -1e-6 * size * size {
-            return Err(PolygonError::NotConvex((place + 1) % points.len() + 1));
+            return Err(PolygonError::NotConvex((index + 1) % points.len() + 1));
         }
     }
     Ok(normal)
 }
 
-/// Each point with the one that follows.
+/// Returns each point with the next one.
 fn sides(points: &[Vec3]) -> impl Iterator<Item = (Vec3, Vec3)> {
     points
         .iter()
@@ -121,10 +124,12 @@ fn uv_along_the_first_side(points: &[Vec3], normal: Vec3) -> Vec<Vec2> {
     let along = (points[1] - points[0]).normalize_or_zero();
     let across = normal.cross(along);
     let flat = |p: &Vec3| vec2((*p - points[0]).dot(along), (*p - points[0]).dot(across));
-    let places = || points.iter().map(flat);
-    let low = places().reduce(Vec2::min).unwrap_or(Vec2::ZERO);
-    let high = places().reduce(Vec2::max).unwrap_or(Vec2::ONE);
-    places().map(|place| (place - low) / (high - low)).collect()
+    let positions = || points.iter().map(flat);
+    let low = positions().reduce(Vec2::min).unwrap_or(Vec2::ZERO);
+    let high = positions().reduce(Vec2::max).unwrap_or(Vec2::ONE);
+    positions()
+        .map(|position| (position - low) / (high - low))
+        .collect()
 }
 
 #[cfg(test)]
@@ -138,7 +143,8 @@ mod tests {
 
     #[test]
     fn a_square_becomes_two_triangles_with_the_whole_texture() {
-        let square = polygon("[[0,0,5], [2,0,5], [2,2,5], [0,2,5]]").expect("it is flat");
+        let square = polygon("[[0,0,5], [2,0,5], [2,2,5], [0,2,5]]");
+        let square = square.expect("the polygon is valid");
         let uv: Vec<Vec2> = square.vertices.iter().map(|vertex| vertex.uv).collect();
         assert_eq!(uv, [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y]);
         assert!(
@@ -153,10 +159,10 @@ mod tests {
 
     #[test]
     fn rejects_an_invalid_outline() {
-        let problem = |points| polygon(points).err().expect("it is refused");
-        assert!(problem("[[0,0,0], [1,0,0]]").contains("a polygon of 2 points"));
-        assert!(problem("[[0,0,0], [1,0,0], [2,0,0]]").contains("in line"));
-        assert!(problem("[[0,0,0], [1,0,0], [1,1,1], [0,1,0]]").contains("out of the plane"));
+        let problem = |points| polygon(points).err().expect("the polygon is invalid");
+        assert!(problem("[[0,0,0], [1,0,0]]").contains("`points` has length 2"));
+        assert!(problem("[[0,0,0], [1,0,0], [2,0,0]]").contains("collinear"));
+        assert!(problem("[[0,0,0], [1,0,0], [1,1,1], [0,1,0]]").contains("not in the plane"));
         let arrow = problem("[[0,0,0], [2,0,0], [0.5,0.5,0], [0,2,0]]");
         assert!(arrow.contains("at point 3"), "{arrow}");
     }

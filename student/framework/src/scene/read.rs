@@ -1,4 +1,4 @@
-//! From the text of a scene file to the scene.
+//! Parsing of scene files.
 
 use protocol::Shape;
 
@@ -8,10 +8,10 @@ use super::mesh::Mesh;
 use super::subdivide::subdivide;
 use super::{MAX_LEAF_SIZE, Scene};
 
-/// The most triangles that one mesh may come to: about 2 GB of them.
+/// The maximum number of triangles of one mesh, which take about 2 GB.
 const MAX_TRIANGLES: u64 = 1 << 24;
 
-/// The scene in `text`. `load` finds the mesh in a file that the scene names.
+/// Parses the scene in `text`. `load` loads a mesh from the path in the scene file.
 pub(super) fn scene(
     text: &str,
     load: &mut dyn FnMut(&str) -> Result<Mesh, SceneErrorKind>,
@@ -21,13 +21,13 @@ pub(super) fn scene(
     }
     let file: SceneFile = serde_json::from_str(text).map_err(|error| syntax_error(text, &error))?;
     let (names, materials): (Vec<String>, Vec<_>) = file.materials.0.into_iter().unzip();
-    let number_of = |name: &str| {
-        let place = names.iter().position(|known| known == name);
-        place.map(|place| place as u32).ok_or_else(|| {
+    let index_of = |name: &str| {
+        let index = names.iter().position(|known| known == name);
+        index.map(|index| index as u32).ok_or_else(|| {
             let known = names.join(", ");
             let name = name.to_owned();
-            let place = TextPosition::of_value(text, "material", &name);
-            SceneError::new(place, SceneErrorKind::UnknownMaterial { name, known })
+            let position = TextPosition::of_value(text, "material", &name);
+            SceneError::new(position, SceneErrorKind::UnknownMaterial { name, known })
         })
     };
 
@@ -41,18 +41,17 @@ pub(super) fn scene(
             } => shapes.push(Shape::Sphere {
                 center: *center,
                 radius: *radius,
-                material: number_of(material)?,
+                material: index_of(material)?,
             }),
             ShapeEntry::Polygon(polygon) => {
-                shapes.extend(polygon.shapes(number_of(&polygon.material)?));
+                shapes.extend(polygon.shapes(index_of(&polygon.material)?));
             }
-            ShapeEntry::Mesh(put) => {
-                let material = number_of(&put.material)?;
-                let failed = |problem| {
-                    SceneError::new(TextPosition::of_value(text, "file", &put.file), problem)
-                };
-                let mesh = load(&put.file).and_then(|mesh| subdivide_mesh(mesh, put));
-                shapes.extend(mesh.map_err(failed)?.shapes(put, material));
+            ShapeEntry::Mesh(entry) => {
+                let material = index_of(&entry.material)?;
+                let failed =
+                    |kind| SceneError::new(TextPosition::of_value(text, "file", &entry.file), kind);
+                let mesh = load(&entry.file).and_then(|mesh| subdivide_mesh(mesh, entry));
+                shapes.extend(mesh.map_err(failed)?.shapes(entry, material));
             }
         }
     }
@@ -66,31 +65,49 @@ pub(super) fn scene(
     })
 }
 
-fn subdivide_mesh(mut mesh: Mesh, put: &MeshEntry) -> Result<Mesh, SceneErrorKind> {
-    let faces = (mesh.faces.len() as u64).saturating_mul(4_u64.saturating_pow(put.subdivide));
-    if faces > MAX_TRIANGLES {
+/// Subdivides a mesh as often as the scene file says.
+fn subdivide_mesh(mut mesh: Mesh, entry: &MeshEntry) -> Result<Mesh, SceneErrorKind> {
+    let triangles = (mesh.faces.len() as u64).saturating_mul(4_u64.saturating_pow(entry.subdivide));
+    if triangles > MAX_TRIANGLES {
         return Err(SceneErrorKind::TooManyTriangles {
-            levels: put.subdivide,
-            triangles: faces,
+            levels: entry.subdivide,
+            triangles,
             limit: MAX_TRIANGLES,
         });
     }
-    if put.subdivide == 0 {
+    if entry.subdivide == 0 {
         return Ok(mesh);
     }
-    for _ in 0..put.subdivide {
+    for _ in 0..entry.subdivide {
         mesh = subdivide(&mesh);
     }
     Ok(mesh.with_smooth_normals())
 }
 
-/// The parser's error, with its place told apart from its words.
+/// Converts the parser's error, and separates the position from the message.
 fn syntax_error(text: &str, error: &serde_json::Error) -> SceneError {
     let (line, column) = (error.line(), error.column());
-    let words = error.to_string();
-    let place = format!(" at line {line} column {column}");
-    let words = words.strip_suffix(&place).unwrap_or(&words).to_owned();
-    // Line 0 means that the parser does not know.
-    let place = (line > 0).then(|| TextPosition::new(text, line, column));
-    SceneError::new(place, SceneErrorKind::Syntax(words))
+    let message = error.to_string();
+    let suffix = format!(" at line {line} column {column}");
+    let message = message.strip_suffix(&suffix).unwrap_or(&message);
+    // Line 0 means that the parser does not know the position.
+    let position = (line > 0).then(|| TextPosition::new(text, line, column));
+    SceneError::new(position, SceneErrorKind::Syntax(in_scene_terms(message)))
+}
+
+/// Replaces serde's terms in a message: the fields of a struct are the keys of a scene file, and
+/// the variants of an enum are kinds of shapes or materials.
+fn in_scene_terms(message: &str) -> String {
+    const TERMS: [(&str, &str); 4] = [
+        ("unknown field ", "unknown key "),
+        ("missing field ", "missing key "),
+        ("duplicate field ", "duplicate key "),
+        ("unknown variant ", "unknown kind "),
+    ];
+    for (term, replacement) in TERMS {
+        if let Some(rest) = message.strip_prefix(term) {
+            return format!("{replacement}{rest}");
+        }
+    }
+    message.to_owned()
 }

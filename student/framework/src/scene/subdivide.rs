@@ -1,9 +1,9 @@
-//! Fine meshes from coarse ones.
+//! Loop subdivision, which refines a mesh and makes it smooth.
 //!
-//! Charles Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987; with the weights for
-//! vertices of Warren, and the boundary rules of Hoppe et al., "Piecewise Smooth Surface
-//! Reconstruction", SIGGRAPH 1994. A scene file so holds a hundred thousand triangles in the
-//! space of a few thousand.
+//! Charles Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987, with Warren's vertex
+//! weights and the boundary rules of Hoppe et al., "Piecewise Smooth Surface Reconstruction",
+//! SIGGRAPH 1994. With subdivision, a scene can have a hundred thousand triangles although its
+//! files contain only a few thousand.
 
 use std::collections::HashMap;
 
@@ -11,8 +11,8 @@ use glam::Vec3;
 
 use super::mesh::{Face, Mesh};
 
-/// The mesh with each triangle split into four, and smoothed. Texture coordinates are split
-/// evenly; normals are dropped.
+/// Splits each triangle of a mesh into four and smooths the positions. Texture coordinates are
+/// interpolated linearly, and normals are dropped.
 pub(super) fn subdivide(mesh: &Mesh) -> Mesh {
     let edges = Edges::of(mesh);
     let mut positions = moved_positions(mesh, &edges);
@@ -41,14 +41,15 @@ pub(super) fn subdivide(mesh: &Mesh) -> Mesh {
     Mesh { positions, faces }
 }
 
-/// An edge, and the corners across from it: two inside a surface, one at its boundary.
+/// An edge and the corners opposite it: two inside a surface, one at its boundary.
 struct Edge {
     ends: (usize, usize),
     across: Vec<usize>,
 }
 
 impl Edge {
-    /// Only two faces make an edge smooth: one is a boundary, three or more are a crease.
+    /// Returns whether the edge is smooth, which means that it has exactly two faces. With one face
+    /// it is a boundary, and with three or more it is a crease.
     fn is_smooth(&self) -> bool {
         self.across.len() == 2
     }
@@ -63,7 +64,7 @@ impl Edge {
     }
 }
 
-/// All edges of a mesh, in the order in which its faces name them.
+/// All edges of a mesh, in the order of their first use by a face.
 struct Edges {
     list: Vec<Edge>,
     indices: HashMap<(usize, usize), usize>,
@@ -79,26 +80,26 @@ impl Edges {
             let [a, b, c] = face.corners;
             for (from, to, across) in [(a, b, c), (b, c, a), (c, a, b)] {
                 let next = edges.list.len();
-                let place = *edges.indices.entry(edge_key(from, to)).or_insert(next);
-                if place == next {
+                let index = *edges.indices.entry(edge_key(from, to)).or_insert(next);
+                if index == next {
                     edges.list.push(Edge {
                         ends: edge_key(from, to),
                         across: Vec::with_capacity(2),
                     });
                 }
-                edges.list[place].across.push(across);
+                edges.list[index].across.push(across);
             }
         }
         edges
     }
 }
 
-/// An edge is the same from either end.
+/// Returns the key of an edge, which is the same in both directions.
 fn edge_key(from: usize, to: usize) -> (usize, usize) {
     (from.min(to), from.max(to))
 }
 
-/// What the mesh's own positions become.
+/// Returns the new positions of the mesh's vertices.
 fn moved_positions(mesh: &Mesh, edges: &Edges) -> Vec<Vec3> {
     #[derive(Clone, Copy, Default)]
     struct Ring {
@@ -127,7 +128,8 @@ fn moved_positions(mesh: &Mesh, edges: &Edges) -> Vec<Vec3> {
             (1.0 - n * weight) * position + weight * ring.sum
         }
         2 => 0.75 * position + 0.125 * crease.sum,
-        // A corner where creases meet, or a position that no face uses.
+        // Two cases that do not move: a corner, where one crease ends or several join, and a
+        // position that no face uses.
         _ => position,
     };
     mesh.positions.iter().zip(rings).map(move_one).collect()
@@ -164,12 +166,12 @@ mod tests {
         assert_eq!(fine.faces.len(), 4 * 4 * 4);
         let edges = Edges::of(&fine);
         assert!(edges.list.iter().all(Edge::is_smooth));
-        // Euler: corners − edges + faces = 2 on anything like a ball.
+        // Euler's formula for a surface like a sphere: corners − edges + faces = 2.
         assert_eq!(
             fine.positions.len() + fine.faces.len(),
             edges.list.len() + 2
         );
-        // Symmetric about the origin before and after.
+        // The mesh is symmetric about the origin before and after.
         let sum: Vec3 = fine.positions.iter().sum();
         assert!(sum.length() < 1e-4, "{sum}");
     }
@@ -186,7 +188,7 @@ mod tests {
         // 3/8 of each end of the shared edge, 1/8 of each corner across.
         let middle = vec3(3. + 1., 3. + 1., 1.);
         assert!(fine.positions.contains(&middle), "{:?}", fine.positions);
-        // On the boundary, half of each end.
+        // On the boundary: half of each end.
         assert!(fine.positions.contains(&vec3(4., 0., 0.)));
     }
 }

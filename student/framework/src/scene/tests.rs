@@ -1,12 +1,12 @@
-//! A scene that can not be used says where, why, and what would do.
+//! Tests of the errors for invalid scenes: their position, reason and remedy.
 
 use super::Scene;
 
 const CAMERA: &str = r#"{ "vertical_fov": 40, "film": [4, 3],
     "position": [0, 0, 5], "look_at": [0, 0, 0], "up": [0, 1, 0] }"#;
-const BALL: &str = r#"{ "sphere": { "center": [0, 0, 0], "radius": 1, "material": "red" } }"#;
+const SPHERE: &str = r#"{ "sphere": { "center": [0, 0, 0], "radius": 1, "material": "red" } }"#;
 
-/// A scene with a camera, a material and a shape of which one may be replaced.
+/// Returns the text of a scene with this camera, material and shape.
 fn scene(camera: &str, material: &str, shape: &str) -> String {
     format!(
         "{{\n  \"camera\": {camera},\n  \"materials\": {{ {material} }},\n  \"shapes\": [\n    {shape}\n  ]\n}}"
@@ -16,7 +16,7 @@ fn scene(camera: &str, material: &str, shape: &str) -> String {
 const RED: &str = r#""red": { "lambertian": { "albedo": [0.8, 0.1, 0.1] } }"#;
 
 fn problem(text: &str) -> String {
-    let error = Scene::from_text(text).expect_err("it is refused");
+    let error = Scene::from_text(text).expect_err("the scene is invalid");
     error.to_string()
 }
 
@@ -25,16 +25,16 @@ fn with_shape(shape: &str) -> String {
 }
 
 fn with_material(material: &str) -> String {
-    problem(&scene(CAMERA, material, BALL))
+    problem(&scene(CAMERA, material, SPHERE))
 }
 
 fn with_camera(from: &str, to: &str) -> String {
-    problem(&scene(&CAMERA.replace(from, to), RED, BALL))
+    problem(&scene(&CAMERA.replace(from, to), RED, SPHERE))
 }
 
 #[test]
-fn a_scene_is_read() {
-    let scene = Scene::from_text(&scene(CAMERA, RED, BALL)).expect("a scene");
+fn parses_a_scene() {
+    let scene = Scene::from_text(&scene(CAMERA, RED, SPHERE)).expect("the scene is valid");
     assert_eq!(scene.shapes.len(), 1);
     assert_eq!(scene.camera.pinhole.aspect_ratio, 4.0 / 3.0);
     assert_eq!(scene.max_leaf_size, 4);
@@ -42,38 +42,38 @@ fn a_scene_is_read() {
 
 #[test]
 fn reports_the_position_of_an_unknown_key_and_lists_the_known_ones() {
-    let shape = BALL.replace("radius", "radus");
-    let wanted = "scene:6:46: unknown field `radus`, expected one of `center`, `radius`, `material`\n    \
+    let shape = SPHERE.replace("radius", "radus");
+    let expected = "scene:6:46: unknown key `radus`, expected one of `center`, `radius`, `material`\n    \
         6 |     { \"sphere\": { \"center\": [0, 0, 0], \"radus\": 1, \"material\": \"red\" } }\n      \
           |                                              ^";
-    assert_eq!(with_shape(&shape), wanted);
+    assert_eq!(with_shape(&shape), expected);
     let kind = with_shape(r#"{ "cube": {} }"#);
     assert!(
-        kind.contains("unknown variant `cube`, expected one of `sphere`"),
+        kind.contains("unknown kind `cube`, expected one of `sphere`"),
         "{kind}"
     );
 }
 
 #[test]
-fn a_missing_key_is_named() {
-    let told = with_shape(r#"{ "sphere": { "center": [0, 0, 0], "material": "red" } }"#);
+fn reports_the_name_of_a_missing_key() {
+    let message = with_shape(r#"{ "sphere": { "center": [0, 0, 0], "material": "red" } }"#);
     assert!(
-        told.starts_with("scene:6:") && told.contains("missing field `radius`"),
-        "{told}"
+        message.starts_with("scene:6:") && message.contains("missing key `radius`"),
+        "{message}"
     );
 }
 
 #[test]
 fn reports_the_position_of_an_invalid_number() {
-    let radius = |value: &str| with_shape(&BALL.replace(": 1,", &format!(": {value},")));
+    let radius = |value: &str| with_shape(&SPHERE.replace(": 1,", &format!(": {value},")));
     assert!(
-        radius("0").contains("scene:6:50: 0 is not a finite number above 0"),
+        radius("0").contains("scene:6:50: expected a finite number above 0, got 0"),
         "{}",
         radius("0")
     );
-    assert!(radius("-2").contains("-2 is not a finite number above 0"));
+    assert!(radius("-2").contains("expected a finite number above 0, got -2"));
     assert!(
-        radius("1e39").contains("is not a finite number above 0"),
+        radius("1e39").contains("expected a finite number above 0"),
         "{}",
         radius("1e39")
     );
@@ -94,8 +94,8 @@ fn reports_the_position_of_an_invalid_number() {
         radius("\"one\"")
     );
 
-    let center = |value: &str| with_shape(&BALL.replace("[0, 0, 0]", value));
-    assert!(center("[0, 1e39, 0]").contains("is not three finite numbers"));
+    let center = |value: &str| with_shape(&SPHERE.replace("[0, 0, 0]", value));
+    assert!(center("[0, 1e39, 0]").contains("expected three finite numbers"));
     assert!(
         center("[0, 0]").contains("invalid length 2"),
         "{}",
@@ -111,65 +111,69 @@ fn rejects_albedos_above_one_and_negative_radiance() {
         "{}",
         with_material(&albedo)
     );
-    let lamp = r#""red": { "emitter": { "radiance": [1, -1, 1] } }"#;
+    let emitter = r#""red": { "emitter": { "radiance": [1, -1, 1] } }"#;
     assert!(
-        with_material(lamp).contains("each 0 or more"),
+        with_material(emitter).contains("each 0 or more"),
         "{}",
-        with_material(lamp)
+        with_material(emitter)
     );
     let glass = r#""red": { "glass": { "ior": 0 } }"#;
-    assert!(with_material(glass).contains("0 is not a finite number above 0"));
+    assert!(with_material(glass).contains("expected a finite number above 0, got 0"));
 }
 
 #[test]
 fn reports_the_position_of_an_unknown_material_and_lists_the_known_ones() {
-    let shape = BALL.replace("\"red\"", "\"rde\"");
-    let told = with_shape(&shape);
+    let shape = SPHERE.replace("\"red\"", "\"rde\"");
+    let message = with_shape(&shape);
     assert!(
-        told.starts_with("scene:6:65: no material is called `rde`; there are: red"),
-        "{told}"
+        message.starts_with("scene:6:65: there is no material `rde`; the scene defines: red"),
+        "{message}"
     );
 }
 
 #[test]
 fn rejects_a_duplicate_name() {
-    let told = with_material(&format!("{RED}, {RED}"));
-    assert!(told.contains("the name `red` comes twice"), "{told}");
+    let message = with_material(&format!("{RED}, {RED}"));
+    let expected = "the name `red` is defined twice";
+    assert!(message.contains(expected), "{message}");
 }
 
 #[test]
 fn rejects_a_camera_without_a_view_direction() {
     let at_itself = with_camera("\"look_at\": [0, 0, 0]", "\"look_at\": [0, 0, 5]");
     assert!(
-        at_itself.contains("`look_at` is the camera's own `position`"),
+        at_itself.contains("`look_at` and `position` are the same point"),
         "{at_itself}"
     );
     let along = with_camera("[0, 1, 0]", "[0, 0, 2]");
-    assert!(along.contains("`up` is along the view"), "{along}");
+    assert!(along.contains("`up` is parallel to the view"), "{along}");
     let no_up = with_camera("[0, 1, 0]", "[0, 0, 0]");
-    assert!(no_up.contains("`up` is along the view"), "{no_up}");
+    assert!(no_up.contains("`up` is parallel to the view"), "{no_up}");
     let wide = with_camera("40", "180");
     assert!(
-        wide.contains("`vertical_fov` is 180: degrees, below 180"),
+        wide.contains("`vertical_fov` is 180: it must be less than 180 degrees"),
         "{wide}"
     );
 }
 
 #[test]
 fn rejects_an_empty_or_oversized_film() {
-    assert!(with_camera("[4, 3]", "[0, 3]").contains("a film of 0 x 3 pixels"));
-    let told = with_camera("[4, 3]", "[4, 16385]");
-    assert!(told.contains("each side must be from 1 to 16384"), "{told}");
+    assert!(with_camera("[4, 3]", "[0, 3]").contains("`film` is 0 x 3 pixels"));
+    let message = with_camera("[4, 3]", "[4, 16385]");
+    assert!(
+        message.contains("each side must be from 1 to 16384"),
+        "{message}"
+    );
     assert!(with_camera("[4, 3]", "[4, -3]").contains("expected u32"));
 }
 
 #[test]
 fn reports_the_line_of_an_invalid_polygon() {
     let points = r#"{ "polygon": { "points": [[0,0,0], [1,0,0]], "material": "red" } }"#;
-    let told = with_shape(points);
+    let message = with_shape(points);
     assert!(
-        told.starts_with("scene:6:") && told.contains("takes three or more"),
-        "{told}"
+        message.starts_with("scene:6:") && message.contains("needs 3 or more points"),
+        "{message}"
     );
 }
 
@@ -187,9 +191,9 @@ fn reports_the_line_of_truncated_or_invalid_json() {
 
 #[test]
 fn rejects_a_mesh_in_a_scene_without_a_folder() {
-    let told = with_shape(r#"{ "mesh": { "file": "teapot.obj", "material": "red" } }"#);
+    let message = with_shape(r#"{ "mesh": { "file": "teapot.obj", "material": "red" } }"#);
     assert!(
-        told.starts_with("scene:6:25: a mesh stands in a file of its own"),
-        "{told}"
+        message.starts_with("scene:6:25: meshes are separate files"),
+        "{message}"
     );
 }

@@ -1,4 +1,4 @@
-//! Given: one kind of thing for the tree to hold, whichever shape it is.
+//! Given: the primitives that a BVH holds, which are triangles and spheres.
 
 use protocol::{Ray, Shape, Trace};
 
@@ -6,7 +6,7 @@ use crate::bbox::BBox;
 use crate::sphere::Sphere;
 use crate::triangle::Triangle;
 
-/// Anything that a ray can hit.
+/// A shape that a ray can hit.
 #[derive(Clone, Copy, Debug)]
 pub enum Primitive {
     /// A triangle of a mesh.
@@ -16,7 +16,7 @@ pub enum Primitive {
 }
 
 impl Primitive {
-    /// The primitive that a scene or a question describes.
+    /// Creates the primitive that a scene or a question describes.
     pub fn new(shape: &Shape) -> Self {
         match *shape {
             Shape::Triangle {
@@ -35,7 +35,7 @@ impl Primitive {
         }
     }
 
-    /// The tightest box around the primitive.
+    /// Returns the tightest box around the primitive.
     pub fn bbox(&self) -> BBox {
         match self {
             Primitive::Triangle(triangle) => triangle.bbox(),
@@ -43,7 +43,7 @@ impl Primitive {
         }
     }
 
-    /// Where the ray first meets the primitive within `ray.range`, if anywhere.
+    /// Returns the ray's first hit on the primitive, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         match self {
             Primitive::Triangle(triangle) => triangle.hit(ray),
@@ -51,7 +51,7 @@ impl Primitive {
         }
     }
 
-    /// What the primitive is made of.
+    /// Returns the index of the primitive's material.
     pub fn material(&self) -> u32 {
         match self {
             Primitive::Triangle(triangle) => triangle.material,

@@ -1,12 +1,15 @@
-//! Task 2, step 2: rays against spheres. Handout: "Where a ray meets a sphere".
+//! Task 2, step 2: intersecting rays with spheres. Handout: "Ray-sphere intersection".
 //!
 //! ```text
 //!                   .  -  ~  -  .
 //!    origin      ╱                 ╲          |o + t·d − center|² = radius²
 //!      o───────near───────────────far────▶
-//!                ╲                 ╱          a quadratic: two roots, one or none
+//!                ╲                 ╱          a quadratic equation: two roots, one or none
 //!                   '  -  _  -  '
 //! ```
+//!
+//! On the slides, `Trace Sphere::hit(const Ray &ray)` returns a `Trace` with a flag `hit`. Here,
+//! [`Sphere::hit`] returns an `Option<Trace>`: `None` means that there is no hit.
 
 use std::f32::consts::{PI, TAU};
 
@@ -19,16 +22,16 @@ use crate::bbox::BBox;
 /// A sphere in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Sphere {
-    /// Its centre.
+    /// The centre.
     pub center: Vec3,
-    /// Its radius; above zero.
+    /// The radius, greater than zero.
     pub radius: f32,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Sphere {
-    /// A sphere from its parts.
+    /// Creates a sphere.
     pub fn new(center: Vec3, radius: f32, material: u32) -> Self {
         Sphere {
             center,
@@ -37,28 +40,30 @@ impl Sphere {
         }
     }
 
-    /// The tightest box around the sphere.
+    /// Returns the tightest box around the sphere.
     pub fn bbox(&self) -> BBox {
         BBox::new(self.center - self.radius, self.center + self.radius)
     }
 
-    /// The texture coordinates of the point in direction `unit_dir`, **of length one**, from the
-    /// centre: u once around the y-axis, v from 0 at the lowest point to 1 at the highest.
+    /// Returns the texture coordinates of the point in the direction `unit_dir` from the centre.
+    /// The direction must have **length one**. u runs from 0 to 1 around the y-axis, and v from 0
+    /// at the lowest point to 1 at the highest.
     pub fn uv(unit_dir: Vec3) -> Vec2 {
         let u = math::atan2(unit_dir.z, unit_dir.x) / TAU;
         let v = math::acos(-unit_dir.y.clamp(-1.0, 1.0)) / PI;
         vec2(if u < 0.0 { u + 1.0 } else { u }, v)
     }
 
-    /// Where the ray first meets the sphere within `ray.range`, if anywhere.
+    /// Returns the ray's first hit on the sphere, or `None` if there is none within `ray.range`.
     ///
-    /// - `ray.range` includes its ends. If the near meeting lies outside it and the far one
-    ///   inside, the far one counts: a ray can start inside the sphere.
-    /// - `distance` is the root t; `position` the point there; `origin` the ray's.
-    /// - `normal` has length one and points away from the centre, also when seen from inside.
-    /// - `uv` is that of the direction from the centre to the meeting: see [`Sphere::uv`].
+    /// - `ray.range` includes both of its ends. If only the far intersection is in it, that one
+    ///   counts: a ray can start inside the sphere.
+    /// - `distance` is the root t, `position` is the point at that distance, and `origin` is the
+    ///   ray's origin.
+    /// - `normal` has length one and points away from the centre, also for a ray from inside.
+    /// - `uv` belongs to the direction from the centre to the hit: see [`Sphere::uv`].
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        todo!("task 2, sphere: where does {ray:?} first meet {self:?}?")
+        todo!("task 2, sphere: where does {ray:?} first hit {self:?}?")
     }
 }
 
@@ -68,53 +73,50 @@ mod tests {
 
     use super::*;
 
-    fn ball() -> Sphere {
+    fn sphere() -> Sphere {
         Sphere::new(vec3(0.0, 0.0, -5.0), 2.0, 3)
     }
 
     #[track_caller]
-    fn assert_at(trace: &Trace, wanted: f32, normal: Vec3) {
-        let Trace {
-            distance,
-            normal: got,
-            ..
-        } = *trace;
+    fn assert_hit(trace: &Trace, distance: f32, normal: Vec3) {
+        let got = trace.distance;
         assert!(
-            (distance - wanted).abs() < 1e-5,
-            "distance is {distance}, wanted {wanted}"
+            (got - distance).abs() < 1e-5,
+            "expected distance {distance}, got {got}"
         );
+        let got = trace.normal;
         assert!(
             got.abs_diff_eq(normal, 1e-5),
-            "normal is {got}, wanted {normal}"
+            "expected normal {normal}, got {got}"
         );
     }
 
     #[ignore = "task 2: not written yet"]
     #[test]
     fn from_outside_the_near_side_is_hit() {
-        let trace = ball().hit(&Ray::new(Vec3::ZERO, Vec3::NEG_Z));
-        let trace = trace.expect("it points at the centre");
-        assert_at(&trace, 3.0, Vec3::Z);
-        let (got, wanted) = (trace.uv, vec2(0.25, 0.5));
+        let trace = sphere().hit(&Ray::new(Vec3::ZERO, Vec3::NEG_Z));
+        let trace = trace.expect("expected a hit, got None");
+        assert_hit(&trace, 3.0, Vec3::Z);
+        let (got, expected) = (trace.uv, vec2(0.25, 0.5));
         assert!(
-            got.abs_diff_eq(wanted, 1e-5),
-            "uv is {got}, wanted {wanted}"
+            got.abs_diff_eq(expected, 1e-5),
+            "expected uv {expected}, got {got}"
         );
     }
 
     #[ignore = "task 2: not written yet"]
     #[test]
     fn from_inside_the_far_side_is_hit() {
-        let trace = ball().hit(&Ray::new(ball().center, Vec3::NEG_Z));
-        let trace = trace.expect("it starts at the centre");
-        assert_at(&trace, 2.0, Vec3::NEG_Z);
+        let trace = sphere().hit(&Ray::new(sphere().center, Vec3::NEG_Z));
+        let trace = trace.expect("expected a hit, got None");
+        assert_hit(&trace, 2.0, Vec3::NEG_Z);
     }
 
     #[ignore = "task 2: not written yet"]
     #[test]
     fn a_sphere_beyond_the_range_is_not_hit() {
         let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z).within(0.0, 2.5);
-        let trace = ball().hit(&ray);
-        assert!(trace.is_none(), "wanted None, got {trace:?}");
+        let trace = sphere().hit(&ray);
+        assert!(trace.is_none(), "expected None, got {trace:?}");
     }
 }

@@ -1,9 +1,11 @@
-//! Given: the way from scenes and questions to your five files, and back.
+//! Given: connects your five files to the framework, which renders scenes and answers the grader's
+//! questions.
 //!
-//! Compiled with your files each time that they are graded, so there is little of it, and it is
-//! written for the compiler to be quick: loops that `push`, where `map` and `collect` would take it
-//! twice as long. A line that would not compile without something of yours names your file, so that
-//! the error is told of that file.
+//! This file is compiled together with yours each time they are graded, so it is short and written
+//! to compile fast: it uses loops with `push`, for example, because `map` and `collect` would take
+//! twice as long to compile. Each line that needs something from one of your files contains the
+//! name of that file, so that the grader can report a compile error in this line as one in your
+//! file.
 
 use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission};
 use glam::{UVec2, Vec2, Vec3};
@@ -14,12 +16,12 @@ use crate::bvh::{Bvh, Node};
 use crate::camera::Camera;
 use crate::primitive::Primitive;
 
-/// Your five files, as the framework sees them.
+/// Your five files, as an implementation of the framework's [`Submission`].
 pub struct Student;
 
 impl Submission for Student {
-    fn camera(&self, lens: &PinholeCamera) -> Box<dyn CameraRays> {
-        let camera = Camera::new(lens.vertical_fov, lens.aspect_ratio, lens.film);
+    fn camera(&self, pinhole: &PinholeCamera) -> Box<dyn CameraRays> {
+        let camera = Camera::new(pinhole.vertical_fov, pinhole.aspect_ratio, pinhole.film);
         Box::new(Adapter(camera))
     }
 
@@ -49,7 +51,7 @@ impl Submission for Student {
     }
 }
 
-/// Something of yours, which the framework asks.
+/// Wraps one of your types to implement the framework's traits for it.
 struct Adapter<T>(T);
 
 impl CameraRays for Adapter<Camera> {
@@ -88,9 +90,9 @@ impl Hierarchy for Adapter<Bvh> {
         bvh.nodes.len()
     }
 
-    fn node(&self, place: usize) -> TreeNode {
+    fn node(&self, index: usize) -> TreeNode {
         let Adapter(bvh) = self;
-        let node = &bvh.nodes[place];
+        let node = &bvh.nodes[index];
         TreeNode::new(
             node.bbox.min,
             node.bbox.max,
@@ -106,9 +108,9 @@ impl Hierarchy for Adapter<Bvh> {
         bvh.primitives.len()
     }
 
-    fn material(&self, place: usize) -> u32 {
+    fn material(&self, index: usize) -> u32 {
         let Adapter(bvh) = self;
-        bvh.primitives[place].material()
+        bvh.primitives[index].material()
     }
 }
 
@@ -120,7 +122,7 @@ fn primitives(shapes: &[Shape]) -> Vec<Primitive> {
     primitives
 }
 
-/// A node of the exam's own tree.
+/// Converts a node of an exam's tree to your type.
 fn to_node(node: &TreeNode) -> Node {
     let bbox = BBox::new(node.min, node.max);
     if node.is_leaf() {

@@ -1,5 +1,5 @@
-//! Task 3: a tree of boxes, built (step 1) and walked (step 2). Handout: "Building a BVH" and
-//! "Walking a BVH".
+//! Task 3: building a tree of boxes (step 1) and traversing it (step 2). Handout: "Building a BVH"
+//! and "Traversing a BVH".
 //!
 //! ```text
 //!     ┌───────────────┐                     root
@@ -9,29 +9,39 @@
 //!     │ └─A──┘ └──B─┘ │
 //!     └───────────────┘       SAH:  C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect
 //! ```
+//!
+//! | on the slides | here |
+//! |---|---|
+//! | `Node`, `BVHNode` | [`Node`] |
+//! | `child1`, `child2` | `l` and `r`, indices into [`Bvh::nodes`] |
+//! | `leaf`, `primList` | [`Node::is_leaf`], `primitives[start..start + size]` |
+//! | `Bbox.enclose`, `Bbox.center` | [`BBox::enclose`], [`BBox::center`] |
+//! | `intersect(ray, child->bbox)`, `hit1.t` | [`BBox::hit`], the `min` of its result |
+//! | `HitInfo`, `best.t` | [`Trace`], its `distance` |
+//! | `std::partition` | a loop with `swap`, or `Iterator::partition` |
 
 use protocol::{Ray, Trace};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -42,7 +52,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -53,7 +63,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -62,16 +72,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -80,18 +90,18 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by the surface area heuristic.
+    /// Builds the tree with the surface area heuristic (SAH).
     ///
-    /// - Every primitive is in exactly one leaf. They may be reordered, and so may the nodes.
-    /// - A node's box holds all that is below it, and nothing beyond what that needs.
-    /// - A node becomes a leaf when, and only when, it has at most `max_leaf_size` (one or more)
-    ///   primitives. If no plane separates them, because their centers coincide, split by count.
-    /// - Of the partitions between 8 or more buckets along each of the three axes, the cheapest
-    ///   by the formula above is taken.
-    /// - No primitives: no nodes, or one leaf of size 0.
+    /// - Every primitive is in exactly one leaf. You may reorder the primitives and the nodes.
+    /// - The box of a node contains everything below the node, and is no larger than that.
+    /// - A node is a leaf if and only if it has at most `max_leaf_size` primitives (1 or more). If
+    ///   all centres coincide, no plane separates the primitives: then split them by count.
+    /// - Use 8 or more buckets along each of the three axes, and take the partition with the lowest
+    ///   cost by the formula above.
+    /// - Without primitives, the tree has no nodes, or one leaf of size 0.
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         // solution
-        // starter: // Not written yet: a list, and no tree. Pictures appear, slowly.
+        // starter: // Not written yet: this is a list without a tree. Pictures work, but slowly.
         // starter: let _ = max_leaf_size;
         // starter: Bvh::from_nodes(primitives, Vec::new(), 0)
         let mut builder = Builder {
@@ -104,43 +114,46 @@ impl Bvh {
             buckets: Buckets::default(),
         };
         if !primitives.is_empty() {
-            let root = builder.place();
-            builder.node(root, 0, primitives.len());
+            let root = builder.reserve_node();
+            builder.build_node(root, 0, primitives.len());
         }
         let ordered = builder.items.iter().map(|item| primitives[item.index]);
         Bvh::from_nodes(ordered.collect(), builder.nodes, 0)
         // end solution
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     ///
-    /// - A node whose box the ray misses is not entered.
-    /// - Of two children, the one whose box the ray enters first goes first.
-    /// - A node whose box begins beyond the closest hit so far is not entered. The slides'
-    ///   pseudo-code compares `hit2.t`, which is child 2's even where child 1 comes second, and
-    ///   enters `first` even if both boxes are missed: mind both.
-    /// - The closest hit need not be in the first leaf: boxes overlap.
-    /// - A tree may be 60 levels deep, or have no nodes.
+    /// - Do not enter a node whose box the ray misses.
+    /// - If the ray hits the boxes of both children, visit the child whose box it enters first.
+    /// - Do not enter a node whose box begins beyond the closest hit so far.
+    /// - Boxes overlap, so the closest hit can be in a leaf that you visit later.
+    /// - The tree can be 60 levels deep, and it can have no nodes.
+    ///
+    /// Do not take the slides' pseudo-code literally. It compares `hit2.t`, the entry of `child2`,
+    /// even if `second` is `child1`. It also enters `first` even if the ray misses both boxes.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         // solution
-        // starter: // Not written yet: asks every primitive, however far from the ray.
+        // starter: // Not written yet: this tests every primitive, without using the tree.
         // starter: let traces = self.primitives.iter().map(|primitive| primitive.hit(ray));
         // starter: traces.fold(None, Trace::nearer)
         let root = self.nodes.get(self.root)?;
         root.bbox.hit(ray, ray.range)?;
 
-        // What is left of the ray shrinks to the closest hit, in a copy.
+        // In this copy, the range ends at the closest hit so far.
         let mut ray = *ray;
         let mut closest = None;
-        self.visit(root, &mut ray, &mut closest);
+        self.traverse(root, &mut ray, &mut closest);
         closest
         // end solution
     }
     // solution
-    // starter: // Room for methods of your own.
+    // starter:
+    // starter: // Add your own methods here.
 
-    /// Looks for a hit below `node`, whose box the ray is known to meet.
-    fn visit(&self, node: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
+    /// Finds the closest hit below `node`, whose box the ray is known to hit.
+    fn traverse(&self, node: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
         if node.is_leaf() {
             for primitive in &self.primitives[node.start..node.start + node.size] {
                 if let Some(trace) = primitive.hit(ray) {
@@ -154,19 +167,21 @@ impl Bvh {
         let (l, r) = (&self.nodes[node.l], &self.nodes[node.r]);
         match (l.bbox.hit(ray, ray.range), r.bbox.hit(ray, ray.range)) {
             (None, None) => {}
-            (Some(_), None) => self.visit(l, ray, closest),
-            (None, Some(_)) => self.visit(r, ray, closest),
+            (Some(_), None) => self.traverse(l, ray, closest),
+            (None, Some(_)) => self.traverse(r, ray, closest),
             (Some(in_l), Some(in_r)) if in_l.min <= in_r.min => {
-                self.visit_both(l, r, in_r.min, ray, closest);
+                self.traverse_both(l, r, in_r.min, ray, closest);
             }
-            (Some(in_l), Some(_)) => self.visit_both(r, l, in_l.min, ray, closest),
+            (Some(in_l), Some(_)) => self.traverse_both(r, l, in_l.min, ray, closest),
         }
     }
 
-    /// Looks below two nodes whose boxes the ray meets; below the second unless what was found is
-    /// closer than its box. Called in two places: which of them comes next can be guessed, where to
-    /// exchange two nodes would wait for their boxes.
-    fn visit_both(
+    /// Finds the closest hit below two nodes whose boxes the ray hits. Skips the second node if its
+    /// box begins beyond the closest hit.
+    ///
+    /// Two call sites instead of a swap: the branch predictor can guess which child is nearer,
+    /// while a swap would stall until both boxes are loaded.
+    fn traverse_both(
         &self,
         first: &Node,
         second: &Node,
@@ -174,17 +189,17 @@ impl Bvh {
         ray: &mut Ray,
         closest: &mut Option<Trace>,
     ) {
-        self.visit(first, ray, closest);
+        self.traverse(first, ray, closest);
         if second_begins <= ray.range.max {
-            self.visit(second, ray, closest);
+            self.traverse(second, ray, closest);
         }
     }
     // end solution
 }
 
 // solution
-// starter: // Room for types of your own.
-/// A box with each corner in one register: to join boxes is most of what building does.
+// starter: // Add your own types here.
+/// A box with each corner in one SIMD register. Building spends most of its time joining boxes.
 #[derive(Clone, Copy)]
 struct Bounds {
     min: glam::Vec3A,
@@ -219,7 +234,7 @@ impl Bounds {
     }
 }
 
-/// What building needs to know of a primitive.
+/// A primitive's index, box and centre, which are all that building needs.
 struct Item {
     index: usize,
     bounds: Bounds,
@@ -237,7 +252,7 @@ impl Item {
     }
 }
 
-/// The part of a node's items whose centers lie in one slice along an axis.
+/// The items of a node whose centres are in the same slice along an axis.
 #[derive(Clone, Copy)]
 struct Bucket {
     bounds: Bounds,
@@ -255,20 +270,20 @@ impl Bucket {
         self.count += other.count;
     }
 
-    /// Its share of the cost, but for the constants: S · N.
+    /// Returns this side's contribution to the cost, without the constants: S · N.
     fn cost(&self) -> f32 {
         self.bounds.bbox().surface_area() * self.count as f32
     }
 }
 
-/// A partition: the items whose bucket along `axis` is below `bucket` go to one side.
+/// A partition: the items in buckets below `bucket` along `axis` go to the left side.
 struct Split {
     axis: usize,
     bucket: usize,
     cost: f32,
 }
 
-/// Equal slices of the range of the items' centers along one axis.
+/// Slices of equal width along one axis, over the range of the items' centres.
 struct Slices {
     axis: usize,
     min: f32,
@@ -277,19 +292,21 @@ struct Slices {
 }
 
 impl Slices {
-    const FEWEST: usize = 8;
-    const MOST: usize = 64;
-    /// One more slice for so many items.
-    const ITEMS: usize = 32;
+    const MIN_COUNT: usize = 8;
+    const MAX_COUNT: usize = 64;
+    /// The number of slices grows by one for every so many items.
+    const ITEMS_PER_SLICE: usize = 32;
 
-    /// The slices along `axis`, unless all centers coincide there. For a few items a few will do:
-    /// most nodes are small, and to compare partitions takes more time there than to count items.
-    /// In large nodes it takes next to none, and what is chosen there matters most.
+    /// Returns the slices along `axis`, or `None` if all centres coincide along it.
+    ///
+    /// Small nodes get few slices: most nodes are small, and comparing partitions takes longer
+    /// there than filling the buckets. In large nodes the comparison costs almost nothing, and
+    /// their splits matter most for traversal.
     fn new(centers: &Bounds, axis: usize, items: usize) -> Option<Self> {
         let (min, max) = (centers.min[axis], centers.max[axis]);
-        let count = (Self::FEWEST + items / Self::ITEMS).min(Self::MOST);
+        let count = (Self::MIN_COUNT + items / Self::ITEMS_PER_SLICE).min(Self::MAX_COUNT);
         let scale = count as f32 / (max - min);
-        // An extent so small that its inverse overflows is as good as none.
+        // The scale overflows if the extent is tiny; then the centres count as coinciding.
         (max > min && scale.is_finite()).then_some(Slices {
             axis,
             min,
@@ -298,10 +315,11 @@ impl Slices {
         })
     }
 
-    /// The one place that says which bucket an item is in: counting and partitioning must agree.
+    /// Returns the index of an item's bucket. Both filling the buckets and partitioning the items
+    /// call this function, because they must agree.
     fn bucket(&self, item: &Item) -> usize {
         let slice = (item.center[self.axis] - self.min) * self.scale;
-        // `as u8` ends at 255, and takes a third of the time that `as usize` does.
+        // `as u8` saturates at 255, and takes a third of the time of `as usize`.
         usize::from(slice as u8).min(self.count - 1)
     }
 }
@@ -314,14 +332,15 @@ struct Builder {
 }
 
 impl Builder {
-    /// Keeps a place for a node.
-    fn place(&mut self) -> usize {
+    /// Appends a placeholder node and returns its index.
+    fn reserve_node(&mut self) -> usize {
         self.nodes.push(Node::leaf(BBox::EMPTY, 0, 0));
         self.nodes.len() - 1
     }
 
-    /// Builds the node over `items[start..end]`, which are not none, in its place, and all below it.
-    fn node(&mut self, place: usize, start: usize, end: usize) {
+    /// Builds the node at `index` over `items[start..end]`, which is not empty, and everything
+    /// below.
+    fn build_node(&mut self, index: usize, start: usize, end: usize) {
         let mut bounds = Bounds::EMPTY;
         let mut centers = Bounds::EMPTY;
         for item in &self.items[start..end] {
@@ -330,28 +349,29 @@ impl Builder {
         }
         let bbox = bounds.bbox();
 
-        self.nodes[place] = Node::leaf(bbox, start, end - start);
+        self.nodes[index] = Node::leaf(bbox, start, end - start);
         if end - start > self.max_leaf_size {
             let middle = start + self.partition(start, end, &centers);
-            // Side by side: a walk looks at the boxes of both together.
-            let (l, r) = (self.place(), self.place());
-            self.node(l, start, middle);
-            self.node(r, middle, end);
-            self.nodes[place] = Node::interior(bbox, l, r);
+            // Adjacent in memory, because traversal tests both boxes together.
+            let (l, r) = (self.reserve_node(), self.reserve_node());
+            self.build_node(l, start, middle);
+            self.build_node(r, middle, end);
+            self.nodes[index] = Node::interior(bbox, l, r);
         }
     }
 
-    /// Reorders `items[start..end]` by the cheapest split; returns how many come first.
+    /// Partitions `items[start..end]` in place by the cheapest split; returns the size of the left
+    /// side.
     fn partition(&mut self, start: usize, end: usize, centers: &Bounds) -> usize {
         let (items, buckets) = (&mut self.items[start..end], &mut self.buckets);
         let splits = (0..3).filter_map(|axis| buckets.cheapest_split(items, centers, axis));
         let Some(split) = splits.min_by(|a, b| a.cost.total_cmp(&b.cost)) else {
-            return items.len() / 2; // All centers coincide.
+            return items.len() / 2; // All centres coincide.
         };
         let slices = Slices::new(centers, split.axis, items.len());
-        let slices = slices.expect("it was split along this axis");
+        let slices = slices.expect("the split is along an axis with an extent");
 
-        // As `std::partition` does: the first side grows by swapping.
+        // Like `std::partition`: swap each item of the left side to the end of that side.
         let mut first = 0;
         for i in 0..items.len() {
             if slices.bucket(&items[i]) < split.bucket {
@@ -363,21 +383,21 @@ impl Builder {
     }
 }
 
-/// The buckets of one node along one axis; kept from one to the next, because to ask for memory
-/// takes time.
+/// The buckets of one node along one axis. The vectors are reused for the next axis or node, to
+/// save allocations.
 #[derive(Default)]
 struct Buckets {
     all: Vec<Bucket>,
-    /// What all the buckets from one on would cost as one child.
+    /// For each bucket, the cost of a child that holds this bucket and all to its right.
     right_costs: Vec<f32>,
 }
 
 impl Buckets {
-    /// The cheapest partition between two buckets along one axis, if there is any: binned SAH, after
-    /// Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007, section 3.
+    /// Returns the cheapest partition along one axis, or `None` if all centres coincide along it.
     ///
-    /// Of C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect only S_A · N_A + S_B · N_B
-    /// differs between the partitions of one node.
+    /// This is binned SAH: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
+    /// 2007, section 3. The partitions of one node differ only in the term S_A · N_A + S_B · N_B of
+    /// C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect.
     fn cheapest_split(&mut self, items: &[Item], centers: &Bounds, axis: usize) -> Option<Split> {
         let slices = Slices::new(centers, axis, items.len())?;
         let Buckets {
@@ -394,7 +414,7 @@ impl Buckets {
             });
         }
 
-        // From the right: one child.
+        // Sweep from the right: the costs of the right child.
         right_costs.resize(slices.count, 0.0);
         let mut right = Bucket::EMPTY;
         for i in (1..slices.count).rev() {
@@ -402,7 +422,8 @@ impl Buckets {
             right_costs[i] = right.cost();
         }
 
-        // From the left: the other. The outermost buckets are never empty, so neither is a side.
+        // Sweep from the left: the costs of the left child. The first and the last bucket are never
+        // empty, so neither child is empty.
         let mut left = Bucket::EMPTY;
         let costs = (1..slices.count).map(|bucket| {
             left.join(buckets[bucket - 1]);
@@ -421,16 +442,16 @@ mod tests {
 
     use super::*;
 
-    /// A row of balls along x, at 0, 2, 4, ...
+    /// A row of spheres with radius 0.5 along the x-axis, with their centres at x = 0, 2, 4, ...
     fn row(count: u32) -> Vec<Primitive> {
-        let ball = |i| {
+        let sphere = |i| {
             Primitive::new(&Shape::Sphere {
                 center: vec3(2.0 * i as f32, 0.0, 0.0),
                 radius: 0.5,
                 material: i,
             })
         };
-        (0..count).map(ball).collect()
+        (0..count).map(sphere).collect()
     }
 
     // starter: #[ignore = "task 3: not written yet"]
@@ -440,10 +461,13 @@ mod tests {
         let leaves: Vec<&Node> = bvh.nodes.iter().filter(|node| node.is_leaf()).collect();
         assert!(
             leaves.iter().all(|leaf| leaf.size <= 2),
-            "a leaf is too large: {leaves:?}"
+            "expected at most 2 primitives in each leaf, got {leaves:?}"
         );
         let count = leaves.iter().map(|leaf| leaf.size).sum::<usize>();
-        assert_eq!(count, 10, "primitives in all leaves");
+        assert_eq!(
+            count, 10,
+            "got the number of primitives in all leaves (left), expected (right)"
+        );
     }
 
     // starter: #[ignore = "task 3: not written yet"]
@@ -451,34 +475,35 @@ mod tests {
     fn the_nearest_sphere_of_a_row_is_hit() {
         let bvh = Bvh::build(row(10), 1);
         let trace = bvh.hit(&Ray::new(vec3(25.0, 0.0, 0.0), Vec3::NEG_X));
-        let trace = trace.expect("the row lies ahead");
+        let trace = trace.expect("expected a hit, got None");
         let distance = trace.distance;
         assert!(
             (distance - 6.5).abs() < 1e-5,
-            "distance is {distance}, wanted 6.5"
+            "expected distance 6.5, got {distance}"
         );
-        assert_eq!(trace.material, 9, "the ball that is hit");
+        assert_eq!(trace.material, 9, "got material (left), expected (right)");
     }
 
     // starter: #[ignore = "task 3: not written yet"]
     #[test]
     fn a_missed_box_is_not_entered() {
-        // One leaf lies: its ball is far outside its box. The other holds what its box promises.
-        let balls = row(2);
+        // The second leaf is a decoy: its sphere is far outside its box, which the ray misses.
+        // So a correct traversal never tests that sphere, although the ray would hit it first.
+        let spheres = row(2);
         let elsewhere = BBox::new(vec3(0.0, 7.0, 7.0), vec3(1.0, 8.0, 8.0));
-        let mut all = balls[0].bbox();
+        let mut all = spheres[0].bbox();
         all.enclose(elsewhere);
         let nodes = vec![
             Node::interior(all, 1, 2),
-            Node::leaf(balls[0].bbox(), 0, 1),
+            Node::leaf(spheres[0].bbox(), 0, 1),
             Node::leaf(elsewhere, 1, 1),
         ];
-        let bvh = Bvh::from_nodes(balls, nodes, 0);
+        let bvh = Bvh::from_nodes(spheres, nodes, 0);
         let trace = bvh.hit(&Ray::new(vec3(25.0, 0.0, 0.0), Vec3::NEG_X));
         assert_eq!(
             trace.map(|trace| trace.material),
             Some(0),
-            "the ball that is hit"
+            "got material (left), expected (right)"
         );
     }
 }

@@ -1,7 +1,7 @@
 //! The path-tracing assignment: from camera rays to a bounding volume hierarchy.
 //!
-//! Five files are yours, in lecture order: [`camera`], [`triangle`], [`sphere`], [`bbox`],
-//! [`bvh`]. [`primitive`] and [`world`] are given; only the five are graded.
+//! You write five files, in lecture order: [`camera`], [`triangle`], [`sphere`], [`bbox`] and
+//! [`bvh`]. Only these are graded. [`primitive`] and [`world`] are given.
 
 #![forbid(unsafe_code)]
 

@@ -1,4 +1,4 @@
-//! Task 2, step 1: rays against triangles. Handout: "Where a ray meets a triangle".
+//! Task 2, step 1: intersecting rays with triangles. Handout: "Ray-triangle intersection".
 //!
 //! ```text
 //!                 p2
@@ -8,6 +8,9 @@
 //!            p0───────p1
 //!                e1                 three equations for u, v and t
 //! ```
+//!
+//! On the slides, `Trace Triangle::hit(const Ray &ray)` returns a `Trace` with a flag `hit`. Here,
+//! [`Triangle::hit`] returns an `Option<Trace>`: `None` means that there is no hit.
 
 use protocol::{Ray, Trace, Vertex};
 
@@ -16,18 +19,18 @@ use crate::bbox::BBox;
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with weight `w = 1 − u − v`.
+    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with weight `u`.
+    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with weight `v`.
+    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Triangle {
-    /// A triangle from its parts.
+    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         Triangle {
             p0,
@@ -37,7 +40,8 @@ impl Triangle {
         }
     }
 
-    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
+    /// axis-aligned plane.
     pub fn bbox(&self) -> BBox {
         let mut bbox = BBox::EMPTY;
         bbox.enclose_point(self.p0.position);
@@ -46,26 +50,28 @@ impl Triangle {
         bbox
     }
 
-    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     ///
-    /// - Both sides count, and so do the edges. `ray.range` includes its ends.
-    /// - `distance` is the algorithm's t; `position` the point there; `origin` the ray's.
-    /// - `normal` and `uv` are interpolated between the corners with weights w, u, v. The normal
-    ///   is never flipped toward the ray, and need not be brought to length one.
-    /// - A triangle of edge 1e-3 is as good as any. One without area, or one that the ray is
-    ///   parallel to, is not met.
+    /// - The triangle can be hit from both sides, and its edges belong to it. `ray.range` includes
+    ///   both of its ends.
+    /// - `distance` is the t of the equations above, `position` is the point at that distance, and
+    ///   `origin` is the ray's origin.
+    /// - `normal` and `uv` are interpolated between the corners with the weights w, u and v. Do not
+    ///   flip the normal toward the ray. It does not have to have length one.
+    /// - Small triangles count as well, such as those with edges of length 1e-3. A triangle without
+    ///   area is never hit, and neither is one that is parallel to the ray.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         // solution
-        // starter: todo!("task 2, triangle: where does {ray:?} meet {self:?}?")
+        // starter: todo!("task 2, triangle: where does {ray:?} hit {self:?}?")
         // Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of
-        // Graphics Tools 2(1), 1997; in the slides' form of Cramer's rule.
+        // Graphics Tools 2(1), 1997, with Cramer's rule written as on the slides.
         let e1 = self.p1.position - self.p0.position;
         let e2 = self.p2.position - self.p0.position;
         let s = ray.origin - self.p0.position;
 
         let e1_x_d = e1.cross(ray.dir);
         let determinant = e1_x_d.dot(e2);
-        // No small number will do in place of zero: the determinant shrinks with the area.
+        // Exactly 0 and not an epsilon, because the determinant shrinks with the triangle's area.
         if determinant == 0.0 {
             return None;
         }
@@ -75,7 +81,8 @@ impl Triangle {
         let u = -s_x_e2.dot(ray.dir) * inverse;
         let v = e1_x_d.dot(s) * inverse;
         let w = 1.0 - u - v;
-        // The least of three, and not three comparisons: none of those can be guessed.
+        // One comparison with the smallest weight is faster than three comparisons, which the
+        // branch predictor could not guess.
         if glam::vec3(w, u, v).min_element() < 0.0 {
             return None;
         }
@@ -102,7 +109,7 @@ mod tests {
 
     use super::*;
 
-    /// The lower left half of the unit square, facing +z.
+    /// The lower left half of the unit square in the plane z = 0, facing +z.
     fn half_square() -> Triangle {
         let corner = |x, y| Vertex::new(vec3(x, y, 0.0), Vec3::Z, vec2(x, y));
         Triangle::new(corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0), 7)
@@ -112,7 +119,7 @@ mod tests {
     #[test]
     fn a_ray_through_the_inside_hits() {
         let ray = Ray::new(vec3(0.2, 0.3, 2.0), Vec3::NEG_Z);
-        let trace = half_square().hit(&ray).expect("it points at the triangle");
+        let trace = half_square().hit(&ray).expect("expected a hit, got None");
         let Trace {
             distance,
             position,
@@ -121,16 +128,19 @@ mod tests {
         } = trace;
         assert!(
             (distance - 2.0).abs() < 1e-5,
-            "distance is {distance}, wanted 2"
+            "expected distance 2, got {distance}"
         );
-        let wanted = vec3(0.2, 0.3, 0.0);
+        let expected = vec3(0.2, 0.3, 0.0);
         assert!(
-            position.abs_diff_eq(wanted, 1e-5),
-            "position is {position}, wanted {wanted}"
+            position.abs_diff_eq(expected, 1e-5),
+            "expected position {expected}, got {position}"
         );
-        let wanted = vec2(0.2, 0.3);
-        assert!(uv.abs_diff_eq(wanted, 1e-5), "uv is {uv}, wanted {wanted}");
-        assert_eq!(trace.material, 7, "the material");
+        let expected = vec2(0.2, 0.3);
+        assert!(
+            uv.abs_diff_eq(expected, 1e-5),
+            "expected uv {expected}, got {uv}"
+        );
+        assert_eq!(trace.material, 7, "got material (left), expected (right)");
     }
 
     // starter: #[ignore = "task 2: not written yet"]
@@ -138,18 +148,18 @@ mod tests {
     fn the_other_half_of_the_square_is_not_hit() {
         let ray = Ray::new(vec3(0.8, 0.7, 2.0), Vec3::NEG_Z);
         let trace = half_square().hit(&ray);
-        assert!(trace.is_none(), "wanted None, got {trace:?}");
+        assert!(trace.is_none(), "expected None, got {trace:?}");
     }
 
     // starter: #[ignore = "task 2: not written yet"]
     #[test]
     fn from_behind_the_normal_stays_as_it_is() {
         let ray = Ray::new(vec3(0.2, 0.3, -2.0), Vec3::Z);
-        let trace = half_square().hit(&ray).expect("both sides count");
-        let (got, wanted) = (trace.normal, Vec3::Z);
+        let trace = half_square().hit(&ray).expect("expected a hit, got None");
+        let (got, expected) = (trace.normal, Vec3::Z);
         assert!(
-            got.abs_diff_eq(wanted, 1e-5),
-            "normal is {got}, wanted {wanted}"
+            got.abs_diff_eq(expected, 1e-5),
+            "expected normal {expected}, got {got}"
         );
     }
 }

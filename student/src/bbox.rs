@@ -1,56 +1,59 @@
-//! Task 3, step 0: rays against boxes. Handout: "Boxes".
+//! Task 3, step 0: intersecting rays with bounding boxes. Handout: "Ray-box intersection".
 //!
 //! ```text
 //!                    │ x slab  │
 //!         ───────────┌─────────┐─── max
 //!           y slab   │    ╱    │
 //!         ───────────└───╱─────┘───
-//!                min │  ╱      │       inside the box: inside all three slabs at once
+//!                min │  ╱      │       inside the box = inside all three slabs at once
 //!                      o
 //! ```
+//!
+//! On the slides, `bool BBox::hit(const Ray &ray, Vec2 &times)` changes `times`. Here, `times` is
+//! not changed, and [`BBox::hit`] returns an `Option<Interval>` with the new times, or `None`.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};
 
-/// An axis-parallel box; empty if `min` exceeds `max` along any axis.
+/// An axis-aligned bounding box. It is empty if `min` is greater than `max` along any axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BBox {
-    /// The smallest corner.
+    /// The corner with the smallest coordinates.
     pub min: Vec3,
-    /// The largest corner.
+    /// The corner with the largest coordinates.
     pub max: Vec3,
 }
 
 impl BBox {
-    /// A box around nothing.
+    /// The empty box. Enclosing something in it gives the box of just that.
     pub const EMPTY: BBox = BBox {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
     };
 
-    /// The box between two corners.
+    /// Creates the box between two corners.
     pub fn new(min: Vec3, max: Vec3) -> Self {
         BBox { min, max }
     }
 
-    /// Grows the box until it holds `other` as well.
+    /// Grows the box to contain `other` as well.
     pub fn enclose(&mut self, other: BBox) {
         self.min = self.min.min(other.min);
         self.max = self.max.max(other.max);
     }
 
-    /// Grows the box until it holds `point` as well.
+    /// Grows the box to contain `point` as well.
     pub fn enclose_point(&mut self, point: Vec3) {
         self.min = self.min.min(point);
         self.max = self.max.max(point);
     }
 
-    /// The middle of the box.
+    /// Returns the centre of the box.
     pub fn center(&self) -> Vec3 {
         0.5 * (self.min + self.max)
     }
 
-    /// The area of its six faces; zero for an empty box.
+    /// Returns the total area of the six faces, or zero for an empty box.
     pub fn surface_area(&self) -> f32 {
         if self.is_empty() {
             return 0.0;
@@ -59,18 +62,19 @@ impl BBox {
         2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
     }
 
-    /// Whether there is no point in the box. A flat box is not empty.
+    /// Returns whether the box contains no point. A flat box is not empty.
     pub fn is_empty(&self) -> bool {
         self.min.cmpgt(self.max).any()
     }
 
-    /// The part of `times` during which the ray is inside the box, or `None`.
+    /// Returns the part of `times` during which the ray is inside the box, or `None` if there is
+    /// none.
     ///
-    /// - Only `times` counts here, not `ray.range`. What is returned is clipped to it: a ray that
-    ///   starts inside the box is inside from `times.min` on, and if all of `times` is inside, all
-    ///   of it comes back.
-    /// - A component of `ray.dir` may be 0 or −0: such a ray stays in one slab, or outside it.
-    /// - The box may be flat (`min == max` along an axis) and still be hit.
+    /// - Use `times` and ignore `ray.range`. The result is clipped to `times`: if the ray is
+    ///   already inside the box at `times.min`, the result starts there, and if it is inside during
+    ///   all of `times`, the result is `times`.
+    /// - A component of `ray.dir` can be 0 or −0. Such a ray is always inside that slab, or never.
+    /// - A flat box (`min == max` along an axis) can be hit, too.
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {
         todo!("task 3, bbox: when, within {times:?}, is {ray:?} inside {self:?}?")
     }
@@ -87,11 +91,11 @@ mod tests {
     }
 
     #[track_caller]
-    fn assert_inside(got: Option<Interval>, min: f32, max: f32) {
+    fn assert_times(got: Option<Interval>, min: f32, max: f32) {
         let close = |got: Interval| (got.min - min).abs() < 1e-5 && (got.max - max).abs() < 1e-5;
         assert!(
             got.is_some_and(close),
-            "got {got:?}, wanted from {min} to {max}"
+            "expected the times from {min} to {max}, got {got:?}"
         );
     }
 
@@ -100,7 +104,7 @@ mod tests {
     fn a_ray_through_the_centre_hits() {
         let ray = Ray::new(vec3(-3.0, 0.0, 0.0), Vec3::X);
         let inside = cube().hit(&ray, Interval::AHEAD);
-        assert_inside(inside, 2.0, 4.0);
+        assert_times(inside, 2.0, 4.0);
     }
 
     #[ignore = "task 3: not written yet"]
@@ -108,14 +112,15 @@ mod tests {
     fn the_answer_is_clipped_to_times() {
         let ray = Ray::new(Vec3::ZERO, Vec3::X);
         let inside = cube().hit(&ray, Interval::new(0.25, 9.0));
-        assert_inside(inside, 0.25, 1.0);
+        assert_times(inside, 0.25, 1.0);
     }
 
     #[ignore = "task 3: not written yet"]
     #[test]
     fn a_ray_must_be_in_all_slabs_at_once() {
-        // It leaves the x slab before it enters the y slab.
+        // This ray leaves the x slab before it enters the y slab.
         let ray = Ray::new(vec3(0.0, -4.0, 0.0), vec3(1.0, 1.0, 0.0));
-        assert_eq!(cube().hit(&ray, Interval::AHEAD), None, "it misses the box");
+        let inside = cube().hit(&ray, Interval::AHEAD);
+        assert!(inside.is_none(), "expected None, got {inside:?}");
     }
 }

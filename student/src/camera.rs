@@ -6,26 +6,30 @@
 //!        │               │         *     │  │  = 2 · tan(vertical_fov / 2)
 //!        o────── −z ────▶│      ·        │  │
 //!       ╱                │               │  ▼
-//!      x   the camera    └───────────────┘     the sensor plane, z = −1
+//!      x   the camera    └───────────────┘     the sensor, in the plane z = −1
 //!          at (0,0,0)    ◀──── width ────▶     = aspect_ratio · height
 //! ```
+//!
+//! The pixel `(px, py)` of the slides is `pixel` here. `Vertical_fov` and `Aspect_ratio` are fields
+//! of [`Camera`].
 
-use glam::{UVec2, Vec2};
+#[allow(unused_imports)] // You will need `Vec3`.
+use glam::{UVec2, Vec2, Vec3};
 use protocol::Ray;
 
 /// A pinhole camera at the origin that looks down −z, with y up.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
-    /// The full angle between the lowest and the highest ray, in degrees.
+    /// The vertical field of view: the full angle from the lowest ray to the highest, in degrees.
     pub vertical_fov: f32,
-    /// Width of the sensor divided by its height; need not be that of `film`.
+    /// The width of the sensor divided by its height. It can differ from that of `film`.
     pub aspect_ratio: f32,
-    /// Number of pixels, across and up.
+    /// The number of pixels, across and up.
     pub film: UVec2,
 }
 
 impl Camera {
-    /// A camera from its parts.
+    /// Creates a camera.
     pub fn new(vertical_fov: f32, aspect_ratio: f32, film: UVec2) -> Self {
         Camera {
             vertical_fov,
@@ -34,13 +38,15 @@ impl Camera {
         }
     }
 
-    /// The ray that starts at the camera and passes through `pixel`.
+    /// Returns the ray that starts at the camera and passes through `pixel`.
     ///
-    /// - The sensor is the rectangle at z = −1 around (0, 0, −1) of the height and width drawn
-    ///   above. The film's pixels divide it evenly; pixel (0, 0) is at the *bottom left*.
-    /// - Pixel (x, y) covers `[x, x+1) × [y, y+1)` of the film, and `offset`, each component in
-    ///   `[0, 1)`, is the place in it: (0.5, 0.5) is its middle.
-    /// - The ray's `dir` has length one and its `range` is `[0, ∞)`, as [`Ray::new`] makes them.
+    /// - The sensor is the rectangle in the figure above, in the plane z = −1 with its centre at
+    ///   (0, 0, −1). The film's pixels divide it evenly, and pixel (0, 0) is at the *bottom left*.
+    /// - Pixel (x, y) covers `[x, x+1) × [y, y+1)` on the film. `offset` is the position within the
+    ///   pixel, each component in `[0, 1)`: (0.5, 0.5) is the centre of the pixel.
+    /// - The ray's `dir` has length one and its `range` is `[0, ∞)`. [`Ray::new`] sets both.
+    ///
+    /// `pixel` and `film` hold whole numbers. Convert them with `as_vec2()` before you divide.
     pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
         todo!("task 1, camera: which ray of {self:?} passes through {pixel} + {offset}?")
     }
@@ -48,36 +54,40 @@ impl Camera {
 
 #[cfg(test)]
 mod tests {
-    use glam::{Vec3, uvec2, vec2, vec3};
+    use glam::{uvec2, vec2, vec3};
 
     use super::*;
 
-    /// A sensor 2 high (tan 45° = 1) and 4 wide.
-    fn wide() -> Camera {
+    /// A camera whose sensor is 2 high (because tan 45° = 1) and 4 wide.
+    fn wide_camera() -> Camera {
         Camera::new(90.0, 2.0, uvec2(8, 4))
     }
 
     #[track_caller]
-    fn assert_dir(ray: Ray, wanted: Vec3) {
+    fn assert_dir(ray: Ray, expected: Vec3) {
         let got = ray.dir;
         assert!(
-            got.abs_diff_eq(wanted, 1e-5),
-            "dir is {got}, wanted {wanted}"
+            got.abs_diff_eq(expected, 1e-5),
+            "expected dir {expected}, got {got}"
         );
     }
 
     #[ignore = "task 1: not written yet"]
     #[test]
     fn the_centre_of_the_film_is_straight_ahead() {
-        let ray = wide().sample_ray(uvec2(4, 2), vec2(0.0, 0.0));
-        assert_eq!(ray.origin, Vec3::ZERO);
+        let ray = wide_camera().sample_ray(uvec2(4, 2), vec2(0.0, 0.0));
+        assert_eq!(
+            ray.origin,
+            Vec3::ZERO,
+            "got origin (left), expected (right)"
+        );
         assert_dir(ray, vec3(0.0, 0.0, -1.0));
     }
 
     #[ignore = "task 1: not written yet"]
     #[test]
     fn the_first_pixel_starts_at_the_bottom_left_corner() {
-        let ray = wide().sample_ray(uvec2(0, 0), vec2(0.0, 0.0));
+        let ray = wide_camera().sample_ray(uvec2(0, 0), vec2(0.0, 0.0));
         let corner = vec3(-2.0, -1.0, -1.0);
         assert_dir(ray, corner.normalize());
     }
@@ -85,9 +95,9 @@ mod tests {
     #[ignore = "task 1: not written yet"]
     #[test]
     fn the_offset_moves_within_the_pixel() {
-        // Half a pixel is 1/4 of the sensor's plane, across and up.
-        let ray = wide().sample_ray(uvec2(4, 2), vec2(0.5, 0.5));
-        let place = vec3(0.25, 0.25, -1.0);
-        assert_dir(ray, place.normalize());
+        // Each pixel is 0.5 wide and 0.5 high on the sensor, so half a pixel is 0.25.
+        let ray = wide_camera().sample_ray(uvec2(4, 2), vec2(0.5, 0.5));
+        let on_sensor = vec3(0.25, 0.25, -1.0);
+        assert_dir(ray, on_sensor.normalize());
     }
 }

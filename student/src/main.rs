@@ -1,4 +1,4 @@
-//! Draws a scene: `cargo render scenes/cornell-box.json`.
+//! Renders a scene with your code: `cargo render scenes/cornell-box.json`.
 
 use std::process::ExitCode;
 

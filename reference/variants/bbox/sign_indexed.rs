@@ -1,50 +1,50 @@
-//! Picks the plane to enter by, along each axis, by the sign of the inverse direction: of the
-//! inverse, since −0 compares as 0 but its inverse is −∞. Williams, Barrus, Morley and Shirley,
-//! "An Efficient and Robust Ray-Box Intersection Algorithm", Journal of Graphics Tools 10(1),
-//! 2005.
+//! Selects the plane through which the ray enters each slab by the sign of the inverse direction.
+//! The direction itself would not do: −0 compares equal to 0, but its inverse is −∞. Williams,
+//! Barrus, Morley and Shirley, "An Efficient and Robust Ray-Box Intersection Algorithm", Journal of
+//! Graphics Tools 10(1), 2005.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};
 
-/// An axis-parallel box; empty if `min` exceeds `max` along any axis.
+/// An axis-aligned bounding box. It is empty if `min` is greater than `max` along any axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BBox {
-    /// The smallest corner.
+    /// The corner with the smallest coordinates.
     pub min: Vec3,
-    /// The largest corner.
+    /// The corner with the largest coordinates.
     pub max: Vec3,
 }
 
 impl BBox {
-    /// A box around nothing.
+    /// The empty box. Enclosing something in it gives the box of just that.
     pub const EMPTY: BBox = BBox {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
     };
 
-    /// The box between two corners.
+    /// Creates the box between two corners.
     pub fn new(min: Vec3, max: Vec3) -> Self {
         BBox { min, max }
     }
 
-    /// Grows the box until it holds `other` as well.
+    /// Grows the box to contain `other` as well.
     pub fn enclose(&mut self, other: BBox) {
         self.min = self.min.min(other.min);
         self.max = self.max.max(other.max);
     }
 
-    /// Grows the box until it holds `point` as well.
+    /// Grows the box to contain `point` as well.
     pub fn enclose_point(&mut self, point: Vec3) {
         self.min = self.min.min(point);
         self.max = self.max.max(point);
     }
 
-    /// The middle of the box.
+    /// Returns the centre of the box.
     pub fn center(&self) -> Vec3 {
         0.5 * (self.min + self.max)
     }
 
-    /// The area of its six faces; zero for an empty box.
+    /// Returns the total area of the six faces, or zero for an empty box.
     pub fn surface_area(&self) -> f32 {
         if self.is_empty() {
             return 0.0;
@@ -53,12 +53,13 @@ impl BBox {
         2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
     }
 
-    /// Whether there is no point in the box. A flat box is not empty.
+    /// Returns whether the box contains no point. A flat box is not empty.
     pub fn is_empty(&self) -> bool {
         self.min.cmpgt(self.max).any()
     }
 
-    /// The part of `times` during which the ray is inside the box, or `None`.
+    /// Returns the part of `times` during which the ray is inside the box, or `None` if there is
+    /// none.
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {
         let bounds = [self.min, self.max];
         let inverse = ray.dir.recip();

@@ -1,28 +1,29 @@
-//! First a tree of its own, made of `Box`es and vectors that are parted, not sorted; then the
-//! nodes, from that. The walk: each node returns its closest hit, and the parent takes the nearer.
+//! Builds a temporary tree of `Box`es and vectors, with primitives partitioned into new vectors
+//! instead of sorted in place, and then creates the nodes from it. Traversal: each node returns its
+//! closest hit, and the parent takes the nearer.
 
 use protocol::{Ray, Trace};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -33,7 +34,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -44,7 +45,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -53,16 +54,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -71,7 +72,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by the surface area heuristic.
+    /// Builds the tree with the surface area heuristic (SAH).
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let (mut nodes, mut ordered) = (Vec::new(), Vec::new());
         let mut root = 0;
@@ -82,14 +83,15 @@ impl Bvh {
         Bvh::from_nodes(ordered, nodes, root)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let root = self.nodes.get(self.root)?;
         root.bbox.hit(ray, ray.range)?;
         self.nearest(root, ray)
     }
 
-    /// The closest hit below `node`.
+    /// Returns the closest hit below `node`.
     fn nearest(&self, node: &Node, ray: &Ray) -> Option<Trace> {
         if node.is_leaf() {
             let primitives = &self.primitives[node.start..node.start + node.size];
@@ -97,8 +99,8 @@ impl Bvh {
             return traces.fold(None, Trace::nearer);
         }
 
-        let enter = |place: usize| {
-            let child = &self.nodes[place];
+        let enter = |index: usize| {
+            let child = &self.nodes[index];
             Some((child, child.bbox.hit(ray, ray.range)?.min))
         };
         let (first, second) = match (enter(node.l), enter(node.r)) {
@@ -109,7 +111,7 @@ impl Bvh {
         let trace = self.nearest(first.0, ray);
         let limit = trace.map_or(ray.range.max, |trace| trace.distance);
         match second {
-            Some((second, begins)) if begins <= limit => {
+            Some((second, entry)) if entry <= limit => {
                 let rest = ray.within(ray.range.min, limit);
                 Trace::nearer(trace, self.nearest(second, &rest))
             }
@@ -118,18 +120,18 @@ impl Bvh {
     }
 }
 
-/// What `flatten` turns into nodes.
+/// The temporary tree.
 enum Tree {
     Leaf(BBox, Vec<Primitive>),
     Interior(BBox, Box<Tree>, Box<Tree>),
 }
 
-/// Appends the tree's nodes and primitives; returns the place of its root.
+/// Appends the nodes and primitives of a tree, and returns the index of its root.
 fn flatten(tree: Tree, nodes: &mut Vec<Node>, primitives: &mut Vec<Primitive>) -> usize {
     let node = match tree {
-        Tree::Leaf(bbox, held) => {
+        Tree::Leaf(bbox, contents) => {
             let start = primitives.len();
-            primitives.extend(held);
+            primitives.extend(contents);
             Node::leaf(bbox, start, primitives.len() - start)
         }
         Tree::Interior(bbox, left, right) => {
@@ -143,11 +145,11 @@ fn flatten(tree: Tree, nodes: &mut Vec<Node>, primitives: &mut Vec<Primitive>) -
 }
 
 fn grow(primitives: Vec<Primitive>, max_leaf_size: usize) -> Tree {
-    let bbox = around(&primitives);
+    let bbox = bounds_of(&primitives);
     if primitives.len() <= max_leaf_size {
         return Tree::Leaf(bbox, primitives);
     }
-    let centers = around_centers(&primitives);
+    let centers = bounds_of_centers(&primitives);
     let candidates = (0..3).flat_map(|axis| (1..SLICES).map(move |slice| (axis, slice)));
     let halves = candidates.filter_map(|(axis, slice)| {
         let part = slice as f32 / SLICES as f32;
@@ -171,14 +173,14 @@ fn grow(primitives: Vec<Primitive>, max_leaf_size: usize) -> Tree {
     )
 }
 
-/// Slices along each axis.
+/// The number of slices along each axis.
 const SLICES: usize = 16;
 
 fn cost(side: &[Primitive]) -> f32 {
-    around(side).surface_area() * side.len() as f32
+    bounds_of(side).surface_area() * side.len() as f32
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());
@@ -186,7 +188,7 @@ fn around(primitives: &[Primitive]) -> BBox {
     all
 }
 
-fn around_centers(primitives: &[Primitive]) -> BBox {
+fn bounds_of_centers(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose_point(primitive.bbox().center());

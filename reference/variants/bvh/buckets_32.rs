@@ -1,28 +1,28 @@
-//! Thirty-two buckets over the centers. The walk: up to four children at once, found when the tree
-//! is made (Wald, Benthin and Boulos, "Getting Rid of Packets", 2008).
+//! Thirty-two buckets over the centres. Traversal: up to four children at once, which are found
+//! when the tree is built (Wald, Benthin and Boulos, "Getting Rid of Packets", 2008).
 
 use protocol::{Ray, Trace};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -33,7 +33,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -44,7 +44,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -53,18 +53,18 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
-    /// For each interior node, the up to four nodes that stand in for its children.
+    /// For each interior node, up to four descendants that replace its children.
     wide: Vec<Vec<usize>>,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         let wide = nodes.iter().map(|node| up_to_four(&nodes, node)).collect();
         Bvh {
@@ -75,7 +75,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by the surface area heuristic.
+    /// Builds the tree with the surface area heuristic (SAH).
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         if !primitives.is_empty() {
@@ -84,35 +84,36 @@ impl Bvh {
         Bvh::from_nodes(primitives, nodes, 0)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let root = self.nodes.get(self.root)?;
         root.bbox.hit(ray, ray.range)?;
         let mut closest = None;
-        self.visit(self.root, &mut ray.clone(), &mut closest);
+        self.traverse(self.root, &mut ray.clone(), &mut closest);
         closest
     }
 
-    /// Looks for a hit below the node at `place`, whose box the ray is known to meet.
-    fn visit(&self, place: usize, ray: &mut Ray, closest: &mut Option<Trace>) {
-        let node = &self.nodes[place];
+    /// Looks for a closer hit below the node at `index`, whose box the ray is known to hit.
+    fn traverse(&self, index: usize, ray: &mut Ray, closest: &mut Option<Trace>) {
+        let node = &self.nodes[index];
         if node.is_leaf() {
-            return self.ask(node, ray, closest);
+            return self.test_leaf(node, ray, closest);
         }
-        let hit = self.wide[place]
+        let hit = self.wide[index]
             .iter()
             .filter_map(|&child| Some((self.nodes[child].bbox.hit(ray, ray.range)?.min, child)));
         let mut ahead: Vec<(f32, usize)> = hit.collect();
         ahead.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (entry, child) in ahead {
             if entry <= ray.range.max {
-                self.visit(child, ray, closest);
+                self.traverse(child, ray, closest);
             }
         }
     }
 
-    /// Asks the primitives of a leaf. A hit shortens the ray, so that only nearer ones follow.
-    fn ask(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
+    /// Tests the primitives of a leaf. A hit shortens the ray, so later hits must be closer.
+    fn test_leaf(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
         for primitive in &self.primitives[leaf.start..leaf.start + leaf.size] {
             if let Some(trace) = primitive.hit(ray) {
                 ray.range.max = trace.distance;
@@ -122,14 +123,15 @@ impl Bvh {
     }
 }
 
-/// Replaces the children of a node by theirs, the largest first, while there are fewer than four.
+/// Returns up to four descendants of a node: while there are fewer, the child with the largest box
+/// is replaced by its own children.
 fn up_to_four(nodes: &[Node], node: &Node) -> Vec<usize> {
     if node.is_leaf() {
         return Vec::new();
     }
     let mut children = vec![node.l, node.r];
     while children.len() < 4 {
-        let area = |place: &usize| nodes[*place].bbox.surface_area();
+        let area = |index: &usize| nodes[*index].bbox.surface_area();
         let interior = (0..children.len()).filter(|&i| !nodes[children[i]].is_leaf());
         let largest = interior.max_by(|&a, &b| area(&children[a]).total_cmp(&area(&children[b])));
         let Some(i) = largest else { break };
@@ -139,35 +141,36 @@ fn up_to_four(nodes: &[Node], node: &Node) -> Vec<usize> {
     children
 }
 
-/// Builds the node over some primitives, which stand from `start` on; returns its place.
+/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Returns the index of the subtree's root.
 fn build_node(
     primitives: &mut [Primitive],
     start: usize,
     max_leaf_size: usize,
     nodes: &mut Vec<Node>,
 ) -> usize {
-    let bbox = around(primitives);
-    let place = nodes.len();
+    let bbox = bounds_of(primitives);
+    let index = nodes.len();
     nodes.push(Node::leaf(bbox, start, primitives.len()));
     if primitives.len() > max_leaf_size {
         let middle = split(primitives);
         let (left, right) = primitives.split_at_mut(middle);
         let l = build_node(left, start, max_leaf_size, nodes);
         let r = build_node(right, start + middle, max_leaf_size, nodes);
-        nodes[place] = Node::interior(bbox, l, r);
+        nodes[index] = Node::interior(bbox, l, r);
     }
-    place
+    index
 }
 
-/// Slices along each axis.
+/// The number of buckets along each axis.
 const BUCKETS: usize = 32;
 
-/// Brings the primitives of the cheapest partition's one side to the front; returns their number.
+/// Partitions the primitives in place by the cheapest split; returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
-    let over = around_centers(primitives);
+    let over = bounds_of_centers(primitives);
     let bucket = |primitive: &Primitive, axis: usize| {
-        let place = primitive.bbox().center()[axis] - over.min[axis];
-        let part = place / (over.max[axis] - over.min[axis]);
+        let offset = primitive.bbox().center()[axis] - over.min[axis];
+        let part = offset / (over.max[axis] - over.min[axis]);
         ((part * BUCKETS as f32) as usize).min(BUCKETS - 1)
     };
 
@@ -213,7 +216,7 @@ impl Bucket {
     }
 }
 
-/// Several buckets together.
+/// Merges several buckets into one.
 fn side(buckets: &[Bucket]) -> Bucket {
     buckets.iter().fold(Bucket::EMPTY, |mut all, bucket| {
         all.bbox.enclose(bucket.bbox);
@@ -222,7 +225,7 @@ fn side(buckets: &[Bucket]) -> Bucket {
     })
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());
@@ -230,7 +233,7 @@ fn around(primitives: &[Primitive]) -> BBox {
     all
 }
 
-fn around_centers(primitives: &[Primitive]) -> BBox {
+fn bounds_of_centers(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose_point(primitive.bbox().center());

@@ -1,4 +1,4 @@
-//! Forty buckets over the node's own box. The walk: without a stack, by pointers from each node to
+//! Forty buckets over the node's own box. Traversal: without a stack, by an index from each node to
 //! its parent (Hapala et al., "Efficient Stack-less BVH Traversal for Ray Tracing", 2011).
 
 use protocol::{Ray, Trace};
@@ -6,23 +6,23 @@ use protocol::{Ray, Trace};
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -33,7 +33,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -44,7 +44,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -53,23 +53,23 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
-    /// For each node but the root, its parent.
+    /// The parent of each node except the root.
     parents: Vec<Option<usize>>,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         let mut parents = vec![None; nodes.len()];
-        for (place, node) in nodes.iter().enumerate().filter(|(_, node)| !node.is_leaf()) {
-            parents[node.l] = Some(place);
-            parents[node.r] = Some(place);
+        for (index, node) in nodes.iter().enumerate().filter(|(_, node)| !node.is_leaf()) {
+            parents[node.l] = Some(index);
+            parents[node.r] = Some(index);
         }
         Bvh {
             primitives,
@@ -79,7 +79,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by the surface area heuristic.
+    /// Builds the tree with the surface area heuristic (SAH).
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         if !primitives.is_empty() {
@@ -88,7 +88,8 @@ impl Bvh {
         Bvh::from_nodes(primitives, nodes, 0)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let mut closest = None;
         let mut rest = *ray;
@@ -96,18 +97,18 @@ impl Bvh {
         while let Some(node) = self.nodes.get(at) {
             let parent = self.parents[at];
             let next = if from == parent {
-                // From above: the box decides whether there is anything to do down here.
+                // From above: enter the node only if the ray hits its box.
                 if node.bbox.hit(&rest, rest.range).is_none() {
                     parent
                 } else if node.is_leaf() {
-                    self.ask(node, &mut rest, &mut closest);
+                    self.test_leaf(node, &mut rest, &mut closest);
                     parent
                 } else {
                     let [near, _] = self.in_order(node, ray);
                     near.map_or(parent, |(near, _)| Some(near))
                 }
             } else {
-                // From below: after the near child comes the far one, after that the parent.
+                // From below: the far child follows the near child, and the parent follows the far.
                 match self.in_order(node, ray) {
                     [Some((near, _)), Some((far, _))] if from == Some(near) => Some(far),
                     _ => parent,
@@ -120,10 +121,10 @@ impl Bvh {
         closest
     }
 
-    /// The children of an interior node whose boxes the whole ray meets, with the times at which
-    /// it enters them, the earlier first. Always the same for the same ray.
+    /// Returns the children of an interior node whose boxes the whole ray hits, with their entry
+    /// distances, the nearer child first. The result is always the same for the same ray.
     fn in_order(&self, node: &Node, ray: &Ray) -> [Option<(usize, f32)>; 2] {
-        let enter = |place: usize| Some((place, self.nodes[place].bbox.hit(ray, ray.range)?.min));
+        let enter = |index: usize| Some((index, self.nodes[index].bbox.hit(ray, ray.range)?.min));
         match (enter(node.l), enter(node.r)) {
             (Some(l), Some(r)) if r.1 < l.1 => [Some(r), Some(l)],
             (None, r) => [r, None],
@@ -131,8 +132,8 @@ impl Bvh {
         }
     }
 
-    /// Asks the primitives of a leaf. A hit shortens the ray, so that only nearer ones follow.
-    fn ask(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
+    /// Tests the primitives of a leaf. A hit shortens the ray, so later hits must be closer.
+    fn test_leaf(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
         for primitive in &self.primitives[leaf.start..leaf.start + leaf.size] {
             if let Some(trace) = primitive.hit(ray) {
                 ray.range.max = trace.distance;
@@ -142,35 +143,36 @@ impl Bvh {
     }
 }
 
-/// Builds the node over some primitives, which stand from `start` on; returns its place.
+/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Returns the index of the subtree's root.
 fn build_node(
     primitives: &mut [Primitive],
     start: usize,
     max_leaf_size: usize,
     nodes: &mut Vec<Node>,
 ) -> usize {
-    let bbox = around(primitives);
-    let place = nodes.len();
+    let bbox = bounds_of(primitives);
+    let index = nodes.len();
     nodes.push(Node::leaf(bbox, start, primitives.len()));
     if primitives.len() > max_leaf_size {
         let middle = split(primitives);
         let (left, right) = primitives.split_at_mut(middle);
         let l = build_node(left, start, max_leaf_size, nodes);
         let r = build_node(right, start + middle, max_leaf_size, nodes);
-        nodes[place] = Node::interior(bbox, l, r);
+        nodes[index] = Node::interior(bbox, l, r);
     }
-    place
+    index
 }
 
-/// Slices along each axis.
+/// The number of buckets along each axis.
 const BUCKETS: usize = 40;
 
-/// Brings the primitives of the cheapest partition's one side to the front; returns their number.
+/// Partitions the primitives in place by the cheapest split; returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
-    let over = around(primitives);
+    let over = bounds_of(primitives);
     let bucket = |primitive: &Primitive, axis: usize| {
-        let place = primitive.bbox().center()[axis] - over.min[axis];
-        let part = place / (over.max[axis] - over.min[axis]);
+        let offset = primitive.bbox().center()[axis] - over.min[axis];
+        let part = offset / (over.max[axis] - over.min[axis]);
         ((part * BUCKETS as f32) as usize).min(BUCKETS - 1)
     };
 
@@ -216,7 +218,7 @@ impl Bucket {
     }
 }
 
-/// Several buckets together.
+/// Merges several buckets into one.
 fn side(buckets: &[Bucket]) -> Bucket {
     buckets.iter().fold(Bucket::EMPTY, |mut all, bucket| {
         all.bbox.enclose(bucket.bbox);
@@ -225,7 +227,7 @@ fn side(buckets: &[Bucket]) -> Bucket {
     })
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());

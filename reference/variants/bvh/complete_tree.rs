@@ -1,29 +1,30 @@
-//! A complete tree: all leaves full but one, and the children of node i at 2i + 1 and 2i + 2, as
-//! in a binary heap. What goes left follows from the number of leaves; no areas are looked at. The
-//! walk: a box is tested when its node is entered, against what is left of the ray.
+//! A complete tree: all leaves but one are full, and the children of node i are at 2i + 1 and 2i +
+//! 2, as in a binary heap. The number of leaves decides how many primitives go left; areas are not
+//! considered. Traversal: a box is tested when its node is entered, against the ray as shortened by
+//! the closest hit.
 
 use protocol::{Ray, Trace};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -34,7 +35,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -45,7 +46,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -54,16 +55,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -72,37 +73,38 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree as a complete one.
+    /// Builds a complete tree.
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
-        let most = max_leaf_size.max(1);
-        let leaves = primitives.len().div_ceil(most);
+        let max_leaf_size = max_leaf_size.max(1);
+        let leaves = primitives.len().div_ceil(max_leaf_size);
         let empty = Node::leaf(BBox::EMPTY, 0, 0);
         let mut nodes = vec![empty; (2 * leaves).saturating_sub(1)];
         if leaves > 0 {
-            fill(&mut nodes, 0, &mut primitives, 0, most);
+            fill(&mut nodes, 0, &mut primitives, 0, max_leaf_size);
         }
         Bvh::from_nodes(primitives, nodes, 0)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let mut closest = None;
         if self.root < self.nodes.len() {
-            self.visit(self.root, &mut ray.clone(), &mut closest);
+            self.traverse(self.root, &mut ray.clone(), &mut closest);
         }
         closest
     }
 
-    fn visit(&self, place: usize, ray: &mut Ray, closest: &mut Option<Trace>) {
-        let node = &self.nodes[place];
+    fn traverse(&self, index: usize, ray: &mut Ray, closest: &mut Option<Trace>) {
+        let node = &self.nodes[index];
         if node.bbox.hit(ray, ray.range).is_none() {
             return;
         }
         if node.is_leaf() {
-            return self.ask(node, ray, closest);
+            return self.test_leaf(node, ray, closest);
         }
 
-        // A box that is missed may come first: it is not entered anyway.
+        // A missed box counts as infinitely far. If it comes first, it is still not entered.
         let entry = |child: usize| {
             let inside = self.nodes[child].bbox.hit(ray, ray.range);
             inside.map_or(f32::INFINITY, |inside| inside.min)
@@ -112,12 +114,12 @@ impl Bvh {
         } else {
             (node.r, node.l)
         };
-        self.visit(first, ray, closest);
-        self.visit(second, ray, closest);
+        self.traverse(first, ray, closest);
+        self.traverse(second, ray, closest);
     }
 
-    /// Asks the primitives of a leaf. A hit shortens the ray, so that only nearer ones follow.
-    fn ask(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
+    /// Tests the primitives of a leaf. A hit shortens the ray, so later hits must be closer.
+    fn test_leaf(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
         for primitive in &self.primitives[leaf.start..leaf.start + leaf.size] {
             if let Some(trace) = primitive.hit(ray) {
                 ray.range.max = trace.distance;
@@ -127,35 +129,42 @@ impl Bvh {
     }
 }
 
-/// Fills the node at `place` and all below it with some primitives, which stand from `start` on.
-fn fill(nodes: &mut [Node], place: usize, primitives: &mut [Primitive], start: usize, most: usize) {
-    let bbox = around(primitives);
-    let leaves = primitives.len().div_ceil(most);
+/// Builds the subtree over `primitives` at `index`. The first of them has index `start` in the
+/// tree's list.
+fn fill(
+    nodes: &mut [Node],
+    index: usize,
+    primitives: &mut [Primitive],
+    start: usize,
+    max_leaf_size: usize,
+) {
+    let bbox = bounds_of(primitives);
+    let leaves = primitives.len().div_ceil(max_leaf_size);
     if leaves == 1 {
-        nodes[place] = Node::leaf(bbox, start, primitives.len());
+        nodes[index] = Node::leaf(bbox, start, primitives.len());
         return;
     }
 
-    let centers = around_centers(primitives);
+    let centers = bounds_of_centers(primitives);
     let axis = (centers.max - centers.min).max_position();
     let center = |primitive: &Primitive| primitive.bbox().center()[axis];
     primitives.sort_by(|a, b| center(a).total_cmp(&center(b)));
 
-    let (left, right) = primitives.split_at_mut(most * left_leaves(leaves));
-    let (l, r) = (2 * place + 1, 2 * place + 2);
-    nodes[place] = Node::interior(bbox, l, r);
-    fill(nodes, l, left, start, most);
-    fill(nodes, r, right, start + left.len(), most);
+    let (left, right) = primitives.split_at_mut(max_leaf_size * left_leaves(leaves));
+    let (l, r) = (2 * index + 1, 2 * index + 2);
+    nodes[index] = Node::interior(bbox, l, r);
+    fill(nodes, l, left, start, max_leaf_size);
+    fill(nodes, r, right, start + left.len(), max_leaf_size);
 }
 
-/// How many of a complete tree's leaves are to the left of its root: the last level is filled from
-/// the left.
+/// Returns the number of leaves in the left subtree of a complete tree, whose last level is filled
+/// from the left.
 fn left_leaves(leaves: usize) -> usize {
     let full = 1 << leaves.ilog2();
     full / 2 + (leaves - full).min(full / 2)
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());
@@ -163,7 +172,7 @@ fn around(primitives: &[Primitive]) -> BBox {
     all
 }
 
-fn around_centers(primitives: &[Primitive]) -> BBox {
+fn bounds_of_centers(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose_point(primitive.bbox().center());

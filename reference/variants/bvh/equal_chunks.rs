@@ -1,29 +1,29 @@
-//! Chunks of equally many primitives, in the order of their centers, in place of slices of equal
-//! width: up to 64 of them. The walk: a stack of nodes, each with the time at which the ray enters
-//! it.
+//! Up to 64 chunks with equal numbers of primitives, in the order of their centres, instead of
+//! slices of equal width. Traversal: a stack of nodes, each with the distance at which the ray
+//! enters it.
 
 use protocol::{Ray, Trace};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -34,7 +34,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -45,7 +45,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -54,16 +54,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -72,7 +72,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by the surface area heuristic.
+    /// Builds the tree with the surface area heuristic (SAH).
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         if !primitives.is_empty() {
@@ -81,27 +81,28 @@ impl Bvh {
         Bvh::from_nodes(primitives, nodes, 0)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let root = self.nodes.get(self.root)?;
         let mut ray = *ray;
         let mut closest = None;
         let mut open = vec![(root, root.bbox.hit(&ray, ray.range)?.min)];
         while let Some((node, entry)) = open.pop() {
-            // Something nearer may have been hit since the node was put on the stack.
+            // A closer hit may have been found since the node was pushed.
             if entry > ray.range.max {
                 continue;
             }
             if node.is_leaf() {
-                self.ask(node, &mut ray, &mut closest);
+                self.test_leaf(node, &mut ray, &mut closest);
                 continue;
             }
-            let entered = |place: usize| {
-                let child = &self.nodes[place];
+            let entered = |index: usize| {
+                let child = &self.nodes[index];
                 Some((child, child.bbox.hit(&ray, ray.range)?.min))
             };
             match (entered(node.l), entered(node.r)) {
-                // The nearer goes on top.
+                // The nearer child is pushed last, so that it is popped first.
                 (Some(l), Some(r)) if l.1 <= r.1 => open.extend([r, l]),
                 (Some(l), Some(r)) => open.extend([l, r]),
                 (l, r) => open.extend(l.or(r)),
@@ -110,8 +111,8 @@ impl Bvh {
         closest
     }
 
-    /// Asks the primitives of a leaf. A hit shortens the ray, so that only nearer ones follow.
-    fn ask(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
+    /// Tests the primitives of a leaf. A hit shortens the ray, so later hits must be closer.
+    fn test_leaf(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
         for primitive in &self.primitives[leaf.start..leaf.start + leaf.size] {
             if let Some(trace) = primitive.hit(ray) {
                 ray.range.max = trace.distance;
@@ -121,34 +122,34 @@ impl Bvh {
     }
 }
 
-/// Builds the node over some primitives, which stand from `start` on; returns its place.
+/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Returns the index of the subtree's root.
 fn build_node(
     primitives: &mut [Primitive],
     start: usize,
     max_leaf_size: usize,
     nodes: &mut Vec<Node>,
 ) -> usize {
-    let bbox = around(primitives);
-    let place = nodes.len();
+    let bbox = bounds_of(primitives);
+    let index = nodes.len();
     nodes.push(Node::leaf(bbox, start, primitives.len()));
     if primitives.len() > max_leaf_size {
         let middle = split(primitives);
         let (left, right) = primitives.split_at_mut(middle);
         let l = build_node(left, start, max_leaf_size, nodes);
         let r = build_node(right, start + middle, max_leaf_size, nodes);
-        nodes[place] = Node::interior(bbox, l, r);
+        nodes[index] = Node::interior(bbox, l, r);
     }
-    place
+    index
 }
 
-/// Sorts the primitives so that the cheapest partition is that of the first few from the others;
-/// returns how few.
+/// Sorts the primitives along the axis of the cheapest split; returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
     let chunk = primitives.len().div_ceil(CHUNKS);
     let (mut least, mut best) = (f32::INFINITY, (0, primitives.len() / 2));
     for axis in 0..3 {
         sort(primitives, axis);
-        let chunks: Vec<BBox> = primitives.chunks(chunk).map(around).collect();
+        let chunks: Vec<BBox> = primitives.chunks(chunk).map(bounds_of).collect();
         for i in 1..chunks.len() {
             let first = i * chunk;
             let second = primitives.len() - first;
@@ -163,7 +164,7 @@ fn split(primitives: &mut [Primitive]) -> usize {
     first
 }
 
-/// Chunks along each axis.
+/// The number of chunks along each axis.
 const CHUNKS: usize = 64;
 
 fn sort(primitives: &mut [Primitive], axis: usize) {
@@ -179,7 +180,7 @@ fn area(boxes: &[BBox]) -> f32 {
     all.surface_area()
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());

@@ -1,29 +1,29 @@
-//! Builds from a stack, marks a leaf by children that are the leaf itself, and says of interior
-//! nodes as well which primitives are below them. The walk: a stack of places; a box is tested
-//! when it is taken off.
+//! Builds the tree with an explicit stack, marks a leaf by children that are the leaf itself, and
+//! fills in `start` and `size` of interior nodes too. Traversal: a stack of indices; a box is
+//! tested when its node is popped.
 
 use protocol::{Ray, Trace};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -34,7 +34,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -45,7 +45,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -54,16 +54,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -72,46 +72,47 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by the surface area heuristic.
+    /// Builds the tree with the surface area heuristic (SAH).
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes: Vec<Node> = Vec::new();
-        // What a node is to hold, and the parent that waits for its place.
+        // The primitives of each open node, and the parent that needs its index.
         let mut open = Vec::new();
         if !primitives.is_empty() {
             open.push((0..primitives.len(), None::<usize>));
         }
         while let Some((range, parent)) = open.pop() {
-            let held = &mut primitives[range.clone()];
-            let place = nodes.len();
+            let contents = &mut primitives[range.clone()];
+            let index = nodes.len();
             nodes.push(Node {
-                bbox: around(held),
+                bbox: bounds_of(contents),
                 start: range.start,
                 size: range.len(),
-                l: place,
-                r: place,
+                l: index,
+                r: index,
             });
             if let Some(parent) = parent {
-                nodes[parent].r = place;
+                nodes[parent].r = index;
             }
             if range.len() > max_leaf_size.max(1) {
-                let middle = range.start + split(held);
-                // The left child comes off the stack next, and so stands right behind its parent;
-                // the right one tells its parent when it has a place.
-                nodes[place].l = place + 1;
-                open.push((middle..range.end, Some(place)));
+                let middle = range.start + split(contents);
+                // The left child is popped next, so its index follows its parent's. The right
+                // child's index is set in its parent when it is known.
+                nodes[index].l = index + 1;
+                open.push((middle..range.end, Some(index)));
                 open.push((range.start..middle, None));
             }
         }
         Bvh::from_nodes(primitives, nodes, 0)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let mut closest: Option<Trace> = None;
         let mut open = Vec::from_iter((self.root < self.nodes.len()).then_some(self.root));
-        while let Some(place) = open.pop() {
-            let node = &self.nodes[place];
-            // What is left of the ray, for boxes and primitives alike.
+        while let Some(index) = open.pop() {
+            let node = &self.nodes[index];
+            // The ray as shortened by the closest hit, for boxes and primitives alike.
             let mut rest = *ray;
             rest.range.max = closest.map_or(ray.range.max, |closest| closest.distance);
             let entry = |node: &Node| Some(node.bbox.hit(ray, rest.range)?.min);
@@ -124,7 +125,8 @@ impl Bvh {
                 closest = traces.fold(closest, Trace::nearer);
                 continue;
             }
-            // None counts as less than any number here: what is missed goes on top, and off again.
+            // `None` is less than any number: a missed child is pushed last and popped without
+            // effect.
             if entry(&self.nodes[node.l]) < entry(&self.nodes[node.r]) {
                 open.extend([node.r, node.l]);
             } else {
@@ -135,15 +137,15 @@ impl Bvh {
     }
 }
 
-/// Slices along each axis.
+/// The number of buckets along each axis.
 const BUCKETS: usize = 12;
 
-/// Brings the primitives of the cheapest partition's one side to the front; returns their number.
+/// Partitions the primitives in place by the cheapest split; returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
-    let over = around(primitives);
+    let over = bounds_of(primitives);
     let bucket = |primitive: &Primitive, axis: usize| {
-        let place = primitive.bbox().center()[axis] - over.min[axis];
-        let part = place / (over.max[axis] - over.min[axis]);
+        let offset = primitive.bbox().center()[axis] - over.min[axis];
+        let part = offset / (over.max[axis] - over.min[axis]);
         ((part * BUCKETS as f32) as usize).min(BUCKETS - 1)
     };
 
@@ -189,7 +191,7 @@ impl Bucket {
     }
 }
 
-/// Several buckets together.
+/// Merges several buckets into one.
 fn side(buckets: &[Bucket]) -> Bucket {
     buckets.iter().fold(Bucket::EMPTY, |mut all, bucket| {
         all.bbox.enclose(bucket.bbox);
@@ -198,7 +200,7 @@ fn side(buckets: &[Bucket]) -> Bucket {
     })
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());

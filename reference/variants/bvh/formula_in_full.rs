@@ -1,29 +1,29 @@
-//! The formula in full, C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect, though one
-//! node's partitions do not differ in most of it. The walk: a parent tests both boxes and passes
-//! the limit down.
+//! Computes the full formula, C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect,
+//! although most of it is the same for all partitions of a node. Traversal: a parent tests both
+//! boxes and passes the entry distances down.
 
 use protocol::{Ray, Trace};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -34,7 +34,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -45,7 +45,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -54,16 +54,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -72,7 +72,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by the surface area heuristic.
+    /// Builds the tree with the surface area heuristic (SAH).
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         if !primitives.is_empty() {
@@ -81,18 +81,19 @@ impl Bvh {
         Bvh::from_nodes(primitives, nodes, 0)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let mut closest = None;
         if let Some(root) = self.nodes.get(self.root) {
             let entry = root.bbox.hit(ray, ray.range).map(|inside| inside.min);
-            self.visit(root, entry, ray, &mut closest);
+            self.traverse(root, entry, ray, &mut closest);
         }
         closest
     }
 
-    /// Looks for a nearer hit below `node`, which the ray enters at `entry`, if at all.
-    fn visit(&self, node: &Node, entry: Option<f32>, ray: &Ray, closest: &mut Option<Trace>) {
+    /// Looks for a closer hit below `node`. `entry` is `None` if the ray misses its box.
+    fn traverse(&self, node: &Node, entry: Option<f32>, ray: &Ray, closest: &mut Option<Trace>) {
         let limit = closest.map_or(f32::INFINITY, |closest| closest.distance);
         if entry.is_none_or(|entry| entry >= limit) {
             return;
@@ -104,8 +105,8 @@ impl Bvh {
             return;
         }
 
-        let mut children = [node.l, node.r].map(|place| {
-            let child = &self.nodes[place];
+        let mut children = [node.l, node.r].map(|index| {
+            let child = &self.nodes[index];
             (
                 child,
                 child.bbox.hit(ray, ray.range).map(|inside| inside.min),
@@ -117,46 +118,47 @@ impl Bvh {
             children.swap(0, 1);
         }
         for (child, entry) in children {
-            self.visit(child, entry, ray, closest);
+            self.traverse(child, entry, ray, closest);
         }
     }
 }
 
-/// Builds the node over some primitives, which stand from `start` on; returns its place.
+/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Returns the index of the subtree's root.
 fn build_node(
     primitives: &mut [Primitive],
     start: usize,
     max_leaf_size: usize,
     nodes: &mut Vec<Node>,
 ) -> usize {
-    let bbox = around(primitives);
-    let place = nodes.len();
+    let bbox = bounds_of(primitives);
+    let index = nodes.len();
     nodes.push(Node::leaf(bbox, start, primitives.len()));
     if primitives.len() > max_leaf_size {
         let middle = split(primitives);
         let (left, right) = primitives.split_at_mut(middle);
         let l = build_node(left, start, max_leaf_size, nodes);
         let r = build_node(right, start + middle, max_leaf_size, nodes);
-        nodes[place] = Node::interior(bbox, l, r);
+        nodes[index] = Node::interior(bbox, l, r);
     }
-    place
+    index
 }
 
-/// What it costs to go through a node, and to ask a primitive.
+/// The costs of traversing a node and of testing a primitive.
 const C_TRAV: f32 = 1.0;
 const C_ISECT: f32 = 2.0;
 
-/// Slices along each axis.
+/// The number of buckets along each axis.
 const BUCKETS: usize = 16;
 
-/// Brings the primitives of the cheapest partition's one side to the front; returns their number.
+/// Partitions the primitives in place by the cheapest split; returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
-    let over = around_centers(primitives);
-    // A row of points has no area; any divisor will do then.
-    let node_area = around(primitives).surface_area().max(f32::MIN_POSITIVE);
+    let over = bounds_of_centers(primitives);
+    // The area of a row of points is 0; any divisor will do in that case.
+    let node_area = bounds_of(primitives).surface_area().max(f32::MIN_POSITIVE);
     let bucket = |primitive: &Primitive, axis: usize| {
-        let place = primitive.bbox().center()[axis] - over.min[axis];
-        let part = place / (over.max[axis] - over.min[axis]);
+        let offset = primitive.bbox().center()[axis] - over.min[axis];
+        let part = offset / (over.max[axis] - over.min[axis]);
         ((part * BUCKETS as f32) as usize).min(BUCKETS - 1)
     };
 
@@ -197,13 +199,14 @@ impl Bucket {
         size: 0,
     };
 
-    /// Before it is divided by the area of the node and multiplied by the cost of a test.
+    /// Returns the cost before division by the node's area and multiplication by the cost of a
+    /// test.
     fn cost(self) -> f32 {
         self.bbox.surface_area() * self.size as f32
     }
 }
 
-/// Several buckets together.
+/// Merges several buckets into one.
 fn side(buckets: &[Bucket]) -> Bucket {
     buckets.iter().fold(Bucket::EMPTY, |mut all, bucket| {
         all.bbox.enclose(bucket.bbox);
@@ -212,7 +215,7 @@ fn side(buckets: &[Bucket]) -> Bucket {
     })
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());
@@ -220,7 +223,7 @@ fn around(primitives: &[Primitive]) -> BBox {
     all
 }
 
-fn around_centers(primitives: &[Primitive]) -> BBox {
+fn bounds_of_centers(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose_point(primitive.bbox().center());

@@ -1,6 +1,6 @@
-//! Pushes what is to the left of a node, then the node, then what is to the right: the root stands
-//! somewhere in the middle. The buckets divide the node's box. The walk: best first, from a heap:
-//! of all open nodes the one that begins nearest.
+//! Pushes the left subtree of a node, then the node, then the right subtree, so that the root is in
+//! the middle; the buckets divide the node's own box. Traversal: best first, with a heap: of all
+//! open nodes, the one whose box begins nearest is entered next.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -10,23 +10,23 @@ use protocol::{Ray, Trace};
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -37,7 +37,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -48,7 +48,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -57,16 +57,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -75,7 +75,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by the surface area heuristic.
+    /// Builds the tree with the surface area heuristic (SAH).
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         let root = if primitives.is_empty() {
@@ -86,33 +86,34 @@ impl Bvh {
         Bvh::from_nodes(primitives, nodes, root)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let root = self.nodes.get(self.root)?;
         let mut ray = *ray;
         let mut closest = None;
-        let mut open = BinaryHeap::from_iter(Open::new(root, &ray));
-        while let Some(Open { node, entry }) = open.pop() {
-            // All others begin even later.
+        let mut open = BinaryHeap::from_iter(OpenNode::new(root, &ray));
+        while let Some(OpenNode { node, entry }) = open.pop() {
+            // All other open nodes begin even farther away.
             if entry > ray.range.max {
                 break;
             }
             if node.is_leaf() {
-                self.ask(node, &mut ray, &mut closest);
+                self.test_leaf(node, &mut ray, &mut closest);
             } else {
-                let children = [node.l, node.r].map(|place| &self.nodes[place]);
+                let children = [node.l, node.r].map(|index| &self.nodes[index]);
                 open.extend(
                     children
                         .into_iter()
-                        .filter_map(|child| Open::new(child, &ray)),
+                        .filter_map(|child| OpenNode::new(child, &ray)),
                 );
             }
         }
         closest
     }
 
-    /// Asks the primitives of a leaf. A hit shortens the ray, so that only nearer ones follow.
-    fn ask(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
+    /// Tests the primitives of a leaf. A hit shortens the ray, so later hits must be closer.
+    fn test_leaf(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
         for primitive in &self.primitives[leaf.start..leaf.start + leaf.size] {
             if let Some(trace) = primitive.hit(ray) {
                 ray.range.max = trace.distance;
@@ -122,48 +123,49 @@ impl Bvh {
     }
 }
 
-/// A node that is still to be entered; the greatest is the one whose box begins nearest.
-struct Open<'a> {
+/// A node to be entered. The one whose box begins nearest is the greatest.
+struct OpenNode<'a> {
     node: &'a Node,
     entry: f32,
 }
 
-impl<'a> Open<'a> {
-    /// None if the ray misses the box.
+impl<'a> OpenNode<'a> {
+    /// Returns `None` if the ray misses the box.
     fn new(node: &'a Node, ray: &Ray) -> Option<Self> {
         let entry = node.bbox.hit(ray, ray.range)?.min;
-        Some(Open { node, entry })
+        Some(OpenNode { node, entry })
     }
 }
 
-impl Ord for Open<'_> {
+impl Ord for OpenNode<'_> {
     fn cmp(&self, other: &Self) -> Ordering {
         other.entry.total_cmp(&self.entry)
     }
 }
 
-impl PartialOrd for Open<'_> {
+impl PartialOrd for OpenNode<'_> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Open<'_> {
+impl PartialEq for OpenNode<'_> {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Open<'_> {}
+impl Eq for OpenNode<'_> {}
 
-/// Builds the node over some primitives, which stand from `start` on; returns its place.
+/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Returns the index of the subtree's root.
 fn build_node(
     primitives: &mut [Primitive],
     start: usize,
     max_leaf_size: usize,
     nodes: &mut Vec<Node>,
 ) -> usize {
-    let bbox = around(primitives);
+    let bbox = bounds_of(primitives);
     if primitives.len() <= max_leaf_size {
         nodes.push(Node::leaf(bbox, start, primitives.len()));
         return nodes.len() - 1;
@@ -171,22 +173,22 @@ fn build_node(
     let middle = split(primitives);
     let (left, right) = primitives.split_at_mut(middle);
     let l = build_node(left, start, max_leaf_size, nodes);
-    let place = nodes.len();
+    let index = nodes.len();
     nodes.push(Node::leaf(bbox, start, 0));
     let r = build_node(right, start + middle, max_leaf_size, nodes);
-    nodes[place] = Node::interior(bbox, l, r);
-    place
+    nodes[index] = Node::interior(bbox, l, r);
+    index
 }
 
-/// Slices along each axis.
+/// The number of buckets along each axis.
 const BUCKETS: usize = 20;
 
-/// Brings the primitives of the cheapest partition's one side to the front; returns their number.
+/// Partitions the primitives in place by the cheapest split; returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
-    let over = around(primitives);
+    let over = bounds_of(primitives);
     let bucket = |primitive: &Primitive, axis: usize| {
-        let place = primitive.bbox().center()[axis] - over.min[axis];
-        let part = place / (over.max[axis] - over.min[axis]);
+        let offset = primitive.bbox().center()[axis] - over.min[axis];
+        let part = offset / (over.max[axis] - over.min[axis]);
         ((part * BUCKETS as f32) as usize).min(BUCKETS - 1)
     };
 
@@ -232,7 +234,7 @@ impl Bucket {
     }
 }
 
-/// Several buckets together.
+/// Merges several buckets into one.
 fn side(buckets: &[Bucket]) -> Bucket {
     buckets.iter().fold(Bucket::EMPTY, |mut all, bucket| {
         all.bbox.enclose(bucket.bbox);
@@ -241,7 +243,7 @@ fn side(buckets: &[Bucket]) -> Bucket {
     })
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());

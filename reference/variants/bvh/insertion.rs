@@ -1,7 +1,7 @@
-//! One primitive after the other goes down to where it adds the least area: Goldsmith and Salmon,
+//! Inserts one primitive after the other where it adds the least area: Goldsmith and Salmon,
 //! "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE Computer Graphics and
-//! Applications 7(5), 1987. The walk: best first, from a heap: of all open nodes the one that
-//! begins nearest.
+//! Applications 7(5), 1987. Traversal: best first, with a heap: of all open nodes, the one whose
+//! box begins nearest is entered next.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -11,23 +11,23 @@ use protocol::{Ray, Trace};
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -38,7 +38,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -49,7 +49,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -58,16 +58,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -76,7 +76,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by putting in one primitive after the other.
+    /// Builds the tree by inserting one primitive after the other.
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let (mut nodes, mut ordered) = (Vec::new(), Vec::new());
         let mut root = 0;
@@ -86,33 +86,34 @@ impl Bvh {
         Bvh::from_nodes(ordered, nodes, root)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let root = self.nodes.get(self.root)?;
         let mut ray = *ray;
         let mut closest = None;
-        let mut open = BinaryHeap::from_iter(Open::new(root, &ray));
-        while let Some(Open { node, entry }) = open.pop() {
-            // All others begin even later.
+        let mut open = BinaryHeap::from_iter(OpenNode::new(root, &ray));
+        while let Some(OpenNode { node, entry }) = open.pop() {
+            // All other open nodes begin even farther away.
             if entry > ray.range.max {
                 break;
             }
             if node.is_leaf() {
-                self.ask(node, &mut ray, &mut closest);
+                self.test_leaf(node, &mut ray, &mut closest);
             } else {
-                let children = [node.l, node.r].map(|place| &self.nodes[place]);
+                let children = [node.l, node.r].map(|index| &self.nodes[index]);
                 open.extend(
                     children
                         .into_iter()
-                        .filter_map(|child| Open::new(child, &ray)),
+                        .filter_map(|child| OpenNode::new(child, &ray)),
                 );
             }
         }
         closest
     }
 
-    /// Asks the primitives of a leaf. A hit shortens the ray, so that only nearer ones follow.
-    fn ask(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
+    /// Tests the primitives of a leaf. A hit shortens the ray, so later hits must be closer.
+    fn test_leaf(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
         for primitive in &self.primitives[leaf.start..leaf.start + leaf.size] {
             if let Some(trace) = primitive.hit(ray) {
                 ray.range.max = trace.distance;
@@ -122,46 +123,46 @@ impl Bvh {
     }
 }
 
-/// A node that is still to be entered; the greatest is the one whose box begins nearest.
-struct Open<'a> {
+/// A node to be entered. The one whose box begins nearest is the greatest.
+struct OpenNode<'a> {
     node: &'a Node,
     entry: f32,
 }
 
-impl<'a> Open<'a> {
-    /// None if the ray misses the box.
+impl<'a> OpenNode<'a> {
+    /// Returns `None` if the ray misses the box.
     fn new(node: &'a Node, ray: &Ray) -> Option<Self> {
         let entry = node.bbox.hit(ray, ray.range)?.min;
-        Some(Open { node, entry })
+        Some(OpenNode { node, entry })
     }
 }
 
-impl Ord for Open<'_> {
+impl Ord for OpenNode<'_> {
     fn cmp(&self, other: &Self) -> Ordering {
         other.entry.total_cmp(&self.entry)
     }
 }
 
-impl PartialOrd for Open<'_> {
+impl PartialOrd for OpenNode<'_> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Open<'_> {
+impl PartialEq for OpenNode<'_> {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Open<'_> {}
+impl Eq for OpenNode<'_> {}
 
 fn insert_all(primitives: Vec<Primitive>) -> Option<Cluster> {
     let clusters = primitives.into_iter().map(Cluster::one);
     clusters.reduce(|tree, next| tree.with(next))
 }
 
-/// A part of the tree that is finished, but for what is above it.
+/// A finished subtree.
 struct Cluster {
     bbox: BBox,
     size: usize,
@@ -192,17 +193,17 @@ impl Cluster {
         }
     }
 
-    /// The area of the box around both: what it costs to join them.
+    /// Returns the area of the box around both clusters, which is the cost of merging them.
     fn distance(&self, other: &Cluster) -> f32 {
         let mut both = self.bbox;
         both.enclose(other.bbox);
         both.surface_area()
     }
 
-    /// The cluster with one more primitive in it.
+    /// Returns the cluster with one more primitive.
     fn with(self, new: Cluster) -> Cluster {
-        // What it costs to put it beside this node, or further down: the area of the box around
-        // what is joined, and the growth of all that is above.
+        // The costs of making it this node's sibling, or of inserting it below a child: the area of
+        // the new common box, plus the growth of the boxes above it.
         let beside = self.distance(&new);
         let growth = beside - self.bbox.surface_area();
         let Parts::Two(a, b) = self.parts else {
@@ -222,7 +223,7 @@ impl Cluster {
         }
     }
 
-    /// Appends the primitives in the cluster.
+    /// Appends the primitives of the cluster.
     fn unpack(self, primitives: &mut Vec<Primitive>) {
         match self.parts {
             Parts::One(primitive) => primitives.push(primitive),
@@ -233,14 +234,19 @@ impl Cluster {
         }
     }
 
-    /// Appends the cluster's nodes and primitives; returns the place of its root. Whatever fits
-    /// into a leaf becomes one.
-    fn flatten(self, most: usize, nodes: &mut Vec<Node>, primitives: &mut Vec<Primitive>) -> usize {
+    /// Appends the nodes and primitives of the cluster, and returns the index of its root. A
+    /// cluster that fits in a leaf becomes a leaf.
+    fn flatten(
+        self,
+        max_leaf_size: usize,
+        nodes: &mut Vec<Node>,
+        primitives: &mut Vec<Primitive>,
+    ) -> usize {
         let (bbox, size) = (self.bbox, self.size);
         let node = match self.parts {
-            Parts::Two(a, b) if size > most => {
-                let l = a.flatten(most, nodes, primitives);
-                let r = b.flatten(most, nodes, primitives);
+            Parts::Two(a, b) if size > max_leaf_size => {
+                let l = a.flatten(max_leaf_size, nodes, primitives);
+                let r = b.flatten(max_leaf_size, nodes, primitives);
                 Node::interior(bbox, l, r)
             }
             Parts::One(_) | Parts::Two(..) => {

@@ -1,7 +1,7 @@
-//! From below: along the Z-order curve each cluster looks for its nearest among a few neighbours,
-//! and two that chose each other join. Meister and Bittner, "Parallel Locally-Ordered Clustering
-//! for Bounding Volume Hierarchy Construction", IEEE TVCG 24(3), 2018. The walk: first all leaves
-//! that the ray meets are listed, then asked from near to far.
+//! Bottom-up: each cluster finds its nearest neighbour in a window along the Z-order curve, and two
+//! clusters that chose each other are merged. Meister and Bittner, "Parallel Locally-Ordered
+//! Clustering for Bounding Volume Hierarchy Construction", IEEE TVCG 24(3), 2018. Traversal: all
+//! leaves that the ray hits are listed first, and then tested from near to far.
 
 use glam::Vec3;
 use protocol::{Ray, Trace};
@@ -9,23 +9,23 @@ use protocol::{Ray, Trace};
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -36,7 +36,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -47,7 +47,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -56,16 +56,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -74,17 +74,18 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree from below.
+    /// Builds the tree bottom-up.
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let (mut nodes, mut ordered) = (Vec::new(), Vec::new());
         let mut root = 0;
-        if let Some(cluster) = join_all(primitives) {
+        if let Some(cluster) = merge_all(primitives) {
             root = cluster.flatten(max_leaf_size.max(1), &mut nodes, &mut ordered);
         }
         Bvh::from_nodes(ordered, nodes, root)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let mut leaves = Vec::new();
         if let Some(root) = self.nodes.get(self.root) {
@@ -104,7 +105,7 @@ impl Bvh {
         closest
     }
 
-    /// Lists the leaves below `node` whose boxes the ray meets, with the times when it does.
+    /// Lists the leaves below `node` whose boxes the ray hits, with their entry distances.
     fn list_leaves<'a>(&'a self, node: &'a Node, ray: &Ray, leaves: &mut Vec<(f32, &'a Node)>) {
         let Some(inside) = node.bbox.hit(ray, ray.range) else {
             return;
@@ -118,11 +119,11 @@ impl Bvh {
     }
 }
 
-/// How many neighbours to each side are looked at.
+/// The number of neighbours to each side among which a cluster chooses.
 const RADIUS: usize = 16;
 
-fn join_all(mut primitives: Vec<Primitive>) -> Option<Cluster> {
-    let centers = around_centers(&primitives);
+fn merge_all(mut primitives: Vec<Primitive>) -> Option<Cluster> {
+    let centers = bounds_of_centers(&primitives);
     primitives.sort_by_cached_key(|p| morton_code(p.bbox().center(), &centers));
     let mut clusters: Vec<Cluster> = primitives.into_iter().map(Cluster::one).collect();
     while clusters.len() > 1 {
@@ -130,7 +131,7 @@ fn join_all(mut primitives: Vec<Primitive>) -> Option<Cluster> {
         let mut waiting: Vec<Option<Cluster>> = clusters.into_iter().map(Some).collect();
         clusters = Vec::new();
         for i in 0..waiting.len() {
-            // The later one of a pair is gone already.
+            // The second cluster of a pair has already been merged.
             let Some(cluster) = waiting[i].take() else {
                 continue;
             };
@@ -145,8 +146,8 @@ fn join_all(mut primitives: Vec<Primitive>) -> Option<Cluster> {
     clusters.pop()
 }
 
-/// The cluster within the radius that is nearest to the one at `i`. The two nearest of all always
-/// choose each other: of several at the same distance the first pair in the list counts.
+/// Returns the cluster within the radius that is nearest to the one at `i`. Ties go to the first
+/// pair in the list, so that the two nearest clusters of all always choose each other.
 fn nearest(clusters: &[Cluster], i: usize) -> usize {
     let window = i.saturating_sub(RADIUS)..clusters.len().min(i + RADIUS + 1);
     let others = window.filter(|&other| other != i);
@@ -158,7 +159,7 @@ fn nearest(clusters: &[Cluster], i: usize) -> usize {
     nearest.expect("there are two clusters at least, and RADIUS is not 0")
 }
 
-/// A part of the tree that is finished, but for what is above it.
+/// A finished subtree.
 struct Cluster {
     bbox: BBox,
     size: usize,
@@ -189,14 +190,14 @@ impl Cluster {
         }
     }
 
-    /// The area of the box around both: what it costs to join them.
+    /// Returns the area of the box around both clusters, which is the cost of merging them.
     fn distance(&self, other: &Cluster) -> f32 {
         let mut both = self.bbox;
         both.enclose(other.bbox);
         both.surface_area()
     }
 
-    /// Appends the primitives in the cluster.
+    /// Appends the primitives of the cluster.
     fn unpack(self, primitives: &mut Vec<Primitive>) {
         match self.parts {
             Parts::One(primitive) => primitives.push(primitive),
@@ -207,14 +208,19 @@ impl Cluster {
         }
     }
 
-    /// Appends the cluster's nodes and primitives; returns the place of its root. Whatever fits
-    /// into a leaf becomes one.
-    fn flatten(self, most: usize, nodes: &mut Vec<Node>, primitives: &mut Vec<Primitive>) -> usize {
+    /// Appends the nodes and primitives of the cluster, and returns the index of its root. A
+    /// cluster that fits in a leaf becomes a leaf.
+    fn flatten(
+        self,
+        max_leaf_size: usize,
+        nodes: &mut Vec<Node>,
+        primitives: &mut Vec<Primitive>,
+    ) -> usize {
         let (bbox, size) = (self.bbox, self.size);
         let node = match self.parts {
-            Parts::Two(a, b) if size > most => {
-                let l = a.flatten(most, nodes, primitives);
-                let r = b.flatten(most, nodes, primitives);
+            Parts::Two(a, b) if size > max_leaf_size => {
+                let l = a.flatten(max_leaf_size, nodes, primitives);
+                let r = b.flatten(max_leaf_size, nodes, primitives);
                 Node::interior(bbox, l, r)
             }
             Parts::One(_) | Parts::Two(..) => {
@@ -228,7 +234,8 @@ impl Cluster {
     }
 }
 
-/// The place of a point in the box along the Z-order curve: three times 16 bits, interleaved.
+/// Returns the position of a point in the box along the Z-order curve: three times 16 bits,
+/// interleaved.
 fn morton_code(point: Vec3, bbox: &BBox) -> u64 {
     let size = (bbox.max - bbox.min).max(Vec3::splat(f32::MIN_POSITIVE));
     let cell = ((point - bbox.min) / size * 65535.0).as_uvec3();
@@ -240,7 +247,7 @@ fn morton_code(point: Vec3, bbox: &BBox) -> u64 {
     })
 }
 
-fn around_centers(primitives: &[Primitive]) -> BBox {
+fn bounds_of_centers(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose_point(primitive.bbox().center());

@@ -1,29 +1,29 @@
-//! Half of the primitives to each side, in the order of their centers along the longest axis. No
-//! areas are looked at. The walk: without a stack, again from the root along a trail of bits
-//! (Laine, "Restart Trail for Stackless BVH Traversal", 2010).
+//! Splits the primitives into two halves of equal count, in the order of their centres along the
+//! longest axis. Areas are not considered. Traversal: without a stack, restarting from the root
+//! along a trail of bits (Laine, "Restart Trail for Stackless BVH Traversal", 2010).
 
 use protocol::{Ray, Trace};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -34,7 +34,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -45,7 +45,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -54,16 +54,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -72,7 +72,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by halves of equal number.
+    /// Builds the tree by median splits.
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         if !primitives.is_empty() {
@@ -81,14 +81,16 @@ impl Bvh {
         Bvh::from_nodes(primitives, nodes, 0)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let root = self.nodes.get(self.root)?;
         root.bbox.hit(ray, ray.range)?;
         let mut closest = None;
         let mut rest = *ray;
 
-        // One bit for each level, the root's on top: 1 where the last child is being done.
+        // One bit for each level, with the root's at the top: 1 if the level's last child is being
+        // traversed.
         let mut trail = 0_u64;
         while trail < DONE {
             let mut node = root;
@@ -107,19 +109,19 @@ impl Bvh {
                 }
             }
             if node.is_leaf() {
-                self.ask(node, &mut rest, &mut closest);
+                self.test_leaf(node, &mut rest, &mut closest);
             }
 
-            // To the next child: adding a one carries up past all levels that are done with.
+            // Move to the next child: adding a one carries up past all finished levels.
             trail = (trail & !(parent_bit - 1)) + parent_bit;
         }
         closest
     }
 
-    /// The children of an interior node whose boxes the whole ray meets, with the times at which
-    /// it enters them, the earlier first. Always the same for the same ray.
+    /// Returns the children of an interior node whose boxes the whole ray hits, with their entry
+    /// distances, the nearer child first. The result is always the same for the same ray.
     fn in_order(&self, node: &Node, ray: &Ray) -> [Option<(usize, f32)>; 2] {
-        let enter = |place: usize| Some((place, self.nodes[place].bbox.hit(ray, ray.range)?.min));
+        let enter = |index: usize| Some((index, self.nodes[index].bbox.hit(ray, ray.range)?.min));
         match (enter(node.l), enter(node.r)) {
             (Some(l), Some(r)) if r.1 < l.1 => [Some(r), Some(l)],
             (None, r) => [r, None],
@@ -127,8 +129,8 @@ impl Bvh {
         }
     }
 
-    /// Asks the primitives of a leaf. A hit shortens the ray, so that only nearer ones follow.
-    fn ask(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
+    /// Tests the primitives of a leaf. A hit shortens the ray, so later hits must be closer.
+    fn test_leaf(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
         for primitive in &self.primitives[leaf.start..leaf.start + leaf.size] {
             if let Some(trace) = primitive.hit(ray) {
                 ray.range.max = trace.distance;
@@ -138,32 +140,33 @@ impl Bvh {
     }
 }
 
-/// The bit above the root's: enough for trees of 62 levels.
+/// The bit above the root's, which leaves enough bits for trees of 62 levels.
 const DONE: u64 = 1 << 63;
 
-/// Builds the node over some primitives, which stand from `start` on; returns its place.
+/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Returns the index of the subtree's root.
 fn build_node(
     primitives: &mut [Primitive],
     start: usize,
     max_leaf_size: usize,
     nodes: &mut Vec<Node>,
 ) -> usize {
-    let bbox = around(primitives);
-    let place = nodes.len();
+    let bbox = bounds_of(primitives);
+    let index = nodes.len();
     nodes.push(Node::leaf(bbox, start, primitives.len()));
     if primitives.len() > max_leaf_size {
         let middle = split(primitives);
         let (left, right) = primitives.split_at_mut(middle);
         let l = build_node(left, start, max_leaf_size, nodes);
         let r = build_node(right, start + middle, max_leaf_size, nodes);
-        nodes[place] = Node::interior(bbox, l, r);
+        nodes[index] = Node::interior(bbox, l, r);
     }
-    place
+    index
 }
 
-/// Brings the half with the smaller centers along the longest axis to the front.
+/// Moves the half with the smaller centres along the longest axis to the front.
 fn split(primitives: &mut [Primitive]) -> usize {
-    let centers = around_centers(primitives);
+    let centers = bounds_of_centers(primitives);
     let axis = (centers.max - centers.min).max_position();
     let center = |primitive: &Primitive| primitive.bbox().center()[axis];
     let middle = primitives.len() / 2;
@@ -171,7 +174,7 @@ fn split(primitives: &mut [Primitive]) -> usize {
     middle
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());
@@ -179,7 +182,7 @@ fn around(primitives: &[Primitive]) -> BBox {
     all
 }
 
-fn around_centers(primitives: &[Primitive]) -> BBox {
+fn bounds_of_centers(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose_point(primitive.bbox().center());

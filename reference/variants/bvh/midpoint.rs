@@ -1,28 +1,28 @@
-//! At the middle of the longest axis, wherever the primitives are. No areas are looked at. The
-//! walk: a parent tests both boxes and passes the limit down.
+//! Splits at the middle of the longest axis, wherever the primitives are. Areas are not considered.
+//! Traversal: a parent tests both boxes and passes the entry distances down.
 
 use protocol::{Ray, Trace};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -33,7 +33,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -44,7 +44,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -53,16 +53,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -71,7 +71,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by halves of equal width.
+    /// Builds the tree by splits at the middle.
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         if !primitives.is_empty() {
@@ -80,18 +80,19 @@ impl Bvh {
         Bvh::from_nodes(primitives, nodes, 0)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let mut closest = None;
         if let Some(root) = self.nodes.get(self.root) {
             let entry = root.bbox.hit(ray, ray.range).map(|inside| inside.min);
-            self.visit(root, entry, ray, &mut closest);
+            self.traverse(root, entry, ray, &mut closest);
         }
         closest
     }
 
-    /// Looks for a nearer hit below `node`, which the ray enters at `entry`, if at all.
-    fn visit(&self, node: &Node, entry: Option<f32>, ray: &Ray, closest: &mut Option<Trace>) {
+    /// Looks for a closer hit below `node`. `entry` is `None` if the ray misses its box.
+    fn traverse(&self, node: &Node, entry: Option<f32>, ray: &Ray, closest: &mut Option<Trace>) {
         let limit = closest.map_or(f32::INFINITY, |closest| closest.distance);
         if entry.is_none_or(|entry| entry >= limit) {
             return;
@@ -103,8 +104,8 @@ impl Bvh {
             return;
         }
 
-        let mut children = [node.l, node.r].map(|place| {
-            let child = &self.nodes[place];
+        let mut children = [node.l, node.r].map(|index| {
+            let child = &self.nodes[index];
             (
                 child,
                 child.bbox.hit(ray, ray.range).map(|inside| inside.min),
@@ -116,45 +117,46 @@ impl Bvh {
             children.swap(0, 1);
         }
         for (child, entry) in children {
-            self.visit(child, entry, ray, closest);
+            self.traverse(child, entry, ray, closest);
         }
     }
 }
 
-/// Builds the node over some primitives, which stand from `start` on; returns its place.
+/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Returns the index of the subtree's root.
 fn build_node(
     primitives: &mut [Primitive],
     start: usize,
     max_leaf_size: usize,
     nodes: &mut Vec<Node>,
 ) -> usize {
-    let bbox = around(primitives);
-    let place = nodes.len();
+    let bbox = bounds_of(primitives);
+    let index = nodes.len();
     nodes.push(Node::leaf(bbox, start, primitives.len()));
     if primitives.len() > max_leaf_size {
         let middle = split(primitives);
         let (left, right) = primitives.split_at_mut(middle);
         let l = build_node(left, start, max_leaf_size, nodes);
         let r = build_node(right, start + middle, max_leaf_size, nodes);
-        nodes[place] = Node::interior(bbox, l, r);
+        nodes[index] = Node::interior(bbox, l, r);
     }
-    place
+    index
 }
 
-/// Brings those before the middle of the longest axis of the centers to the front.
+/// Moves the primitives before the middle of the centres' longest axis to the front.
 fn split(primitives: &mut [Primitive]) -> usize {
-    let centers = around_centers(primitives);
+    let centers = bounds_of_centers(primitives);
     let axis = (centers.max - centers.min).max_position();
     let is_right =
         |primitive: &Primitive| primitive.bbox().center()[axis] >= centers.center()[axis];
     primitives.sort_by_key(is_right);
     match primitives.partition_point(|primitive| !is_right(primitive)) {
-        0 => primitives.len() / 2, // All centers coincide.
+        0 => primitives.len() / 2, // All centres coincide.
         middle => middle,
     }
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());
@@ -162,7 +164,7 @@ fn around(primitives: &[Primitive]) -> BBox {
     all
 }
 
-fn around_centers(primitives: &[Primitive]) -> BBox {
+fn bounds_of_centers(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose_point(primitive.bbox().center());

@@ -1,7 +1,7 @@
-//! Puts the primitives along the Z-order curve and splits where the highest bit of their codes
+//! Sorts the primitives along the Z-order curve and splits where the highest bit of their codes
 //! changes: Lauterbach et al., "Fast BVH Construction on GPUs", Computer Graphics Forum 28(2),
-//! 2009. No areas are looked at. The walk: up to four children at once, found when the tree is
-//! made (Wald, Benthin and Boulos, "Getting Rid of Packets", 2008).
+//! 2009. Areas are not considered. Traversal: up to four children at once, which are found when the
+//! tree is built (Wald, Benthin and Boulos, "Getting Rid of Packets", 2008).
 
 use glam::Vec3;
 use protocol::{Ray, Trace};
@@ -9,23 +9,23 @@ use protocol::{Ray, Trace};
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -36,7 +36,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -47,7 +47,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -56,18 +56,18 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
-    /// For each interior node, the up to four nodes that stand in for its children.
+    /// For each interior node, up to four descendants that replace its children.
     wide: Vec<Vec<usize>>,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         let wide = nodes.iter().map(|node| up_to_four(&nodes, node)).collect();
         Bvh {
@@ -80,7 +80,7 @@ impl Bvh {
 
     /// Builds the tree along the Z-order curve.
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
-        let centers = around_centers(&primitives);
+        let centers = bounds_of_centers(&primitives);
         let code = |primitive: &Primitive| morton_code(primitive.bbox().center(), &centers);
         primitives.sort_by_cached_key(code);
         let codes: Vec<u64> = primitives.iter().map(code).collect();
@@ -92,35 +92,36 @@ impl Bvh {
         Bvh::from_nodes(primitives, nodes, 0)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let root = self.nodes.get(self.root)?;
         root.bbox.hit(ray, ray.range)?;
         let mut closest = None;
-        self.visit(self.root, &mut ray.clone(), &mut closest);
+        self.traverse(self.root, &mut ray.clone(), &mut closest);
         closest
     }
 
-    /// Looks for a hit below the node at `place`, whose box the ray is known to meet.
-    fn visit(&self, place: usize, ray: &mut Ray, closest: &mut Option<Trace>) {
-        let node = &self.nodes[place];
+    /// Looks for a closer hit below the node at `index`, whose box the ray is known to hit.
+    fn traverse(&self, index: usize, ray: &mut Ray, closest: &mut Option<Trace>) {
+        let node = &self.nodes[index];
         if node.is_leaf() {
-            return self.ask(node, ray, closest);
+            return self.test_leaf(node, ray, closest);
         }
-        let hit = self.wide[place]
+        let hit = self.wide[index]
             .iter()
             .filter_map(|&child| Some((self.nodes[child].bbox.hit(ray, ray.range)?.min, child)));
         let mut ahead: Vec<(f32, usize)> = hit.collect();
         ahead.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (entry, child) in ahead {
             if entry <= ray.range.max {
-                self.visit(child, ray, closest);
+                self.traverse(child, ray, closest);
             }
         }
     }
 
-    /// Asks the primitives of a leaf. A hit shortens the ray, so that only nearer ones follow.
-    fn ask(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
+    /// Tests the primitives of a leaf. A hit shortens the ray, so later hits must be closer.
+    fn test_leaf(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
         for primitive in &self.primitives[leaf.start..leaf.start + leaf.size] {
             if let Some(trace) = primitive.hit(ray) {
                 ray.range.max = trace.distance;
@@ -130,14 +131,15 @@ impl Bvh {
     }
 }
 
-/// Replaces the children of a node by theirs, the largest first, while there are fewer than four.
+/// Returns up to four descendants of a node: while there are fewer, the child with the largest box
+/// is replaced by its own children.
 fn up_to_four(nodes: &[Node], node: &Node) -> Vec<usize> {
     if node.is_leaf() {
         return Vec::new();
     }
     let mut children = vec![node.l, node.r];
     while children.len() < 4 {
-        let area = |place: &usize| nodes[*place].bbox.surface_area();
+        let area = |index: &usize| nodes[*index].bbox.surface_area();
         let interior = (0..children.len()).filter(|&i| !nodes[children[i]].is_leaf());
         let largest = interior.max_by(|&a, &b| area(&children[a]).total_cmp(&area(&children[b])));
         let Some(i) = largest else { break };
@@ -147,7 +149,8 @@ fn up_to_four(nodes: &[Node], node: &Node) -> Vec<usize> {
     children
 }
 
-/// Builds the node over some primitives, which stand from `start` on; returns its place.
+/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Returns the index of the subtree's root.
 fn build_node(
     primitives: &[Primitive],
     codes: &[u64],
@@ -155,8 +158,8 @@ fn build_node(
     max_leaf_size: usize,
     nodes: &mut Vec<Node>,
 ) -> usize {
-    let bbox = around(primitives);
-    let place = nodes.len();
+    let bbox = bounds_of(primitives);
+    let index = nodes.len();
     nodes.push(Node::leaf(bbox, start, primitives.len()));
     if primitives.len() > max_leaf_size {
         let middle = split(codes);
@@ -169,12 +172,13 @@ fn build_node(
         );
         let (primitives, codes) = (&primitives[middle..], &codes[middle..]);
         let r = build_node(primitives, codes, start + middle, max_leaf_size, nodes);
-        nodes[place] = Node::interior(bbox, l, r);
+        nodes[index] = Node::interior(bbox, l, r);
     }
-    place
+    index
 }
 
-/// How many of the codes, which are in order, have a zero where they first differ.
+/// Returns the number of codes that have a zero at the highest bit in which the codes differ. The
+/// codes must be sorted.
 fn split(codes: &[u64]) -> usize {
     let differ = codes[0] ^ codes[codes.len() - 1];
     match differ.checked_ilog2() {
@@ -183,7 +187,8 @@ fn split(codes: &[u64]) -> usize {
     }
 }
 
-/// The place of a point in the box along the Z-order curve: three times 16 bits, interleaved.
+/// Returns the position of a point in the box along the Z-order curve: three times 16 bits,
+/// interleaved.
 fn morton_code(point: Vec3, bbox: &BBox) -> u64 {
     let size = (bbox.max - bbox.min).max(Vec3::splat(f32::MIN_POSITIVE));
     let cell = ((point - bbox.min) / size * 65535.0).as_uvec3();
@@ -195,7 +200,7 @@ fn morton_code(point: Vec3, bbox: &BBox) -> u64 {
     })
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());
@@ -203,7 +208,7 @@ fn around(primitives: &[Primitive]) -> BBox {
     all
 }
 
-fn around_centers(primitives: &[Primitive]) -> BBox {
+fn bounds_of_centers(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose_point(primitive.bbox().center());

@@ -1,30 +1,30 @@
-//! From below: the two clusters with the smallest box around both join, until one is left: Walter
-//! et al., "Fast Agglomerative Clustering for Rendering", 2008. Nearest pairs are found by
-//! following chains of nearest neighbours, which end at a pair. The walk: a stack of nodes, each
-//! with the time at which the ray enters it.
+//! Bottom-up: the two clusters with the smallest common box are merged, until one is left: Walter
+//! et al., "Fast Agglomerative Clustering for Rendering", 2008. The pairs are found by following
+//! chains of nearest neighbours. Traversal: a stack of nodes, each with the distance at which the
+//! ray enters it.
 
 use protocol::{Ray, Trace};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -35,7 +35,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -46,7 +46,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -55,16 +55,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -73,37 +73,38 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree from below.
+    /// Builds the tree bottom-up.
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let (mut nodes, mut ordered) = (Vec::new(), Vec::new());
         let mut root = 0;
-        if let Some(cluster) = join_all(primitives) {
+        if let Some(cluster) = merge_all(primitives) {
             root = cluster.flatten(max_leaf_size.max(1), &mut nodes, &mut ordered);
         }
         Bvh::from_nodes(ordered, nodes, root)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let root = self.nodes.get(self.root)?;
         let mut ray = *ray;
         let mut closest = None;
         let mut open = vec![(root, root.bbox.hit(&ray, ray.range)?.min)];
         while let Some((node, entry)) = open.pop() {
-            // Something nearer may have been hit since the node was put on the stack.
+            // A closer hit may have been found since the node was pushed.
             if entry > ray.range.max {
                 continue;
             }
             if node.is_leaf() {
-                self.ask(node, &mut ray, &mut closest);
+                self.test_leaf(node, &mut ray, &mut closest);
                 continue;
             }
-            let entered = |place: usize| {
-                let child = &self.nodes[place];
+            let entered = |index: usize| {
+                let child = &self.nodes[index];
                 Some((child, child.bbox.hit(&ray, ray.range)?.min))
             };
             match (entered(node.l), entered(node.r)) {
-                // The nearer goes on top.
+                // The nearer child is pushed last, so that it is popped first.
                 (Some(l), Some(r)) if l.1 <= r.1 => open.extend([r, l]),
                 (Some(l), Some(r)) => open.extend([l, r]),
                 (l, r) => open.extend(l.or(r)),
@@ -112,8 +113,8 @@ impl Bvh {
         closest
     }
 
-    /// Asks the primitives of a leaf. A hit shortens the ray, so that only nearer ones follow.
-    fn ask(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
+    /// Tests the primitives of a leaf. A hit shortens the ray, so later hits must be closer.
+    fn test_leaf(&self, leaf: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
         for primitive in &self.primitives[leaf.start..leaf.start + leaf.size] {
             if let Some(trace) = primitive.hit(ray) {
                 ray.range.max = trace.distance;
@@ -123,36 +124,36 @@ impl Bvh {
     }
 }
 
-fn join_all(primitives: Vec<Primitive>) -> Option<Cluster> {
-    let mut apart: Vec<Cluster> = primitives.into_iter().map(Cluster::one).collect();
-    // Each is nearer to its predecessor than that is to its own.
+fn merge_all(primitives: Vec<Primitive>) -> Option<Cluster> {
+    let mut unmerged: Vec<Cluster> = primitives.into_iter().map(Cluster::one).collect();
+    // Each cluster is nearer to its predecessor than the predecessor is to its own.
     let mut chain: Vec<Cluster> = Vec::new();
-    while chain.len() + apart.len() > 1 {
+    while chain.len() + unmerged.len() > 1 {
         let Some(last) = chain.last() else {
-            chain.extend(apart.pop());
+            chain.extend(unmerged.pop());
             continue;
         };
-        let distances = apart.iter().map(|other| last.distance(other));
+        let distances = unmerged.iter().map(|other| last.distance(other));
         let nearest = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
         let back = chain
             .iter()
             .nth_back(1)
             .map(|previous| last.distance(previous));
         match nearest {
-            // If there is no nearer one than where the chain came from, the two are a pair.
-            Some((place, distance)) if back.is_none_or(|back| distance < back) => {
-                chain.push(apart.swap_remove(place));
+            // If no cluster is nearer than the predecessor in the chain, the two are a pair.
+            Some((index, distance)) if back.is_none_or(|back| distance < back) => {
+                chain.push(unmerged.swap_remove(index));
             }
             Some(_) | None => {
                 let pair = chain.pop().zip(chain.pop());
-                apart.extend(pair.map(|(a, b)| Cluster::two(a, b)));
+                unmerged.extend(pair.map(|(a, b)| Cluster::two(a, b)));
             }
         }
     }
-    apart.pop().or(chain.pop())
+    unmerged.pop().or(chain.pop())
 }
 
-/// A part of the tree that is finished, but for what is above it.
+/// A finished subtree.
 struct Cluster {
     bbox: BBox,
     size: usize,
@@ -183,14 +184,14 @@ impl Cluster {
         }
     }
 
-    /// The area of the box around both: what it costs to join them.
+    /// Returns the area of the box around both clusters, which is the cost of merging them.
     fn distance(&self, other: &Cluster) -> f32 {
         let mut both = self.bbox;
         both.enclose(other.bbox);
         both.surface_area()
     }
 
-    /// Appends the primitives in the cluster.
+    /// Appends the primitives of the cluster.
     fn unpack(self, primitives: &mut Vec<Primitive>) {
         match self.parts {
             Parts::One(primitive) => primitives.push(primitive),
@@ -201,14 +202,19 @@ impl Cluster {
         }
     }
 
-    /// Appends the cluster's nodes and primitives; returns the place of its root. Whatever fits
-    /// into a leaf becomes one.
-    fn flatten(self, most: usize, nodes: &mut Vec<Node>, primitives: &mut Vec<Primitive>) -> usize {
+    /// Appends the nodes and primitives of the cluster, and returns the index of its root. A
+    /// cluster that fits in a leaf becomes a leaf.
+    fn flatten(
+        self,
+        max_leaf_size: usize,
+        nodes: &mut Vec<Node>,
+        primitives: &mut Vec<Primitive>,
+    ) -> usize {
         let (bbox, size) = (self.bbox, self.size);
         let node = match self.parts {
-            Parts::Two(a, b) if size > most => {
-                let l = a.flatten(most, nodes, primitives);
-                let r = b.flatten(most, nodes, primitives);
+            Parts::Two(a, b) if size > max_leaf_size => {
+                let l = a.flatten(max_leaf_size, nodes, primitives);
+                let r = b.flatten(max_leaf_size, nodes, primitives);
                 Node::interior(bbox, l, r)
             }
             Parts::One(_) | Parts::Two(..) => {

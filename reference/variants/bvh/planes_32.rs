@@ -1,29 +1,29 @@
-//! No buckets: thirty-two planes across each axis of the node's box, and for each the primitives
-//! are parted and the two boxes made. The walk: first all leaves that the ray meets are listed,
-//! then asked from near to far.
+//! No buckets: for each of 32 planes across each axis of the node's box, the primitives are
+//! partitioned and both boxes are computed. Traversal: all leaves that the ray hits are listed
+//! first, and then tested from near to far.
 
 use protocol::{Ray, Trace};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -34,7 +34,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -45,7 +45,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -54,16 +54,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -72,7 +72,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by the surface area heuristic.
+    /// Builds the tree with the surface area heuristic (SAH).
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         if !primitives.is_empty() {
@@ -81,7 +81,8 @@ impl Bvh {
         Bvh::from_nodes(primitives, nodes, 0)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let mut leaves = Vec::new();
         if let Some(root) = self.nodes.get(self.root) {
@@ -101,7 +102,7 @@ impl Bvh {
         closest
     }
 
-    /// Lists the leaves below `node` whose boxes the ray meets, with the times when it does.
+    /// Lists the leaves below `node` whose boxes the ray hits, with their entry distances.
     fn list_leaves<'a>(&'a self, node: &'a Node, ray: &Ray, leaves: &mut Vec<(f32, &'a Node)>) {
         let Some(inside) = node.bbox.hit(ray, ray.range) else {
             return;
@@ -115,32 +116,33 @@ impl Bvh {
     }
 }
 
-/// Builds the node over some primitives, which stand from `start` on; returns its place.
+/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Returns the index of the subtree's root.
 fn build_node(
     primitives: &mut [Primitive],
     start: usize,
     max_leaf_size: usize,
     nodes: &mut Vec<Node>,
 ) -> usize {
-    let bbox = around(primitives);
-    let place = nodes.len();
+    let bbox = bounds_of(primitives);
+    let index = nodes.len();
     nodes.push(Node::leaf(bbox, start, primitives.len()));
     if primitives.len() > max_leaf_size {
         let middle = split(primitives);
         let (left, right) = primitives.split_at_mut(middle);
         let l = build_node(left, start, max_leaf_size, nodes);
         let r = build_node(right, start + middle, max_leaf_size, nodes);
-        nodes[place] = Node::interior(bbox, l, r);
+        nodes[index] = Node::interior(bbox, l, r);
     }
-    place
+    index
 }
 
-/// Planes across each axis.
+/// The number of planes across each axis.
 const PLANES: usize = 32;
 
-/// Brings the primitives on one side of the best plane to the front; returns their number.
+/// Partitions the primitives in place by the best plane; returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
-    let bbox = around(primitives);
+    let bbox = bounds_of(primitives);
     let plane = |axis: usize, i: usize| {
         let part = (i + 1) as f32 / (PLANES + 1) as f32;
         bbox.min[axis] + part * (bbox.max[axis] - bbox.min[axis])
@@ -160,13 +162,14 @@ fn split(primitives: &mut [Primitive]) -> usize {
             }
         }
     }
-    // If all centers are on the same side of every plane, half of the primitives.
+    // If all centres are on the same side of every plane, split the primitives in half.
     best.map_or(primitives.len() / 2, |(axis, plane)| {
         partition(primitives, axis, plane)
     })
 }
 
-/// Brings those before the plane to the front, as `std::partition` does; returns their number.
+/// Moves the primitives before the plane to the front, as `std::partition` does, and returns their
+/// number.
 fn partition(primitives: &mut [Primitive], axis: usize, plane: f32) -> usize {
     let mut first = 0;
     for i in 0..primitives.len() {
@@ -179,10 +182,10 @@ fn partition(primitives: &mut [Primitive], axis: usize, plane: f32) -> usize {
 }
 
 fn cost(side: &[Primitive]) -> f32 {
-    around(side).surface_area() * side.len() as f32
+    bounds_of(side).surface_area() * side.len() as f32
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());

@@ -1,29 +1,28 @@
-//! Pushes a node when both of its children are there, so that the root comes last; no leaf is ever
-//! a placeholder for something else. The walk: each node returns its closest hit, and the parent
-//! takes the nearer.
+//! Pushes a node after both of its children, so that the root comes last and no leaf is ever a
+//! placeholder. Traversal: each node returns its closest hit, and the parent takes the nearer.
 
 use protocol::{Ray, Trace};
 
 use crate::bbox::BBox;
 use crate::primitive::Primitive;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -34,7 +33,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -45,7 +44,7 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
@@ -54,16 +53,16 @@ impl Node {
 /// A bounding volume hierarchy: a binary tree of boxes around primitives.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         Bvh {
             primitives,
@@ -72,7 +71,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by the surface area heuristic.
+    /// Builds the tree with the surface area heuristic (SAH).
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         if !primitives.is_empty() {
@@ -82,14 +81,15 @@ impl Bvh {
         Bvh::from_nodes(primitives, nodes, root)
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let root = self.nodes.get(self.root)?;
         root.bbox.hit(ray, ray.range)?;
         self.nearest(root, ray)
     }
 
-    /// The closest hit below `node`.
+    /// Returns the closest hit below `node`.
     fn nearest(&self, node: &Node, ray: &Ray) -> Option<Trace> {
         if node.is_leaf() {
             let primitives = &self.primitives[node.start..node.start + node.size];
@@ -97,8 +97,8 @@ impl Bvh {
             return traces.fold(None, Trace::nearer);
         }
 
-        let enter = |place: usize| {
-            let child = &self.nodes[place];
+        let enter = |index: usize| {
+            let child = &self.nodes[index];
             Some((child, child.bbox.hit(ray, ray.range)?.min))
         };
         let (first, second) = match (enter(node.l), enter(node.r)) {
@@ -109,7 +109,7 @@ impl Bvh {
         let trace = self.nearest(first.0, ray);
         let limit = trace.map_or(ray.range.max, |trace| trace.distance);
         match second {
-            Some((second, begins)) if begins <= limit => {
+            Some((second, entry)) if entry <= limit => {
                 let rest = ray.within(ray.range.min, limit);
                 Trace::nearer(trace, self.nearest(second, &rest))
             }
@@ -118,7 +118,8 @@ impl Bvh {
     }
 }
 
-/// Builds the node over some primitives, which stand from `start` on; returns its place.
+/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Returns the index of the subtree's root.
 fn build_node(
     primitives: &mut [Primitive],
     start: usize,
@@ -126,7 +127,7 @@ fn build_node(
     nodes: &mut Vec<Node>,
 ) -> usize {
     let node = if primitives.len() <= max_leaf_size {
-        Node::leaf(around(primitives), start, primitives.len())
+        Node::leaf(bounds_of(primitives), start, primitives.len())
     } else {
         let middle = split(primitives);
         let (left, right) = primitives.split_at_mut(middle);
@@ -140,15 +141,15 @@ fn build_node(
     nodes.len() - 1
 }
 
-/// Slices along each axis.
+/// The number of buckets along each axis.
 const BUCKETS: usize = 16;
 
-/// Brings the primitives of the cheapest partition's one side to the front; returns their number.
+/// Partitions the primitives in place by the cheapest split; returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
-    let over = around_centers(primitives);
+    let over = bounds_of_centers(primitives);
     let bucket = |primitive: &Primitive, axis: usize| {
-        let place = primitive.bbox().center()[axis] - over.min[axis];
-        let part = place / (over.max[axis] - over.min[axis]);
+        let offset = primitive.bbox().center()[axis] - over.min[axis];
+        let part = offset / (over.max[axis] - over.min[axis]);
         ((part * BUCKETS as f32) as usize).min(BUCKETS - 1)
     };
 
@@ -194,7 +195,7 @@ impl Bucket {
     }
 }
 
-/// Several buckets together.
+/// Merges several buckets into one.
 fn side(buckets: &[Bucket]) -> Bucket {
     buckets.iter().fold(Bucket::EMPTY, |mut all, bucket| {
         all.bbox.enclose(bucket.bbox);
@@ -203,7 +204,7 @@ fn side(buckets: &[Bucket]) -> Bucket {
     })
 }
 
-fn around(primitives: &[Primitive]) -> BBox {
+fn bounds_of(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose(primitive.bbox());
@@ -211,7 +212,7 @@ fn around(primitives: &[Primitive]) -> BBox {
     all
 }
 
-fn around_centers(primitives: &[Primitive]) -> BBox {
+fn bounds_of_centers(primitives: &[Primitive]) -> BBox {
     let mut all = BBox::EMPTY;
     for primitive in primitives {
         all.enclose_point(primitive.bbox().center());

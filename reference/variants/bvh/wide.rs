@@ -1,16 +1,20 @@
-//! Eight boxes at a time, and eight triangles: the binary tree, built or handed in, is folded into
-//! nodes of eight children, and the triangles of each leaf stand side by side in a pack. After Wald,
-//! Benthin and Boulos, "Getting Rid of Packets", 2008, and Embree's `BVH8<Triangle4>`.
+//! A wide BVH that tests eight boxes or eight triangles at a time. The binary tree, built here or
+//! given by the caller, is collapsed into nodes with eight children, and the triangles of each leaf
+//! are stored together in a pack. After Wald, Benthin and Boulos, "Getting Rid of Packets", 2008,
+//! and Embree's `BVH8<Triangle4>`.
 //!
-//! What takes the time is not to compute, but to wait: for memory, and for a branch that the processor
-//! has guessed wrongly. So nodes and packs stand in one piece of memory, the packs of a node behind it,
-//! and all children that are hit are asked for at once, with what stands behind them. A pack is small,
-//! because triangles that are neighbours share their corners. What is still to be visited is kept as one
-//! integer, the entry above the child, so that the nearer of two is found without a branch. Where a ray
-//! enters a box is computed from the plane that it meets first, known from the sign of its direction.
-//! What a `Trace` says of a triangle, besides where it is, stands in one line of memory; of a facet it
-//! follows from the corners, and nothing more is read. And the tree that is walked is another than the
-//! one that is shown: it may hold a large triangle in pieces.
+//! Traversal is limited by cache misses and branch mispredictions, not by arithmetic:
+//!
+//! - Nodes and packs are in one array, with the packs of a node right behind it. All children that
+//!   the ray hits are prefetched at once, together with the memory behind them.
+//! - A pack is small, because neighbouring triangles share their corners.
+//! - A stack entry is one integer with the entry distance above the child, so that the nearer of
+//!   two children is found without a branch.
+//! - The sign of the ray's direction tells which plane of a box the ray reaches first, so only that
+//!   plane is used to compute the entry distance.
+//! - The shading data of a triangle is in one cache line. That of a flat triangle is computed from
+//!   the corners, so nothing more is read.
+//! - Traversal uses another tree than the one in `nodes`: it may hold a large triangle in pieces.
 
 use glam::{Vec2, Vec3};
 use protocol::{Interval, Ray, Shape, Trace};
@@ -21,23 +25,23 @@ use crate::bbox::BBox;
 use crate::primitive::Primitive;
 use crate::triangle::Triangle;
 
-/// One box of the tree. A leaf if and only if `l == r`.
+/// A node of the tree. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// Holds everything below this node.
+    /// The box around everything below this node.
     pub bbox: BBox,
-    /// In a leaf, the place of its first primitive; elsewhere not read.
+    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
     pub start: usize,
-    /// In a leaf, the number of its primitives; elsewhere not read.
+    /// In a leaf, the number of its primitives. Ignored in other nodes.
     pub size: usize,
-    /// In an interior node, the place of one child in `Bvh::nodes`.
+    /// In an interior node, the index of one child in [`Bvh::nodes`].
     pub l: usize,
-    /// In an interior node, the place of the other.
+    /// In an interior node, the index of the other child in [`Bvh::nodes`].
     pub r: usize,
 }
 
 impl Node {
-    /// A node that holds primitives.
+    /// Creates a leaf, which holds primitives.
     pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
         Node {
             bbox,
@@ -48,7 +52,7 @@ impl Node {
         }
     }
 
-    /// A node that holds two others.
+    /// Creates an interior node, which has two children.
     pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
         Node {
             bbox,
@@ -59,33 +63,33 @@ impl Node {
         }
     }
 
-    /// Whether the node holds primitives.
+    /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r
     }
 }
 
-/// A bounding volume hierarchy, twice: as a binary tree, and folded.
+/// A bounding volume hierarchy, stored twice: as a binary tree, and as a wide tree for traversal.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives; those of one leaf stand side by side.
+    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. None at all if there is nothing to hold.
+    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The place of the node where everything starts: need be neither first nor last.
+    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
-    /// The folded tree, its root first. None at all if there is nothing to hold.
-    lines: Vec<Line>,
-    /// Of each triangle that is no facet.
+    /// The wide tree, with its root first. Empty if there are no primitives.
+    lines: Vec<CacheLine>,
+    /// Shading data of the triangles in each pack, unless all triangles of the pack are flat.
     surfaces: Vec<Surface>,
 }
 
 impl Bvh {
-    /// A tree from its parts.
+    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         let order: Vec<usize> = (0..primitives.len()).collect();
         let (lines, surfaces) = if root < nodes.len() {
-            Folding::new(&primitives, nodes.clone(), order).all(root)
+            Collapser::new(&primitives, nodes.clone(), order).collapse(root)
         } else {
             (Vec::new(), Vec::new())
         };
@@ -98,7 +102,8 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by the surface area heuristic; and for the walk another one, of pieces.
+    /// Builds the tree with the surface area heuristic (SAH), and another one with split triangles
+    /// for traversal.
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let max_leaf_size = max_leaf_size.max(1);
         let mut builder = Builder {
@@ -110,12 +115,12 @@ impl Bvh {
             return Bvh::from_nodes(primitives, Vec::new(), 0);
         }
         builder.node(0, primitives.len());
-        let ordered = builder.items.iter().map(|item| primitives[item.place]);
+        let ordered = builder.items.iter().map(|item| primitives[item.index]);
         let primitives: Vec<Primitive> = ordered.collect();
-        let mut cutter = Cutter::new(&primitives);
-        cutter.node(items(&primitives));
-        let Cutter { nodes, order, .. } = cutter;
-        let (lines, surfaces) = Folding::new(&primitives, nodes, order).all(0);
+        let mut spatial = SpatialBuilder::new(&primitives);
+        spatial.node(items(&primitives));
+        let SpatialBuilder { nodes, order, .. } = spatial;
+        let (lines, surfaces) = Collapser::new(&primitives, nodes, order).collapse(0);
         Bvh {
             primitives,
             nodes: builder.nodes,
@@ -125,23 +130,24 @@ impl Bvh {
         }
     }
 
-    /// The closest of all the places where the ray meets a primitive within `ray.range`.
+    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
+    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        let mut closest = Closest {
+        let mut closest = ClosestHit {
             distance: ray.range.max,
-            met: Met::Nothing,
+            primitive: HitPrimitive::None,
         };
         if !self.lines.is_empty() {
-            self.walk(&Beam::new(ray), ray, &mut closest);
+            self.traverse(&WideRay::new(ray), ray, &mut closest);
         }
-        match closest.met {
-            Met::Nothing => None,
-            Met::Sphere { place } => self.primitives[place as usize].hit(ray),
-            Met::Triangle { pack, lane, u, v } => {
+        match closest.primitive {
+            HitPrimitive::None => None,
+            HitPrimitive::Sphere { index } => self.primitives[index as usize].hit(ray),
+            HitPrimitive::Triangle { pack, lane, u, v } => {
                 let pack = Pack::at(&self.lines, pack);
-                let (normal, uv, material) = match pack.surface(lane) {
-                    Seen::Facet { normal, material } => (normal, Vec2::new(u, v), material),
-                    Seen::Surface { place } => self.surfaces[place as usize].between(u, v),
+                let (normal, uv, material) = match pack.shading(lane) {
+                    Shading::Computed { normal, material } => (normal, Vec2::new(u, v), material),
+                    Shading::Stored { index } => self.surfaces[index as usize].interpolate(u, v),
                 };
                 Some(Trace {
                     distance: closest.distance,
@@ -155,28 +161,28 @@ impl Bvh {
         }
     }
 
-    fn walk(&self, beam: &Beam, ray: &Ray, closest: &mut Closest) {
-        let mut open = Open::new();
+    fn traverse(&self, wide_ray: &WideRay, ray: &Ray, closest: &mut ClosestHit) {
+        let mut stack = Stack::new();
         let mut child = 0;
         loop {
             if child & LEAF == 0 {
-                let eight = Eight::at(&self.lines, child);
-                let (entries, mut mask) = eight.entries(beam, closest.distance);
+                let node = WideNode::at(&self.lines, child);
+                let (entries, mut mask) = node.entries(wide_ray, closest.distance);
                 if mask != 0 {
                     let entries = entries.to_array();
-                    let visit = |mask: &mut u32| {
+                    let next_entry = |mask: &mut u32| {
                         let lane = mask.trailing_zeros() as usize & 7;
                         *mask &= *mask - 1;
-                        let child = eight.child(lane);
-                        self.fetch(child);
-                        Visit::new(entries[lane], child)
+                        let child = node.child(lane);
+                        self.prefetch(child);
+                        StackEntry::new(entries[lane], child)
                     };
-                    let mut first = visit(&mut mask);
+                    let mut first = next_entry(&mut mask);
                     if mask != 0 {
-                        let base = open.room_for_eight();
+                        let base = stack.reserve_eight();
                         while mask != 0 {
-                            let other = visit(&mut mask);
-                            open.insert(base, first.max(other));
+                            let other = next_entry(&mut mask);
+                            stack.insert(base, first.max(other));
                             first = first.min(other);
                         }
                     }
@@ -184,10 +190,10 @@ impl Bvh {
                     continue;
                 }
             } else {
-                self.leaf(child & !LEAF, beam, ray, closest);
+                self.test_leaf(child & !LEAF, wide_ray, ray, closest);
             }
             child = loop {
-                match open.pop() {
+                match stack.pop() {
                     None => return,
                     Some(next) if next.entry() <= closest.distance => break next.child(),
                     Some(_) => {}
@@ -196,44 +202,45 @@ impl Bvh {
         }
     }
 
-    /// Asks for the memory of a child, which will be visited, but perhaps not at once, and for what stands
-    /// behind it, which may be visited soon: behind a node its first packs, behind a pack its neighbours.
-    fn fetch(&self, child: u32) {
-        const LINES: usize = Eight::LINES + 2 * Pack::LINES;
+    /// Prefetches a child, which will be visited but perhaps not immediately, and the memory behind
+    /// it, which is likely to be visited soon: the first packs of a node, or the neighbours of a
+    /// pack.
+    fn prefetch(&self, child: u32) {
+        const LINES: usize = WideNode::LINES + 2 * Pack::LINES;
         let start = (child & !LEAF) as usize;
         if let Some(lines) = self.lines.get(start..start + LINES) {
-            lines.iter().for_each(fetch);
+            lines.iter().for_each(prefetch);
         }
     }
 
-    fn leaf(&self, start: u32, beam: &Beam, ray: &Ray, closest: &mut Closest) {
+    fn test_leaf(&self, start: u32, wide_ray: &WideRay, ray: &Ray, closest: &mut ClosestHit) {
         let pack = Pack::at(&self.lines, start);
-        if pack.is(Pack::OF_SPHERES) {
-            for place in pack.spheres() {
+        if pack.has_flag(Pack::SPHERES_FLAG) {
+            for index in pack.spheres() {
                 let rest = ray.within(ray.range.min, closest.distance);
-                if let Some(trace) = self.primitives[place as usize].hit(&rest) {
+                if let Some(trace) = self.primitives[index as usize].hit(&rest) {
                     closest.distance = trace.distance;
-                    closest.met = Met::Sphere { place };
+                    closest.primitive = HitPrimitive::Sphere { index };
                 }
             }
-        } else if let Some(hit) = pack.hit(beam, closest.distance) {
+        } else if let Some(hit) = pack.hit(wide_ray, closest.distance) {
             closest.distance = hit.distance;
-            closest.met = Met::Triangle {
+            closest.primitive = HitPrimitive::Triangle {
                 pack: start,
                 lane: hit.lane,
                 u: hit.u,
                 v: hit.v,
             };
-            if let Some(place) = pack.place_of_surface(hit.lane) {
-                // It will be read, unless another one is closer.
-                fetch(&self.surfaces[place as usize]);
+            if let Some(index) = pack.surface_index(hit.lane) {
+                // It will be read, unless a closer hit is found.
+                prefetch(&self.surfaces[index as usize]);
             }
         }
     }
 }
 
-/// Asks for the line of memory where something begins, if the processor can be asked.
-fn fetch<T>(what: &T) {
+/// Prefetches the cache line in which `what` begins, if the processor supports it.
+fn prefetch<T>(what: &T) {
     #[cfg(target_feature = "sse")]
     safe_arch::prefetch_t0(what);
     #[cfg(not(target_feature = "sse"))]
@@ -241,19 +248,19 @@ fn fetch<T>(what: &T) {
 }
 
 /// The closest hit so far.
-struct Closest {
+struct ClosestHit {
     distance: f32,
-    met: Met,
+    primitive: HitPrimitive,
 }
 
-/// What the closest hit is a hit of.
-enum Met {
-    Nothing,
-    /// The primitive in this place.
+/// The primitive of the closest hit.
+enum HitPrimitive {
+    None,
+    /// The primitive with this index.
     Sphere {
-        place: u32,
+        index: u32,
     },
-    /// By where its pack starts, and with the weights of two corners.
+    /// A triangle, by the first line of its pack and its lane, with the weights of two corners.
     Triangle {
         pack: u32,
         lane: usize,
@@ -262,7 +269,7 @@ enum Met {
     },
 }
 
-/// What a trace says of a triangle, in one line of memory.
+/// The shading data of a triangle, in one cache line.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 struct Surface {
@@ -281,8 +288,9 @@ impl Surface {
         }
     }
 
-    /// Its normal, texture coordinates and material where two corners have these weights.
-    fn between(&self, u: f32, v: f32) -> (Vec3, Vec2, u32) {
+    /// Returns the normal, texture coordinates and material at a point, given the weights of two
+    /// corners.
+    fn interpolate(&self, u: f32, v: f32) -> (Vec3, Vec2, u32) {
         let w = 1.0 - u - v;
         let [n0, n1, n2] = self.normals;
         let [uv0, uv1, uv2] = self.uvs;
@@ -291,14 +299,15 @@ impl Surface {
     }
 }
 
-/// A child that is to be visited, and where the ray enters its box.
+/// A child to be visited, and the distance at which the ray enters its box.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Visit(u64);
+struct StackEntry(u64);
 
-impl Visit {
-    /// The bits of numbers that are not negative are ordered as the numbers are.
+impl StackEntry {
+    /// Packs the entry distance above the child. The bit patterns of non-negative floats have the
+    /// same order as the floats, so the nearest of several entries is the smallest integer.
     fn new(entry: f32, child: u32) -> Self {
-        Visit(u64::from(entry.to_bits()) << 32 | u64::from(child))
+        StackEntry(u64::from(entry.to_bits()) << 32 | u64::from(child))
     }
 
     fn entry(self) -> f32 {
@@ -310,143 +319,150 @@ impl Visit {
     }
 }
 
-/// What is still to be visited, the nearest last.
-struct Open {
-    visits: [Visit; Open::SIZE],
+/// The children that are still to be visited, the nearest last.
+struct Stack {
+    entries: [StackEntry; Stack::SIZE],
     len: usize,
-    /// What was put in before those, and did not fit: a tree so deep is rare.
-    older: Vec<Visit>,
+    /// Older entries, which did not fit into the array. Few trees are that deep.
+    overflow: Vec<StackEntry>,
 }
 
-impl Open {
-    /// A power of two, so that a place in it is found by a mask.
+impl Stack {
+    /// A power of two, so that `%` is a mask and the index needs no bounds check.
     const SIZE: usize = 32;
 
     fn new() -> Self {
-        Open {
-            visits: [Visit(0); Open::SIZE],
+        Stack {
+            entries: [StackEntry(0); Stack::SIZE],
             len: 0,
-            older: Vec::new(),
+            overflow: Vec::new(),
         }
     }
 
-    /// Sees to it that the children of one more node fit; returns where the first of them goes.
-    fn room_for_eight(&mut self) -> usize {
-        if self.len > Open::SIZE - 8 {
-            self.older.extend_from_slice(&self.visits[..self.len]);
+    /// Makes room for the children of one more node, and returns the index for the first of them.
+    fn reserve_eight(&mut self) -> usize {
+        if self.len > Stack::SIZE - 8 {
+            self.overflow.extend_from_slice(&self.entries[..self.len]);
             self.len = 0;
         }
         self.len
     }
 
-    /// Puts it in its place among those from `base` on.
-    fn insert(&mut self, base: usize, visit: Visit) {
-        let mut place = self.len;
-        while place > base && self.visits[(place - 1) % Open::SIZE] < visit {
-            self.visits[place % Open::SIZE] = self.visits[(place - 1) % Open::SIZE];
-            place -= 1;
+    /// Inserts an entry in order among those from `base` on.
+    fn insert(&mut self, base: usize, entry: StackEntry) {
+        let mut index = self.len;
+        while index > base && self.entries[(index - 1) % Stack::SIZE] < entry {
+            self.entries[index % Stack::SIZE] = self.entries[(index - 1) % Stack::SIZE];
+            index -= 1;
         }
-        self.visits[place % Open::SIZE] = visit;
+        self.entries[index % Stack::SIZE] = entry;
         self.len += 1;
     }
 
-    fn pop(&mut self) -> Option<Visit> {
+    fn pop(&mut self) -> Option<StackEntry> {
         match self.len.checked_sub(1) {
             Some(len) => {
                 self.len = len;
-                Some(self.visits[len % Open::SIZE])
+                Some(self.entries[len % Stack::SIZE])
             }
-            None => self.older.pop(),
+            None => self.overflow.pop(),
         }
     }
 }
 
-/// A ray, in all lanes.
-struct Beam {
+/// A ray, copied to all lanes.
+struct WideRay {
     origin: [f32x8; 3],
     dir: [f32x8; 3],
     inverse: [f32x8; 3],
-    /// The inverse for when a ray leaves, which is a little later.
-    later: [f32x8; 3],
-    /// Along each axis, whether the ray goes down.
-    down: [bool; 3],
+    /// The inverse used for exit distances, which is slightly larger.
+    padded_inverse: [f32x8; 3],
+    /// Whether the direction is negative, for each axis.
+    is_negative: [bool; 3],
     min: f32x8,
 }
 
-impl Beam {
-    /// The inverse of nothing would be infinite, and 0 · ∞ no number: this is as good as infinite.
-    const STEEPEST: f32 = 1e-30;
+impl WideRay {
+    /// The least absolute value of a direction component. The inverse of 0 would be infinite, and
+    /// its product with 0 NaN; the inverse of this number is large enough to serve as infinity.
+    const MIN_COMPONENT: f32 = 1e-30;
 
-    /// More than the times when a ray leaves are wrong by rounding. Pharr, Jakob and Humphreys,
-    /// Physically Based Rendering, 4th edition, section 6.1.2.
-    const LATER: f32 = 1.000_000_4;
+    /// A factor that exceeds the rounding error of exit distances, so that no box is missed. Pharr,
+    /// Jakob and Humphreys, "Physically Based Rendering" (4th edition), section 6.1.2.
+    const EXIT_PADDING: f32 = 1.000_000_4;
 
     fn new(ray: &Ray) -> Self {
         let dir = ray.dir.to_array();
-        let inverse = dir.map(|d| 1.0 / d.abs().max(Beam::STEEPEST).copysign(d));
-        Beam {
+        let inverse = dir.map(|d| 1.0 / d.abs().max(WideRay::MIN_COMPONENT).copysign(d));
+        WideRay {
             origin: ray.origin.to_array().map(f32x8::splat),
             dir: dir.map(f32x8::splat),
             inverse: inverse.map(f32x8::splat),
-            later: inverse.map(|inverse| f32x8::splat(inverse * Beam::LATER)),
-            down: inverse.map(|inverse| inverse < 0.0),
+            padded_inverse: inverse.map(|inverse| f32x8::splat(inverse * WideRay::EXIT_PADDING)),
+            is_negative: inverse.map(|inverse| inverse < 0.0),
             min: f32x8::splat(ray.range.min),
         }
     }
 }
 
-/// As much memory as comes at a time.
+/// A cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-struct Line([f32x8; 2]);
+struct CacheLine([f32x8; 2]);
 
-/// In the number of a child's first line: it is a pack, and no node.
+/// The bit of a child's first line number that marks a pack.
 const LEAF: u32 = 1 << 31;
 
-/// Up to eight children and their boxes: for each axis a line with the lower planes of all boxes and
-/// the upper ones, and one with the children. A lane without a child has a box that no ray meets.
-struct Eight<'a>(&'a [Line; Eight::LINES]);
+/// A node with up to eight children: for each axis, a line with the lower and upper planes of all
+/// boxes, and one line with the children. A lane without a child has a box that no ray hits.
+struct WideNode<'a>(&'a [CacheLine; WideNode::LINES]);
 
-impl<'a> Eight<'a> {
+impl<'a> WideNode<'a> {
     const LINES: usize = 4;
 
-    fn at(lines: &'a [Line], start: u32) -> Self {
-        Eight(lines_at(lines, start))
+    fn at(lines: &'a [CacheLine], start: u32) -> Self {
+        WideNode(lines_at(lines, start))
     }
 
     fn child(&self, lane: usize) -> u32 {
-        let Line([children, _]) = &self.0[3];
+        let CacheLine([children, _]) = &self.0[3];
         children.as_array()[lane].to_bits()
     }
 
-    /// When the ray enters the boxes, and a bit for each that it does enter, up to `max`.
-    fn entries(&self, beam: &Beam, max: f32) -> (f32x8, u32) {
+    /// Returns the entry distances of all boxes, and a bit mask of the boxes that the ray enters
+    /// before `max`.
+    fn entries(&self, wide_ray: &WideRay, max: f32) -> (f32x8, u32) {
         let from = |axis: usize, upper: bool| {
-            let Line(planes) = &self.0[axis];
-            planes[usize::from(upper)] - beam.origin[axis]
+            let CacheLine(planes) = &self.0[axis];
+            planes[usize::from(upper)] - wide_ray.origin[axis]
         };
-        let enter = [0, 1, 2].map(|axis| from(axis, beam.down[axis]) * beam.inverse[axis]);
-        let leave = [0, 1, 2].map(|axis| from(axis, !beam.down[axis]) * beam.later[axis]);
-        // In pairs: neither waits for the other.
-        let enter = (enter[0].fast_max(enter[1])).fast_max(enter[2].fast_max(beam.min));
+        let enter =
+            [0, 1, 2].map(|axis| from(axis, wide_ray.is_negative[axis]) * wide_ray.inverse[axis]);
+        let leave = [0, 1, 2]
+            .map(|axis| from(axis, !wide_ray.is_negative[axis]) * wide_ray.padded_inverse[axis]);
+        // Reduced in pairs, which do not depend on each other.
+        let enter = (enter[0].fast_max(enter[1])).fast_max(enter[2].fast_max(wide_ray.min));
         let leave = (leave[0].fast_min(leave[1])).fast_min(leave[2].fast_min(f32x8::splat(max)));
         (enter, enter.simd_le(leave).to_bitmask())
     }
 }
 
-/// A leaf: up to eight triangles, of neighbours, so that they have at most eight corners among them.
-/// Where those are stands in three registers, and the fourth has a word for each triangle, with the
-/// numbers of its corners. A lane without a triangle has one corner three times, which no ray meets.
-/// Or the places of up to eight spheres.
-struct Pack<'a>(&'a [Line; Pack::LINES]);
+/// A leaf with up to eight triangles, or with the indices of up to eight spheres.
+///
+/// The triangles have at most eight different corners, because neighbours share them. Three
+/// registers hold the corners' coordinates, and the fourth holds one word per triangle with the
+/// lanes of its corners. A lane without a triangle repeats one corner three times, which no ray
+/// hits.
+struct Pack<'a>(&'a [CacheLine; Pack::LINES]);
 
-/// Three times three bits say which corners are a triangle's; of those above, all but one are for more.
+/// A packed word of a triangle: three times three bits for the lanes of its corners, 22 bits of
+/// extra data, and a flag.
 #[derive(Clone, Copy, Default)]
 struct Word(u32);
 
 impl Word {
-    /// What is more must be less than this.
-    const MORE: u32 = 1 << 22;
+    /// The upper limit of the extra data, exclusive.
+    const EXTRA_LIMIT: u32 = 1 << 22;
     const FLAG: u32 = 1 << 31;
 
     fn new([a, b, c]: [u32; 3]) -> Self {
@@ -457,15 +473,15 @@ impl Word {
         [0, 3, 6].map(|shift| (self.0 >> shift & 7) as usize)
     }
 
-    fn add(&mut self, more: u32) {
-        self.0 |= more << 9;
+    fn set_extra(&mut self, extra: u32) {
+        self.0 |= extra << 9;
     }
 
-    fn more(self) -> u32 {
-        self.0 >> 9 & (Word::MORE - 1)
+    fn extra(self) -> u32 {
+        self.0 >> 9 & (Word::EXTRA_LIMIT - 1)
     }
 
-    fn flag(&mut self) {
+    fn set_flag(&mut self) {
         self.0 |= Word::FLAG;
     }
 
@@ -489,61 +505,64 @@ fn dot(a: &[f32x8; 3], b: &[f32x8; 3]) -> f32x8 {
 impl<'a> Pack<'a> {
     const LINES: usize = 2;
 
-    /// The word with the flag that says that a pack holds spheres.
-    const OF_SPHERES: usize = 0;
-    /// The same for triangles of which not all are facets: what is more in the first two words is the
-    /// place of the first one's surface. That of a facet is its material.
-    const OF_SURFACES: usize = 1;
+    /// The lane whose flag marks a pack of spheres.
+    const SPHERES_FLAG: usize = 0;
+    /// The lane whose flag marks a pack with triangles that are not flat. The extra data of the
+    /// first two words is then the index of the first triangle's surface; otherwise, the extra data
+    /// of each word is the triangle's material.
+    const SURFACES_FLAG: usize = 1;
 
-    fn at(lines: &'a [Line], start: u32) -> Self {
+    fn at(lines: &'a [CacheLine], start: u32) -> Self {
         Pack(lines_at(lines, start))
     }
 
-    fn lines(registers: [[u32; 8]; 4]) -> [Line; Pack::LINES] {
+    fn lines(registers: [[u32; 8]; 4]) -> [CacheLine; Pack::LINES] {
         let [x, y, z, words] = registers.map(cast);
-        [Line([x, y]), Line([z, words])]
+        [CacheLine([x, y]), CacheLine([z, words])]
     }
 
     fn word(&self, lane: usize) -> Word {
-        let Line([_, words]) = &self.0[1];
+        let CacheLine([_, words]) = &self.0[1];
         Word(words.as_array()[lane].to_bits())
     }
 
-    fn is(&self, flag: usize) -> bool {
-        self.word(flag).is_flagged()
+    fn has_flag(&self, lane: usize) -> bool {
+        self.word(lane).is_flagged()
     }
 
-    /// The places of its spheres.
+    /// Returns the indices of the spheres.
     fn spheres(&self) -> impl Iterator<Item = u32> {
-        let Line([places, _]) = &self.0[0];
-        let places = places.to_array().map(f32::to_bits);
-        places.into_iter().take_while(|&place| place != NOWHERE)
+        let CacheLine([indices, _]) = &self.0[0];
+        let indices = indices.to_array().map(f32::to_bits);
+        indices.into_iter().take_while(|&index| index != NO_SPHERE)
     }
 
-    /// Where more is said of the triangle, unless it is a facet.
-    fn place_of_surface(&self, lane: usize) -> Option<u32> {
-        let first = || self.word(0).more() + self.word(1).more() * Word::MORE;
-        self.is(Pack::OF_SURFACES).then(|| first() + lane as u32)
+    /// Returns the index of the triangle's surface, or `None` if all triangles of the pack are
+    /// flat.
+    fn surface_index(&self, lane: usize) -> Option<u32> {
+        let first = || self.word(0).extra() + self.word(1).extra() * Word::EXTRA_LIMIT;
+        self.has_flag(Pack::SURFACES_FLAG)
+            .then(|| first() + lane as u32)
     }
 
-    fn surface(&self, lane: usize) -> Seen {
-        if let Some(place) = self.place_of_surface(lane) {
-            return Seen::Surface { place };
+    fn shading(&self, lane: usize) -> Shading {
+        if let Some(index) = self.surface_index(lane) {
+            return Shading::Stored { index };
         }
         let word = self.word(lane);
-        let [Line([x, y]), Line([z, _])] = self.0;
+        let [CacheLine([x, y]), CacheLine([z, _])] = self.0;
         let [p0, p1, p2] = word
             .corners()
             .map(|corner| Vec3::from([x, y, z].map(|lanes| lanes.as_array()[corner])));
-        Seen::Facet {
+        Shading::Computed {
             normal: (p1 - p0).cross(p2 - p0).normalize(),
-            material: word.more(),
+            material: word.extra(),
         }
     }
 
-    /// Of each triangle the three corners.
+    /// Returns the three corners of each triangle.
     fn corners(&self) -> [[f32x8; 3]; 3] {
-        let [Line([x, y]), Line([z, words])] = *self.0;
+        let [CacheLine([x, y]), CacheLine([z, words])] = *self.0;
         let [x, y, z, words]: [u32x8; 4] = [x, y, z, words].map(cast);
         [words, words >> 3, words >> 6].map(|corner| {
             let corner = corner & u32x8::splat(7);
@@ -551,40 +570,41 @@ impl<'a> Pack<'a> {
         })
     }
 
-    /// Möller and Trumbore's test, of eight triangles: the closest that is hit, up to `max`.
-    fn hit(&self, beam: &Beam, max: f32) -> Option<Hit> {
+    /// Tests eight triangles by Möller and Trumbore's algorithm, and returns the closest hit up to
+    /// `max`.
+    fn hit(&self, wide_ray: &WideRay, max: f32) -> Option<PackHit> {
         let [p0, p1, p2] = self.corners();
         let from = |p: &[f32x8; 3]| [0, 1, 2].map(|axis| p[axis] - p0[axis]);
-        let (e1, e2, s) = (from(&p1), from(&p2), from(&beam.origin));
+        let (e1, e2, s) = (from(&p1), from(&p2), from(&wide_ray.origin));
 
-        let p = cross(&beam.dir, &e2);
+        let p = cross(&wide_ray.dir, &e2);
         let q = cross(&s, &e1);
-        // Nothing is divided before it is known that something is hit: all is compared with the
-        // determinant in place of 1, once its sign is taken from both sides.
+        // No division before there is a hit: u, v and t are compared with multiples of the
+        // determinant, after both sides have been multiplied by its sign.
         let determinant = dot(&p, &e1);
         let sign = determinant & f32x8::splat(-0.0);
         let determinant = determinant ^ sign;
         let u = dot(&p, &s) ^ sign;
-        let v = dot(&q, &beam.dir) ^ sign;
+        let v = dot(&q, &wide_ray.dir) ^ sign;
         let t = dot(&q, &e2) ^ sign;
-        // Whatever is no number is neither more nor less, and so no hit.
+        // Comparisons with NaN are false, so NaN is never a hit.
         let inside = u.simd_ge(f32x8::ZERO) & v.simd_ge(f32x8::ZERO) & (u + v).simd_le(determinant);
         let latest = f32x8::splat(max) * determinant;
-        let ahead = t.simd_ge(beam.min * determinant) & t.simd_le(latest);
+        let ahead = t.simd_ge(wide_ray.min * determinant) & t.simd_le(latest);
         let mut mask = (inside & ahead & determinant.simd_gt(f32x8::ZERO)).to_bitmask();
         if mask == 0 {
             return None;
         }
 
         let [u, v, t] = [u, v, t].map(|times| (times / determinant).to_array());
-        let range = Interval::new(beam.min.as_array()[0], max);
-        let mut nearest: Option<Hit> = None;
+        let range = Interval::new(wide_ray.min.as_array()[0], max);
+        let mut nearest: Option<PackHit> = None;
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize & 7;
             mask &= mask - 1;
             if range.contains(t[lane]) && nearest.as_ref().is_none_or(|hit| t[lane] <= hit.distance)
             {
-                nearest = Some(Hit {
+                nearest = Some(PackHit {
                     distance: t[lane],
                     lane,
                     u: u[lane],
@@ -596,55 +616,56 @@ impl<'a> Pack<'a> {
     }
 }
 
-/// Where a triangle of a pack is hit, and the weights of two corners there.
-struct Hit {
+/// A hit of a triangle in a pack, with the weights of two corners.
+struct PackHit {
     distance: f32,
     lane: usize,
     u: f32,
     v: f32,
 }
 
-/// Where it stands what a `Trace` says of a triangle.
-enum Seen {
-    /// Nowhere: it follows from the corners. See [`Shape::facet_vertices`].
-    Facet { normal: Vec3, material: u32 },
-    /// In this place among the surfaces.
-    Surface { place: u32 },
+/// The source of a triangle's shading data.
+enum Shading {
+    /// Computed from the corners. See [`Shape::flat_triangle_vertices`].
+    Computed { normal: Vec3, material: u32 },
+    /// The surface with this index.
+    Stored { index: u32 },
 }
 
-/// So many lines, from one on.
-fn lines_at<const N: usize>(lines: &[Line], start: u32) -> &[Line; N] {
+/// Returns `N` lines from `start` on.
+fn lines_at<const N: usize>(lines: &[CacheLine], start: u32) -> &[CacheLine; N] {
     lines[start as usize..][..N]
         .try_into()
-        .expect("as many as were taken")
+        .expect("the slice has N lines")
 }
 
-/// Makes the wide tree of the binary one.
-struct Folding<'a> {
+/// The conversion of a binary tree to a wide one.
+struct Collapser<'a> {
     primitives: &'a [Primitive],
     nodes: Vec<Node>,
-    /// Of which primitives the leaves have pieces.
+    /// The primitives to which the leaves refer. One that is split occurs several times.
     order: Vec<usize>,
-    /// For each of the nodes.
+    /// The plan for each node.
     plans: Vec<Plan>,
-    lines: Vec<Line>,
+    lines: Vec<CacheLine>,
     surfaces: Vec<Surface>,
 }
 
-/// How to fold what is below a node, at the least cost: Ylitie, Karras and Laine, "Efficient
-/// Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017, section 3.1. To visit a node
-/// costs as much as a pack.
+/// The cheapest way to collapse a subtree: Ylitie, Karras and Laine, "Efficient Incoherent Ray
+/// Traversal on GPUs Through Compressed Wide BVHs", 2017, section 3.1. Visiting a node is assumed
+/// to cost as much as testing a pack.
 #[derive(Clone, Copy, Default)]
 struct Plan {
-    /// The cost of all as at most so many children of a node above.
+    /// For each n, the cost of the subtree if it becomes at most n children of a node above.
     costs: [f32; 8],
-    /// How many of so many children come from either side; none if all is one child.
+    /// For each n, the numbers of children that come from the left and the right side. Both are 0
+    /// if the whole subtree is one child.
     sides: [(u8, u8); 9],
 }
 
-impl<'a> Folding<'a> {
+impl<'a> Collapser<'a> {
     fn new(primitives: &'a [Primitive], nodes: Vec<Node>, order: Vec<usize>) -> Self {
-        Folding {
+        Collapser {
             primitives,
             plans: vec![Plan::default(); nodes.len()],
             lines: Vec::with_capacity(nodes.len()),
@@ -654,40 +675,40 @@ impl<'a> Folding<'a> {
         }
     }
 
-    fn all(mut self, root: usize) -> (Vec<Line>, Vec<Surface>) {
+    fn collapse(mut self, root: usize) -> (Vec<CacheLine>, Vec<Surface>) {
         self.plan(root);
-        self.eight(root);
+        self.write_node(root);
         (self.lines, self.surfaces)
     }
 
-    fn plan(&mut self, place: usize) {
-        let area = self.nodes[place].bbox.surface_area();
-        if self.nodes[place].is_leaf() && !self.halve(place) {
-            self.plans[place] = Plan {
+    fn plan(&mut self, index: usize) {
+        let area = self.nodes[index].bbox.surface_area();
+        if self.nodes[index].is_leaf() && !self.split_leaf(index) {
+            self.plans[index] = Plan {
                 costs: [area; 8],
                 ..Plan::default()
             };
             return;
         }
 
-        let node = self.nodes[place];
+        let node = self.nodes[index];
         self.plan(node.l);
         self.plan(node.r);
         let (l, r) = (&self.plans[node.l], &self.plans[node.r]);
-        // The cheapest way to make of both sides so many children.
-        let share = |children: usize| {
-            let ways = (1..children).filter(|&of_l| of_l < 8 && children - of_l < 8);
-            let cost = |of_l: usize| l.costs[of_l] + r.costs[children - of_l];
-            let of_l = ways.min_by(|&a, &b| cost(a).total_cmp(&cost(b)));
-            let of_l = of_l.expect("one child from either side is a way");
-            (cost(of_l), (of_l as u8, (children - of_l) as u8))
+        // The cheapest way to get this many children from both sides.
+        let cheapest_way = |children: usize| {
+            let ways = (1..children).filter(|&from_l| from_l < 8 && children - from_l < 8);
+            let cost = |from_l: usize| l.costs[from_l] + r.costs[children - from_l];
+            let from_l = ways.min_by(|&a, &b| cost(a).total_cmp(&cost(b)));
+            let from_l = from_l.expect("one child from each side is always possible");
+            (cost(from_l), (from_l as u8, (children - from_l) as u8))
         };
         let mut plan = Plan::default();
-        let (below, sides) = share(8);
+        let (below, sides) = cheapest_way(8);
         plan.sides[8] = sides;
         plan.costs[1] = area + below;
         for children in 2..8 {
-            let (cost, sides) = share(children);
+            let (cost, sides) = cheapest_way(children);
             let fewer = children - 1;
             (plan.costs[children], plan.sides[children]) = if cost < plan.costs[fewer] {
                 (cost, sides)
@@ -695,43 +716,44 @@ impl<'a> Folding<'a> {
                 (plan.costs[fewer], plan.sides[fewer])
             };
         }
-        self.plans[place] = plan;
+        self.plans[index] = plan;
     }
 
-    /// Makes two leaves of one that does not fit in a pack, in the same box: a tree that was handed in may
-    /// have its reasons for it. Returns whether that was so.
-    fn halve(&mut self, place: usize) -> bool {
+    /// Splits a leaf that does not fit in a pack into two leaves, and returns whether it did. Both
+    /// keep the box of the leaf, because in a tree from the caller it need not be the box of the
+    /// primitives.
+    fn split_leaf(&mut self, index: usize) -> bool {
         let Node {
             bbox, start, size, ..
-        } = self.nodes[place];
-        let held = &mut self.order[start..start + size];
-        if fit(self.primitives, held.iter().copied()) {
+        } = self.nodes[index];
+        let indices = &mut self.order[start..start + size];
+        if fits_in_pack(self.primitives, indices.iter().copied()) {
             return false;
         }
-        held.sort_by_key(|&place| matches!(self.primitives[place], Primitive::Sphere(_)));
+        indices.sort_by_key(|&index| matches!(self.primitives[index], Primitive::Sphere(_)));
         let (half, l) = (size / 2, self.nodes.len());
         self.nodes.push(Node::leaf(bbox, start, half));
         self.nodes.push(Node::leaf(bbox, start + half, size - half));
         self.plans.extend([Plan::default(); 2]);
-        self.nodes[place] = Node::interior(bbox, l, l + 1);
+        self.nodes[index] = Node::interior(bbox, l, l + 1);
         true
     }
 
-    /// The nodes that become children, at most so many.
-    fn children(&self, place: usize, at_most: u8, found: &mut Vec<usize>) {
-        match self.plans[place].sides[usize::from(at_most)] {
-            (0, 0) => found.push(place),
-            (of_l, of_r) => {
-                let node = self.nodes[place];
-                self.children(node.l, of_l, found);
-                self.children(node.r, of_r, found);
+    /// Collects the nodes that become children, at most `at_most` of them.
+    fn children(&self, index: usize, at_most: u8, found: &mut Vec<usize>) {
+        match self.plans[index].sides[usize::from(at_most)] {
+            (0, 0) => found.push(index),
+            (from_l, from_r) => {
+                let node = self.nodes[index];
+                self.children(node.l, from_l, found);
+                self.children(node.r, from_r, found);
             }
         }
     }
 
-    /// Folds what is below a node; returns where it is. Leaves come first, and the largest of them: see
-    /// [`Bvh::fetch`].
-    fn eight(&mut self, root: usize) -> u32 {
+    /// Writes the wide node for a subtree and everything below it, and returns its first line.
+    /// Leaves come first, the largest before the others: see [`Bvh::prefetch`].
+    fn write_node(&mut self, root: usize) -> u32 {
         let mut children = Vec::with_capacity(8);
         self.children(root, 8, &mut children);
         children.sort_by(|&a, &b| {
@@ -748,68 +770,69 @@ impl<'a> Folding<'a> {
             }
         }
         let start = self.lines.len();
-        let planes = planes.map(|both| Line(both.map(f32x8::from)));
+        let planes = planes.map(|both| CacheLine(both.map(f32x8::from)));
         self.lines.extend(planes);
-        self.lines.push(Line([f32x8::ZERO; 2]));
+        self.lines.push(CacheLine([f32x8::ZERO; 2]));
 
-        let mut folded = [0.0; 8];
-        for (folded, &child) in folded.iter_mut().zip(&children) {
-            *folded = f32::from_bits(if self.nodes[child].is_leaf() {
-                self.leaf(child) | LEAF
+        let mut child_lines = [0.0; 8];
+        for (line, &child) in child_lines.iter_mut().zip(&children) {
+            *line = f32::from_bits(if self.nodes[child].is_leaf() {
+                self.write_leaf(child) | LEAF
             } else {
-                self.eight(child)
+                self.write_node(child)
             });
         }
-        self.lines[start + 3] = Line([f32x8::from(folded), f32x8::ZERO]);
-        small(start)
+        self.lines[start + 3] = CacheLine([f32x8::from(child_lines), f32x8::ZERO]);
+        to_u32(start)
     }
 
-    /// Makes the pack of a leaf; returns where it is.
-    fn leaf(&mut self, place: usize) -> u32 {
-        let Node { start, size, .. } = self.nodes[place];
-        // Once each, of however many pieces.
-        let mut held = self.order[start..start + size].to_vec();
-        held.sort_unstable();
-        held.dedup();
+    /// Writes the pack of a leaf, and returns its first line.
+    fn write_leaf(&mut self, index: usize) -> u32 {
+        let Node { start, size, .. } = self.nodes[index];
+        // Each primitive once, even if the leaf holds several pieces of it.
+        let mut indices = self.order[start..start + size].to_vec();
+        indices.sort_unstable();
+        indices.dedup();
         let primitives = self.primitives;
-        let held = || held.iter().map(|&place| (place, &primitives[place]));
-        let triangles = held().filter_map(|(_, primitive)| match primitive {
+        let indexed = || indices.iter().map(|&index| (index, &primitives[index]));
+        let triangles = indexed().filter_map(|(_, primitive)| match primitive {
             Primitive::Triangle(triangle) => Some(triangle),
             Primitive::Sphere(_) => None,
         });
-        let spheres = held().filter_map(|(place, primitive)| match primitive {
-            Primitive::Sphere(_) => Some(small(place)),
+        let spheres = indexed().filter_map(|(index, primitive)| match primitive {
+            Primitive::Sphere(_) => Some(to_u32(index)),
             Primitive::Triangle(_) => None,
         });
         let triangles: Vec<&Triangle> = triangles.collect();
         let registers = if triangles.is_empty() {
-            of_spheres(spheres)
+            sphere_registers(spheres)
         } else {
-            self.of_triangles(&triangles)
+            self.triangle_registers(&triangles)
         };
-        let start = small(self.lines.len());
+        let start = to_u32(self.lines.len());
         self.lines.extend(Pack::lines(registers));
         start
     }
 
-    fn of_triangles(&mut self, triangles: &[&Triangle]) -> [[u32; 8]; 4] {
+    fn triangle_registers(&mut self, triangles: &[&Triangle]) -> [[u32; 8]; 4] {
         let mut corners = Corners::default();
         let mut words = [Word::default(); 8];
         for (word, triangle) in words.iter_mut().zip(triangles) {
             let lanes = positions(triangle).map(|position| corners.lane(position));
-            *word = Word::new(lanes.map(|lane| lane.expect("what is in a leaf fits")));
+            *word = Word::new(lanes.map(|lane| lane.expect("the corners of a leaf fit in a pack")));
         }
 
-        let is_facet = |triangle: &&Triangle| is_facet(triangle) && triangle.material < Word::MORE;
-        if triangles.iter().all(is_facet) {
+        let is_flat =
+            |triangle: &&Triangle| is_flat(triangle) && triangle.material < Word::EXTRA_LIMIT;
+        if triangles.iter().all(is_flat) {
             for (word, triangle) in words.iter_mut().zip(triangles) {
-                word.add(triangle.material);
+                word.set_extra(triangle.material);
             }
         } else {
-            let start = small(self.surfaces.len());
-            words[0].add(start % Word::MORE);
-            words[1].add(start / Word::MORE);
-            words[Pack::OF_SURFACES].flag();
+            let start = to_u32(self.surfaces.len());
+            words[0].set_extra(start % Word::EXTRA_LIMIT);
+            words[1].set_extra(start / Word::EXTRA_LIMIT);
+            words[Pack::SURFACES_FLAG].set_flag();
             let surfaces = triangles.iter().map(|triangle| Surface::new(triangle));
             self.surfaces.extend(surfaces);
         }
@@ -818,32 +841,32 @@ impl<'a> Folding<'a> {
     }
 }
 
-/// The registers of a pack of spheres, of their places.
-fn of_spheres(places: impl Iterator<Item = u32>) -> [[u32; 8]; 4] {
-    let (mut lanes, mut words) = ([NOWHERE; 8], [Word::default(); 8]);
-    for (lane, place) in lanes.iter_mut().zip(places) {
-        *lane = place;
+/// Returns the registers of a pack of spheres, given their indices.
+fn sphere_registers(indices: impl Iterator<Item = u32>) -> [[u32; 8]; 4] {
+    let (mut lanes, mut words) = ([NO_SPHERE; 8], [Word::default(); 8]);
+    for (lane, index) in lanes.iter_mut().zip(indices) {
+        *lane = index;
     }
-    words[Pack::OF_SPHERES].flag();
+    words[Pack::SPHERES_FLAG].set_flag();
     [lanes, [0; 8], [0; 8], words.map(|Word(word)| word)]
 }
 
-/// No primitive has this place.
-const NOWHERE: u32 = u32::MAX;
+/// The index in a lane without a sphere. No primitive has this index.
+const NO_SPHERE: u32 = u32::MAX;
 
 fn positions(triangle: &Triangle) -> [Vec3; 3] {
     [&triangle.p0, &triangle.p1, &triangle.p2].map(|corner| corner.position)
 }
 
-/// Whether all that a `Trace` says follows from the corners.
-fn is_facet(triangle: &Triangle) -> bool {
+/// Returns whether all shading data can be computed from the corners.
+fn is_flat(triangle: &Triangle) -> bool {
     let corners = [&triangle.p0, &triangle.p1, &triangle.p2];
-    Shape::facet_vertices(positions(triangle))
+    Shape::flat_triangle_vertices(positions(triangle))
         .iter()
         .eq(corners)
 }
 
-/// The different corners of some triangles, at most eight.
+/// The distinct corners of some triangles, at most eight.
 #[derive(Default)]
 struct Corners {
     positions: [Vec3; 8],
@@ -851,7 +874,7 @@ struct Corners {
 }
 
 impl Corners {
-    /// In which lane this one is, or comes; none if all are taken.
+    /// Returns the lane of a corner, adding it if it is new, or `None` if all lanes are used.
     fn lane(&mut self, position: Vec3) -> Option<u32> {
         let mut known = self.positions[..self.len].iter();
         let lane = known.position(|known| *known == position);
@@ -867,12 +890,12 @@ impl Corners {
     }
 }
 
-/// Whether the primitives in these places fit in one pack.
-fn fit(primitives: &[Primitive], places: impl ExactSizeIterator<Item = usize>) -> bool {
+/// Returns whether the primitives with these indices fit in one pack.
+fn fits_in_pack(primitives: &[Primitive], indices: impl ExactSizeIterator<Item = usize>) -> bool {
     let (mut corners, mut triangles, mut spheres) = (Corners::default(), 0, 0);
-    places.len() <= 8
-        && places
-            .map(|place| &primitives[place])
+    indices.len() <= 8
+        && indices
+            .map(|index| &primitives[index])
             .all(|primitive| match primitive {
                 Primitive::Triangle(triangle) => {
                     triangles += 1;
@@ -887,10 +910,10 @@ fn fit(primitives: &[Primitive], places: impl ExactSizeIterator<Item = usize>) -
         && (triangles == 0 || spheres == 0)
 }
 
-/// A place, in the bits that are left for it.
-fn small(place: usize) -> u32 {
-    let place = u32::try_from(place).ok().filter(|&place| place < LEAF);
-    place.expect("memory ends before the numbers do")
+/// Converts an index to the bits that are available for it.
+fn to_u32(index: usize) -> u32 {
+    let index = u32::try_from(index).ok().filter(|&index| index < LEAF);
+    index.expect("there are fewer than 2^31 lines and primitives")
 }
 
 /// A box in two registers.
@@ -901,7 +924,7 @@ struct Bounds {
 }
 
 impl Bounds {
-    fn nothing() -> Self {
+    fn empty() -> Self {
         Bounds {
             lower: f32x4::splat(f32::INFINITY),
             upper: f32x4::splat(f32::NEG_INFINITY),
@@ -913,7 +936,7 @@ impl Bounds {
         self.upper = self.upper.fast_max(other.upper);
     }
 
-    /// What both hold.
+    /// Returns the intersection of both boxes.
     fn overlap(self, other: Bounds) -> Bounds {
         Bounds {
             lower: self.lower.fast_max(other.lower),
@@ -930,14 +953,14 @@ impl Bounds {
     }
 
     fn of(items: &[Item]) -> Bounds {
-        let mut bounds = Bounds::nothing();
+        let mut bounds = Bounds::empty();
         items.iter().for_each(|item| bounds.join(item.bounds));
         bounds
     }
 
-    /// Twice the box of the items' centers.
+    /// Returns the box of the items' centres, with all coordinates doubled.
     fn of_centers(items: &[Item]) -> Bounds {
-        let mut centers = Bounds::nothing();
+        let mut centers = Bounds::empty();
         for item in items {
             let center = item.center();
             centers.join(Bounds {
@@ -953,7 +976,7 @@ impl Bounds {
         x < 0.0 || y < 0.0 || z < 0.0
     }
 
-    /// Half of its surface.
+    /// Returns half of the surface area.
     fn area(self) -> f32 {
         if self.is_empty() {
             return 0.0;
@@ -968,11 +991,11 @@ impl Bounds {
     }
 }
 
-/// What building needs to know of a primitive, or of a piece of one.
+/// The bounds of a primitive or of a piece of one, for building.
 #[derive(Clone, Copy)]
 struct Item {
     bounds: Bounds,
-    place: usize,
+    index: usize,
 }
 
 fn items(primitives: &[Primitive]) -> Vec<Item> {
@@ -980,35 +1003,35 @@ fn items(primitives: &[Primitive]) -> Vec<Item> {
 }
 
 impl Item {
-    fn new((place, primitive): (usize, &Primitive)) -> Self {
+    fn new((index, primitive): (usize, &Primitive)) -> Self {
         let BBox { min, max } = primitive.bbox();
         let bounds = Bounds {
             lower: f32x4::from(min.extend(0.0).to_array()),
             upper: f32x4::from(max.extend(0.0).to_array()),
         };
-        Item { bounds, place }
+        Item { bounds, index }
     }
 
-    /// Twice the center.
+    /// Returns the centre, with all coordinates doubled.
     fn center(&self) -> f32x4 {
         self.bounds.lower + self.bounds.upper
     }
 }
 
-/// What lies in one slice. An item whose center counts begins and ends where that lies.
+/// The contents of one slice. In object splits, an item begins and ends in the slice of its centre.
 #[derive(Clone, Copy)]
 struct Bucket {
     bounds: Bounds,
-    /// How many items begin there.
+    /// The number of items that begin in the slice.
     begin: usize,
-    /// How many end there.
+    /// The number of items that end in the slice.
     end: usize,
 }
 
 impl Bucket {
     fn empty() -> Self {
         Bucket {
-            bounds: Bounds::nothing(),
+            bounds: Bounds::empty(),
             begin: 0,
             end: 0,
         }
@@ -1021,7 +1044,7 @@ impl Bucket {
     }
 }
 
-/// Binned SAH over all three axes at once.
+/// A builder of binary trees by binned SAH, over all three axes at once.
 struct Builder {
     items: Vec<Item>,
     nodes: Vec<Node>,
@@ -1029,11 +1052,11 @@ struct Builder {
 }
 
 impl Builder {
-    /// Builds the node over `items[start..end]`, which are not none; returns its place.
+    /// Builds the subtree over `items[start..end]`, which must not be empty, and returns its index.
     fn node(&mut self, start: usize, end: usize) -> usize {
         let items = &mut self.items[start..end];
         let bounds = Bounds::of(items);
-        let place = self.nodes.len();
+        let index = self.nodes.len();
         self.nodes
             .push(Node::leaf(bounds.bbox(), start, end - start));
         if end - start > self.max_leaf_size {
@@ -1041,14 +1064,15 @@ impl Builder {
             let middle = start + partition(items, centers);
             let l = self.node(start, middle);
             let r = self.node(middle, end);
-            self.nodes[place] = Node::interior(bounds.bbox(), l, r);
+            self.nodes[index] = Node::interior(bounds.bbox(), l, r);
         }
-        place
+        index
     }
 }
 
-/// Reorders the items by the cheapest split; returns how many come first. In large nodes many splits
-/// are compared: it takes no time beside counting the items, and what is chosen there matters most.
+/// Partitions the items in place by the cheapest split, and returns the size of the left side.
+/// Large nodes compare many splits: that takes little time compared with counting the items, and
+/// the choice matters most there.
 fn partition(items: &mut [Item], centers: Bounds) -> usize {
     match items.len() {
         0..512 => partition_in::<16>(items, centers),
@@ -1057,10 +1081,10 @@ fn partition(items: &mut [Item], centers: Bounds) -> usize {
     }
 }
 
-/// The same, with so many slices of the centers along each axis.
+/// Partitions with `SLICES` slices of the centres along each axis.
 fn partition_in<const SLICES: usize>(items: &mut [Item], centers: Bounds) -> usize {
     let extent = (centers.upper - centers.lower).to_array();
-    // Along an axis without extent, or with next to none, all are in the first slice.
+    // Along an axis with no extent, or almost none, all items are in the first slice.
     let scale = extent.map(|extent| SLICES as f32 / extent);
     let scale = f32x4::from(scale.map(|scale| if scale.is_finite() { scale } else { 0.0 }));
     let slices = |item: &Item| {
@@ -1080,9 +1104,9 @@ fn partition_in<const SLICES: usize>(items: &mut [Item], centers: Bounds) -> usi
         }
     }
     let splits = (0..3).filter(|&axis| scale.to_array()[axis] > 0.0);
-    let splits = splits.map(|axis| (axis, cheapest(&buckets[axis])));
+    let splits = splits.map(|axis| (axis, cheapest_split(&buckets[axis])));
     let Some((axis, (slice, _))) = splits.min_by(|(_, a), (_, b)| a.1.total_cmp(&b.1)) else {
-        return items.len() / 2; // All centers coincide.
+        return items.len() / 2; // All centres coincide.
     };
 
     let mut first = 0;
@@ -1095,8 +1119,8 @@ fn partition_in<const SLICES: usize>(items: &mut [Item], centers: Bounds) -> usi
     first
 }
 
-/// Before which of the slices to split, and the cost of that.
-fn cheapest<const SLICES: usize>(buckets: &[Bucket; SLICES]) -> (usize, f32) {
+/// Returns the slice before which to split, and the cost of that split.
+fn cheapest_split<const SLICES: usize>(buckets: &[Bucket; SLICES]) -> (usize, f32) {
     let mut right_costs = [0.0; SLICES];
     let mut right = Bucket::empty();
     for i in (1..SLICES).rev() {
@@ -1115,52 +1139,53 @@ fn cheapest<const SLICES: usize>(buckets: &[Bucket; SLICES]) -> (usize, f32) {
     best
 }
 
-/// Builds the tree that is walked. Where the boxes of two halves would overlap, and it is cheaper, a node
-/// is cut along a plane, and a triangle on both sides of it has a piece in either: Stich, Friedrich and
-/// Dietrich, "Spatial Splits in Bounding Volume Hierarchies", 2009.
-struct Cutter<'a> {
+/// A builder of the tree for traversal. If the boxes of two halves would overlap and it is cheaper,
+/// a node is split by a plane, and a triangle that crosses the plane has a piece on each side:
+/// Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies", 2009.
+struct SpatialBuilder<'a> {
     primitives: &'a [Primitive],
     nodes: Vec<Node>,
-    /// Of which primitives the leaves have pieces.
+    /// The primitives to which the leaves refer. One that is split occurs several times.
     order: Vec<usize>,
-    /// How many pieces more there may be.
-    spare: usize,
-    /// So much of an overlap is let be: half of its surface.
-    bearable: f32,
+    /// The number of pieces that may still be added.
+    pieces_left: usize,
+    /// The half surface area of an overlap up to which no spatial split is tried.
+    tolerated_overlap: f32,
 }
 
-/// A plane, and the cost of cutting there.
-struct Cut {
+/// A plane and the cost of a spatial split there.
+struct SpatialSplit {
     axis: usize,
     plane: f32,
     cost: f32,
 }
 
-impl<'a> Cutter<'a> {
-    /// In smaller nodes, cuts take most of the time and save nothing.
-    const LEAST: usize = 256;
-    /// Along each axis.
+impl<'a> SpatialBuilder<'a> {
+    /// The fewest items of a spatial split. In smaller nodes, spatial splits would take most of the
+    /// build time and save nothing.
+    const MIN_ITEMS: usize = 256;
+    /// The number of slices along each axis.
     const SLICES: usize = 32;
 
     fn new(primitives: &'a [Primitive]) -> Self {
-        Cutter {
+        SpatialBuilder {
             primitives,
             nodes: Vec::with_capacity(primitives.len()),
             order: Vec::with_capacity(primitives.len()),
-            spare: primitives.len(),
-            bearable: 1e-4 * Bounds::of(&items(primitives)).area(),
+            pieces_left: primitives.len(),
+            tolerated_overlap: 1e-4 * Bounds::of(&items(primitives)).area(),
         }
     }
 
-    /// Builds the node over these items, which are not none; returns its place.
+    /// Builds the subtree over these items, which must not be empty, and returns its index.
     fn node(&mut self, mut items: Vec<Item>) -> usize {
         let bounds = Bounds::of(&items);
-        let place = self.nodes.len();
+        let index = self.nodes.len();
         let leaf = Node::leaf(bounds.bbox(), self.order.len(), items.len());
         self.nodes.push(leaf);
-        if fit(self.primitives, items.iter().map(|item| item.place)) {
-            self.order.extend(items.iter().map(|item| item.place));
-            return place;
+        if fits_in_pack(self.primitives, items.iter().map(|item| item.index)) {
+            self.order.extend(items.iter().map(|item| item.index));
+            return index;
         }
 
         let centers = Bounds::of_centers(&items);
@@ -1172,67 +1197,68 @@ impl<'a> Cutter<'a> {
         });
         let l = self.node(l);
         let r = self.node(r);
-        self.nodes[place] = Node::interior(bounds.bbox(), l, r);
-        place
+        self.nodes[index] = Node::interior(bounds.bbox(), l, r);
+        index
     }
 
-    /// What lies on either side of a cut, if that is cheaper than these halves.
+    /// Returns the two sides of the best spatial split, if it is cheaper than these halves.
     fn cheaper_halves(
         &mut self,
         items: &[Item],
         middle: usize,
         bounds: Bounds,
     ) -> Option<(Vec<Item>, Vec<Item>)> {
-        if items.len() < Cutter::LEAST {
+        if items.len() < SpatialBuilder::MIN_ITEMS {
             return None;
         }
         let (l, r) = items.split_at(middle);
-        let (of_l, of_r) = (Bounds::of(l), Bounds::of(r));
-        if of_l.overlap(of_r).area() <= self.bearable {
+        let (l_bounds, r_bounds) = (Bounds::of(l), Bounds::of(r));
+        if l_bounds.overlap(r_bounds).area() <= self.tolerated_overlap {
             return None;
         }
-        let cost = of_l.area() * l.len() as f32 + of_r.area() * r.len() as f32;
-        let cut = self.cheapest_cut(items, bounds)?;
-        if cut.cost >= cost {
+        let cost = l_bounds.area() * l.len() as f32 + r_bounds.area() * r.len() as f32;
+        let split = self.cheapest_spatial_split(items, bounds)?;
+        if split.cost >= cost {
             return None;
         }
 
         let (mut l, mut r) = (Vec::new(), Vec::new());
         for item in items {
-            if item.bounds.upper.to_array()[cut.axis] <= cut.plane {
+            if item.bounds.upper.to_array()[split.axis] <= split.plane {
                 l.push(*item);
-            } else if item.bounds.lower.to_array()[cut.axis] >= cut.plane {
+            } else if item.bounds.lower.to_array()[split.axis] >= split.plane {
                 r.push(*item);
             } else {
-                let place = item.place;
-                let [below, above] = self.pieces(item, cut.axis, cut.plane);
-                l.extend(below.map(|bounds| Item { bounds, place }));
-                r.extend(above.map(|bounds| Item { bounds, place }));
+                let index = item.index;
+                let [below, above] = self.pieces(item, split.axis, split.plane);
+                l.extend(below.map(|bounds| Item { bounds, index }));
+                r.extend(above.map(|bounds| Item { bounds, index }));
             }
         }
-        let more = (l.len() + r.len()).saturating_sub(items.len());
-        if l.len().max(r.len()) >= items.len() || more > self.spare {
+        let added = (l.len() + r.len()).saturating_sub(items.len());
+        if l.len().max(r.len()) >= items.len() || added > self.pieces_left {
             return None;
         }
-        self.spare -= more;
+        self.pieces_left -= added;
         Some((l, r))
     }
 
-    /// Along all axes, between slices of equal width.
-    fn cheapest_cut(&self, items: &[Item], bounds: Bounds) -> Option<Cut> {
+    /// Returns the cheapest spatial split between slices of equal width, over all axes.
+    fn cheapest_spatial_split(&self, items: &[Item], bounds: Bounds) -> Option<SpatialSplit> {
         let lower = bounds.lower.to_array();
-        let width =
-            ((bounds.upper - bounds.lower) * f32x4::splat(1.0 / Cutter::SLICES as f32)).to_array();
+        let width = ((bounds.upper - bounds.lower)
+            * f32x4::splat(1.0 / SpatialBuilder::SLICES as f32))
+        .to_array();
         let scale = f32x4::from(width.map(|width| if width > 0.0 { 1.0 / width } else { 0.0 }));
         let plane = |axis: usize, slice: usize| lower[axis] + width[axis] * slice as f32;
         let slices = |corner: f32x4| {
             let slices = ((corner - bounds.lower) * scale)
                 .fast_trunc_int()
                 .to_array();
-            slices.map(|slice| (slice as usize).min(Cutter::SLICES - 1))
+            slices.map(|slice| (slice as usize).min(SpatialBuilder::SLICES - 1))
         };
 
-        let mut buckets = [[Bucket::empty(); Cutter::SLICES]; 3];
+        let mut buckets = [[Bucket::empty(); SpatialBuilder::SLICES]; 3];
         for item in items {
             let (first, last) = (slices(item.bounds.lower), slices(item.bounds.upper));
             for (axis, buckets) in buckets.iter_mut().enumerate() {
@@ -1252,15 +1278,16 @@ impl<'a> Cutter<'a> {
         }
 
         let axes = (0..3).filter(|&axis| plane(axis, 1) > lower[axis]);
-        let cuts = axes.map(|axis| {
-            let (slice, cost) = cheapest(&buckets[axis]);
+        let splits = axes.map(|axis| {
+            let (slice, cost) = cheapest_split(&buckets[axis]);
             let plane = plane(axis, slice);
-            Cut { axis, plane, cost }
+            SpatialSplit { axis, plane, cost }
         });
-        cuts.min_by(|a, b| a.cost.total_cmp(&b.cost))
+        splits.min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 
-    /// The boxes of what of an item lies below a plane, and above, if anything does.
+    /// Returns the boxes of the parts of an item below and above a plane, or `None` for an empty
+    /// part.
     fn pieces(&self, item: &Item, axis: usize, plane: f32) -> [Option<Bounds>; 2] {
         let (mut upper, mut lower) = (item.bounds.upper.to_array(), item.bounds.lower.to_array());
         upper[axis] = upper[axis].min(plane);
@@ -1273,12 +1300,12 @@ impl<'a> Cutter<'a> {
             lower: f32x4::from(lower),
             ..item.bounds
         };
-        let Primitive::Triangle(Triangle { p0, p1, p2, .. }) = &self.primitives[item.place] else {
+        let Primitive::Triangle(Triangle { p0, p1, p2, .. }) = &self.primitives[item.index] else {
             return [Some(below), Some(above)];
         };
 
         let [p0, p1, p2] = [p0.position, p1.position, p2.position];
-        let (mut low, mut high) = (Bounds::nothing(), Bounds::nothing());
+        let (mut low, mut high) = (Bounds::empty(), Bounds::empty());
         for (a, b) in [(p0, p1), (p1, p2), (p2, p0)] {
             if a[axis] <= plane {
                 low.join(Bounds::point(a));
@@ -1288,7 +1315,7 @@ impl<'a> Cutter<'a> {
             }
             if (a[axis] < plane && plane < b[axis]) || (b[axis] < plane && plane < a[axis]) {
                 let at = a + (b - a) * ((plane - a[axis]) / (b[axis] - a[axis]));
-                // Wherever rounding has put it, it is inside.
+                // A tolerance, so that the exact point is inside the box despite rounding.
                 let slack = 4e-7 * a.abs().max(b.abs());
                 for at in [at - slack, at + slack] {
                     low.join(Bounds::point(at));

@@ -1,4 +1,4 @@
-//! The sensor is known by its four corners; a place on it is their bilinear blend.
+//! Computes the four corners of the sensor; a point on it is their bilinear interpolation.
 
 use framework::math::tan;
 use glam::{UVec2, Vec2, Vec3};
@@ -7,16 +7,16 @@ use protocol::Ray;
 /// A pinhole camera at the origin that looks down −z, with y up.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
-    /// The full angle between the lowest and the highest ray, in degrees.
+    /// The vertical field of view: the full angle from the lowest ray to the highest, in degrees.
     pub vertical_fov: f32,
-    /// Width of the sensor divided by its height; need not be that of `film`.
+    /// The width of the sensor divided by its height. It can differ from that of `film`.
     pub aspect_ratio: f32,
-    /// Number of pixels, across and up.
+    /// The number of pixels, across and up.
     pub film: UVec2,
 }
 
 impl Camera {
-    /// A camera from its parts.
+    /// Creates a camera.
     pub fn new(vertical_fov: f32, aspect_ratio: f32, film: UVec2) -> Self {
         Camera {
             vertical_fov,
@@ -25,7 +25,7 @@ impl Camera {
         }
     }
 
-    /// The ray that starts at the camera and passes through `pixel`.
+    /// Returns the ray that starts at the camera and passes through `pixel`.
     pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
         let top = tan(self.vertical_fov.to_radians() / 2.0);
         let right = self.aspect_ratio * top;

@@ -1,4 +1,4 @@
-//! A matrix from the film to the sensor, made once in `new`: Pharr, Jakob and Humphreys,
+//! Computes a matrix from the film to the sensor once, in `new`. Pharr, Jakob and Humphreys,
 //! "Physically Based Rendering" (4th edition), section 5.2, call it cameraFromRaster.
 
 use framework::math::tan;
@@ -8,18 +8,18 @@ use protocol::Ray;
 /// A pinhole camera at the origin that looks down −z, with y up.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
-    /// The full angle between the lowest and the highest ray, in degrees.
+    /// The vertical field of view: the full angle from the lowest ray to the highest, in degrees.
     pub vertical_fov: f32,
-    /// Width of the sensor divided by its height; need not be that of `film`.
+    /// The width of the sensor divided by its height. It can differ from that of `film`.
     pub aspect_ratio: f32,
-    /// Number of pixels, across and up.
+    /// The number of pixels, across and up.
     pub film: UVec2,
-    /// Takes (x, y, 1) on the film to the place on the sensor.
+    /// The matrix that transforms (x, y, 1) on the film to the point on the sensor.
     sensor_from_film: Mat3,
 }
 
 impl Camera {
-    /// A camera from its parts.
+    /// Creates a camera.
     pub fn new(vertical_fov: f32, aspect_ratio: f32, film: UVec2) -> Self {
         let half_height = tan(0.5 * vertical_fov.to_radians());
         let half = Vec2::new(aspect_ratio * half_height, half_height);
@@ -34,7 +34,7 @@ impl Camera {
         }
     }
 
-    /// The ray that starts at the camera and passes through `pixel`.
+    /// Returns the ray that starts at the camera and passes through `pixel`.
     pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
         let on_film = (pixel.as_vec2() + offset).extend(1.0);
         Ray::new(Vec3::ZERO, self.sensor_from_film * on_film)

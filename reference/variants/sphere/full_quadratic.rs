@@ -1,4 +1,4 @@
-//! The whole quadratic formula, (−b ± √(b² − 4ac)) / 2a.
+//! Uses the complete quadratic formula, (−b ± √(b² − 4ac)) / 2a.
 
 use std::f32::consts::{PI, TAU};
 
@@ -11,16 +11,16 @@ use crate::bbox::BBox;
 /// A sphere in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Sphere {
-    /// Its centre.
+    /// The centre.
     pub center: Vec3,
-    /// Its radius; above zero.
+    /// The radius, greater than zero.
     pub radius: f32,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Sphere {
-    /// A sphere from its parts.
+    /// Creates a sphere.
     pub fn new(center: Vec3, radius: f32, material: u32) -> Self {
         Sphere {
             center,
@@ -29,20 +29,21 @@ impl Sphere {
         }
     }
 
-    /// The tightest box around the sphere.
+    /// Returns the tightest box around the sphere.
     pub fn bbox(&self) -> BBox {
         BBox::new(self.center - self.radius, self.center + self.radius)
     }
 
-    /// The texture coordinates of the point in direction `unit_dir`, **of length one**, from the
-    /// centre: u once around the y-axis, v from 0 at the lowest point to 1 at the highest.
+    /// Returns the texture coordinates of the point in the direction `unit_dir` from the centre.
+    /// The direction must have **length one**. u runs from 0 to 1 around the y-axis, and v from 0
+    /// at the lowest point to 1 at the highest.
     pub fn uv(unit_dir: Vec3) -> Vec2 {
         let u = math::atan2(unit_dir.z, unit_dir.x) / TAU;
         let v = math::acos(-unit_dir.y.clamp(-1.0, 1.0)) / PI;
         vec2(if u < 0.0 { u + 1.0 } else { u }, v)
     }
 
-    /// Where the ray first meets the sphere within `ray.range`, if anywhere.
+    /// Returns the ray's first hit on the sphere, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let o = ray.origin - self.center;
         let a = ray.dir.dot(ray.dir);
@@ -65,7 +66,7 @@ impl Sphere {
         Some(self.trace(ray, t))
     }
 
-    /// What is to be told of the place at distance `t`.
+    /// Returns the trace for the hit at distance `t`.
     fn trace(&self, ray: &Ray, t: f32) -> Trace {
         let position = ray.at(t);
         let normal = (position - self.center).normalize();

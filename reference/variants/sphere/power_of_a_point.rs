@@ -1,5 +1,5 @@
-//! From what is known of the roots together: their middle is the closest approach, their product
-//! the power of the origin, and so they are middle ± √(middle² − product).
+//! Computes the roots from their mean, which is the distance of the closest approach, and their
+//! product, which is the power of the origin: mean ± √(mean² − product).
 
 use std::f32::consts::{PI, TAU};
 
@@ -12,16 +12,16 @@ use crate::bbox::BBox;
 /// A sphere in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Sphere {
-    /// Its centre.
+    /// The centre.
     pub center: Vec3,
-    /// Its radius; above zero.
+    /// The radius, greater than zero.
     pub radius: f32,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Sphere {
-    /// A sphere from its parts.
+    /// Creates a sphere.
     pub fn new(center: Vec3, radius: f32, material: u32) -> Self {
         Sphere {
             center,
@@ -30,22 +30,23 @@ impl Sphere {
         }
     }
 
-    /// The tightest box around the sphere.
+    /// Returns the tightest box around the sphere.
     pub fn bbox(&self) -> BBox {
         BBox::new(self.center - self.radius, self.center + self.radius)
     }
 
-    /// The texture coordinates of the point in direction `unit_dir`, **of length one**, from the
-    /// centre: u once around the y-axis, v from 0 at the lowest point to 1 at the highest.
+    /// Returns the texture coordinates of the point in the direction `unit_dir` from the centre.
+    /// The direction must have **length one**. u runs from 0 to 1 around the y-axis, and v from 0
+    /// at the lowest point to 1 at the highest.
     pub fn uv(unit_dir: Vec3) -> Vec2 {
         let u = math::atan2(unit_dir.z, unit_dir.x) / TAU;
         let v = math::acos(-unit_dir.y.clamp(-1.0, 1.0)) / PI;
         vec2(if u < 0.0 { u + 1.0 } else { u }, v)
     }
 
-    /// Where the ray first meets the sphere within `ray.range`, if anywhere.
+    /// Returns the ray's first hit on the sphere, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        // The power of a point: what near · far is for every line through it.
+        // The power of a point is the product near · far, which is equal for all lines through it.
         let from_center = ray.origin.distance(self.center);
         let product = (from_center - self.radius) * (from_center + self.radius);
         let middle = (self.center - ray.origin)
@@ -63,7 +64,7 @@ impl Sphere {
         Some(self.trace(ray, t))
     }
 
-    /// What is to be told of the place at distance `t`.
+    /// Returns the trace for the hit at distance `t`.
     fn trace(&self, ray: &Ray, t: f32) -> Trace {
         let position = ray.at(t);
         let normal = (position - self.center).normalize();

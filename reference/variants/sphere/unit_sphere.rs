@@ -1,5 +1,5 @@
-//! Takes the ray to where the sphere is the unit sphere around the origin. Its direction gets
-//! another length there, so t stays what it was: Pharr, Jakob and Humphreys, "Physically Based
+//! Transforms the ray into the space where the sphere is the unit sphere around the origin. The
+//! direction is scaled too, so t does not change: Pharr, Jakob and Humphreys, "Physically Based
 //! Rendering" (4th edition), section 6.2.
 
 use std::f32::consts::{PI, TAU};
@@ -13,16 +13,16 @@ use crate::bbox::BBox;
 /// A sphere in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Sphere {
-    /// Its centre.
+    /// The centre.
     pub center: Vec3,
-    /// Its radius; above zero.
+    /// The radius, greater than zero.
     pub radius: f32,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Sphere {
-    /// A sphere from its parts.
+    /// Creates a sphere.
     pub fn new(center: Vec3, radius: f32, material: u32) -> Self {
         Sphere {
             center,
@@ -31,20 +31,21 @@ impl Sphere {
         }
     }
 
-    /// The tightest box around the sphere.
+    /// Returns the tightest box around the sphere.
     pub fn bbox(&self) -> BBox {
         BBox::new(self.center - self.radius, self.center + self.radius)
     }
 
-    /// The texture coordinates of the point in direction `unit_dir`, **of length one**, from the
-    /// centre: u once around the y-axis, v from 0 at the lowest point to 1 at the highest.
+    /// Returns the texture coordinates of the point in the direction `unit_dir` from the centre.
+    /// The direction must have **length one**. u runs from 0 to 1 around the y-axis, and v from 0
+    /// at the lowest point to 1 at the highest.
     pub fn uv(unit_dir: Vec3) -> Vec2 {
         let u = math::atan2(unit_dir.z, unit_dir.x) / TAU;
         let v = math::acos(-unit_dir.y.clamp(-1.0, 1.0)) / PI;
         vec2(if u < 0.0 { u + 1.0 } else { u }, v)
     }
 
-    /// Where the ray first meets the sphere within `ray.range`, if anywhere.
+    /// Returns the ray's first hit on the sphere, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let origin = (ray.origin - self.center) / self.radius;
         let dir = ray.dir / self.radius;

@@ -1,6 +1,7 @@
-//! Volumes: the scalar triple product of the ray and two corners has the sign of the side on which
-//! it passes their edge. Ericson, "Real-Time Collision Detection", section 5.3.4; here with the
-//! edge itself for one of the corners, so that small triangles do not drown in rounding.
+//! Signed volumes: the scalar triple product of the ray's direction and two corners is positive or
+//! negative depending on which side the ray passes their edge. Ericson, "Real-Time Collision
+//! Detection", section 5.3.4; here with the edge itself instead of one of the corners, since
+//! rounding errors would otherwise be too large for small triangles.
 
 use glam::Vec3;
 use protocol::{Ray, Trace, Vertex};
@@ -10,18 +11,18 @@ use crate::bbox::BBox;
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with weight `w = 1 − u − v`.
+    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with weight `u`.
+    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with weight `v`.
+    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Triangle {
-    /// A triangle from its parts.
+    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         Triangle {
             p0,
@@ -31,7 +32,8 @@ impl Triangle {
         }
     }
 
-    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
+    /// axis-aligned plane.
     pub fn bbox(&self) -> BBox {
         let mut bbox = BBox::EMPTY;
         bbox.enclose_point(self.p0.position);
@@ -40,7 +42,7 @@ impl Triangle {
         bbox
     }
 
-    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let a = self.p0.position - ray.origin;
         let b = self.p1.position - ray.origin;
@@ -58,12 +60,12 @@ impl Triangle {
             return None;
         }
 
-        // The weighted corner lies on the ray, whose direction has length one.
+        // The weighted sum of the corners is on the ray, whose direction has length one.
         let t = (w * a + u * b + v * c).dot(ray.dir);
         ray.range.contains(t).then(|| self.trace(ray, t, u, v))
     }
 
-    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    /// Returns the trace for the hit at distance `t`, where p1 has the weight `u` and p2 has `v`.
     fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
         let w = 1.0 - u - v;
         Trace {

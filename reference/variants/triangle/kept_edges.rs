@@ -1,4 +1,4 @@
-//! Edges and face normal are computed once, in `new`, and kept in private fields.
+//! Computes the edges and the face normal once, in `new`, and stores them in private fields.
 
 use glam::Vec3;
 use protocol::{Ray, Trace, Vertex};
@@ -8,24 +8,24 @@ use crate::bbox::BBox;
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with weight `w = 1 − u − v`.
+    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with weight `u`.
+    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with weight `v`.
+    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
-    /// From p0 to p1.
+    /// The edge from p0 to p1.
     e1: Vec3,
-    /// From p0 to p2.
+    /// The edge from p0 to p2.
     e2: Vec3,
-    /// Their cross product.
+    /// The face normal: the cross product of the edges.
     face: Vec3,
 }
 
 impl Triangle {
-    /// A triangle from its parts.
+    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         let e1 = p1.position - p0.position;
         let e2 = p2.position - p0.position;
@@ -40,7 +40,8 @@ impl Triangle {
         }
     }
 
-    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
+    /// axis-aligned plane.
     pub fn bbox(&self) -> BBox {
         let mut bbox = BBox::EMPTY;
         bbox.enclose_point(self.p0.position);
@@ -49,9 +50,10 @@ impl Triangle {
         bbox
     }
 
-    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        // The determinant of the three equations, and each with s in place of a column.
+        // Cramer's rule: the determinant of the three equations, and those with s instead of a
+        // column.
         let determinant = -self.face.dot(ray.dir);
         if determinant == 0.0 {
             return None;
@@ -69,7 +71,7 @@ impl Triangle {
         (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| self.trace(ray, t, u, v))
     }
 
-    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    /// Returns the trace for the hit at distance `t`, where p1 has the weight `u` and p2 has `v`.
     fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
         let w = 1.0 - u - v;
         Trace {

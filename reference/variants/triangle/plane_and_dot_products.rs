@@ -1,5 +1,5 @@
-//! Meets the plane first, then finds the weights from two equations of dot products with the
-//! edges: Ericson, "Real-Time Collision Detection", section 3.4.
+//! Intersects the plane first, then solves two equations of dot products with the edges for the
+//! weights: Ericson, "Real-Time Collision Detection", section 3.4.
 
 use protocol::{Ray, Trace, Vertex};
 
@@ -8,18 +8,18 @@ use crate::bbox::BBox;
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with weight `w = 1 − u − v`.
+    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with weight `u`.
+    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with weight `v`.
+    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Triangle {
-    /// A triangle from its parts.
+    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         Triangle {
             p0,
@@ -29,7 +29,8 @@ impl Triangle {
         }
     }
 
-    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
+    /// axis-aligned plane.
     pub fn bbox(&self) -> BBox {
         let mut bbox = BBox::EMPTY;
         bbox.enclose_point(self.p0.position);
@@ -38,7 +39,7 @@ impl Triangle {
         bbox
     }
 
-    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let e1 = self.p1.position - self.p0.position;
         let e2 = self.p2.position - self.p0.position;
@@ -49,10 +50,10 @@ impl Triangle {
             return None;
         }
         let t = face.dot(self.p0.position - ray.origin) / slope;
-        let place = ray.at(t) - self.p0.position;
+        let point = ray.at(t) - self.p0.position;
 
         let (d11, d12, d22) = (e1.dot(e1), e1.dot(e2), e2.dot(e2));
-        let (d1, d2) = (place.dot(e1), place.dot(e2));
+        let (d1, d2) = (point.dot(e1), point.dot(e2));
         let determinant = d11 * d22 - d12 * d12;
         let u = (d22 * d1 - d12 * d2) / determinant;
         let v = (d11 * d2 - d12 * d1) / determinant;
@@ -60,7 +61,7 @@ impl Triangle {
         (inside && ray.range.contains(t)).then(|| self.trace(ray, t, u, v))
     }
 
-    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    /// Returns the trace for the hit at distance `t`, where p1 has the weight `u` and p2 has `v`.
     fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
         let w = 1.0 - u - v;
         Trace {

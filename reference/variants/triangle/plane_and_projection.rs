@@ -1,6 +1,6 @@
-//! Meets the plane first, then drops the axis along which the face looks most and finds the
-//! weights in two dimensions: Badouel, "An Efficient Ray-Polygon Intersection", Graphics Gems,
-//! 1990.
+//! Intersects the plane first, then drops the axis in which the face normal is largest, and
+//! computes the weights in two dimensions: Badouel, "An Efficient Ray-Polygon Intersection",
+//! Graphics Gems, 1990.
 
 use glam::{Vec2, Vec3};
 use protocol::{Ray, Trace, Vertex};
@@ -10,18 +10,18 @@ use crate::bbox::BBox;
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with weight `w = 1 − u − v`.
+    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with weight `u`.
+    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with weight `v`.
+    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Triangle {
-    /// A triangle from its parts.
+    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         Triangle {
             p0,
@@ -31,7 +31,8 @@ impl Triangle {
         }
     }
 
-    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
+    /// axis-aligned plane.
     pub fn bbox(&self) -> BBox {
         let mut bbox = BBox::EMPTY;
         bbox.enclose_point(self.p0.position);
@@ -40,7 +41,7 @@ impl Triangle {
         bbox
     }
 
-    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let e1 = self.p1.position - self.p0.position;
         let e2 = self.p2.position - self.p0.position;
@@ -58,14 +59,14 @@ impl Triangle {
         let dropped = face.abs().max_position();
         let flat = |v: Vec3| Vec2::new(v[(dropped + 1) % 3], v[(dropped + 2) % 3]);
         let (e1, e2) = (flat(e1), flat(e2));
-        let place = flat(ray.at(t) - self.p0.position);
+        let point = flat(ray.at(t) - self.p0.position);
         let area = e1.perp_dot(e2);
-        let u = place.perp_dot(e2) / area;
-        let v = e1.perp_dot(place) / area;
+        let u = point.perp_dot(e2) / area;
+        let v = e1.perp_dot(point) / area;
         (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| self.trace(ray, t, u, v))
     }
 
-    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    /// Returns the trace for the hit at distance `t`, where p1 has the weight `u` and p2 has `v`.
     fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
         let w = 1.0 - u - v;
         Trace {

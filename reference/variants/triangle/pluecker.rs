@@ -1,6 +1,6 @@
-//! Plücker coordinates: on which side of each edge the ray passes. Two lines (d, m) pass each
-//! other as d1·m2 + d2·m1 says: Shoemake, "Plücker Coordinate Tutorial", Ray Tracing News 11(1),
-//! 1998.
+//! Determines with Plücker coordinates on which side of each edge the ray passes: for two lines (d,
+//! m), it is the sign of d1·m2 + d2·m1. Shoemake, "Plücker Coordinate Tutorial", Ray Tracing News
+//! 11(1), 1998.
 
 use glam::Vec3;
 use protocol::{Ray, Trace, Vertex};
@@ -10,18 +10,18 @@ use crate::bbox::BBox;
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with weight `w = 1 − u − v`.
+    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with weight `u`.
+    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with weight `v`.
+    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Triangle {
-    /// A triangle from its parts.
+    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         Triangle {
             p0,
@@ -31,7 +31,8 @@ impl Triangle {
         }
     }
 
-    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
+    /// axis-aligned plane.
     pub fn bbox(&self) -> BBox {
         let mut bbox = BBox::EMPTY;
         bbox.enclose_point(self.p0.position);
@@ -40,9 +41,10 @@ impl Triangle {
         bbox
     }
 
-    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        // Seen from p0, so that the moments of a small triangle far away are not all rounding.
+        // Relative to p0, since the moments of a small, distant triangle would otherwise have large
+        // rounding errors.
         let line = Line::through(ray.origin - self.p0.position, ray.dir);
         let b = self.p1.position - self.p0.position;
         let c = self.p2.position - self.p0.position;
@@ -62,7 +64,7 @@ impl Triangle {
         ray.range.contains(t).then(|| self.trace(ray, t, u, v))
     }
 
-    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    /// Returns the trace for the hit at distance `t`, where p1 has the weight `u` and p2 has `v`.
     fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
         let w = 1.0 - u - v;
         Trace {
@@ -91,7 +93,8 @@ impl Line {
         }
     }
 
-    /// Zero where the lines meet; its sign says on which side they pass each other.
+    /// Returns zero if the lines intersect; otherwise the sign says on which side they pass each
+    /// other.
     fn side(self, other: Line) -> f32 {
         self.dir.dot(other.moment) + other.dir.dot(self.moment)
     }

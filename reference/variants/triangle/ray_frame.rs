@@ -1,5 +1,5 @@
-//! Builds two axes across the ray and looks along it: the ray is a point, the triangle is flat,
-//! and the weights are areas in two dimensions.
+//! Projects the triangle along the ray, onto two axes perpendicular to it. In this plane the ray is
+//! a point, and the weights are ratios of areas.
 
 use glam::Vec2;
 use protocol::{Ray, Trace, Vertex};
@@ -9,18 +9,18 @@ use crate::bbox::BBox;
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with weight `w = 1 − u − v`.
+    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with weight `u`.
+    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with weight `v`.
+    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Triangle {
-    /// A triangle from its parts.
+    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         Triangle {
             p0,
@@ -30,7 +30,8 @@ impl Triangle {
         }
     }
 
-    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
+    /// axis-aligned plane.
     pub fn bbox(&self) -> BBox {
         let mut bbox = BBox::EMPTY;
         bbox.enclose_point(self.p0.position);
@@ -39,7 +40,7 @@ impl Triangle {
         bbox
     }
 
-    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let (right, up) = ray.dir.any_orthonormal_pair();
         let seen = |corner: Vertex| {
@@ -49,7 +50,7 @@ impl Triangle {
         let [(a, depth_a), (b, depth_b), (c, depth_c)] =
             [seen(self.p0), seen(self.p1), seen(self.p2)];
 
-        // The ray is seen at (0, 0).
+        // The ray is projected to (0, 0).
         let (w, u, v) = (b.perp_dot(c), c.perp_dot(a), a.perp_dot(b));
         let area = w + u + v;
         if area == 0.0 {
@@ -63,7 +64,7 @@ impl Triangle {
         ray.range.contains(t).then(|| self.trace(ray, t, u, v))
     }
 
-    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    /// Returns the trace for the hit at distance `t`, where p1 has the weight `u` and p2 has `v`.
     fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
         let w = 1.0 - u - v;
         Trace {

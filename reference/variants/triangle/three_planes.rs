@@ -1,6 +1,6 @@
-//! Three planes, made once: the triangle's own, and two across it whose distances are u and v.
-//! Havel and Herout, "Yet Faster Ray-Triangle Intersection (Using SSE4)", IEEE TVCG 16(3), 2010;
-//! here with p0 for origin, so that no plane needs an offset.
+//! Computes three planes once: the triangle's own, and two perpendicular ones whose distances are u
+//! and v. Havel and Herout, "Yet Faster Ray-Triangle Intersection (Using SSE4)", IEEE TVCG 16(3),
+//! 2010; here relative to p0, so that no plane needs an offset.
 
 use glam::Vec3;
 use protocol::{Ray, Trace, Vertex};
@@ -10,24 +10,24 @@ use crate::bbox::BBox;
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with weight `w = 1 − u − v`.
+    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with weight `u`.
+    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with weight `v`.
+    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
-    /// Normal of the triangle's plane.
+    /// The normal of the triangle's plane.
     face: Vec3,
-    /// 1 at p1, 0 at p0 and p2.
+    /// The normal of the plane whose distance is 1 at p1, and 0 at p0 and p2.
     u_plane: Vec3,
-    /// 1 at p2, 0 at p0 and p1.
+    /// The normal of the plane whose distance is 1 at p2, and 0 at p0 and p1.
     v_plane: Vec3,
 }
 
 impl Triangle {
-    /// A triangle from its parts.
+    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         let e1 = p1.position - p0.position;
         let e2 = p2.position - p0.position;
@@ -43,7 +43,8 @@ impl Triangle {
         }
     }
 
-    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
+    /// axis-aligned plane.
     pub fn bbox(&self) -> BBox {
         let mut bbox = BBox::EMPTY;
         bbox.enclose_point(self.p0.position);
@@ -52,7 +53,7 @@ impl Triangle {
         bbox
     }
 
-    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let s = ray.origin - self.p0.position;
         let slope = self.face.dot(ray.dir);
@@ -60,13 +61,13 @@ impl Triangle {
             return None;
         }
         let t = -self.face.dot(s) / slope;
-        let place = s + t * ray.dir;
-        let (u, v) = (self.u_plane.dot(place), self.v_plane.dot(place));
+        let point = s + t * ray.dir;
+        let (u, v) = (self.u_plane.dot(point), self.v_plane.dot(point));
         let inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
         (inside && ray.range.contains(t)).then(|| self.trace(ray, t, u, v))
     }
 
-    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    /// Returns the trace for the hit at distance `t`, where p1 has the weight `u` and p2 has `v`.
     fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
         let w = 1.0 - u - v;
         Trace {

@@ -1,7 +1,7 @@
-//! A matrix, made once, takes the triangle to (0,0), (1,0), (0,1) in the plane z = 0; there the
-//! test is trivial. The third axis is the one that the face looks along most: Baldwin and Weber,
-//! "Fast Ray-Triangle Intersections by Coordinate Transformation", Journal of Computer Graphics
-//! Techniques 5(3), 2016.
+//! Transforms the ray with a matrix, computed once, that maps the triangle to (0,0), (1,0), (0,1)
+//! in the plane z = 0, where the test is trivial. The third axis is the one in which the face
+//! normal is largest: Baldwin and Weber, "Fast Ray-Triangle Intersections by Coordinate
+//! Transformation", Journal of Computer Graphics Techniques 5(3), 2016.
 
 use glam::{Mat3, Vec3};
 use protocol::{Ray, Trace, Vertex};
@@ -11,20 +11,21 @@ use crate::bbox::BBox;
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with weight `w = 1 − u − v`.
+    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with weight `u`.
+    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with weight `v`.
+    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
-    /// Takes e1 to the x-axis, e2 to the y-axis and one of the axes to the z-axis.
+    /// The matrix that maps e1 to the x-axis, e2 to the y-axis, and a coordinate axis to the
+    /// z-axis.
     to_unit: Mat3,
 }
 
 impl Triangle {
-    /// A triangle from its parts.
+    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         let e1 = p1.position - p0.position;
         let e2 = p2.position - p0.position;
@@ -39,7 +40,8 @@ impl Triangle {
         }
     }
 
-    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
+    /// axis-aligned plane.
     pub fn bbox(&self) -> BBox {
         let mut bbox = BBox::EMPTY;
         bbox.enclose_point(self.p0.position);
@@ -48,19 +50,19 @@ impl Triangle {
         bbox
     }
 
-    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let origin = self.to_unit * (ray.origin - self.p0.position);
         let dir = self.to_unit * ray.dir;
 
-        // Of a triangle without area the matrix holds infinities or NaN, which pass no test.
+        // For a triangle without area the matrix contains infinities or NaN, which fail all tests.
         let t = -origin.z / dir.z;
         let (u, v) = (origin.x + t * dir.x, origin.y + t * dir.y);
         let inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
         (inside && ray.range.contains(t)).then(|| self.trace(ray, t, u, v))
     }
 
-    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    /// Returns the trace for the hit at distance `t`, where p1 has the weight `u` and p2 has `v`.
     fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
         let w = 1.0 - u - v;
         Trace {

@@ -1,6 +1,6 @@
-//! Shears space until the ray is the z-axis and looks at edges in the plane: Woop, Benthin and
-//! Wald, "Watertight Ray/Triangle Intersection", Journal of Computer Graphics Techniques 2(1),
-//! 2013.
+//! Shears space so that the ray becomes the z-axis, and tests the edges in two dimensions: Woop,
+//! Benthin and Wald, "Watertight Ray/Triangle Intersection", Journal of Computer Graphics
+//! Techniques 2(1), 2013.
 
 use glam::Vec3;
 use protocol::{Ray, Trace, Vertex};
@@ -10,18 +10,18 @@ use crate::bbox::BBox;
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with weight `w = 1 − u − v`.
+    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with weight `u`.
+    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with weight `v`.
+    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Triangle {
-    /// A triangle from its parts.
+    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         Triangle {
             p0,
@@ -31,7 +31,8 @@ impl Triangle {
         }
     }
 
-    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
+    /// axis-aligned plane.
     pub fn bbox(&self) -> BBox {
         let mut bbox = BBox::EMPTY;
         bbox.enclose_point(self.p0.position);
@@ -40,10 +41,10 @@ impl Triangle {
         bbox
     }
 
-    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        // The axis along which the ray moves most, and the two others, in the order that keeps
-        // the winding.
+        // The axis in which the direction is largest, and the other two in the order that keeps the
+        // winding.
         let z = ray.dir.abs().max_position();
         let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
         if ray.dir[z] < 0.0 {
@@ -75,7 +76,7 @@ impl Triangle {
             .then(|| self.trace(ray, t, of_b / determinant, of_c / determinant))
     }
 
-    /// What is to be told of the place at distance `t`, where p1 weighs `u` and p2 weighs `v`.
+    /// Returns the trace for the hit at distance `t`, where p1 has the weight `u` and p2 has `v`.
     fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
         let w = 1.0 - u - v;
         Trace {
@@ -89,8 +90,8 @@ impl Triangle {
     }
 }
 
-/// On which side of the edge from `a` to `b` the ray passes: in double precision where it is too
-/// close to say.
+/// Returns a number whose sign says on which side of the edge from `a` to `b` the ray passes. It is
+/// computed in double precision if single precision gives zero.
 fn edge(a: Vec3, b: Vec3) -> f32 {
     let side = a.x * b.y - a.y * b.x;
     if side != 0.0 {

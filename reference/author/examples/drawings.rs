@@ -1,7 +1,7 @@
-//! A page with the drawings of what every known mistake answers: to look at.
+//! Writes a page with the drawings that the report shows for every known mistake, for inspection.
 //!
-//! `cargo run --release -p author --example drawings -- target/drawings.html [WORD]` draws all, or
-//! only those whose mistake or item has the word in its name.
+//! `cargo run --release -p author --example drawings -- target/drawings.html [WORD]` draws all
+//! mistakes, or only those whose mistake or item id contains the word.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -43,15 +43,15 @@ fn main() -> ExitCode {
 fn run() -> Result<(), Box<dyn error::Error>> {
     let file = env::args()
         .nth(1)
-        .ok_or("where shall the page be written?")?;
+        .ok_or("the name of the page to write is missing: target/drawings.html")?;
     let word = env::args().nth(2).unwrap_or_default();
-    let exhibits = Solutions::load(Workbench::open()?)?;
+    let solutions = Solutions::load(Workbench::open()?)?;
     let exam = exams::load_practice(Path::new(ROOT))?;
-    let figures = exhibits
+    let figures = solutions
         .mistakes
         .par_iter()
         .map(|(mistake, sources)| {
-            let solution = exhibits.workbench.build(sources, &mistake.id)?;
+            let solution = solutions.workbench.build(sources, &mistake.id)?;
             let mut figures = String::new();
             let items = exam.items.iter().filter(|item| item.task == mistake.task());
             let named = items.filter(|item| item.id.contains(&word) || mistake.id.contains(&word));
@@ -59,10 +59,11 @@ fn run() -> Result<(), Box<dyn error::Error>> {
                 let Ok(answers) = solution.answers(item)? else {
                     continue;
                 };
-                if let Some((words, drawing)) = first_failure(item, &answers) {
-                    let title = format!("{} in {}{words}", mistake.id, item.id);
-                    write!(figures, "{}", figure(&title, drawing)).expect("text takes text");
-                    // One of a mistake is enough, if not asked for by name.
+                if let Some((location, drawing)) = first_failure(item, &answers) {
+                    let title = format!("{} in {}{location}", mistake.id, item.id);
+                    write!(figures, "{}", figure(&title, drawing))
+                        .expect("writing to a String cannot fail");
+                    // Without a word, one drawing per mistake is enough.
                     if word.is_empty() {
                         break;
                     }
@@ -79,16 +80,17 @@ fn run() -> Result<(), Box<dyn error::Error>> {
     Ok(fs::write(file, page)?)
 }
 
-/// The first question that an item fails by, drawn.
+/// Returns the first wrong question and element of an item, and its drawing.
 fn first_failure(item: &Item, answers: &[Answer]) -> Option<(String, Option<Drawing>)> {
-    let asked = item.questions.iter().zip(answers).enumerate();
-    let mut failures = asked.filter_map(|(number, (asked, answer))| {
-        let judgement = judge(asked, answer);
+    let numbered = item.questions.iter().zip(answers).enumerate();
+    let mut failures = numbered.filter_map(|(number, (question, answer))| {
+        let judgement = judge(question, answer);
         let failure = judgement
             .failure
             .filter(|_| judgement.credit < Credit::FULL)?;
-        let words = format!(", question {number}, element {}", failure.element);
-        Some((words, drawing::draw(asked, failure.element, Some(answer))))
+        let location = format!(", question {number}, element {}", failure.element);
+        let drawing = drawing::draw(question, failure.element, Some(answer));
+        Some((location, drawing))
     });
     failures.next()
 }
@@ -96,7 +98,7 @@ fn first_failure(item: &Item, answers: &[Answer]) -> Option<(String, Option<Draw
 fn figure(title: &str, drawing: Option<Drawing>) -> String {
     let (svg, caption) = match drawing {
         Some(drawing) => (drawing.svg, drawing.caption),
-        None => (String::new(), "nothing to see".to_owned()),
+        None => (String::new(), "no drawing".to_owned()),
     };
     format!("<figure><h2>{title}</h2>{svg}<figcaption>{caption}</figcaption></figure>\n")
 }

@@ -1,4 +1,5 @@
-//! A class of any size, made of the known mistakes and the variants: to see how fast one is graded.
+//! Writes a class of any size, made of the known mistakes and variants, to measure how fast a class
+//! is graded.
 //!
 //! ```text
 //! cargo run --release -p author --example submissions -- target/class 200
@@ -17,9 +18,9 @@ use grader::given_files::TASK_FILES;
 use grader::workspace::Workspace;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut words = env::args().skip(1);
-    let (Some(folder), Some(count)) = (words.next(), words.next()) else {
-        return Err("a folder and a number are meant: target/class 200".into());
+    let mut arguments = env::args().skip(1);
+    let (Some(folder), Some(count)) = (arguments.next(), arguments.next()) else {
+        return Err("expected a folder and a number of submissions: target/class 200".into());
     };
     let (folder, count) = (PathBuf::from(folder), count.parse()?);
     let workspace = Workspace::find()?;
@@ -33,10 +34,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     for variant in variants(root)? {
         solutions.push((variant.id.clone(), variant.apply(&reference, root)?));
     }
-    for place in 0..count {
-        // Strided, so that a small class is of all tasks as well.
-        let (id, sources) = &solutions[(7 * place) % solutions.len()];
-        write(&folder.join(format!("{place:04}-{id}")), sources)?;
+    for index in 0..count {
+        // A stride, so that a small class contains mistakes in all tasks, too.
+        let (id, sources) = &solutions[(7 * index) % solutions.len()];
+        write(&folder.join(format!("{index:04}-{id}")), sources)?;
     }
     Ok(())
 }

@@ -1,4 +1,5 @@
-//! What drawings show of the right way: added to an exam when its questions stand.
+//! Data for a report's drawings: the intermediate results of a correct solution, which are drawn
+//! beside a wrong answer. They are added to an exam after its questions have been generated.
 
 use grader::drawing_data::{DrawingData, TraversalStep};
 use grader::exam::{Exam, ExamQuestion};
@@ -9,41 +10,38 @@ use crate::oracle::{Ray64, scan, sweep};
 use crate::tree::Tree;
 use crate::tree::traversal::{Traversal, TraversalRule};
 
-/// The way that is shown, of all that are right: as a student would write it.
+/// The choices of the traversal that is drawn: among all correct ones, the one that a student would
+/// most likely write.
 const RULE: TraversalRule = TraversalRule {
     left_first: true,
     tests_on_entry: false,
     conservative: false,
 };
 
-/// The exam, with the right way beside every key of which there is one.
+/// Adds the data for drawings to every question that has a drawing.
 pub fn with_drawing_data(mut exam: Exam) -> Exam {
-    let asked = exam.items.iter_mut().flat_map(|item| &mut item.questions);
+    let questions = exam.items.iter_mut().flat_map(|item| &mut item.questions);
     for ExamQuestion {
         question,
-        drawing_data: shown,
+        drawing_data: data,
         ..
-    } in asked
+    } in questions
     {
-        *shown = drawing_data(question);
+        *data = drawing_data(question);
     }
     exam
 }
 
 fn drawing_data(question: &Question) -> DrawingData {
     match question {
-        Question::BBox {
-            min,
-            max,
-            queries: shots,
-        } => {
+        Question::BBox { min, max, queries } => {
             let bounds = Bounds {
                 min: min.as_dvec3(),
                 max: max.as_dvec3(),
             };
-            DrawingData::Slabs(shots.iter().map(|(ray, _)| slabs(&bounds, ray)).collect())
+            DrawingData::Slabs(queries.iter().map(|(ray, _)| slabs(&bounds, ray)).collect())
         }
-        // A tree over nothing has no area to compare with.
+        // An empty tree has no root area to divide costs by.
         Question::Build { shapes, .. } if shapes.is_empty() => DrawingData::None,
         Question::Build {
             shapes,
@@ -77,11 +75,11 @@ fn drawing_data(question: &Question) -> DrawingData {
     }
 }
 
-/// When the ray's line is between the planes of each axis.
+/// Returns, for each axis, the interval in which the ray's line is between the box's two planes.
 fn slabs(bounds: &Bounds, ray: &Ray) -> [Interval; 3] {
     let line = Ray64::from(ray).within(Interval::new(f32::NEG_INFINITY, f32::INFINITY));
     [0, 1, 2].map(|axis| {
-        // A box without end along the other axes.
+        // The slab is a box that is infinite along the other axes.
         let mut slab = Bounds {
             min: glam::DVec3::NEG_INFINITY,
             max: glam::DVec3::INFINITY,
@@ -96,17 +94,17 @@ fn slabs(bounds: &Bounds, ray: &Ray) -> [Interval; 3] {
 }
 
 fn traversal_steps(tree: &Tree, ray: &Ray) -> Vec<TraversalStep> {
-    let beam = Ray64::from(ray);
-    let walk = Traversal::correct(tree, &beam, RULE);
-    let step = |&(place, is_entered): &(usize, bool)| TraversalStep {
-        node: place as u32,
+    let ray64 = Ray64::from(ray);
+    let traversal = Traversal::correct(tree, &ray64, RULE);
+    let step = |&(index, is_entered): &(usize, bool)| TraversalStep {
+        node: index as u32,
         is_entered,
         span: tree
-            .bounds(place)
-            .span(&beam.ahead())
+            .bounds(index)
+            .span(&ray64.ahead())
             .map(|(enter, leave)| Interval::new(enter as f32, leave as f32)),
     };
-    walk.reached_nodes.iter().map(step).collect()
+    traversal.reached_nodes.iter().map(step).collect()
 }
 
 #[cfg(test)]
@@ -140,14 +138,14 @@ mod tests {
         };
         let tree = construction::median_split(vec![wall(1.0, 0), wall(5.0, 1)], 1);
         let steps = traversal_steps(&tree, &Ray::new(Vec3::ZERO, Vec3::X));
-        let came: Vec<_> = steps
+        let reached: Vec<_> = steps
             .iter()
             .map(|step| (step.node, step.is_entered))
             .collect();
-        assert_eq!(came, [(2, true), (0, true), (1, false)]);
+        assert_eq!(reached, [(2, true), (0, true), (1, false)]);
         assert!(
             steps[2].span.is_some(),
-            "it begins beyond, and is not missed"
+            "the ray hits its box, beyond the closest hit"
         );
     }
 
@@ -160,9 +158,9 @@ mod tests {
             items: crate::items::bbox::items(Seed(1)),
         };
         let exam = with_drawing_data(exam);
-        for asked in exam.items.iter().flat_map(|item| &item.questions) {
-            assert!(!asked.drawing_data.is_none());
-            assert_eq!(asked.drawing_data.problem(&asked.question), None);
+        for question in exam.items.iter().flat_map(|item| &item.questions) {
+            assert!(!question.drawing_data.is_none());
+            assert_eq!(question.drawing_data.problem(&question.question), None);
         }
     }
 }

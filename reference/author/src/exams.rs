@@ -1,4 +1,4 @@
-//! Whole exams.
+//! Generation of exams and their files.
 
 use std::path::Path;
 
@@ -17,52 +17,52 @@ use crate::seed::Seed;
 /// The version of the exam file's format.
 const SCHEMA: u32 = 1;
 
-/// What the practice exam follows from. It is handed out with its keys, so this is no secret.
-const PRACTICE: Seed = Seed(2025);
+/// The seed of the practice exam. It is not secret, because that exam is handed out with its keys.
+const PRACTICE_SEED: Seed = Seed(2025);
 
-/// Where the practice exam stands, from the workspace's root.
+/// The path of the practice exam, relative to the workspace root.
 const PRACTICE_FILE: &str = "grader/exams/practice.json";
 
-/// Why there is no exam.
+/// The reason why an exam could not be generated.
 #[derive(Debug, thiserror::Error)]
 pub enum ExamGenerationError {
-    /// What the reference and the mistakes must say was not said.
+    /// The reference or a known mistake could not be built, or did not answer as it must.
     #[error(transparent)]
     Solutions(#[from] ProofError),
-    /// The exam can not be put into text.
-    #[error("can not write the exam: {0}")]
+    /// The exam could not be serialized.
+    #[error("cannot write the exam: {0}")]
     Text(#[from] serde_json::Error),
 }
 
-/// The files with exams in this repository.
+/// Generates the exam files of this repository.
 pub fn generated_files() -> Result<Vec<GeneratedFile>, ExamGenerationError> {
-    let practice = exam_text("practice", PRACTICE)?;
+    let practice = exam_text("practice", PRACTICE_SEED)?;
     Ok(vec![GeneratedFile::new(PRACTICE_FILE, practice)])
 }
 
-/// The practice exam that is committed in the workspace at `root`.
+/// Reads the practice exam that is committed in the workspace at `root`.
 pub fn load_practice(root: &Path) -> Result<Exam, ExamError> {
     Ok(exam_file::load(Some(&root.join(PRACTICE_FILE)))?.exam)
 }
 
-/// The file of an exam of other questions about the same ideas.
+/// Generates the text of a final exam: other questions about the same ideas.
 pub fn final_exam_text(seed: u64) -> Result<String, ExamGenerationError> {
     exam_text("final", Seed(seed))
 }
 
 fn exam_text(id: &str, seed: Seed) -> Result<String, ExamGenerationError> {
-    let exhibits = Solutions::load(Workbench::open().map_err(ProofError::from)?)?;
-    let exam = generate(id, seed, &exhibits.recorder).map_err(ProofError::from)?;
-    Ok(to_text(&with_drawing_data(with_hints(exam, &exhibits)?))?)
+    let solutions = Solutions::load(Workbench::open().map_err(ProofError::from)?)?;
+    let exam = generate(id, seed, &solutions.recorder).map_err(ProofError::from)?;
+    Ok(to_text(&with_drawing_data(with_hints(exam, &solutions)?))?)
 }
 
-/// A whole exam, with the reference's picture.
+/// Generates an exam without hints; the reference draws the picture of the radiance item.
 pub fn generate(id: &str, seed: Seed, recorder: &Recorder) -> Result<Exam, RecordingError> {
     let recorded = recorder.record_cornell_box(|scene| traverse::radiance_question(seed, scene))?;
     Ok(assemble(id, seed, recorded))
 }
 
-/// An exam: each item after those that it needs.
+/// Assembles an exam without hints, in which each item comes after the items that it needs.
 pub fn assemble(id: &str, seed: Seed, recorded: RecordedPicture) -> Exam {
     let tasks: [fn(Seed) -> Vec<Item>; 6] = [
         camera::items,
@@ -83,7 +83,7 @@ pub fn assemble(id: &str, seed: Seed, recorded: RecordedPicture) -> Exam {
     }
 }
 
-/// The exam as a file: an item a line, so that a difference shows which items it is in.
+/// Writes the exam as JSON with one item per line, so that a diff shows which items changed.
 fn to_text(exam: &Exam) -> Result<String, serde_json::Error> {
     let items: Vec<String> = exam
         .items

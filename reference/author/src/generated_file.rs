@@ -1,20 +1,20 @@
-//! Files that are made, not written: the only place that touches them.
+//! Generated files. Only this module writes them, or checks that they are up to date.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A file and what it must hold.
+/// A generated file and its contents.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeneratedFile {
-    /// Relative to the workspace's root, with `/`.
+    /// The path relative to the workspace's root, with `/`.
     pub path: String,
-    /// All of its text.
+    /// The whole text.
     pub contents: String,
 }
 
 impl GeneratedFile {
-    /// A file from its parts.
+    /// Creates a file from its path and contents.
     pub fn new(path: impl Into<String>, contents: impl Into<String>) -> Self {
         GeneratedFile {
             path: path.into(),
@@ -23,43 +23,43 @@ impl GeneratedFile {
     }
 }
 
-/// What to do with generated files.
+/// Whether to write or to check generated files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Make them so.
+    /// Write those that differ.
     Write,
-    /// Change nothing, and fail if they are not so.
+    /// Change nothing, and fail if any of them differs.
     Check,
 }
 
-/// Why the files are not as they must be.
+/// Generated files are out of date, or cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum GeneratedFileError {
-    /// What stands there is something else, or nothing.
-    #[error("not as generated: {}\nfix it with `{command}`", paths.join(", "))]
+    /// Files differ from what would be generated, or are missing.
+    #[error("out of date: {}; run `{command}`", paths.join(", "))]
     Differs {
         /// Every file that differs or is missing.
         paths: Vec<String>,
         /// The command that writes them.
         command: String,
     },
-    /// A file can not be written.
-    #[error("can not write {}: {source}", path.display())]
+    /// A file cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
     Unwritable {
         /// The file, or its folder.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
 }
 
-/// Writes the files below `root`, or compares them with what stands there. `mend` is the command
-/// that writes them, for the message.
+/// Writes the files below `root`, or compares them with the files there. `command` is the command
+/// that writes them; an error message names it.
 pub fn write_or_check(
     files: &[GeneratedFile],
     root: &Path,
     mode: Mode,
-    mend: &str,
+    command: &str,
 ) -> Result<(), GeneratedFileError> {
     match mode {
         Mode::Write => files
@@ -72,17 +72,14 @@ pub fn write_or_check(
             if paths.is_empty() {
                 return Ok(());
             }
-            let mend = mend.to_owned();
-            Err(GeneratedFileError::Differs {
-                paths,
-                command: mend,
-            })
+            let command = command.to_owned();
+            Err(GeneratedFileError::Differs { paths, command })
         }
     }
 }
 
 fn differs(file: &GeneratedFile, root: &Path) -> bool {
-    // A file that can not be read is not as it must be either.
+    // A file that cannot be read counts as different, too.
     let found = fs::read(root.join(&file.path));
     !found.is_ok_and(|found| found == file.contents.as_bytes())
 }
@@ -120,7 +117,7 @@ mod tests {
         let error = write_or_check(&files(), root.path(), Mode::Check, "make").unwrap_err();
         assert_eq!(
             error.to_string(),
-            "not as generated: a/one.txt, two.txt\nfix it with `make`"
+            "out of date: a/one.txt, two.txt; run `make`"
         );
         assert!(!root.path().join("a").exists(), "a check changes nothing");
     }

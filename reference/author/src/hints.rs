@@ -1,4 +1,5 @@
-//! What known mistakes answer, for an exam's key: asked of each, over the same pipe.
+//! Adds the signatures of known mistakes to an exam, which the grader's hints are based on. Every
+//! mistake is built and asked the exam's questions, like any submission.
 
 use std::collections::BTreeSet;
 
@@ -12,51 +13,52 @@ use rayon::prelude::*;
 use crate::proof::solutions::{ProofError, Solutions};
 use crate::proof::workbench::WorkbenchError;
 
-/// The most elements of an item that are told of.
+/// The maximum number of an item's elements that a signature records.
 const MAX_ELEMENTS: usize = 24;
-/// So many are told of even if fewer tell the known mistakes apart: unknown ones are to show that
-/// they are none of these.
+/// The minimum number of recorded elements, even if fewer distinguish all known mistakes. The
+/// additional ones show that an unknown mistake is none of the known ones.
 const MIN_ELEMENTS: usize = 12;
 
-/// The exam, with what every known mistake answers to some of its questions.
-pub fn with_hints(mut exam: Exam, exhibits: &Solutions) -> Result<Exam, ProofError> {
-    let answers: Vec<Vec<Option<Vec<ObservedAnswer>>>> = exhibits
+/// Returns the exam with every known mistake's answers to some of its questions.
+pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam, ProofError> {
+    let answers: Vec<Vec<Option<Vec<ObservedAnswer>>>> = solutions
         .mistakes
         .par_iter()
         .map(|(mistake, sources)| {
-            let solution = exhibits.workbench.build(sources, &mistake.id)?;
+            let solution = solutions.workbench.build(sources, &mistake.id)?;
             let items = exam.items.iter();
-            let seen = items.map(|item| {
+            let observed = items.map(|item| {
                 let own = item.task == mistake.task() && is_table(item);
                 own.then(|| observed_answers(item, solution.answers(item)))
                     .transpose()
             });
-            seen.collect::<Result<_, ProofError>>()
+            observed.collect::<Result<_, ProofError>>()
         })
         .collect::<Result<_, ProofError>>()?;
 
-    let mistakes = exhibits.mistakes.iter().map(|(mistake, _)| KnownMistake {
+    let mistakes = solutions.mistakes.iter().map(|(mistake, _)| KnownMistake {
         id: mistake.id.clone(),
         nudge: mistake.nudge.clone(),
         hint: mistake.hint.clone(),
         section: mistake.section.clone(),
     });
     exam.mistakes = mistakes.collect();
-    for (place, item) in exam.items.iter_mut().enumerate() {
+    for (index, item) in exam.items.iter_mut().enumerate() {
         if is_table(item) {
-            let by = (0..).zip(&answers);
-            let told = by.filter_map(|(mistake, seen)| Some((mistake, seen[place].as_deref()?)));
-            item.signatures = signatures(&expected(item), &told.collect::<Vec<_>>());
+            let by_mistake = (0..).zip(&answers);
+            let wrong = by_mistake
+                .filter_map(|(mistake, observed)| Some((mistake, observed[index].as_deref()?)));
+            item.signatures = signatures(&expected(item), &wrong.collect::<Vec<_>>());
         }
     }
     Ok(exam)
 }
 
-/// Whether all that an item asks are tables and trees: of pictures nothing is told.
+/// Returns whether all questions of an item are tables or trees. Pictures have no signatures.
 fn is_table(item: &Item) -> bool {
     item.questions
         .iter()
-        .all(|asked| match (&asked.key, &asked.question) {
+        .all(|question| match (&question.key, &question.question) {
             (Key::Rays { .. }, Question::Camera { samples, .. }) => {
                 matches!(samples, Samples::List(_))
             }
@@ -77,43 +79,46 @@ fn observed_answers(
     })
 }
 
-/// What is told of an item, given the right answers and each mistake's.
-fn signatures(right: &[ObservedAnswer], told: &[(u32, &[ObservedAnswer])]) -> MistakeSignatures {
-    let elements = choose_elements(right, told);
-    let mut tells = MistakeSignatures {
+/// Returns the signatures of an item, given the correct answers and those of each mistake.
+fn signatures(
+    correct: &[ObservedAnswer],
+    by_mistake: &[(u32, &[ObservedAnswer])],
+) -> MistakeSignatures {
+    let elements = choose_elements(correct, by_mistake);
+    let mut signatures = MistakeSignatures {
         correct_answers: elements
             .iter()
-            .map(|&element| right[element].clone())
+            .map(|&element| correct[element].clone())
             .collect(),
         elements: elements.iter().map(|&element| element as u32).collect(),
         mistake_answers: Vec::new(),
     };
-    for (mistake, seen) in told {
+    for (mistake, observed) in by_mistake {
         let wrong = (0..)
             .zip(&elements)
-            .filter(|(_, element)| !seen[**element].matches(&right[**element]));
+            .filter(|(_, element)| !observed[**element].matches(&correct[**element]));
         let answers: Vec<(u32, ObservedAnswer)> = wrong
-            .map(|(place, &element)| (place, seen[element].clone()))
+            .map(|(index, &element)| (index, observed[element].clone()))
             .collect();
         if answers.is_empty() {
             continue;
         }
-        match tells
+        match signatures
             .mistake_answers
             .iter_mut()
             .find(|other| same_answers(&other.answers, &answers))
         {
             Some(other) => other.mistakes.push(*mistake),
-            None => tells.mistake_answers.push(MistakeAnswers {
+            None => signatures.mistake_answers.push(MistakeAnswers {
                 mistakes: vec![*mistake],
                 answers,
             }),
         }
     }
-    if tells.mistake_answers.is_empty() {
+    if signatures.mistake_answers.is_empty() {
         return MistakeSignatures::default();
     }
-    tells
+    signatures
 }
 
 fn same_answers(a: &[(u32, ObservedAnswer)], b: &[(u32, ObservedAnswer)]) -> bool {
@@ -123,30 +128,34 @@ fn same_answers(a: &[(u32, ObservedAnswer)], b: &[(u32, ObservedAnswer)]) -> boo
             .all(|(a, b)| a.0 == b.0 && a.1.matches(&b.1))
 }
 
-/// The elements that tell most apart: mistakes from each other and from what is right. Greedily,
-/// each the one that tells most of what those before it do not.
-fn choose_elements(right: &[ObservedAnswer], told: &[(u32, &[ObservedAnswer])]) -> Vec<usize> {
-    let all: Vec<&[ObservedAnswer]> = told.iter().map(|(_, seen)| *seen).chain([right]).collect();
+/// Returns the elements that best distinguish the mistakes from each other and from correct
+/// answers. Greedy: each next element distinguishes the most pairs that are still alike.
+fn choose_elements(
+    correct: &[ObservedAnswer],
+    by_mistake: &[(u32, &[ObservedAnswer])],
+) -> Vec<usize> {
+    let mistakes = by_mistake.iter().map(|(_, observed)| *observed);
+    let all: Vec<&[ObservedAnswer]> = mistakes.chain([correct]).collect();
     let mut pairs: Vec<(usize, usize)> = (0..all.len())
         .flat_map(|b| (0..b).map(move |a| (a, b)))
         .collect();
     let differ =
         |element: usize, &(a, b): &(usize, usize)| !all[a][element].matches(&all[b][element]);
     let mut chosen = BTreeSet::new();
-    while chosen.len() < MAX_ELEMENTS.min(right.len()) {
-        let left = (0..right.len()).filter(|element| !chosen.contains(element));
+    while chosen.len() < MAX_ELEMENTS.min(correct.len()) {
+        let left = (0..correct.len()).filter(|element| !chosen.contains(element));
         let gains = left.map(|element| {
             (
                 pairs.iter().filter(|pair| differ(element, pair)).count(),
                 element,
             )
         });
-        // The first of the best: the order of equals must not matter.
+        // Of equal gains, the first element: the result must be deterministic.
         let Some((gain, best)) = gains.min_by_key(|(gain, element)| (usize::MAX - gain, *element))
         else {
             break;
         };
-        // Where nothing is left to tell apart, any other element tells strangers.
+        // With all pairs distinguished, any further element helps against unknown mistakes.
         if gain == 0 && chosen.len() >= MIN_ELEMENTS {
             break;
         }

@@ -1,7 +1,8 @@
-//! Writes all that is generated: the starter, the exams, the scenes' meshes, what students get.
+//! Generates everything in this repository that is not written by hand: the starter, the exams, the
+//! scenes' meshes, the handout's figures, and the bundles and packages that are handed out.
 //!
-//! It does not know the reference's code: what counts as right comes from the definitions, in
-//! [`oracle`], in double precision. That both agree is found out by grading the reference.
+//! This crate never links the reference. Keys are computed from the definitions, in double
+//! precision, in [`oracle`]. Grading the reference then shows that both agree.
 
 pub mod bundle;
 pub mod cli;

@@ -1,4 +1,4 @@
-//! Writes all that is generated: `cargo author --help`.
+//! The `cargo author` program, which writes every generated file: see `cargo author --help`.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -19,7 +19,7 @@ use author::proof::workbench::Workbench;
 use author::{exams, handout, scenes, starter};
 use clap::Parser;
 
-/// The workspace's root, where all paths of generated files start.
+/// The workspace's root. The paths of generated files are relative to it.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
 fn main() -> ExitCode {
@@ -80,11 +80,11 @@ fn run(command: Command) -> CommandResult {
             variant,
             write,
         } => {
-            let exhibits = match variant {
+            let selected = match variant {
                 Some(id) => solutions()?.only_variant(&id)?,
                 None => solutions()?,
             };
-            let summary = prove(&exhibits, seeds, mistakes)?;
+            let summary = prove(&selected, seeds, mistakes)?;
             if write {
                 let record = summary.record(&today(), &commit(root)?);
                 generate(&[record], Mode::Write, "prove")?;
@@ -99,8 +99,8 @@ fn run(command: Command) -> CommandResult {
             if check {
                 table::check(root)?;
             }
-            let usual = if check { FEW_SEEDS } else { MANY_SEEDS };
-            let calibration = calibrate(&solutions()?, seeds.unwrap_or(usual), mistakes)?;
+            let default = if check { FEW_SEEDS } else { MANY_SEEDS };
+            let calibration = calibrate(&solutions()?, seeds.unwrap_or(default), mistakes)?;
             if !check {
                 generate(
                     &[table::generated_file(&calibration)],
@@ -113,18 +113,19 @@ fn run(command: Command) -> CommandResult {
     }
 }
 
-/// Writes or compares what is generated; `name` is the command that writes it.
+/// Writes generated files, or compares them with the files on disk. `name` is the subcommand of
+/// `cargo author` that writes them.
 fn generate(files: &[GeneratedFile], mode: Mode, name: &str) -> CommandResult {
-    let mend = format!("cargo author {name}");
-    Ok(write_or_check(files, Path::new(ROOT), mode, &mend)?)
+    let command = format!("cargo author {name}");
+    Ok(write_or_check(files, Path::new(ROOT), mode, &command)?)
 }
 
 fn make_handout(root: &Path, mode: Mode, book: Option<&Path>) -> CommandResult {
     generate(&handout::generated_files(), mode, "handout")?;
-    let complaints = handout::problems(root, &exams::load_practice(root)?)?;
+    let problems = handout::problems(root, &exams::load_practice(root)?)?;
     report(
-        &complaints,
-        "the handout: every link, name and command is there",
+        &problems,
+        "handout: every link, name and command was checked",
     )?;
     book.map_or(Ok(()), |folder| make_book(root, &root.join(folder)))
 }
@@ -138,31 +139,31 @@ fn make_book(root: &Path, folder: &Path) -> CommandResult {
 
 #[cfg(not(feature = "book"))]
 fn make_book(_: &Path, _: &Path) -> CommandResult {
-    Err("this program was built without mdBook; `cargo book` builds one with it".into())
+    Err("this program was built without mdBook: run `cargo book` instead".into())
 }
 
 fn solutions() -> Result<Solutions, ProofError> {
     Solutions::load(Workbench::open()?)
 }
 
-/// Hands out what students get; refuses if there is a secret in it.
+/// Writes the students' bundle. Refuses if it contains a secret.
 fn write_bundle(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -> CommandResult {
     let secrets = Secrets::gather(root, bundle)?;
     let leaks = secrets.search(bundle);
-    let mut complaints: Vec<String> = leaks.iter().map(ToString::to_string).collect();
+    let mut problems: Vec<String> = leaks.iter().map(ToString::to_string).collect();
     if check && leaks.is_empty() {
-        complaints = bundle::check::check(root, bundle)?;
+        problems = bundle::check::check(root, bundle)?;
     }
     let (count, size) = (bundle.files.len(), bundle.size() / 1000);
-    let line = format!("{count} files, {size} kB, {secrets} in none of them");
-    report(&complaints, &line)?;
+    let line = format!("{count} files, {size} kB, searched for {secrets}");
+    report(&problems, &line)?;
     if let Some(out) = out {
         archive::write(bundle, out)?;
     }
     Ok(())
 }
 
-/// Writes a platform's package. What students can read is searched for secrets before.
+/// Writes a platform's package. One that students can read is searched for secrets first.
 fn write_package(
     root: &Path,
     platform: Platform,
@@ -174,7 +175,10 @@ fn write_package(
         Platform::Gradescope => {
             let is_zip = out.extension().is_some_and(|extension| extension == "zip");
             if !is_zip {
-                return Err("Gradescope takes a zip: let --out end with .zip".into());
+                return Err(
+                    "Gradescope needs a zip file: choose a name for --out that ends with .zip"
+                        .into(),
+                );
             }
             out.parent().map_or(Ok(()), std::fs::create_dir_all)?;
             std::fs::write(out, archive::zip_with_prefix(package, "")?)?;
@@ -183,7 +187,7 @@ fn write_package(
             match check {
                 true => report(
                     &trial::gradescope::check(root, out)?,
-                    "it grades as Gradescope runs it",
+                    "the package grades correctly when run as on Gradescope",
                 ),
                 false => Ok(()),
             }
@@ -194,7 +198,7 @@ fn write_package(
             match check {
                 true => report(
                     &trial::classroom50::check(root, out)?,
-                    "it grades a checkout as classroom50 runs it",
+                    "the package grades a checkout correctly when run as on classroom50",
                 ),
                 false => Ok(()),
             }
@@ -204,7 +208,7 @@ fn write_package(
             match check {
                 true => report(
                     &trial::github::check(root, package)?,
-                    "its workflow grades a checkout",
+                    "the template's workflow grades a checkout correctly",
                 ),
                 false => Ok(()),
             }
@@ -212,23 +216,24 @@ fn write_package(
     }
 }
 
-fn run_mutants(root: &Path, extent: MutantSelection, mode: Mode) -> CommandResult {
+fn run_mutants(root: &Path, selection: MutantSelection, mode: Mode) -> CommandResult {
     let list = mutants::list(root, mode)?;
     generate(&[list.generated_file()], mode, "mutants")?;
-    let findings = mutants::run(&list, extent)?;
-    println!("{}", extent.description());
+    let findings = mutants::run(&list, selection)?;
+    println!("{}", selection.description());
     report(&findings.problems(), &findings.summary_line())
 }
 
-/// Says what was found, and fails if there is something to complain of.
-fn report(complaints: &[String], line: &str) -> CommandResult {
-    for complaint in complaints {
-        eprintln!("{complaint}");
+/// Prints the problems and the summary line. Fails if there are problems.
+fn report(problems: &[String], line: &str) -> CommandResult {
+    for problem in problems {
+        eprintln!("{problem}");
     }
     println!("{line}");
-    match complaints.len() {
+    match problems.len() {
         0 => Ok(()),
-        count => Err(format!("{count} findings that should not be: see above").into()),
+        1 => Err("1 problem was found: see above".into()),
+        count => Err(format!("{count} problems were found: see above").into()),
     }
 }
 
@@ -236,7 +241,7 @@ fn today() -> String {
     jiff::Timestamp::now().strftime("%F").to_string()
 }
 
-/// The commit that is checked out, and whether something was changed since.
+/// Returns the checked-out commit, with `-dirty` appended if there are uncommitted changes.
 fn commit(root: &Path) -> io::Result<String> {
     let git = std::process::Command::new("git")
         .args(["describe", "--always", "--dirty", "--abbrev=12"])

@@ -1,4 +1,5 @@
-//! What only the reference can say: it is graded like any submission, and asked over the same pipe.
+//! Recording of the keys that only the reference can give. The reference runs in a probe like any
+//! submission, and answers over the same pipe.
 
 use std::io;
 use std::time::Duration;
@@ -10,34 +11,34 @@ use protocol::{Answer, ElementOutcome, Question};
 use crate::proof::sources::{ReadError, Sources, read};
 use crate::proof::workbench::{BuiltSolution, Workbench, WorkbenchError};
 
-/// The scene of the radiance item, from the workspace's root.
+/// The path of the radiance item's scene, relative to the workspace root.
 const SCENE: &str = "scenes/cornell-box.json";
 
-/// For a picture.
+/// The limit for drawing a picture.
 const BUDGET: Budget = Budget {
     cpu: Duration::from_secs(60),
 };
 
-/// A question and the reference's picture for it.
+/// A question and the picture that the reference draws for it.
 #[derive(Clone, Debug)]
 pub struct RecordedPicture {
-    /// What was asked.
+    /// The question.
     pub question: Question,
-    /// Linear red, green and blue, row by row from the bottom.
+    /// Linear red, green and blue of each pixel, row by row from the bottom.
     pub pixels: Vec<Vec3>,
 }
 
-/// Why nothing was recorded.
+/// The reason why the reference's picture could not be recorded.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingError {
-    /// The scene or the reference can not be read.
+    /// The scene or the reference could not be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// The reference can not be built.
-    #[error("the reference: {0}")]
+    /// The reference could not be built.
+    #[error("cannot build the reference: {0}")]
     Build(#[from] WorkbenchError),
-    /// The probe can not be started.
-    #[error("can not start the reference's probe: {0}")]
+    /// The probe could not be started.
+    #[error("cannot start the reference's probe: {0}")]
     Start(#[from] io::Error),
     /// The probe did not answer.
     #[error("the reference did not answer: {0:?}")]
@@ -56,7 +57,7 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Builds the reference.
+    /// Reads the scene and the reference's files, and builds the reference.
     pub fn open(workbench: &Workbench) -> Result<Self, RecordingError> {
         let scene = read(&workbench.root().join(SCENE))?;
         let sources = Sources::reference(workbench.root())?;
@@ -68,12 +69,13 @@ impl Recorder {
         })
     }
 
-    /// The reference's files.
+    /// Returns the reference's files.
     pub fn reference(&self) -> &Sources {
         &self.sources
     }
 
-    /// The reference's answer to a question about the Cornell box, whose text is told to `question`.
+    /// Records the reference's answer to a question about the Cornell box. `question` is called
+    /// with the text of the scene file.
     pub fn record_cornell_box(
         &self,
         question: impl FnOnce(String) -> Question,

@@ -1,4 +1,4 @@
-//! The meshes of the folder `scenes`: all ours, made here from formulas and published tables.
+//! The meshes in the folder `scenes`, generated from formulas and published tables.
 
 mod gyroid;
 mod obj;
@@ -7,7 +7,7 @@ mod teapot;
 
 use crate::generated_file::GeneratedFile;
 
-/// The files in the folder `scenes` that are made.
+/// Returns the generated files of the folder `scenes`.
 pub fn generated_files() -> Vec<GeneratedFile> {
     vec![
         GeneratedFile::new("scenes/gyroid.obj", gyroid::obj()),

@@ -1,53 +1,53 @@
-//! Where chance comes from: a seed and a name, the same on every machine.
+//! Random numbers from a seed and an item's name: the same on every machine.
 
 use glam::{DVec3, dvec3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// What all questions of an exam follow from.
+/// The seed from which all questions of an exam are drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Seed(pub u64);
 
 impl Seed {
-    /// Random numbers for one item. Each item has its own, so that a change of one leaves the
-    /// others as they were.
+    /// Returns the random numbers of one item. Each item has its own sequence, so that changing one
+    /// item leaves the others as they are.
     pub fn rng(self, item: &str) -> Rng {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&self.0.to_le_bytes());
         for (i, byte) in item.bytes().enumerate() {
-            let place: &mut u8 = &mut key[8 + i % 24];
-            *place = place.rotate_left(3) ^ byte;
+            let slot: &mut u8 = &mut key[8 + i % 24];
+            *slot = slot.rotate_left(3) ^ byte;
         }
         Rng(ChaCha8Rng::from_seed(key))
     }
 }
 
-/// Random numbers, drawn one after the other.
+/// A sequence of random numbers.
 #[derive(Debug)]
 pub struct Rng(ChaCha8Rng);
 
 impl Rng {
-    /// A number in `[min, max)`.
+    /// Returns a number in `[min, max)`.
     pub fn uniform(&mut self, min: f64, max: f64) -> f64 {
         self.0.random_range(min..max)
     }
 
-    /// A whole number below `n`, which is above zero.
+    /// Returns an integer in `0..n`. Panics if `n` is 0.
     pub fn index(&mut self, n: usize) -> usize {
         self.0.random_range(0..n)
     }
 
-    /// Heads or tails.
+    /// Returns true or false with equal probability.
     pub fn coin(&mut self) -> bool {
         self.0.random_bool(0.5)
     }
 
-    /// −1 or 1.
+    /// Returns −1 or 1 with equal probability.
     pub fn sign(&mut self) -> f64 {
         if self.coin() { 1.0 } else { -1.0 }
     }
 
-    /// A point in the cube from `-half` to `half` along each axis.
+    /// Returns a point in the cube from `-half` to `half` along each axis.
     pub fn point(&mut self, half: f64) -> DVec3 {
         dvec3(
             self.uniform(-half, half),
@@ -56,9 +56,9 @@ impl Rng {
         )
     }
 
-    /// A direction of length one, all equally likely.
+    /// Returns a uniformly distributed direction of length one.
     pub fn direction(&mut self) -> DVec3 {
-        // From the unit ball, by rejection: no trigonometry.
+        // Rejection sampling in the unit ball avoids trigonometry.
         loop {
             let point = self.point(1.0);
             let length = point.length();
@@ -68,34 +68,34 @@ impl Rng {
         }
     }
 
-    /// A direction of length one at a right angle to `dir`.
+    /// Returns a direction of length one that is perpendicular to `dir`.
     pub fn perpendicular_to(&mut self, dir: DVec3) -> DVec3 {
         loop {
-            let across = self.direction().reject_from(dir);
-            if across.length() > 0.1 {
-                return across.normalize();
+            let rejection = self.direction().reject_from(dir);
+            if rejection.length() > 0.1 {
+                return rejection.normalize();
             }
         }
     }
 
-    /// The same elements in another order.
+    /// Returns the elements in random order.
     pub fn shuffled<T>(&mut self, mut list: Vec<T>) -> Vec<T> {
-        // Fisher and Yates.
+        // The Fisher–Yates shuffle.
         for i in (1..list.len()).rev() {
             list.swap(i, self.index(i + 1));
         }
         list
     }
 
-    /// What `attempt` makes, asked again until it makes something.
+    /// Calls `attempt` until it returns `Some`, and returns that value.
     ///
-    /// Questions are found by rejection: drawn, and drawn again where an honest answer in single
-    /// precision could differ from the true one.
+    /// Questions are found by rejection sampling: a question is drawn again if a correct answer in
+    /// single precision could differ from the key.
     pub fn retry<T>(&mut self, mut attempt: impl FnMut(&mut Rng) -> Option<T>) -> T {
-        const PATIENCE: usize = 1_000_000;
-        (0..PATIENCE)
+        const MAX_ATTEMPTS: usize = 1_000_000;
+        (0..MAX_ATTEMPTS)
             .find_map(|_| attempt(self))
-            .expect("a question of this kind exists")
+            .expect("an attempt succeeds")
     }
 }
 
@@ -113,8 +113,8 @@ mod tests {
 
     #[test]
     fn numbers_are_the_same_on_every_machine() {
-        let mut draw = Seed(7).rng("sphere.near_side");
-        let whole = [draw.index(1000), draw.index(1000), draw.index(1000)];
-        assert_eq!(whole, [99, 598, 640]);
+        let mut rng = Seed(7).rng("sphere.near_side");
+        let numbers = [rng.index(1000), rng.index(1000), rng.index(1000)];
+        assert_eq!(numbers, [99, 598, 640]);
     }
 }

@@ -1,14 +1,14 @@
-//! The starter: the reference's files without what students are to write.
+//! Generates the starter: the reference's files without the solutions.
 //!
-//! Line by line, no parser. Two marks, both of them comments:
+//! Solutions are marked with comments. The files are read line by line; nothing is parsed:
 //!
 //! ```text
-//! // solution          from here on code is dropped
+//! // solution          starts a region whose code is dropped
 //! // starter: todo!()  this line is handed out instead, uncommented
-//! // end solution      up to here
+//! // end solution      ends the region
 //! ```
 //!
-//! `// starter:` counts outside such a region as well, and all other lines there stay as they are.
+//! `// starter:` works outside a region as well. All other lines outside are copied unchanged.
 
 use std::fs;
 use std::io;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use crate::generated_file::GeneratedFile;
 
-/// The files that a submission is compiled of: the five to write, and four that are given.
+/// The files of a submission's crate: the five task files and four that are given.
 const FILES: [&str; 9] = [
     "bbox.rs",
     "bvh.rs",
@@ -29,75 +29,74 @@ const FILES: [&str; 9] = [
     "world.rs",
 ];
 
-/// Where the starter goes: what students edit, and what the grader knows it by.
+/// The folders that the starter is written to: the one that students edit, and the copy that is
+/// embedded in the grader.
 const TARGET_FOLDERS: [&str; 2] = ["student/src", "grader/starter"];
 
+/// The folder of the marked files.
 const SOURCE_FOLDER: &str = "reference/src";
 
-/// Why there is no starter.
+/// The starter cannot be generated.
 #[derive(Debug, thiserror::Error)]
 pub enum StarterError {
-    /// A file of the reference can not be read.
-    #[error("can not read {}: {source}", path.display())]
+    /// A file of the reference cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
-    /// A file of the reference is marked wrongly.
+    /// A mark in a file of the reference is wrong.
     #[error("{SOURCE_FOLDER}/{file}:{line}: {error}")]
     Mark {
         /// The file.
         file: &'static str,
-        /// The line, from 1.
+        /// The line, counted from 1.
         line: usize,
-        /// What is wrong there.
+        /// The problem on that line.
         error: MarkError,
     },
 }
 
-/// What can be wrong with marks.
+/// A problem with a mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MarkError {
-    /// A region begins inside another.
-    #[error("`// solution` inside a solution: end the one before with `// end solution`")]
+    /// A region starts inside another.
+    #[error("`// solution` inside a solution: end the previous one with `// end solution` first")]
     Nested,
-    /// A region ends that never began.
+    /// A region ends that was never started.
     #[error("`// end solution` without a `// solution` above it")]
     NotStarted,
-    /// A region never ends.
+    /// A region is never ended.
     #[error("this `// solution` has no `// end solution`")]
     NotEnded,
-    /// A region leaves nothing in its place.
-    #[error("a solution without a `// starter:` line: say what students get in its place")]
+    /// A region has no line for the starter.
+    #[error("a solution without a `// starter:` line: add the line that students get instead")]
     NoStarterLine,
 }
 
-/// Every file of the starter, in each of its places, from the reference below `root`.
+/// Generates every file of the starter, for each target folder, from the reference below `root`.
 pub fn generated_files(root: &Path) -> Result<Vec<GeneratedFile>, StarterError> {
     let mut generated = Vec::new();
     for file in FILES {
         let path = root.join(SOURCE_FOLDER).join(file);
         let source = fs::read_to_string(&path)
             .map_err(|source| StarterError::Unreadable { path, source })?;
-        let starter = project(&source).map_err(|(line, slip)| StarterError::Mark {
-            file,
-            line,
-            error: slip,
-        })?;
-        for place in TARGET_FOLDERS {
-            generated.push(GeneratedFile::new(format!("{place}/{file}"), &*starter));
+        let starter =
+            project(&source).map_err(|(line, error)| StarterError::Mark { file, line, error })?;
+        for folder in TARGET_FOLDERS {
+            generated.push(GeneratedFile::new(format!("{folder}/{file}"), &*starter));
         }
     }
     Ok(generated)
 }
 
-/// What a line is to the projection.
+/// The role of a line of a marked file.
 enum LineKind<'a> {
     Begin,
     End,
-    /// A line of the starter: its indentation, and what follows the mark.
+    /// A line of the starter: its indentation and its text after the mark.
     Starter(&'a str, &'a str),
     Other,
 }
@@ -115,9 +114,9 @@ fn classify(line: &str) -> LineKind<'_> {
     }
 }
 
-/// What is handed out of one file, or the line (from 1) and what is wrong there.
+/// Returns the starter's text for one marked file. An error comes with its line, counted from 1.
 fn project(source: &str) -> Result<String, (usize, MarkError)> {
-    /// An open region: where it began, and whether it leaves anything.
+    /// An open region: its first line, and whether it has a line for the starter.
     struct Region {
         begin: usize,
         has_starter_line: bool,

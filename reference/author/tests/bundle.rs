@@ -1,5 +1,6 @@
-//! What students get: complete, the same each time, and without a secret. That it builds and grades
-//! on an empty home is for `cargo author bundle --check` to show, which takes minutes.
+//! The students' bundle is complete, reproducible, and free of secrets. That it also builds and
+//! grades with an empty home directory is checked by `cargo author bundle --check`, which takes
+//! minutes.
 
 mod workflow;
 
@@ -22,7 +23,7 @@ fn text(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap()
 }
 
-/// Collected once: nothing here changes it.
+/// The bundle, collected once for all tests.
 static BUNDLE: LazyLock<Bundle> = LazyLock::new(|| Bundle::collect(&root(), None).unwrap());
 
 fn secrets() -> Secrets {
@@ -56,7 +57,7 @@ fn the_bundle_holds_no_secret() {
 
 #[test]
 fn finds_an_inserted_secret_of_each_kind() {
-    let planted = [
+    let inserted = [
         (
             "reference/src/camera.rs",
             line_with("reference/src/camera.rs", "self.vertical_fov"),
@@ -66,8 +67,8 @@ fn finds_an_inserted_secret_of_each_kind() {
             line_with("reference/variants/bvh/median.rs", "total_cmp"),
         ),
         (
-            "reference/carried/bvh.rs",
-            line_with("reference/carried/bvh.rs", "split_at_mut"),
+            "reference/substitution/bvh.rs",
+            line_with("reference/substitution/bvh.rs", "split_at_mut"),
         ),
         (
             "reference/author/src/oracle/",
@@ -82,25 +83,25 @@ fn finds_an_inserted_secret_of_each_kind() {
             line_with("reference/src/camera.rs", "film.as_vec2() - 0.5").replace(" - 0.5", ""),
         ),
     ];
-    for (source, line) in planted {
+    for (source, line) in inserted {
         let mut bundle = BUNDLE.clone();
         bundle.insert("scenes/notes.txt", format!("One\n\n\t{line}  \n"));
         let leaks = secrets().search(&bundle);
         let [
             Leak::Line {
                 found,
-                source: told,
+                source: found_source,
             },
         ] = &leaks[..]
         else {
             panic!("{line}: {leaks:?}");
         };
         assert_eq!(found, "scenes/notes.txt:3");
-        assert!(told.starts_with(source), "{told}");
+        assert!(found_source.starts_with(source), "{found_source}");
     }
 }
 
-/// The first line of a file that holds `part`.
+/// Returns the first line of a file that contains `part`.
 fn line_with(path: &str, part: &str) -> String {
     let text = text(path);
     let line = text.lines().find(|line| line.contains(part));
@@ -151,7 +152,8 @@ fn a_built_book_is_added_beside_its_sources() {
 fn its_lock_file_is_a_subset_of_the_workspaces() {
     let ours = text("Cargo.lock");
     let theirs = BUNDLE.text("Cargo.lock").unwrap();
-    // What a package is: name, version, source, checksum. What it depends on may be less.
+    // Compares the name, version, source and checksum of each package, but not its dependencies, of
+    // which the bundle may have fewer.
     let package = |block: &str| {
         let lines: Vec<String> = block.lines().take(4).map(str::to_owned).collect();
         lines
@@ -172,13 +174,16 @@ fn its_lock_file_is_a_subset_of_the_workspaces() {
 fn refuses_to_write_into_a_folder_that_is_not_empty() {
     let folder = TempDir::new().unwrap();
     fs::create_dir(folder.path().join(".git")).unwrap();
-    archive::write(&BUNDLE, folder.path()).expect("a fresh repository is empty enough");
+    archive::write(&BUNDLE, folder.path()).expect("a new Git repository is accepted");
     assert!(folder.path().join(".github/workflows/grade.yml").is_file());
 
     let output = write_to(folder.path());
     assert!(!output.status.success());
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("is not empty: name a new folder"), "{said}");
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        message.contains("is not empty: choose a new folder"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -204,7 +209,7 @@ fn every_link_in_its_documents_leads_to_a_bundled_file() {
     assert!(count > 30, "{count}");
 }
 
-/// A link of a page, from the bundle's root.
+/// Returns the target of a link on a page, relative to the bundle's root.
 fn resolved(page: &str, link: &str) -> String {
     let mut parts: Vec<&str> = page.split('/').collect();
     parts.pop();
@@ -246,7 +251,8 @@ fn its_documents_name_the_rust_version_of_the_manifest() {
     }
 }
 
-/// Cargo warns of each that is not there, at every command that a student types.
+/// Otherwise cargo would print a warning for each missing package whenever a student runs a
+/// command.
 #[test]
 fn its_profiles_name_only_packages_that_it_has() {
     let manifest: toml::Table = BUNDLE.text("Cargo.toml").unwrap().parse().unwrap();

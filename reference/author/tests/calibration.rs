@@ -1,13 +1,14 @@
-//! Right answers and mistakes keep their distance from every threshold: through the real binary.
+//! Tests of `cargo author calibrate`: correct answers and mistakes are far enough from every
+//! threshold.
 
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The table that is committed.
+/// Returns the committed table.
 fn table() -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../calibration.md");
-    fs::read_to_string(path).expect("it was measured")
+    fs::read_to_string(path).expect("the table is committed")
 }
 
 #[test]
@@ -16,11 +17,11 @@ fn all_margins_are_wide_enough_for_one_seed() {
     let output = Command::new(env!("CARGO_BIN_EXE_author"))
         .args(["calibrate", "--check", "--seeds", "2..3", "--mistakes", "1"])
         .output()
-        .expect("the binary was built for this test");
-    let said = String::from_utf8_lossy(&output.stdout);
-    let complaints = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{complaints}");
-    assert!(said.contains("seeds 1, "), "{said}");
+        .expect("cargo builds the binary for this test");
+    let summary = String::from_utf8_lossy(&output.stdout);
+    let problems = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{problems}");
+    assert!(summary.contains("seeds 1, "), "{summary}");
     assert_eq!(table(), before, "a check changes nothing");
 }
 

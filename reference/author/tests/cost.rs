@@ -1,5 +1,5 @@
-//! The meshes of the cost items tell good builders from bad ones: bucketed ones of any kind come
-//! close to the exact sweep, and those that look at the middle alone do not.
+//! The meshes of the cost items distinguish good builders from bad ones: all builders with SAH
+//! buckets come close to the exact sweep, and builders without the heuristic do not.
 
 mod builders;
 
@@ -11,7 +11,7 @@ use protocol::Question;
 
 use crate::builders::Splitter;
 
-/// What bad ones must be above: the judge gives half marks up to 1.25.
+/// The minimum relative cost of a bad builder. The judge gives half marks up to 1.25.
 const MIN_BAD_RATIO: f64 = 1.3;
 
 const SEEDS: [u64; 4] = [2025, 1, 2, 3];
@@ -22,22 +22,22 @@ fn cost_items(seed: u64) -> Vec<Item> {
     items
 }
 
-/// The cost of the tree that this splitter makes, by the cost of the exact sweep.
+/// Returns the cost of the tree that this splitter builds, relative to that of the exact sweep.
 fn ratio(item: &Item, splitter: Splitter) -> f64 {
-    let asked = &item.questions[0];
+    let exam_question = &item.questions[0];
     let Question::Build {
         shapes,
         max_leaf_size,
-    } = &asked.question
+    } = &exam_question.question
     else {
-        unreachable!("a cost item asks for a tree")
+        unreachable!("the question of a cost item is a build question")
     };
     let Key::Tree {
         sweep_cost: Some(sweep),
         ..
-    } = asked.key
+    } = exam_question.key
     else {
-        unreachable!("a cost item knows the sweep's cost")
+        unreachable!("the key of a cost item has the sweep's cost")
     };
     builders::cost(shapes, *max_leaf_size as usize, splitter) / sweep
 }
@@ -128,12 +128,13 @@ fn a_wrong_heuristic_is_not_enough() {
     }
 }
 
-/// The questions of one choice each.
+/// Returns the questions of `build.one_split`, each of which has one best split, without the
+/// control.
 fn one_split(seed: u64) -> Vec<ExamQuestion> {
     let items = build::items(Seed(seed));
     let item = items.into_iter().find(|item| item.id == "build.one_split");
-    let mut questions = item.expect("it is one of them").questions;
-    questions.pop().expect("the control comes last");
+    let mut questions = item.expect("the item exists").questions;
+    questions.pop().expect("the control is the last question");
     questions
 }
 
@@ -144,7 +145,7 @@ fn eight_or_more_buckets_find_the_best_split_and_four_do_not() {
         for extent in [BucketExtent::Centers, BucketExtent::Bounds] {
             let ratios = |count: usize| -> Vec<f64> {
                 let buckets = BucketedBuilder::correct(count, extent);
-                let ratio = |asked| relative_cost(asked, buckets);
+                let ratio = |question| relative_cost(question, buckets);
                 questions.iter().map(ratio).collect()
             };
             for count in [8, 9, 10, 11, 12, 13, 16, 20, 25, 32, 40, 64] {

@@ -1,4 +1,4 @@
-//! What is generated and committed is what would be generated now: through the real binary.
+//! The committed generated files are up to date, according to the `--check` of each command.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,25 +8,25 @@ fn author(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_author"))
         .args(arguments)
         .output()
-        .expect("the binary was built for this test")
+        .expect("cargo builds the binary for this test")
 }
 
-fn assert_in_sync(what: &str) {
-    let output = author(&[what, "--check"]);
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
+fn assert_in_sync(command: &str) {
+    let output = author(&[command, "--check"]);
+    let problems = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{problems}");
 }
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// The starter's files in both of their places.
+/// Returns the starter's files in both of its folders.
 fn starter_files() -> Vec<PathBuf> {
     ["student/src", "grader/starter"]
         .iter()
-        .flat_map(|place| fs::read_dir(root().join(place)).expect("the starter is written"))
-        .map(|entry| entry.expect("a folder that can be listed").path())
+        .flat_map(|folder| fs::read_dir(root().join(folder)).expect("the starter is committed"))
+        .map(|entry| entry.expect("the folder can be listed").path())
         .collect()
 }
 
@@ -73,9 +73,9 @@ fn the_starter_is_formatted() {
         .args(["--check", "--edition", "2024"])
         .args(starter_files())
         .output();
-    // Where Rust was installed without rustfmt there is nothing to ask.
+    // Without rustfmt, the format cannot be checked.
     if let Ok(output) = check {
-        let said = String::from_utf8_lossy(&output.stdout);
-        assert!(output.status.success(), "{said}");
+        let differences = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success(), "{differences}");
     }
 }

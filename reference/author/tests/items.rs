@@ -1,4 +1,4 @@
-//! What must hold of every exam, whatever its seed.
+//! Properties of every exam.
 
 mod exams;
 
@@ -14,7 +14,7 @@ fn rays(question: &Question) -> Vec<Ray> {
         Question::Shapes { rays, .. }
         | Question::Traverse { rays, .. }
         | Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
-        Question::BBox { queries: shots, .. } => shots.iter().map(|(ray, _)| *ray).collect(),
+        Question::BBox { queries, .. } => queries.iter().map(|(ray, _)| *ray).collect(),
         Question::Camera { .. }
         | Question::Build { .. }
         | Question::Radiance { .. }
@@ -51,9 +51,9 @@ fn points_add_up_per_task() {
 #[test]
 fn items_come_after_their_dependencies_which_are_of_other_tasks() {
     let exam = exam_of(SEEDS[0]);
-    for (place, item) in exam.items.iter().enumerate() {
+    for (index, item) in exam.items.iter().enumerate() {
         for needed in &item.needs {
-            let found = exam.items[..place].iter().find(|other| other.id == *needed);
+            let found = exam.items[..index].iter().find(|other| other.id == *needed);
             let found = found.unwrap_or_else(|| panic!("{} needs {needed}", item.id));
             assert_ne!(found.task, item.task, "{} needs {needed}", item.id);
         }
@@ -77,9 +77,9 @@ fn rays_have_unit_length_and_exams_stay_within_the_budget() {
     for seed in SEEDS {
         let mut count = 0;
         for item in &exam_of(seed).items {
-            for asked in &item.questions {
-                count += asked.question.count();
-                for ray in rays(&asked.question) {
+            for question in &item.questions {
+                count += question.question.count();
+                for ray in rays(&question.question) {
                     assert!(
                         (ray.dir.length() - 1.0).abs() < 1e-5,
                         "{}: {ray:?}",
@@ -92,12 +92,13 @@ fn rays_have_unit_length_and_exams_stay_within_the_budget() {
     }
 }
 
-/// Whether the keys of a table hold opposite answers: hits and misses, or many directions.
+/// Returns whether the keys of an item contain opposite answers: hits and misses, or directions
+/// that differ.
 fn has_opposites(item: &Item) -> bool {
     let mut hits = 0;
     let mut misses = 0;
-    for asked in &item.questions {
-        match &asked.key {
+    for question in &item.questions {
+        match &question.key {
             Key::Hits { hits: keys, .. } => {
                 hits += keys.iter().flatten().count();
                 misses += keys.iter().filter(|key| key.is_none()).count();
@@ -111,11 +112,11 @@ fn has_opposites(item: &Item) -> bool {
                 misses += spans.iter().filter(|key| key.is_none()).count();
             }
             Key::Rays { directions, .. } => {
-                let apart = directions
+                let differ = directions
                     .iter()
                     .any(|dir| dir.distance(directions[0]) > 0.1);
-                hits += usize::from(apart);
-                misses += usize::from(apart);
+                hits += usize::from(differ);
+                misses += usize::from(differ);
             }
             Key::Tree { .. } => {
                 hits += 1;
@@ -139,13 +140,13 @@ fn every_item_has_opposite_answers() {
 #[test]
 fn pictures_show_no_pole() {
     for item in &exam_of(SEEDS[0]).items {
-        for asked in &item.questions {
+        for question in &item.questions {
             let of_spheres = matches!(
-                &asked.question,
+                &question.question,
                 Question::Shapes { shapes, .. }
                     if shapes.iter().any(|shape| matches!(shape, Shape::Sphere { .. }))
             );
-            if let (true, Key::FirstHits { hits, .. }) = (of_spheres, &asked.key) {
+            if let (true, Key::FirstHits { hits, .. }) = (of_spheres, &question.key) {
                 let poles = hits
                     .iter()
                     .flatten()
@@ -159,10 +160,10 @@ fn pictures_show_no_pole() {
 #[test]
 fn materials_are_distinct_in_trees() {
     for item in &exam_of(SEEDS[0]).items {
-        for asked in &item.questions {
+        for question in &item.questions {
             let (Question::Build { shapes, .. }
             | Question::BuildAndTraverse { shapes, .. }
-            | Question::Traverse { shapes, .. }) = &asked.question
+            | Question::Traverse { shapes, .. }) = &question.question
             else {
                 continue;
             };
@@ -183,7 +184,7 @@ fn exams_are_determined_by_their_seed() {
         .items
         .iter()
         .partition(|item| differs(item));
-    // Some ideas leave nothing to chance: round numbers, whole films.
+    // Some items have fixed questions: round numbers, whole films.
     assert!(
         drawn.len() >= 70,
         "{} items differ, {} do not",

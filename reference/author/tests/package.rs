@@ -1,4 +1,4 @@
-//! What staff uploads: all that it needs, and what students can read without a secret.
+//! Packages are complete, and packages that students can read contain no secrets.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,7 +9,7 @@ use author::bundle::{Bundle, archive};
 use author::package::{Course, PackageError, Platform, collect};
 use grader::doctor::package::problems;
 
-/// Stands for a final exam: the same, but for its name.
+/// A course with a substitute for a final exam: the practice exam with another id.
 static FINAL: LazyLock<Course> = LazyLock::new(|| {
     let exam = std::fs::read_to_string(root().join("grader/exams/practice.json")).unwrap();
     let mut course = Course::new(None, None, None).unwrap();

@@ -1,5 +1,5 @@
-//! The exam catches every known mistake and fails no known right solution; and the checks that say
-//! so can fail.
+//! The exam catches every known mistake and gives full marks to every known correct solution. The
+//! checks of this are tested, too.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -16,7 +16,7 @@ use author::proof::workbench::Workbench;
 use grader::exam::Exam;
 
 static SOLUTIONS: LazyLock<Solutions> = LazyLock::new(|| {
-    let workbench = Workbench::open().expect("a toolchain and the workspace");
+    let workbench = Workbench::open().expect("there are a toolchain and a workspace");
     Solutions::load(workbench).expect("every mistake applies to the reference")
 });
 
@@ -25,7 +25,7 @@ fn root() -> &'static Path {
 }
 
 fn practice_exam() -> Exam {
-    load_practice(root()).expect("it is committed")
+    load_practice(root()).expect("the practice exam is committed")
 }
 
 #[test]
@@ -33,22 +33,22 @@ fn a_few_seeds_are_proven() {
     let output = Command::new(env!("CARGO_BIN_EXE_author"))
         .args(["prove", "--seeds", "1..4", "--mistakes", "1"])
         .output()
-        .expect("the binary was built for this test");
-    let said = String::from_utf8_lossy(&output.stdout);
-    let complaints = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{complaints}");
-    assert!(said.contains("seeds 3, false fails 0"), "{said}");
+        .expect("cargo builds the binary for this test");
+    let summary = String::from_utf8_lossy(&output.stdout);
+    let problems = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{problems}");
+    assert!(summary.contains("seeds 3, false fails 0"), "{summary}");
 }
 
 #[test]
 fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
-    let found = recognise(&SOLUTIONS, &practice_exam()).unwrap();
-    println!("{found}");
-    assert!(found.recognised_share() >= 0.95, "{found}");
-    // Many of these are true of both: they differ in how far they go.
+    let recognition = recognise(&SOLUTIONS, &practice_exam()).unwrap();
+    println!("{recognition}");
+    assert!(recognition.recognised_share() >= 0.95, "{recognition}");
+    // Many of these hints fit both mistakes, which differ only in degree.
     assert!(
-        found.confused_when_unknown.len() * 10 <= SOLUTIONS.mistakes.len(),
-        "{found}"
+        recognition.confused_when_unknown.len() * 10 <= SOLUTIONS.mistakes.len(),
+        "{recognition}"
     );
 }
 
@@ -97,10 +97,10 @@ fn reports_a_mistake_that_changes_nothing() {
     }];
     let reference = SOLUTIONS.recorder.reference();
     let sources = mistake.apply(reference).unwrap();
-    let tried = SOLUTIONS
+    let graded = SOLUTIONS
         .grade_mistake(&mistake, &sources, &practice_exam())
         .unwrap();
-    let problems = tried.problems();
+    let problems = graded.problems();
     assert!(
         problems[0].ends_with("costs nothing in its own task"),
         "{problems:?}"
@@ -113,12 +113,12 @@ fn reports_a_mistake_that_no_longer_applies() {
     let (mut mistake, _) = SOLUTIONS.mistakes[0].clone();
     mistake.changes[0].was = "no such text".to_owned();
     let error = mistake.apply(SOLUTIONS.recorder.reference()).unwrap_err();
-    let wanted = format!(
-        "{} does not apply any more: its `was` stands 0 times in reference/src/camera.rs; adapt it \
-         in reference/mistakes",
+    let expected = format!(
+        "{} no longer applies: its `was` occurs 0 times in reference/src/camera.rs instead of \
+         once; adapt it in reference/mistakes",
         mistake.id
     );
-    assert_eq!(error.to_string(), wanted);
+    assert_eq!(error.to_string(), expected);
 }
 
 #[test]

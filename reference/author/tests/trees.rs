@@ -1,4 +1,4 @@
-//! What must hold of the exam's own trees.
+//! Properties of the exam's prebuilt trees.
 
 mod exams;
 
@@ -11,14 +11,14 @@ use protocol::{Question, Ray, Rays};
 
 use crate::exams::{SEEDS, exam_of};
 
-/// The trees of all questions with lists of rays.
+/// Returns the prebuilt trees of all questions with lists of rays: item id, tree and rays.
 fn trees(exam: &Exam) -> Vec<(&str, Tree, Vec<Ray>)> {
-    let asked = exam
-        .items
-        .iter()
-        .flat_map(|item| item.questions.iter().map(move |asked| (&*item.id, asked)));
-    asked
-        .filter_map(|(id, asked)| match &asked.question {
+    let questions = exam.items.iter().flat_map(|item| {
+        let questions = item.questions.iter();
+        questions.map(move |question| (&*item.id, question))
+    });
+    questions
+        .filter_map(|(id, question)| match &question.question {
             Question::Traverse {
                 shapes,
                 nodes,
@@ -60,11 +60,11 @@ fn child_boxes_are_inside_their_parents_box() {
         if tree.nodes.is_empty() {
             continue;
         }
-        for place in tree.subtree(tree.root) {
-            let node = &tree.nodes[place];
+        for index in tree.subtree(tree.root) {
+            let node = &tree.nodes[index];
             for child in [node.l, node.r].iter().filter(|_| !node.is_leaf()) {
                 let child = tree.bounds(*child as usize);
-                assert!(tree.bounds(place).contains(&child), "{id}");
+                assert!(tree.bounds(index).contains(&child), "{id}");
             }
         }
     }
@@ -77,8 +77,8 @@ fn a_linear_scan_fails_every_traversal_item() {
         let mut caught: BTreeSet<&str> = BTreeSet::new();
         for (id, tree, rays) in trees(exam) {
             let wrong = rays.iter().any(|ray| {
-                let beam = Ray64::from(ray);
-                scan::closest_hit(&beam, &tree.shapes) != tree.expected_hit(&beam)
+                let ray64 = Ray64::from(ray);
+                scan::closest_hit(&ray64, &tree.shapes) != tree.expected_hit(&ray64)
             });
             if wrong {
                 caught.insert(id);

@@ -1,4 +1,4 @@
-//! Who is compared: each builds a tree of the same triangles, and finds the closest hits.
+//! The contenders: each builds a tree over the same triangles, and finds closest hits.
 
 use std::hint::black_box;
 use std::rc::Rc;
@@ -17,19 +17,19 @@ use obvhs::triangle::Triangle;
 use protocol::Ray;
 use reference::bvh::Bvh;
 
-use crate::eight;
 use crate::embree::EmbreeScene;
+use crate::wide_bvh;
 
-/// At most so many primitives in a leaf, of ours.
+/// The maximum number of primitives in a leaf of the reference and the variant.
 pub const MAX_LEAF_SIZE: usize = 4;
 
-/// A tree that was built.
+/// A tree over the triangles.
 pub trait Contender {
-    /// How far it is to the closest hit; infinitely far without one.
+    /// Returns the distance to the closest hit of each ray; infinity without a hit.
     fn distances(&self, rays: &[Ray]) -> Vec<f32>;
 }
 
-/// The reference: what students read. All of the [`protocol::Trace`] is computed.
+/// The reference, which students can read. It computes the complete [`protocol::Trace`].
 impl Contender for Bvh {
     fn distances(&self, rays: &[Ray]) -> Vec<f32> {
         let distance = |ray| black_box(self.hit(ray)).map_or(f32::INFINITY, |trace| trace.distance);
@@ -37,8 +37,8 @@ impl Contender for Bvh {
     }
 }
 
-/// The variant that is eight wide. The same.
-impl Contender for eight::Bvh {
+/// The eight-wide variant, which computes the complete [`protocol::Trace`] too.
+impl Contender for wide_bvh::Bvh {
     fn distances(&self, rays: &[Ray]) -> Vec<f32> {
         let distance = |ray| black_box(self.hit(ray)).map_or(f32::INFINITY, |trace| trace.distance);
         rays.iter().map(distance).collect()
@@ -51,10 +51,10 @@ impl Contender for EmbreeScene<'_> {
     }
 }
 
-/// The crate `obvhs`: its binary tree, `medium_build`.
+/// The binary tree of the crate `obvhs`, built with `medium_build`.
 pub struct Obvhs {
     bvh: Bvh2,
-    /// In the order of the leaves, as its documentation advises.
+    /// The triangles in the order of the leaves, as the crate's documentation recommends.
     triangles: Vec<Triangle>,
 }
 
@@ -71,8 +71,8 @@ impl Obvhs {
     pub fn build(triangles: &[Triangle]) -> Self {
         let mut ignored = Duration::ZERO;
         let bvh = build_bvh2_from_tris(triangles, BvhBuildParams::medium_build(), &mut ignored);
-        let places = bvh.primitive_indices.iter();
-        let triangles = places.map(|&place| triangles[place as usize]).collect();
+        let indices = bvh.primitive_indices.iter();
+        let triangles = indices.map(|&index| triangles[index as usize]).collect();
         Obvhs { bvh, triangles }
     }
 }
@@ -91,7 +91,8 @@ impl Contender for Obvhs {
     }
 }
 
-/// The crate `bvh`. It offers two walks, of which now one is faster and now the other.
+/// A tree of the crate `bvh`. It has two ways of traversal, and which one is faster depends on the
+/// rays.
 pub struct CrateBvhTree {
     bvh: CrateBvh<f32, 3>,
     triangles: Vec<Corners>,
@@ -107,7 +108,7 @@ impl CrateBvhTree {
         CrateBvhTree { bvh, triangles }
     }
 
-    /// In order of distance, until a box begins beyond the closest hit.
+    /// Traverses in order of distance, until a box begins beyond the closest hit.
     fn closest_ordered(&self, ray: &Ray) -> f32 {
         let query = query(ray);
         let mut closest = f32::INFINITY;
@@ -121,16 +122,17 @@ impl CrateBvhTree {
         closest
     }
 
-    /// Every triangle whose box is met.
+    /// Tests every triangle whose box the ray hits.
     fn closest_of_all(&self, ray: &Ray) -> f32 {
         let query = query(ray);
-        let met = self.bvh.traverse_iterator(&query, &self.triangles);
-        met.map(|triangle| triangle.distance(ray))
+        let candidates = self.bvh.traverse_iterator(&query, &self.triangles);
+        candidates
+            .map(|triangle| triangle.distance(ray))
             .fold(f32::INFINITY, f32::min)
     }
 }
 
-/// By its first walk.
+/// The crate `bvh`, traversed in order of distance.
 pub struct NearestTraversal(pub Rc<CrateBvhTree>);
 
 impl Contender for NearestTraversal {
@@ -139,7 +141,7 @@ impl Contender for NearestTraversal {
     }
 }
 
-/// By its second.
+/// The crate `bvh`, testing every triangle whose box is hit.
 pub struct FullTraversal(pub Rc<CrateBvhTree>);
 
 impl Contender for FullTraversal {
@@ -155,15 +157,15 @@ fn query(ray: &Ray) -> ::bvh::ray::Ray<f32, 3> {
     )
 }
 
-/// A triangle as that crate wants it.
+/// A triangle with the traits that the crate `bvh` requires.
 struct Corners {
     corners: [Vec3; 3],
     node: usize,
 }
 
 impl Corners {
-    /// Möller and Trumbore's test, two-sided, for the distance alone: that crate's own culls back
-    /// faces. Infinite for a miss.
+    /// Returns the distance to the hit, or infinity. This is Möller and Trumbore's test for both
+    /// sides; the crate's own test culls back faces.
     fn distance(&self, ray: &Ray) -> f32 {
         let [p0, p1, p2] = self.corners;
         let (e1, e2) = (p1 - p0, p2 - p0);

@@ -1,8 +1,9 @@
-//! CPU time of this process: what a shared machine takes away from it does not count.
+//! CPU time of this process, which does not include the time that other processes take on a shared
+//! machine.
 
 use std::time::Duration;
 
-/// What `work` returns, and how long it took.
+/// Runs `work`, and returns its result and its CPU time.
 pub fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     let start = cpu_time();
     let result = work();
@@ -14,12 +15,12 @@ fn cpu_time() -> Duration {
     use rustix::time::{ClockId, clock_gettime};
 
     let time = clock_gettime(ClockId::ProcessCPUTime);
-    let seconds = u64::try_from(time.tv_sec).expect("time goes on");
-    let nanos = u32::try_from(time.tv_nsec).expect("less than a second");
+    let seconds = u64::try_from(time.tv_sec).expect("CPU time is not negative");
+    let nanos = u32::try_from(time.tv_nsec).expect("nanoseconds fit into a u32");
     Duration::new(seconds, nanos)
 }
 
-/// Elsewhere, time on the clock: fair on a quiet machine only.
+/// Returns the wall time on other systems, which is meaningful only on a quiet machine.
 #[cfg(not(unix))]
 fn used() -> Duration {
     use std::sync::LazyLock;
@@ -29,7 +30,7 @@ fn used() -> Duration {
     START.elapsed()
 }
 
-/// The middle one, and the least and greatest.
+/// The median, the least and the greatest of several values.
 #[derive(Clone, Copy, Debug)]
 pub struct Spread {
     pub median: f64,
@@ -38,7 +39,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of at least one value.
+    /// Returns the spread of at least one value.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let mut values: Vec<f64> = values.into_iter().collect();
         values.sort_by(f64::total_cmp);

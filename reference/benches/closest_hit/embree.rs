@@ -1,11 +1,11 @@
-//! Embree 4, opened while this runs: the file that the variable `EMBREE` names. Its package for
-//! Python, `embreex`, holds one; nothing of it is part of this project.
+//! Embree 4, loaded at run time from the library that the variable `EMBREE` names. The Python
+//! package `embreex` contains such a library; this project does not.
 //!
-//! The only `unsafe` code outside the sandbox: functions of a C library can be called no other way.
-//! The declarations are those of `rtcore.h`, version 4.
+//! This is the only `unsafe` code outside the sandbox: functions of a C library cannot be called in
+//! any other way. The declarations are those of `rtcore.h`, version 4.
 #![allow(
     unsafe_code,
-    reason = "a C library that is opened at run time, for comparison only"
+    reason = "a C library that is loaded at run time, for comparison only"
 )]
 
 use std::ffi::{c_char, c_uint, c_void};
@@ -23,12 +23,13 @@ const INDEX_BUFFER: c_uint = 0;
 const VERTEX_BUFFER: c_uint = 1;
 const UINT3: c_uint = 0x5003;
 const FLOAT3: c_uint = 0x9003;
-/// `RTC_BUILD_QUALITY_MEDIUM`: binned SAH, without spatial splits; what it does if not asked.
+/// `RTC_BUILD_QUALITY_MEDIUM`, the default: binned SAH without spatial splits.
 const MEDIUM: c_uint = 1;
-/// One thread, the caller's. What the processor can do, Embree finds out itself.
+/// One thread, the caller's. Embree detects the processor's instruction set itself.
 const CONFIGURATION: &[u8] = b"threads=1,user_threads=1\0";
 
-/// `RTCRayHit`. The last words differ between builds of the library: there is room for either.
+/// `RTCRayHit`. The last fields differ between builds of the library; there is room for either
+/// form.
 #[repr(C, align(16))]
 struct RayHit {
     origin: [f32; 3],
@@ -46,7 +47,7 @@ struct RayHit {
     instance: [c_uint; 5],
 }
 
-/// The library's functions that are called here.
+/// The functions of the library that the benchmark calls.
 pub struct Embree {
     device: Handle,
     new_scene: unsafe extern "C" fn(Handle) -> Handle,
@@ -59,25 +60,25 @@ pub struct Embree {
     commit_scene: unsafe extern "C" fn(Handle),
     release_scene: unsafe extern "C" fn(Handle),
     intersect: unsafe extern "C" fn(Handle, *mut RayHit, *mut c_void),
-    // Last: the functions are gone when it is.
+    // Dropped last, since it unloads the functions.
     _library: Library,
 }
 
-/// A tree of the library's.
+/// A tree built by the library.
 pub struct EmbreeScene<'a> {
     embree: &'a Embree,
     scene: Handle,
 }
 
 impl Embree {
-    /// The library that `EMBREE` names, if the variable is set.
+    /// Loads the library that the variable `EMBREE` names; returns `None` if it is not set.
     pub fn open() -> Option<Self> {
         let path = std::env::var_os("EMBREE")?;
-        // SAFETY: whoever sets the variable says that this is Embree 4, whose start-up code is safe
-        // to run; the types are those of its header.
+        // SAFETY: setting the variable promises that the file is Embree 4, whose start-up code is
+        // safe to run; the types are those of its header.
         unsafe {
             let library = Library::new(&path)
-                .unwrap_or_else(|error| panic!("can not open EMBREE={}: {error}", path.display()));
+                .unwrap_or_else(|error| panic!("cannot open EMBREE={}: {error}", path.display()));
             macro_rules! function {
                 ($name:literal) => {
                     *library
@@ -88,7 +89,7 @@ impl Embree {
             let new_device: unsafe extern "C" fn(*const c_char) -> Handle =
                 function!(b"rtcNewDevice\0");
             let device = new_device(CONFIGURATION.as_ptr().cast());
-            assert!(!device.is_null(), "Embree makes no device");
+            assert!(!device.is_null(), "Embree cannot create a device");
             Some(Embree {
                 device,
                 new_scene: function!(b"rtcNewScene\0"),
@@ -106,18 +107,21 @@ impl Embree {
         }
     }
 
-    /// Its tree over a mesh.
+    /// Builds a tree over a mesh.
     pub fn build(&self, mesh: &Mesh) -> EmbreeScene<'_> {
         let count = mesh.corners.len();
-        // SAFETY: handles come from the library and are released once; both buffers are filled in
-        // the size and format that they are asked for in, before they are committed.
+        // SAFETY: handles come from the library and are released once; both buffers are filled with
+        // the size and format that were requested, before they are committed.
         unsafe {
             let scene = (self.new_scene)(self.device);
             (self.set_quality)(scene, MEDIUM);
             let geometry = (self.new_geometry)(self.device, TRIANGLES);
             let points = (self.new_buffer)(geometry, VERTEX_BUFFER, 0, FLOAT3, 12, 3 * count);
             let indices = (self.new_buffer)(geometry, INDEX_BUFFER, 0, UINT3, 12, count);
-            assert!(!points.is_null() && !indices.is_null(), "no memory");
+            assert!(
+                !points.is_null() && !indices.is_null(),
+                "Embree is out of memory"
+            );
             let (points, indices) = (points.cast::<f32>(), indices.cast::<u32>());
             let coordinates = mesh
                 .corners
@@ -143,7 +147,7 @@ impl Embree {
 }
 
 impl EmbreeScene<'_> {
-    /// How far it is to the closest hit; infinitely far without one.
+    /// Returns the distance to the closest hit; infinity without a hit.
     pub fn distance(&self, ray: &Ray) -> f32 {
         let mut hit = RayHit {
             origin: ray.origin.to_array(),
@@ -160,7 +164,7 @@ impl EmbreeScene<'_> {
             geometry: c_uint::MAX,
             instance: [c_uint::MAX; 5],
         };
-        // SAFETY: the scene is committed, and the structure at least as large as the library's.
+        // SAFETY: the scene is committed, and the structure is at least as large as the library's.
         unsafe { (self.embree.intersect)(self.scene, &raw mut hit, ptr::null_mut()) };
         if hit.geometry == c_uint::MAX {
             f32::INFINITY
@@ -172,7 +176,7 @@ impl EmbreeScene<'_> {
 
 impl Drop for EmbreeScene<'_> {
     fn drop(&mut self) {
-        // SAFETY: nobody else has this handle.
+        // SAFETY: nothing else uses this handle.
         unsafe { (self.embree.release_scene)(self.scene) };
     }
 }

@@ -1,13 +1,13 @@
-//! Closest hits and builds per second: the reference, and the variant that is eight wide, beside the
-//! crates `obvhs` and `bvh` and, where there is one, Embree; on one thread, turn by turn, in CPU time.
-//! All must hit the same. How to run it, and what came of it: ../README.md.
+//! Closest hits per second and build times of the reference, the eight-wide variant, the crates
+//! `obvhs` and `bvh`, and Embree if there is a library: on one thread, in turns, by CPU time. All
+//! must find the same hits. How to run it, and the results: ../README.md.
 
 use std::rc::Rc;
 use std::time::Duration;
 
 use reference::bvh::Bvh;
 use reference::primitive::Primitive;
-// Under the names that the variant's file has for them.
+// The variant's file uses these modules from the crate root.
 use reference::{bbox, primitive, triangle};
 
 use crate::contenders::{
@@ -26,23 +26,26 @@ mod mesh;
 mod rays;
 mod report;
 
-// The variant's file as it stands, beside the reference's other four.
+// The variant's unchanged file, compiled with the reference's other four files.
 #[path = "../../variants/bvh/wide.rs"]
-#[allow(dead_code, reason = "not all of it is measured")]
-mod eight;
+#[allow(dead_code, reason = "not everything in it is measured")]
+mod wide_bvh;
 
-/// How often each is built, and each asked each kind of ray, unless `ROUNDS` says otherwise.
+/// The default number of rounds, in each of which every contender builds its tree and traces all
+/// rays; the variable `ROUNDS` overrides it.
 const ROUNDS: usize = 5;
 
-/// How many rays one is asked before it is the next one's turn: some milliseconds, so that a slow
-/// moment of the machine is everybody's, and yet enough that each finds its caches its own.
+/// The number of rays that a contender traces before it is the next one's turn: few enough (some
+/// milliseconds) that a slow moment of the machine affects all of them, and enough that the caches
+/// fill with the contender's own data.
 const RAYS_PER_TURN: usize = 1 << 15;
 
 fn main() {
-    let rounds = std::env::var("ROUNDS").map_or(ROUNDS, |text| text.parse().expect("a number"));
+    let rounds =
+        std::env::var("ROUNDS").map_or(ROUNDS, |text| text.parse().expect("ROUNDS is a number"));
     let embree = Embree::open();
     if embree.is_none() {
-        println!("EMBREE names no library: it is left out");
+        println!("EMBREE is not set: leaving out Embree");
     }
     for mesh in meshes() {
         println!(
@@ -61,7 +64,7 @@ fn main() {
     }
 }
 
-/// One tree of each.
+/// One tree of each contender.
 struct Trees<'a> {
     reference: Bvh,
     others: Vec<(&'static str, Box<dyn Contender + 'a>)>,
@@ -78,7 +81,7 @@ impl Trees<'_> {
     }
 }
 
-/// Builds all trees, turn by turn.
+/// Builds all trees in each round, and reports the times.
 fn build_trees<'a>(
     mesh: &Mesh,
     embree: Option<&'a Embree>,
@@ -96,7 +99,7 @@ fn build_trees<'a>(
         let mut round = vec![("reference", time)];
         let mut others: Vec<(&'static str, Box<dyn Contender>)> = Vec::new();
 
-        let (tree, time) = timed(|| eight::Bvh::build(wides, MAX_LEAF_SIZE));
+        let (tree, time) = timed(|| wide_bvh::Bvh::build(wides, MAX_LEAF_SIZE));
         others.push(("wide", Box::new(tree)));
         round.push(("wide", time));
         let (tree, time) = timed(|| Obvhs::build(&triangles));
@@ -119,10 +122,10 @@ fn build_trees<'a>(
         let millis = times.iter().map(|round| 1e3 * round[i].1.as_secs_f64());
         report.add(name, "build, ms", millis.collect());
     }
-    trees.expect("there is a round")
+    trees.expect("there is at least one round")
 }
 
-/// Sends the same rays to all, turn by turn, and compares what they hit.
+/// Traces the same rays with all contenders, in turns, and compares their hits.
 fn measure_rays(
     contenders: &[(&'static str, &dyn Contender)],
     rays: &Rays,
@@ -143,9 +146,11 @@ fn measure_rays(
         for (speeds, time) in speeds.iter_mut().zip(times) {
             speeds.push(rays.rays.len() as f64 / 1e6 / time.as_secs_f64());
         }
-        let (right, others) = distances.split_first().expect("the reference is there");
+        let (expected, others) = distances
+            .split_first()
+            .expect("the reference is the first contender");
         for ((name, _), other) in contenders[1..].iter().zip(others) {
-            check_agreement(name, rays.kind, right, other, report);
+            check_agreement(name, rays.kind, expected, other, report);
         }
     }
     for ((name, _), speeds) in contenders.iter().zip(speeds) {
@@ -153,21 +158,21 @@ fn measure_rays(
     }
 }
 
-/// Speed is worth nothing without right answers. The last bits may differ, and so may what happens
-/// exactly on an edge.
+/// Checks that a contender finds the same hits as the reference. The last bits may differ, and so
+/// may hits exactly on an edge.
 fn check_agreement(
     name: &'static str,
     kind: &str,
-    right: &[f32],
+    expected: &[f32],
     other: &[f32],
     report: &mut Report,
 ) {
     let same = |(a, b): &(&f32, &f32)| a == b || (**a - **b).abs() <= 1e-3 * a.max(1e-3);
-    let differing = right.len() - right.iter().zip(other).filter(same).count();
+    let differing = expected.len() - expected.iter().zip(other).filter(same).count();
     assert!(
-        differing * 1000 <= right.len(),
-        "{name}, {kind}: {differing} of {} rays hit something else",
-        right.len()
+        differing * 1000 <= expected.len(),
+        "{name}, {kind}: {differing} of {} rays have another hit than with the reference",
+        expected.len()
     );
-    report.record_mismatches(name, differing as f64 / right.len() as f64);
+    report.record_mismatches(name, differing as f64 / expected.len() as f64);
 }

@@ -1,4 +1,5 @@
-//! What is looked at: real meshes from a folder, where there is one, else a scene of our own.
+//! The meshes: well-known ones from a folder if there is one, otherwise one of this project's
+//! scenes.
 
 use std::fs::{self, File};
 use std::io::{BufReader, Read};
@@ -9,23 +10,24 @@ use glam::{Vec3, vec3};
 use protocol::Shape;
 use reference::bbox::BBox;
 
-/// Triangles, and from where they are looked at.
+/// A triangle mesh, and from where the camera looks at it.
 pub struct Mesh {
     pub name: String,
     pub corners: Vec<[Vec3; 3]>,
     pub bbox: BBox,
-    /// Whether it is a building, which is looked at from inside.
+    /// Whether it is a building, with the camera inside.
     pub is_building: bool,
 }
 
-/// The three of the research, with the names of their files.
+/// The names of three well-known meshes, their files, and whether they are buildings.
 const FILES: [(&str, &str, bool); 3] = [
     ("bunny", "bunny69k.obj.gz", false),
     ("sponza", "sponza66k.obj.gz", true),
     ("dragon", "dragon871k.obj.gz", false),
 ];
 
-/// Those in the folder that the variable `MESHES` names, or our own. `ONLY` picks one by its name.
+/// Returns the meshes in the folder that the variable `MESHES` names, or without it this project's.
+/// `ONLY` selects one by its name.
 pub fn meshes() -> Vec<Mesh> {
     let only = std::env::var("ONLY").ok();
     match std::env::var_os("MESHES").map(PathBuf::from) {
@@ -40,7 +42,7 @@ pub fn meshes() -> Vec<Mesh> {
             .collect(),
         None => {
             println!(
-                "MESHES names no folder with bunny69k.obj.gz, ...: a scene of our own instead"
+                "MESHES does not name a folder with bunny69k.obj.gz, ...: using scenes/gyroid.obj"
             );
             vec![Mesh::new("gyroid", gyroid(), false)]
         }
@@ -61,7 +63,7 @@ impl Mesh {
         }
     }
 
-    /// As questions and scenes have them.
+    /// Returns the triangles as shapes.
     pub fn shapes(&self) -> impl Iterator<Item = Shape> {
         let shape = |(material, corners): (u32, &[Vec3; 3])| Shape::FlatTriangle {
             corners: *corners,
@@ -79,12 +81,12 @@ fn read_gzip(path: &Path) -> String {
     text
 }
 
-/// Vertices and triangles of an OBJ file; whatever else may stand there does not matter here.
+/// Parses the vertices and triangles of an OBJ file, and ignores everything else.
 fn parse_obj(text: &str, path: &Path) -> Vec<[Vec3; 3]> {
-    let number = |word: &str| word.parse::<f32>().expect("a coordinate");
-    let place = |word: &str| {
-        let place = word.split('/').next().unwrap_or_default();
-        place.parse::<usize>().expect("the number of a vertex") - 1
+    let number = |word: &str| word.parse::<f32>().expect("coordinates are numbers");
+    let index = |word: &str| {
+        let number = word.split('/').next().unwrap_or_default();
+        number.parse::<usize>().expect("faces have vertex numbers") - 1
     };
     let mut points = Vec::new();
     let mut triangles = Vec::new();
@@ -92,22 +94,23 @@ fn parse_obj(text: &str, path: &Path) -> Vec<[Vec3; 3]> {
         let words: Vec<&str> = line.split_whitespace().collect();
         match words[..] {
             ["v", x, y, z, ..] => points.push(vec3(number(x), number(y), number(z))),
-            ["f", a, b, c] => triangles.push([a, b, c].map(|word| points[place(word)])),
-            ["f", ..] => panic!("{}: triangles only, not `{line}`", path.display()),
+            ["f", a, b, c] => triangles.push([a, b, c].map(|word| points[index(word)])),
+            ["f", ..] => panic!("{}: `{line}` is not a triangle", path.display()),
             _ => {}
         }
     }
     triangles
 }
 
-/// The largest of the project's own scenes, its triangles divided as there: into four, twice.
+/// Returns the largest of this project's meshes, with each triangle divided into four, twice, as in
+/// its scene.
 fn gyroid() -> Vec<[Vec3; 3]> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/gyroid.obj");
     let quarters = |[a, b, c]: [Vec3; 3]| {
         let (ab, bc, ca) = (a.midpoint(b), b.midpoint(c), c.midpoint(a));
         [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
     };
-    let text = fs::read_to_string(&path).expect("the mesh is part of the project");
+    let text = fs::read_to_string(&path).expect("scenes/gyroid.obj is in the repository");
     let triangles = parse_obj(&text, &path).into_iter();
     triangles.flat_map(quarters).flat_map(quarters).collect()
 }

@@ -1,5 +1,5 @@
-//! Three kinds of rays, the same for every contender: what a path tracer sends out first, what it
-//! sends out next, and what has no order at all.
+//! Three kinds of rays, the same for every contender: a path tracer's primary rays, its bounce
+//! rays, and random rays.
 
 use glam::{Vec3, vec3};
 use protocol::Ray;
@@ -7,7 +7,7 @@ use reference::bvh::Bvh;
 
 use crate::mesh::Mesh;
 
-/// Of each kind, about; a square of pixels.
+/// The side of the square of pixels. There are about as many rays of each kind as pixels.
 const SIDE: u32 = 512;
 
 /// Rays of one kind.
@@ -16,7 +16,7 @@ pub struct Rays {
     pub rays: Vec<Ray>,
 }
 
-/// All three.
+/// Returns the rays of all three kinds.
 pub fn all_kinds(mesh: &Mesh, bvh: &Bvh) -> [Rays; 3] {
     let primary = primary(mesh);
     let bounce = bounce(mesh, bvh, &primary);
@@ -25,7 +25,7 @@ pub fn all_kinds(mesh: &Mesh, bvh: &Bvh) -> [Rays; 3] {
         .map(|(kind, rays)| Rays { kind, rays })
 }
 
-/// One ray through each pixel, row by row.
+/// Returns a ray through each pixel, row by row.
 fn primary(mesh: &Mesh) -> Vec<Ray> {
     let (center, size) = (mesh.bbox.center(), mesh.bbox.max - mesh.bbox.min);
     let (eye, ahead, width) = if mesh.is_building {
@@ -41,7 +41,8 @@ fn primary(mesh: &Mesh) -> Vec<Ray> {
     (0..SIDE * SIDE).map(ray).collect()
 }
 
-/// From where the others hit, anywhere into the hemisphere; and from where those hit, and again.
+/// Returns rays from the hits of the primary rays in random directions into the hemisphere, then
+/// rays from the hits of those, and so on.
 fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
     let gap = 1e-4 * (mesh.bbox.max - mesh.bbox.min).length();
     let mut numbers = SplitMix64(1);
@@ -61,7 +62,8 @@ fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
     all
 }
 
-/// From a sphere around the mesh, or from inside a building, to anywhere in its box.
+/// Returns rays from a sphere around the mesh, or from inside a building, to random points in its
+/// box.
 fn random(mesh: &Mesh) -> Vec<Ray> {
     let (center, size) = (mesh.bbox.center(), mesh.bbox.max - mesh.bbox.min);
     let mut numbers = SplitMix64(2);
@@ -77,7 +79,8 @@ fn random(mesh: &Mesh) -> Vec<Ray> {
     (0..SIDE * SIDE).map(ray).collect()
 }
 
-/// SplitMix64: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
+/// A random number generator: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
+/// Generators", 2014.
 struct SplitMix64(u64);
 
 impl SplitMix64 {

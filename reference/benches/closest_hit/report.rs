@@ -1,22 +1,22 @@
-//! The tables of one mesh: what was measured, and the ratios that count.
+//! The tables for one mesh: the measurements, and the ratios.
 
 use std::fmt;
 
 use crate::cost::Spread;
 
-/// What was measured, in the order in which it came.
+/// The measurements, in the order in which they were made.
 #[derive(Default)]
 pub struct Report {
     names: Vec<&'static str>,
     columns: Vec<&'static str>,
-    /// Of each name and column, a value a round.
+    /// For each name and column, one value per round.
     cells: Vec<(&'static str, &'static str, Vec<f64>)>,
-    /// The largest share of rays that hit something else than the reference's.
+    /// The largest fraction of a contender's rays that had another hit than the reference's.
     differing: f64,
     most_differing: &'static str,
 }
 
-/// The kinds of rays.
+/// The columns of rays per second.
 const RAYS: [&str; 3] = ["primary", "bounce", "random"];
 const BUILD: &str = "build, ms";
 
@@ -49,15 +49,16 @@ impl Report {
         Some(Spread::of(rounds.iter().copied()))
     }
 
-    /// The median of the rounds' ratios, and not the ratio of medians: who is beside a slow round is
-    /// slow as well.
+    /// Returns the median of the rounds' ratios. The ratio of the medians would be less reliable,
+    /// since in a slow round all contenders are slow.
     fn ratio(&self, column: &str, name: &str, other: &str) -> Option<f64> {
         let rounds = self.rounds(name, column)?.iter();
         let ratios = rounds.zip(self.rounds(other, column)?).map(|(a, b)| a / b);
         Some(Spread::of(ratios).median)
     }
 
-    /// How many times as fast, for each kind of rays. Of several others the fastest counts.
+    /// Returns how many times as fast as the others a contender is, for each kind of rays. If there
+    /// are several others, the fastest counts.
     fn speedups(&self, name: &str, others: &[&str]) -> Option<[f64; 3]> {
         let mut ratios = [0.0; 3];
         for (ratio, kind) in ratios.iter_mut().zip(RAYS) {
@@ -95,7 +96,7 @@ impl fmt::Display for Report {
         }
         writeln!(
             f,
-            "rays: millions a second, median (least–greatest); {:.4} % of {}'s differ at most\n",
+            "rays: millions per second, median (least–greatest); at most {:.4} % of the hits differ ({})\n",
             100.0 * self.differing,
             self.most_differing
         )?;

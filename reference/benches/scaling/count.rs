@@ -1,4 +1,4 @@
-//! Two counters. One thread is all that there is here.
+//! Counters of intersection tests. They are per thread, and this benchmark has only one.
 
 use std::cell::Cell;
 
@@ -7,13 +7,13 @@ thread_local! {
     static PRIMITIVES: Cell<u64> = const { Cell::new(0) };
 }
 
-/// How often a ray was tested.
+/// The numbers of intersection tests.
 pub struct Count {
     pub boxes: u64,
     pub primitives: u64,
 }
 
-/// What `work` returns, and what was tested meanwhile.
+/// Runs `work`, and returns its result and the number of tests that it made.
 pub fn count_tests<T>(work: impl FnOnce() -> T) -> (T, Count) {
     BOXES.set(0);
     PRIMITIVES.set(0);
@@ -22,12 +22,12 @@ pub fn count_tests<T>(work: impl FnOnce() -> T) -> (T, Count) {
     (result, Count { boxes, primitives })
 }
 
-/// A ray is tested with a box.
+/// Counts a test of a ray with a box.
 pub fn count_box() {
     BOXES.set(BOXES.get() + 1);
 }
 
-/// A ray is tested with a primitive.
+/// Counts a test of a ray with a primitive.
 pub fn count_primitive() {
     PRIMITIVES.set(PRIMITIVES.get() + 1);
 }

@@ -1,7 +1,7 @@
-//! What a tree saves, counted: how many boxes and primitives a ray is tested with, and how often a
-//! primitive is handled while the tree is built, against the number of triangles. Nothing is timed, so
-//! the plot is the same on every machine: `scaling.svg` beside this folder, which this writes, or
-//! with `--check` compares.
+//! Counts the work that a tree saves: the number of boxes and primitives that a ray is tested with,
+//! and the number of build calls that a primitive is part of, against the number of triangles.
+//! Nothing is timed, so the plot is the same on every machine. It is written to
+//! `reference/benches/scaling.svg`, or compared with that file if the argument is `--check`.
 
 use std::fs;
 use std::path::Path;
@@ -15,11 +15,11 @@ mod count;
 mod mesh;
 mod plot;
 
-// The reference's `bvh.rs` as it stands, on boxes and primitives that count.
+// The reference's unchanged `bvh.rs`, compiled with boxes and primitives that count tests.
 #[path = "count/bbox.rs"]
 mod bbox;
 #[path = "../../src/bvh.rs"]
-#[allow(dead_code, unused_imports, reason = "its tests do not run here")]
+#[allow(dead_code, unused_imports, reason = "its tests are not run here")]
 mod bvh;
 #[path = "count/primitive.rs"]
 mod primitive;
@@ -27,33 +27,33 @@ mod primitive;
 #[allow(dead_code, unused_imports, reason = "only triangles are counted here")]
 mod sphere;
 #[path = "../../src/triangle.rs"]
-#[allow(dead_code, unused_imports, reason = "its tests do not run here")]
+#[allow(dead_code, unused_imports, reason = "its tests are not run here")]
 mod triangle;
 
 const UPDATE_COMMAND: &str = "cargo bench -p benches --bench scaling";
-/// How many rays each mesh is asked.
+/// The number of rays per mesh.
 const RAYS: usize = 2000;
-/// At most so many triangles in a leaf.
+/// The maximum number of triangles in a leaf.
 const MAX_LEAF_SIZE: usize = 4;
-/// Pieces along an edge of a cube, whose six faces make a mesh of 12 n² triangles: half a decade
-/// from one to the next.
+/// Numbers of subdivisions along an edge of a cube. With n subdivisions the mesh has 12 n²
+/// triangles, so from one to the next their number grows by about a factor of √10.
 const PIECES: [u32; 9] = [3, 5, 9, 16, 29, 51, 91, 162, 289];
 
-/// What was counted for one mesh.
+/// The counts for one mesh.
 struct Row {
     triangles: usize,
-    /// Tests of boxes for each ray.
+    /// Box tests per ray.
     boxes: f64,
-    /// Tests of triangles for each ray.
+    /// Triangle tests per ray.
     primitives: f64,
-    /// Calls that build a node.
+    /// Number of calls that build a node.
     calls: usize,
-    /// How many of these calls a triangle takes part in.
+    /// Average number of these calls that a triangle is part of.
     handled: f64,
 }
 
 fn main() -> ExitCode {
-    println!("triangles   boxes a ray   triangles a ray   build calls   handled, each");
+    println!("triangles     boxes/ray     triangles/ray   build calls   calls/triangle");
     let rows: Vec<Row> = PIECES.into_iter().map(measure).collect();
     let svg = plot(&rows);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scaling.svg");
@@ -62,7 +62,7 @@ fn main() -> ExitCode {
             return ExitCode::SUCCESS;
         }
         eprintln!(
-            "{} is not as counted: mend it with `{UPDATE_COMMAND}`",
+            "{} is out of date: update it with `{UPDATE_COMMAND}`",
             path.display()
         );
         return ExitCode::FAILURE;
@@ -70,7 +70,7 @@ fn main() -> ExitCode {
     match fs::write(&path, svg) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("can not write {}: {error}", path.display());
+            eprintln!("cannot write {}: {error}", path.display());
             ExitCode::FAILURE
         }
     }
@@ -100,11 +100,12 @@ fn measure(pieces: u32) -> Row {
         calls,
         handled,
     } = &row;
-    println!("{triangles:9}   {boxes:11.1}   {primitives:15.1}   {calls:11}   {handled:13.1}");
+    println!("{triangles:9}   {boxes:11.1}   {primitives:15.1}   {calls:11}   {handled:14.1}");
     row
 }
 
-/// What is below a node: how many triangles, and how many all the nodes there were made of.
+/// The number of triangles below a node, and the sum of the numbers of triangles over all nodes
+/// there.
 struct SubtreeCounts {
     triangles: usize,
     handled: usize,

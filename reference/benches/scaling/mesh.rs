@@ -1,20 +1,20 @@
-//! One surface in more and more triangles, and rays at it.
+//! A surface with a variable number of triangles, and rays to trace.
 
 use glam::{Vec3, vec3};
 use protocol::{Ray, Shape};
 
-/// A cube of 12 · pieces² triangles, blown up into a ball with bumps. Nothing but the four operations
-/// and square roots, which are the same on every machine.
+/// Returns a ball with bumps, made from a cube of 12 · pieces² triangles. It is computed only with
+/// the four operations and square roots, which are the same on every machine.
 pub fn bumpy_ball(pieces: u32) -> Vec<Shape> {
-    let place = |i: u32| 2.0 * i as f32 / pieces as f32 - 1.0;
+    let coordinate = |i: u32| 2.0 * i as f32 / pieces as f32 - 1.0;
     let mut shapes = Vec::new();
     for axis in 0..3 {
         for side in [-1.0, 1.0] {
             let point = |i: u32, j: u32| {
                 let mut corner = Vec3::ZERO;
                 corner[axis] = side;
-                corner[(axis + 1) % 3] = place(i);
-                corner[(axis + 2) % 3] = place(j);
+                corner[(axis + 1) % 3] = coordinate(i);
+                corner[(axis + 2) % 3] = coordinate(j);
                 bumpy(corner.normalize())
             };
             for i in 0..pieces {
@@ -37,7 +37,7 @@ fn bumpy(dir: Vec3) -> Vec3 {
     (1.0 + 0.3 * bumps) * dir
 }
 
-/// From a sphere around the ball to anywhere in it.
+/// Returns rays from a sphere around the ball to random points in it.
 pub fn rays(count: usize) -> Vec<Ray> {
     let mut numbers = SplitMix64(1);
     let ray = |_| {
@@ -47,7 +47,8 @@ pub fn rays(count: usize) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
-/// SplitMix64: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
+/// A random number generator: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
+/// Generators", 2014.
 struct SplitMix64(u64);
 
 impl SplitMix64 {

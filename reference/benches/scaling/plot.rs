@@ -1,29 +1,30 @@
-//! The picture: on the left what a ray costs, beside brute force; on the right that what grows does
-//! so with the logarithm, which is a straight line there.
+//! The plot: on the left the tests per ray, compared with brute force; on the right, with a linear
+//! vertical axis, the counts that grow with the logarithm of the number of triangles, as straight
+//! lines.
 
 use std::fmt::Write as _;
 
 use crate::Row;
 
-/// A panel's inner part: its left edge, top, width and height.
+/// The left edge of each panel's plot area. All panels have the top, width and height below.
 const LEFT: [f64; 2] = [70.0, 510.0];
 const TOP: f64 = 60.0;
 const WIDTH: f64 = 340.0;
 const HEIGHT: f64 = 260.0;
-/// Decades of triangles.
+/// The powers of ten on the horizontal axis.
 const DECADES: std::ops::RangeInclusive<i32> = 2..=6;
-/// The upper end of the right panel.
+/// The upper end of the right panel's vertical axis.
 const MAX_COUNT: f64 = 60.0;
 
-/// A line, its colour, and what is written at its end.
+/// A curve: its colour, its label, and its value in a row.
 type Curve<'a> = (&'a str, &'a str, fn(&Row) -> f64);
 
 const BRUTE: Curve = ("#b3261e", "every triangle", |row| row.triangles as f64);
-const BOXES: Curve = ("#1f5fa8", "boxes a ray", |row| row.boxes);
-const PRIMITIVES: Curve = ("#2e7d32", "triangles a ray", |row| row.primitives);
-const HANDLED: Curve = ("#8a5a00", "build calls it is in", |row| row.handled);
+const BOXES: Curve = ("#1f5fa8", "boxes per ray", |row| row.boxes);
+const PRIMITIVES: Curve = ("#2e7d32", "triangles per ray", |row| row.primitives);
+const HANDLED: Curve = ("#8a5a00", "build calls per triangle", |row| row.handled);
 
-/// All of it.
+/// Returns the plot as SVG.
 pub fn plot(rows: &[Row]) -> String {
     let mut svg = String::from(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 880 380\" width=\"880\" \
@@ -42,7 +43,7 @@ pub fn plot(rows: &[Row]) -> String {
     frame(
         &mut svg,
         LEFT[1],
-        "The same, and the building",
+        "Tests for one ray, and build calls",
         (0..=6).map(|tenth| (f64::from(tenth) / 6.0, format!("{}", 10 * tenth))),
     );
     for line in [BRUTE, BOXES, PRIMITIVES] {
@@ -60,7 +61,8 @@ fn power(decade: i32) -> String {
     format!("10{}", digits[decade as usize])
 }
 
-/// A panel with its axes; each mark of the upright one is a height, from 0 to 1, and a text.
+/// Draws a panel with its axes; each mark of the vertical axis is a height, from 0 to 1, and a
+/// text.
 fn frame(svg: &mut String, left: f64, title: &str, marks: impl Iterator<Item = (f64, String)>) {
     let (right, bottom) = (left + WIDTH, TOP + HEIGHT);
     _ = writeln!(
@@ -96,7 +98,7 @@ fn frame(svg: &mut String, left: f64, title: &str, marks: impl Iterator<Item = (
     );
 }
 
-/// Where a number of triangles stands, from 0 to 1.
+/// Returns the position of a number of triangles on the horizontal axis, from 0 to 1.
 fn x_fraction(triangles: f64) -> f64 {
     let (first, last) = (f64::from(*DECADES.start()), f64::from(*DECADES.end()));
     (triangles.log10() - first) / (last - first)
@@ -121,7 +123,7 @@ fn curve(svg: &mut String, left: f64, rows: &[Row], line: Curve, height: impl Fn
         "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.5\"/>"
     );
     if let Some(last) = rows.last() {
-        // Above the line's end, within the panel.
+        // Above the end of the curve, within the panel.
         let (x, y) = point(last);
         _ = writeln!(
             svg,
@@ -132,7 +134,7 @@ fn curve(svg: &mut String, left: f64, rows: &[Row], line: Curve, height: impl Fn
     }
 }
 
-/// A count, to be read.
+/// Formats a count for people.
 fn format_count(value: f64) -> String {
     if value < 1000.0 {
         format!("{value:.1}")

@@ -1,5 +1,5 @@
-//! The bundle as a folder, and as a ZIP archive that is the same, byte for byte, whenever and
-//! wherever it is made.
+//! Writes a bundle as a folder or as a ZIP archive. The archive is reproducible: the same bundle
+//! gives the same bytes on every machine.
 
 use std::fs;
 use std::io::{self, Cursor, Read, Write};
@@ -14,56 +14,58 @@ use crate::bundle::Bundle;
 /// The folder that the archive unpacks to.
 pub const TOP_FOLDER: &str = "pathtracing";
 
-/// A bundle was not handed over.
+/// A bundle cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
-    /// The folder holds something already, which may be somebody's work.
+    /// The folder already contains files, which are not overwritten.
     #[error(
-        "{} is not empty: name a new folder, or empty it (its .git may stay), or end the name with .zip",
+        "{} is not empty: choose a new folder, empty this one except for .git, or choose a name \
+         that ends with .zip",
         .0.display()
     )]
     NotEmpty(PathBuf),
-    /// The system does not let us.
-    #[error("can not write {}: {source}", path.display())]
+    /// A file operation failed.
+    #[error("cannot write {}: {source}", path.display())]
     Io {
-        /// What.
+        /// The file or folder.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
-    /// There is no archive.
-    #[error("can not make the archive: {0}")]
+    /// The archive cannot be created.
+    #[error("cannot create the archive: {0}")]
     Zip(#[from] ZipError),
 }
 
-/// Writes an archive if `out` ends with `.zip`, else a folder that can be a Git repository.
+/// Writes an archive if `out` ends with `.zip`, and otherwise a folder, which may be an empty Git
+/// repository.
 pub fn write(bundle: &Bundle, out: &Path) -> Result<(), WriteError> {
-    let at = |source| WriteError::Io {
+    let io_error = |source| WriteError::Io {
         path: out.to_owned(),
         source,
     };
     if out.extension().is_some_and(|extension| extension == "zip") {
-        return fs::write(out, zip(bundle)?).map_err(at);
+        return fs::write(out, zip(bundle)?).map_err(io_error);
     }
     write_folder(bundle, out)
 }
 
-/// Writes a folder, which can be a Git repository, or the root of something else.
+/// Writes a new folder. It may exist if it contains nothing but `.git`.
 pub fn write_folder(bundle: &Bundle, out: &Path) -> Result<(), WriteError> {
-    let at = |source| WriteError::Io {
+    let io_error = |source| WriteError::Io {
         path: out.to_owned(),
         source,
     };
-    fs::create_dir_all(out).map_err(at)?;
-    for entry in fs::read_dir(out).map_err(at)? {
-        if entry.map_err(at)?.file_name() != ".git" {
+    fs::create_dir_all(out).map_err(io_error)?;
+    for entry in fs::read_dir(out).map_err(io_error)? {
+        if entry.map_err(io_error)?.file_name() != ".git" {
             return Err(WriteError::NotEmpty(out.to_owned()));
         }
     }
-    write_files(bundle, out).map_err(at)
+    write_files(bundle, out).map_err(io_error)
 }
 
-/// Writes all files below `folder`.
+/// Writes all files of the bundle below `folder`.
 pub(crate) fn write_files(bundle: &Bundle, folder: &Path) -> io::Result<()> {
     for (path, contents) in &bundle.files {
         let path = folder.join(path);
@@ -73,14 +75,15 @@ pub(crate) fn write_files(bundle: &Bundle, folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// The archive's bytes: one folder, as students unpack it.
+/// Returns the bytes of an archive that unpacks to one folder.
 pub fn zip(bundle: &Bundle) -> Result<Vec<u8>, ZipError> {
     zip_with_prefix(bundle, &format!("{TOP_FOLDER}/"))
 }
 
-/// The archive's bytes, with all files below `top`, which is empty or ends with `/`.
+/// Returns the bytes of an archive with all files below `top`, which is empty or ends with `/`.
 pub fn zip_with_prefix(bundle: &Bundle, top: &str) -> Result<Vec<u8>, ZipError> {
-    // Whatever would differ from one machine or day to another is fixed here.
+    // Fixed time, system and permissions: otherwise the bytes would depend on when and where the
+    // archive is created.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .compression_level(Some(9))
@@ -95,7 +98,7 @@ pub fn zip_with_prefix(bundle: &Bundle, top: &str) -> Result<Vec<u8>, ZipError> 
     Ok(archive.finish()?.into_inner())
 }
 
-/// Scripts can be run.
+/// Returns the permissions of a file: scripts are executable.
 fn unix_mode(contents: &[u8]) -> u32 {
     match contents.starts_with(b"#!") {
         true => 0o755,
@@ -103,7 +106,7 @@ fn unix_mode(contents: &[u8]) -> u32 {
     }
 }
 
-/// What an archive holds, with the folder at its top taken off.
+/// Reads an archive, and removes the top folder from its paths.
 pub fn unzip(archive: &[u8]) -> Result<Bundle, ZipError> {
     let mut archive = ZipArchive::new(Cursor::new(archive))?;
     let mut bundle = Bundle::default();

@@ -1,5 +1,5 @@
-//! The crates that a lock file names, as cargo has fetched them to this machine: what it needs to
-//! build without a network.
+//! Copies of the crates in a lock file, taken from cargo's registry folder on this machine. With
+//! them cargo can build without a network.
 
 use std::env;
 use std::fs;
@@ -8,21 +8,21 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-/// The crates are not at hand.
+/// The crates of a lock file cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum CratesError {
-    /// There is no folder of fetched crates.
-    #[error("can not find cargo's own folder: set CARGO_HOME")]
+    /// Cargo's home folder is unknown.
+    #[error("cannot find cargo's home folder: set CARGO_HOME")]
     NoCargoHome,
-    /// The lock file makes no sense.
+    /// The lock file is invalid.
     #[error("the bundle's lock file: {0}")]
     Lock(#[from] toml::de::Error),
-    /// The system does not let us.
-    #[error("can not read {}: {source}", path.display())]
+    /// A file operation failed.
+    #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// What.
+        /// The file or folder.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
 }
@@ -38,16 +38,17 @@ struct Package {
     version: String,
 }
 
-/// The files of cargo's registry folder that this lock file needs, with their paths in it: what is
-/// told of each crate, and its archive. Crates for other systems are not there, and not needed.
+/// Returns the files of cargo's registry folder that a lock file needs, with their paths in that
+/// folder: each crate's index entry and archive. Crates for other systems are skipped: cargo has
+/// not fetched them, and does not need them here.
 pub fn registry_files(lock: &str) -> Result<Vec<(String, Vec<u8>)>, CratesError> {
     let lock: LockFile = toml::from_str(lock)?;
-    let from = cargo_home()?.join("registry");
+    let registry = cargo_home()?.join("registry");
     let mut files = Vec::new();
-    for path in registry_paths(&lock, &from)? {
-        let place = from.join(&path);
-        if place.is_file() {
-            let contents = fs::read(&place).map_err(io_error(&place))?;
+    for path in registry_paths(&lock, &registry)? {
+        let file = registry.join(&path);
+        if file.is_file() {
+            let contents = fs::read(&file).map_err(io_error(&file))?;
             files.push((path, contents));
         }
     }
@@ -66,16 +67,15 @@ fn io_error(path: &Path) -> impl FnOnce(io::Error) -> CratesError {
     move |source| CratesError::Io { path, source }
 }
 
-/// The paths that there may be, with `/`.
-fn registry_paths(lock: &LockFile, from: &Path) -> Result<Vec<String>, CratesError> {
-    let index = from.join("index");
+/// Returns the paths that may exist in the registry folder, with `/`.
+fn registry_paths(lock: &LockFile, folder: &Path) -> Result<Vec<String>, CratesError> {
     let mut paths = Vec::new();
-    for registry in entry_names(&index)? {
-        let place = format!("index/{registry}");
-        let told_of_all = entry_names(&from.join(&place))?;
-        paths.extend(told_of_all.iter().map(|name| format!("{place}/{name}")));
+    for registry in entry_names(&folder.join("index"))? {
+        let index = format!("index/{registry}");
+        let index_files = entry_names(&folder.join(&index))?;
+        paths.extend(index_files.iter().map(|name| format!("{index}/{name}")));
         for Package { name, version } in &lock.package {
-            paths.push(format!("{place}/.cache/{}", index_path(name)));
+            paths.push(format!("{index}/.cache/{}", index_path(name)));
             paths.push(format!("cache/{registry}/{name}-{version}.crate"));
         }
     }
@@ -90,7 +90,7 @@ fn entry_names(folder: &Path) -> Result<Vec<String>, CratesError> {
     Ok(names)
 }
 
-/// Where a registry's index tells of a crate (The Cargo Book, "Registry Index").
+/// Returns the path of a crate's entry in a registry index (The Cargo Book, "Registry Index").
 fn index_path(name: &str) -> String {
     let name = name.to_lowercase();
     match name.len() {
@@ -107,7 +107,7 @@ mod tests {
     #[test]
     fn index_paths_follow_the_length_and_first_letters() {
         let names = ["a", "md", "syn", "Glam"];
-        let places = ["1/a", "2/md", "3/s/syn", "gl/am/glam"];
-        assert_eq!(names.map(index_path), places);
+        let paths = ["1/a", "2/md", "3/s/syn", "gl/am/glam"];
+        assert_eq!(names.map(index_path), paths);
     }
 }

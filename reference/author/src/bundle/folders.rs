@@ -1,4 +1,4 @@
-//! The folders that are handed out as they stand.
+//! Copies the folders that are handed out unchanged.
 
 use std::fs;
 use std::io;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::bundle::Bundle;
 
-/// Folders and single files at the workspace's root.
+/// The folders and files to copy, relative to the workspace's root.
 const COPIED: [&str; 7] = [
     "LICENSE-APACHE",
     "LICENSE-MIT",
@@ -16,10 +16,9 @@ const COPIED: [&str; 7] = [
     "student/framework",
     "student/protocol",
 ];
-/// What only the staff needs, wherever it lies in those folders.
+/// Names of folders that only staff need, anywhere in the copied folders.
 const EXCLUDED_NAMES: [&str; 4] = ["tests", "benches", "fuzz", "target"];
-/// What students do not have: what grades a class and others' code, and what is written for those who
-/// do that.
+/// Files and folders for staff: they are about grading a class, or untrusted code.
 const STAFF_PATHS: [&str; 6] = [
     "grader/class",
     "grader/SECURITY.md",
@@ -28,48 +27,56 @@ const STAFF_PATHS: [&str; 6] = [
     "handout/src/classroom50.md",
     "handout/src/github.md",
 ];
-/// The book's contents, and the part of it that is about those pages.
+/// The book's table of contents, which is cut off at [`STAFF_HEADING`].
 const SUMMARY: &str = "handout/src/SUMMARY.md";
+/// The heading of the staff pages in the table of contents.
 const STAFF_HEADING: &str = "# For instructors";
-/// Made from the reference, and never taken from disk.
+/// The grader's copy of the starter. It is generated from the reference, not copied.
 const STARTER: &str = "grader/starter";
-/// Where an exam may lie that is not to be seen yet.
+/// The folder of exams. It may contain final exams.
 const EXAMS: &str = "grader/exams";
-/// The one that is handed out.
+/// The exam that is handed out.
 const PRACTICE: &str = "grader/exams/practice.json";
 
-/// A file or folder of the repository can not be used.
+/// A file or folder of the repository cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum FoldersError {
-    /// The system does not let us.
-    #[error("can not read {}: {source}", path.display())]
+    /// A file operation failed.
+    #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// Which.
+        /// The file or folder.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
-    /// It is a link or a device, or its name is no text.
-    #[error("{} is no plain file: students could not unpack it", .0.display())]
+    /// A path is a symbolic link or a device, or its name is not UTF-8.
+    #[error(
+        "{} is not a plain file with a UTF-8 name, so students could not unpack it: remove it",
+        .0.display()
+    )]
     NotAPlainFile(PathBuf),
 }
 
-/// Puts all of them into the bundle.
+/// Copies all of these folders into the bundle.
 pub(super) fn copy(root: &Path, bundle: &mut Bundle) -> Result<(), FoldersError> {
     COPIED
         .iter()
-        .try_for_each(|part| copy_tree(&root.join(part), part, bundle))
+        .try_for_each(|path| copy_tree(&root.join(path), path, bundle))
 }
 
-/// Takes what is at `place`, and all below it, to the bundle's `path`.
-pub(crate) fn copy_tree(place: &Path, path: &str, bundle: &mut Bundle) -> Result<(), FoldersError> {
-    let at = |source| FoldersError::Io {
-        path: place.to_owned(),
-        source,
+/// Copies the file `source`, or everything below the folder `source`, to `path` in the bundle.
+pub(crate) fn copy_tree(
+    source: &Path,
+    path: &str,
+    bundle: &mut Bundle,
+) -> Result<(), FoldersError> {
+    let io_error = |error| FoldersError::Io {
+        path: source.to_owned(),
+        source: error,
     };
-    let kind = fs::symlink_metadata(place).map_err(at)?.file_type();
+    let kind = fs::symlink_metadata(source).map_err(io_error)?.file_type();
     if kind.is_file() {
-        let mut bytes = fs::read(place).map_err(at)?;
+        let mut bytes = fs::read(source).map_err(io_error)?;
         if path == SUMMARY {
             bytes.truncate(offset_or_end(&bytes, STAFF_HEADING));
         }
@@ -77,11 +84,11 @@ pub(crate) fn copy_tree(place: &Path, path: &str, bundle: &mut Bundle) -> Result
         return Ok(());
     }
     if !kind.is_dir() {
-        return Err(FoldersError::NotAPlainFile(place.to_owned()));
+        return Err(FoldersError::NotAPlainFile(source.to_owned()));
     }
-    for entry in fs::read_dir(place).map_err(at)? {
-        let name = entry.map_err(at)?.file_name();
-        let below = place.join(&name);
+    for entry in fs::read_dir(source).map_err(io_error)? {
+        let name = entry.map_err(io_error)?.file_name();
+        let below = source.join(&name);
         let name = name
             .to_str()
             .ok_or_else(|| FoldersError::NotAPlainFile(below.clone()))?;
@@ -93,19 +100,20 @@ pub(crate) fn copy_tree(place: &Path, path: &str, bundle: &mut Bundle) -> Result
     Ok(())
 }
 
-/// Where these words begin, if they are there; else the end.
-fn offset_or_end(bytes: &[u8], words: &str) -> usize {
-    let mut places = bytes.windows(words.len());
-    places
-        .position(|window| window == words.as_bytes())
+/// Returns the offset of the first occurrence of `text`, or the end if there is none.
+fn offset_or_end(bytes: &[u8], text: &str) -> usize {
+    let mut windows = bytes.windows(text.len());
+    windows
+        .position(|window| window == text.as_bytes())
         .unwrap_or(bytes.len())
 }
 
 fn is_handed_out(path: &str, name: &str) -> bool {
-    let secret = path.starts_with(EXAMS) && path != EXAMS && path != PRACTICE;
-    let hidden = name.starts_with('.');
-    let whole = path == STARTER || STAFF_PATHS.contains(&path);
-    !(secret || hidden || whole || EXCLUDED_NAMES.contains(&name))
+    let is_secret = path.starts_with(EXAMS) && path != EXAMS && path != PRACTICE;
+    let is_hidden = name.starts_with('.');
+    let is_excluded =
+        path == STARTER || STAFF_PATHS.contains(&path) || EXCLUDED_NAMES.contains(&name);
+    !(is_secret || is_hidden || is_excluded)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
-//! The lock file: ours, without what only the staff's crates need.
+//! The bundle's lock file: the workspace's, without the packages that only staff crates need.
 //!
-//! Which of our packages are still needed is for cargo to say. It is asked without the network, so
-//! that it can only take away, never update.
+//! Cargo itself removes the packages that are no longer needed. It runs offline, so that it cannot
+//! update any of the others.
 
 use std::env;
 use std::fs;
@@ -14,18 +14,18 @@ use tempfile::TempDir;
 use crate::bundle::Bundle;
 use crate::bundle::archive;
 
-/// There is no lock file.
+/// The lock file cannot be created.
 #[derive(Debug, thiserror::Error)]
 pub enum LockError {
-    /// The system does not let us.
-    #[error("can not make the bundle's lock file: {0}")]
+    /// A file operation failed.
+    #[error("cannot create the bundle's lock file: {0}")]
     Io(#[from] io::Error),
-    /// Cargo can not make it from ours.
-    #[error("cargo can not make the bundle's lock file; run `cargo fetch`, then try again:\n{0}")]
+    /// Cargo failed.
+    #[error("cargo cannot create the bundle's lock file; run `cargo fetch`, then try again:\n{0}")]
     Cargo(String),
 }
 
-/// The text of the lock file.
+/// Returns the text of the bundle's lock file.
 pub(super) fn lock_file(root: &Path, bundle: &Bundle) -> Result<String, LockError> {
     let folder = TempDir::new()?;
     archive::write_files(bundle, folder.path())?;
@@ -38,8 +38,8 @@ pub(super) fn lock_file(root: &Path, bundle: &Bundle) -> Result<String, LockErro
         .current_dir(folder.path())
         .output()?;
     if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        return Err(LockError::Cargo(said));
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        return Err(LockError::Cargo(message));
     }
     Ok(fs::read_to_string(lock)?)
 }

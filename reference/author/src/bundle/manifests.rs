@@ -1,4 +1,5 @@
-//! Manifests and aliases, cut from ours: without what only the staff has.
+//! The bundle's manifests and cargo aliases: the workspace's, without the entries for staff crates,
+//! tests and benches.
 
 use std::fs;
 use std::io;
@@ -9,42 +10,42 @@ use toml_edit::{Array, DocumentMut, Item, TomlError};
 
 use crate::bundle::Bundle;
 
-/// The commands that work without the reference and the author.
+/// The cargo aliases that work without the `reference` and `author` crates.
 const ALIASES: [&str; 3] = ["grade", "render", "examples"];
-/// What a manifest says of folders that are left out.
+/// The manifest keys about folders that are not in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
-/// A manifest is not as expected.
+/// A manifest cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum ManifestError {
-    /// It can not be read.
-    #[error("can not read {}: {source}", path.display())]
+    /// A file cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// Which.
+        /// The file or folder.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
-    /// It is no TOML.
+    /// A file is not valid TOML.
     #[error("{path}: {source}")]
     Toml {
-        /// Which.
+        /// The file or folder.
         path: String,
-        /// Line, column, and what is wrong there.
+        /// The parse error, with its line and column.
         source: TomlError,
     },
-    /// It lacks something that it must have.
-    #[error("{path} has no `{key}` any more: adapt the bundle's manifests")]
+    /// A required key is missing.
+    #[error("{path} no longer has the key `{key}`: adapt reference/author/src/bundle/manifests.rs")]
     MissingKey {
-        /// Which.
+        /// The file.
         path: &'static str,
-        /// What.
+        /// The key.
         key: &'static str,
     },
 }
 
-/// Puts the root's manifest, the student's and the aliases into the bundle, and cuts all that are
-/// there.
+/// Adds the trimmed manifests of the root and of `student`, and the aliases, and trims the
+/// manifests that are in the bundle already.
 pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), ManifestError> {
     bundle.insert("student/Cargo.toml", read(root, "student/Cargo.toml")?);
     let paths: Vec<String> = bundle.files.keys().cloned().collect();
@@ -53,7 +54,7 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), Manife
         for key in TEST_KEYS {
             manifest.remove(key);
         }
-        // What is on unless told otherwise is on for the staff's sake.
+        // Default features exist only for staff commands.
         if let Some(features) = manifest.get_mut("features").and_then(Item::as_table_mut) {
             features.remove("default");
         }
@@ -69,7 +70,8 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), Manife
             key: "workspace.members",
         })?;
     keep_members(members, bundle);
-    // Cargo warns of what is said of a package that is not there; benches have no other profile.
+    // Cargo warns about profile settings of packages that are missing. The bench profile has only
+    // such settings.
     let profiles = &mut manifest["profile"];
     if let Some(packages) = profiles["release"].get_mut("package")
         && let Some(packages) = packages.as_table_like_mut()
@@ -90,7 +92,7 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), Manife
     Ok(())
 }
 
-/// Of the workspace's members, those that are handed out.
+/// Keeps the workspace members that are in the bundle.
 fn keep_members(members: &mut Array, bundle: &Bundle) {
     members.retain(|member| {
         let manifest = member.as_str().map(|folder| format!("{folder}/Cargo.toml"));

@@ -1,8 +1,9 @@
-//! What students get: a folder that builds, grades and explains itself, and holds no solution.
+//! The bundle that students get: a folder with the starter, the grader, the scenes and the handout,
+//! and without any solution.
 //!
-//! Nothing of it is kept by hand. The starter is projected from the reference, the manifests and
-//! the lock file are cut from ours, and a few files that only students see stand in `own/`. Before
-//! anything is handed out, all of it is searched for what must stay here: see [`secrets`].
+//! A bundle is always generated. The starter comes from the reference, the manifests and the lock
+//! file are the workspace's with staff entries removed, and the few files that only students see
+//! are in `templates/`. Before a bundle is written it is searched for [`secrets`].
 
 pub mod archive;
 pub mod check;
@@ -21,40 +22,43 @@ use crate::bundle::lock::LockError;
 use crate::bundle::manifests::ManifestError;
 use crate::starter::{self, StarterError};
 
-/// The files that only students see, with their places.
+/// The files that only students see: path in the bundle, and contents.
 const STUDENT_ONLY: [(&str, &str); 4] = [
-    ("README.md", include_str!("own/README.md")),
-    (".gitignore", include_str!("own/gitignore")),
-    (".gitattributes", include_str!("own/gitattributes")),
-    (".github/workflows/grade.yml", include_str!("own/grade.yml")),
+    ("README.md", include_str!("templates/README.md")),
+    (".gitignore", include_str!("templates/gitignore")),
+    (".gitattributes", include_str!("templates/gitattributes")),
+    (
+        ".github/workflows/grade.yml",
+        include_str!("templates/grade.yml"),
+    ),
 ];
 
-/// All files that are handed out: path, with `/`, and contents.
+/// The files of a bundle or package.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bundle {
-    /// In the order of their paths, so that the same tree gives the same bytes.
+    /// Contents by path, with `/`. Sorted, so that the same workspace gives the same archive.
     pub files: BTreeMap<String, Vec<u8>>,
 }
 
-/// Why there is no bundle.
+/// The bundle cannot be collected.
 #[derive(Debug, thiserror::Error)]
 pub enum BundleError {
-    /// A file or folder of the repository can not be used.
+    /// A file or folder of the repository cannot be used.
     #[error(transparent)]
     Folders(#[from] FoldersError),
-    /// There is no starter.
+    /// The starter cannot be generated.
     #[error(transparent)]
     Starter(#[from] StarterError),
-    /// A manifest is not as expected.
+    /// A manifest cannot be used.
     #[error(transparent)]
     Manifest(#[from] ManifestError),
-    /// There is no lock file.
+    /// The lock file cannot be created.
     #[error(transparent)]
     Lock(#[from] LockError),
 }
 
 impl Bundle {
-    /// The bundle of the workspace at `root`, with the handout as a book if there is one.
+    /// Collects the bundle of the workspace at `root`, including the built book if one is given.
     pub fn collect(root: &Path, book: Option<&Path>) -> Result<Self, BundleError> {
         let mut bundle = Bundle::default();
         folders::copy(root, &mut bundle)?;
@@ -65,7 +69,7 @@ impl Bundle {
         for (path, text) in STUDENT_ONLY {
             bundle.insert(path, text);
         }
-        // Never from disk: whoever tries the assignment does so in `student/src`.
+        // Generated instead of read from `student/src`, where staff may have solved the assignment.
         for file in starter::generated_files(root)? {
             bundle.insert(file.path, file.contents);
         }
@@ -75,17 +79,17 @@ impl Bundle {
         Ok(bundle)
     }
 
-    /// Puts a file in its place, or another one in the place of one that is there.
+    /// Inserts a file, and replaces an existing one with the same path.
     pub fn insert(&mut self, path: impl Into<String>, contents: impl Into<Vec<u8>>) {
         self.files.insert(path.into(), contents.into());
     }
 
-    /// The text of a file. None if it is not there, or no text.
+    /// Returns the text of a file, or `None` if it is missing or not UTF-8.
     pub fn text(&self, path: &str) -> Option<&str> {
         std::str::from_utf8(self.files.get(path)?).ok()
     }
 
-    /// The files that are text, with their paths.
+    /// Returns the paths and texts of all files that are UTF-8.
     pub fn text_files(&self) -> impl Iterator<Item = (&str, &str)> {
         let files = self.files.iter();
         files.filter_map(|(path, contents)| {
@@ -93,7 +97,7 @@ impl Bundle {
         })
     }
 
-    /// The size of all files, in bytes.
+    /// Returns the total size of all files, in bytes.
     pub fn size(&self) -> usize {
         self.files.values().map(Vec::len).sum()
     }

@@ -1,8 +1,8 @@
-//! What must not be handed out, and the search for it.
+//! Searches a bundle for secrets: lines of solutions, and final exams.
 //!
-//! A secret is a line of code: of a solution, a variant, a mistake, a mutant, an oracle. It is found
-//! however it is indented or spaced. Lines that students are given anyway are no secrets, and
-//! neither are those that compute nothing, such as `use std::fs;` or a lonely brace.
+//! A secret line is a line of code of a solution, variant, mistake, mutant or oracle. White space
+//! is ignored when lines are compared. Lines of the students' given files are not secret, nor are
+//! lines that compute nothing, such as `use std::fs;` or a closing brace.
 
 use std::collections::{HashMap, HashSet};
 use std::fmt;
@@ -17,67 +17,68 @@ use crate::bundle::Bundle;
 use crate::proof::catalogue::{CatalogueError, mistakes};
 use crate::proof::sources::{ReadError, Sources};
 
-/// Files, and folders with all below them.
+/// The files and folders whose lines are secret.
 const SECRET_PATHS: [&str; 4] = [
     "reference/src",
-    "reference/carried/bvh.rs",
+    "reference/substitution/bvh.rs",
     "reference/mutants",
     "reference/variants",
 ];
-/// The same in double precision. Only its formulas are secret: whoever turns a ray into doubles
-/// writes what stands there, line by line.
+/// The folder of the oracles, which solve the tasks in double precision. Only their formulas are
+/// secret: other lines, such as the conversion of a ray to `f64`, can occur in any code.
 const ORACLE_FOLDER: &str = "reference/author/src/oracle";
-/// Where given code stands that solutions may well repeat.
+/// The folders of given code, whose lines solutions may repeat.
 const GIVEN_FOLDERS: [&str; 2] = ["student/src/", "student/protocol/"];
-/// Shorter lines say too little to be anybody's. Counted without white space.
+/// The minimum length of a secret line, without white space. Shorter lines occur by coincidence.
 const MIN_LENGTH: usize = 21;
-/// The exam that may be seen.
+/// The id of the only exam that students may have.
 const PRACTICE_ID: &str = "practice";
 
-/// All lines that must stay here, with the place where each stands.
+/// All secret lines of a workspace.
 #[derive(Clone, Debug)]
 pub struct Secrets {
+    /// The source of each normalised line, as `file:line`.
     lines: HashMap<String, String>,
 }
 
-/// A secret that was found.
+/// A secret found in a bundle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Leak {
-    /// A line.
+    /// A secret line.
     Line {
-        /// The bundle's file and line, from 1.
+        /// The file and line in the bundle, as `file:line`.
         found: String,
-        /// Where the line is from.
+        /// The secret file and line that it is equal to.
         source: String,
     },
     /// An exam that is not the practice exam.
     Exam {
-        /// The bundle's file.
+        /// The file in the bundle.
         found: String,
     },
 }
 
-/// The secrets can not be read.
+/// The secrets cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum SecretsError {
-    /// A file or folder of this repository.
-    #[error("can not read {}: {source}", path.display())]
+    /// A file or folder cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// Which.
+        /// The file or folder.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
-    /// One of the five solved files.
+    /// A file of the reference cannot be read.
     #[error(transparent)]
     Reference(#[from] ReadError),
-    /// The catalogue of mistakes.
+    /// The catalogue of mistakes cannot be used.
     #[error(transparent)]
     Catalogue(#[from] CatalogueError),
 }
 
 impl Secrets {
-    /// Those of the workspace at `root`, without what this bundle's students are given.
+    /// Collects the secrets of the workspace at `root`, except lines of the bundle's given files.
     pub fn gather(root: &Path, bundle: &Bundle) -> Result<Self, SecretsError> {
         let mut secrets = Secrets {
             lines: HashMap::new(),
@@ -106,18 +107,18 @@ impl Secrets {
     }
 
     fn read(&mut self, root: &Path, path: &str) -> Result<(), SecretsError> {
-        let place = root.join(path);
-        let at = |source| SecretsError::Io {
-            path: place.clone(),
+        let full_path = root.join(path);
+        let io_error = |source| SecretsError::Io {
+            path: full_path.clone(),
             source,
         };
-        if place.is_dir() {
-            for entry in fs::read_dir(&place).map_err(at)? {
-                let name = entry.map_err(at)?.file_name();
+        if full_path.is_dir() {
+            for entry in fs::read_dir(&full_path).map_err(io_error)? {
+                let name = entry.map_err(io_error)?.file_name();
                 self.read(root, &format!("{path}/{}", name.to_string_lossy()))?;
             }
         } else if !path.ends_with(".md") {
-            let text = fs::read_to_string(&place).map_err(at)?;
+            let text = fs::read_to_string(&full_path).map_err(io_error)?;
             self.add(path, &text);
         }
         Ok(())
@@ -126,13 +127,13 @@ impl Secrets {
     fn add(&mut self, source: &str, text: &str) {
         for (number, line) in (1..).zip(text.lines()) {
             if let Some(line) = normalize(line) {
-                let place = || format!("{source}:{number}");
-                self.lines.entry(line).or_insert_with(place);
+                let location = || format!("{source}:{number}");
+                self.lines.entry(line).or_insert_with(location);
             }
         }
     }
 
-    /// Every secret in the bundle.
+    /// Returns every secret in the bundle.
     pub fn search(&self, bundle: &Bundle) -> Vec<Leak> {
         let lines = bundle.text_files().flat_map(|(path, text)| {
             let numbered = (1..).zip(text.lines());
@@ -151,17 +152,17 @@ impl Secrets {
     }
 }
 
-/// A line without its spacing, if it is one that computes something.
+/// Returns a line without its white space, or `None` if it computes nothing.
 fn normalize(line: &str) -> Option<String> {
     let computes = is_formula(line) || line.contains('(');
-    let is_told = ["//", "use ", "pub use ", "#["]
+    let is_no_code = ["//", "use ", "pub use ", "#["]
         .iter()
         .any(|start| line.trim_start().starts_with(start));
     let line: String = line.split_whitespace().collect();
-    (computes && !is_told && line.len() >= MIN_LENGTH).then_some(line)
+    (computes && !is_no_code && line.len() >= MIN_LENGTH).then_some(line)
 }
 
-/// Whether there is arithmetic in the line.
+/// Returns whether the line contains arithmetic.
 fn is_formula(line: &str) -> bool {
     line.replace("->", "").contains(['+', '-', '*', '/'])
 }
@@ -176,7 +177,7 @@ impl fmt::Display for Leak {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Leak::Line { found, source } => write!(f, "{found} is a line of {source}"),
-            Leak::Exam { found } => write!(f, "{found} is an exam that is not for students"),
+            Leak::Exam { found } => write!(f, "{found} is not the practice exam"),
         }
     }
 }

@@ -1,11 +1,12 @@
-//! Modules that only tests need stay here: those of the framework draw with a submission of ours.
+//! Removes test modules from a bundle. The framework's tests need a submission that students do not
+//! have.
 
 use crate::bundle::Bundle;
 
-/// What stands above such a module, in a line of its own.
+/// The attribute on the line above the declaration of a test module.
 const CFG_TEST: &str = "#[cfg(test)]";
 
-/// Takes away every test module with a file of its own, and the lines that name it.
+/// Removes every test module that is in a separate file, and its declaration.
 pub(super) fn remove(bundle: &mut Bundle) {
     let sources: Vec<String> = bundle.files.keys().cloned().collect();
     for path in sources.iter().filter(|path| path.ends_with(".rs")) {
@@ -14,20 +15,20 @@ pub(super) fn remove(bundle: &mut Bundle) {
             continue;
         }
         for module in modules {
-            let place = format!("{}{module}", module_folder(path));
-            let (file, below) = (format!("{place}.rs"), format!("{place}/"));
+            let stem = format!("{}{module}", module_folder(path));
+            let (file, below) = (format!("{stem}.rs"), format!("{stem}/"));
             bundle
                 .files
                 .retain(|path, _| *path != file && !path.starts_with(&below));
         }
-        // Unless it was itself below one of those.
+        // The file may itself have been part of a removed module.
         if bundle.files.contains_key(path) {
             bundle.insert(path, text);
         }
     }
 }
 
-/// Where the files of a file's modules lie.
+/// Returns the folder of the modules that a file declares.
 fn module_folder(path: &str) -> String {
     let (folder, name) = path.rsplit_once('/').unwrap_or(("", path));
     match name {
@@ -36,7 +37,7 @@ fn module_folder(path: &str) -> String {
     }
 }
 
-/// The text without `#[cfg(test)] mod NAME;`, and those names.
+/// Returns the text without its declarations `#[cfg(test)] mod NAME;`, and those names.
 fn without_test_modules(text: &str) -> (String, Vec<String>) {
     let lines: Vec<&str> = text.lines().collect();
     let named = |line: &&str| {
@@ -66,8 +67,11 @@ mod tests {
     #[test]
     fn removes_a_test_module_with_its_file_and_declaration() {
         let mut bundle = Bundle::default();
-        bundle.insert("f/src/lib.rs", "mod a;\n#[cfg(test)]\nmod balls;\nmod b;\n");
-        bundle.insert("f/src/balls.rs", "");
+        bundle.insert(
+            "f/src/lib.rs",
+            "mod a;\n#[cfg(test)]\nmod helpers;\nmod b;\n",
+        );
+        bundle.insert("f/src/helpers.rs", "");
         bundle.insert("f/src/a.rs", "fn f() {}\n\n#[cfg(test)]\nmod tests;\n");
         bundle.insert("f/src/a/tests.rs", "");
         bundle.insert("f/src/b.rs", "#[cfg(test)]\nmod tests {}\n");
@@ -78,7 +82,7 @@ mod tests {
         assert_eq!(
             bundle.text("f/src/b.rs"),
             Some("#[cfg(test)]\nmod tests {}\n"),
-            "one inside the file stays"
+            "inline test modules are kept"
         );
     }
 }

@@ -1,5 +1,4 @@
-//! Whether the handout's commands are commands: asked of the same definitions that read the
-//! command line.
+//! Checks the handout's commands against the definitions of the command lines.
 
 use std::collections::BTreeSet;
 
@@ -11,11 +10,11 @@ use super::pages::{Page, Snippet};
 use super::source_file::SourceFile;
 use crate::cli::Cli;
 
-/// What `cargo render` takes; its crate is not linked here.
+/// The file with the options of `cargo render`, whose crate is not linked here.
 const RENDER_OPTIONS: &str = "student/framework/src/cli/options.rs";
-/// What the handout uses of the test harness.
+/// The flags of Rust's test harness that the handout uses.
 const HARNESS_FLAGS: [&str; 1] = ["--nocapture"];
-/// Commands that are not this repository's.
+/// Commands that are not part of this repository.
 pub(super) const OTHER_COMMANDS: [&str; 7] = [
     "rustc",
     "rustup",
@@ -26,7 +25,8 @@ pub(super) const OTHER_COMMANDS: [&str; 7] = [
     "xcode-select",
 ];
 
-/// Commands, flags and arguments that nobody takes, each with its place. `aliases` are cargo's.
+/// Returns the unknown commands, flags and arguments of a page, each with its line. `aliases` are
+/// the cargo aliases of this repository.
 pub fn unknown_commands(
     page: &Page,
     sources: &[SourceFile],
@@ -37,11 +37,11 @@ pub fn unknown_commands(
         text.starts_with("cargo ") || text.starts_with("rustup ") || text.starts_with("--")
     });
     let all = page.commands.iter().chain(inline);
-    let problem = |piece: &Snippet| match piece.text.strip_prefix("--") {
-        Some(_) => unknown_flag(&piece.text, sources),
-        None => unknown_command(&piece.text, sources, aliases),
+    let problem = |snippet: &Snippet| match snippet.text.strip_prefix("--") {
+        Some(_) => unknown_flag(&snippet.text, sources),
+        None => unknown_command(&snippet.text, sources, aliases),
     };
-    all.filter_map(|piece| Some(page.problem(piece, &problem(piece)?)))
+    all.filter_map(|snippet| Some(page.problem(snippet, &problem(snippet)?)))
         .collect()
 }
 
@@ -50,20 +50,20 @@ fn unknown_command(
     sources: &[SourceFile],
     aliases: &BTreeSet<String>,
 ) -> Option<String> {
-    // What comes behind `>` is the shell's.
+    // A redirection with `>` is for the shell.
     let words = text.split_whitespace().take_while(|word| *word != ">");
     let words: Vec<&str> = words.collect();
     let (cargo, rest) = words.split_first()?;
     if *cargo != "cargo" {
         let known = OTHER_COMMANDS.contains(cargo);
-        return (!known).then(|| format!("what is the command {cargo}?"));
+        return (!known).then(|| format!("unknown command {cargo}"));
     }
     let (command, arguments) = rest.split_first()?;
     let own = ["install", "test", "build"].contains(command) || aliases.contains(*command);
     if !own {
         return Some(format!("cargo has no command {command}"));
     }
-    // Placeholders stand for what is allowed there.
+    // Replaces placeholders by valid values.
     let arguments = arguments.iter().map(|word| match *word {
         "ITEM#N" | "ITEM#NUMBER" => "sphere.from_inside#7",
         "N" => "60",
@@ -78,12 +78,12 @@ fn unknown_command(
         "examples" => return unknown_example(&line[1..], sources),
         _ => None,
     }?;
-    let told = error.to_string();
-    let first = told.lines().next().unwrap_or_default();
+    let message = error.to_string();
+    let first = message.lines().next().unwrap_or_default();
     (error.use_stderr()).then(|| format!("`{text}`: {first}"))
 }
 
-/// A flag by itself, as prose names it: of any command.
+/// Reports a flag that prose mentions if no command has it.
 fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     let flag = text.split([' ', '=']).next().unwrap_or(text);
     let name = flag.trim_start_matches('-');
@@ -92,16 +92,18 @@ fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
             .get_arguments()
             .any(|argument| argument.get_long() == Some(name))
     };
-    let authors = Cli::command().get_subcommands().cloned().any(takes);
-    let classes = takes(ClassArguments::augment_args(clap::Command::default()));
-    let known = takes(Arguments::command()) || authors || classes || HARNESS_FLAGS.contains(&flag);
+    let is_authors = Cli::command().get_subcommands().cloned().any(takes);
+    let is_classes = takes(ClassArguments::augment_args(clap::Command::default()));
+    let known =
+        takes(Arguments::command()) || is_authors || is_classes || HARNESS_FLAGS.contains(&flag);
     if known {
         return None;
     }
-    unknown_option(&[flag], sources).map(|_| format!("no command takes {flag}"))
+    unknown_option(&[flag], sources).map(|_| format!("no command has the flag {flag}"))
 }
 
-/// The first flag that `cargo render` does not take: each is a field of its options.
+/// Reports the first flag that `cargo render` does not have. Its flags are the fields of its
+/// options.
 fn unknown_option(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let options = sources.iter().find(|source| source.path == RENDER_OPTIONS);
     let options = options.map_or("", |source| source.text.as_str());
@@ -110,16 +112,16 @@ fn unknown_option(words: &[&str], sources: &[SourceFile]) -> Option<String> {
         let field = format!(" {}:", flag.replace('-', "_"));
         !options.contains(&field)
     })?;
-    Some(format!("cargo render takes no --{unknown}"))
+    Some(format!("cargo render has no flag --{unknown}"))
 }
 
-/// A filter for the worked examples that is no file's name.
+/// Reports an argument of `cargo examples` that is not the name of a file.
 fn unknown_example(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let unknown = words.iter().find(|word| {
         let file = format!("student/src/{word}.rs");
         !HARNESS_FLAGS.contains(word) && !sources.iter().any(|source| source.path == file)
     })?;
-    Some(format!("no file has examples called {unknown}"))
+    Some(format!("there is no file {unknown}.rs with examples"))
 }
 
 #[cfg(test)]
@@ -150,20 +152,20 @@ mod tests {
     fn reports_each_unknown_command_or_flag_with_its_line() {
         let text = "```sh\ncargo grade --taks sphere\ncargo grade --task spheres\ncargo gradee\n\
                     cargo render a --views\ncargo examples tree\nmake\ncargo class a --shard 9/8\n```\n`--hint`";
-        let told = problems(text);
+        let problems = problems(text);
         let starts = [
             "a.md:2: `cargo grade --taks sphere`: error: unexpected argument '--taks' found",
             "a.md:3: `cargo grade --task spheres`: error: invalid value 'spheres'",
             "a.md:4: cargo has no command gradee",
-            "a.md:5: cargo render takes no --views",
-            "a.md:6: no file has examples called tree",
-            "a.md:7: what is the command make?",
+            "a.md:5: cargo render has no flag --views",
+            "a.md:6: there is no file tree.rs with examples",
+            "a.md:7: unknown command make",
             "a.md:8: `cargo class a --shard 9/8`: error: invalid value '9/8'",
-            "a.md:10: no command takes --hint",
+            "a.md:10: no command has the flag --hint",
         ];
-        assert_eq!(told.len(), starts.len(), "{told:#?}");
-        for (told, start) in told.iter().zip(starts) {
-            assert!(told.starts_with(start), "{told}");
+        assert_eq!(problems.len(), starts.len(), "{problems:#?}");
+        for (problem, start) in problems.iter().zip(starts) {
+            assert!(problem.starts_with(start), "{problem}");
         }
     }
 }

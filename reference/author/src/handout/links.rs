@@ -1,4 +1,4 @@
-//! Whether every link, anchor and figure of the handout is there, and every figure is shown.
+//! Checks that every link, anchor and figure of the handout exists, and that every figure is shown.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,10 +7,11 @@ use grader::section::Section;
 
 use super::pages::{Page, anchor};
 
-/// What is wrong with the links among these chapters; `figures` are files beside them.
+/// Returns the broken links among the chapters, and files that no chapter links to. `figures` are
+/// files beside the chapters.
 pub fn broken_links(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
     let anchors = anchors(pages);
-    let mut complaints = Vec::new();
+    let mut problems = Vec::new();
     for page in pages {
         let links = page.links.iter();
         for link in links.filter(|link| !link.text.contains("://")) {
@@ -22,14 +23,14 @@ pub fn broken_links(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
                 Some(anchors) if anchor.is_empty() || anchors.contains(anchor) => None,
                 Some(_) => Some(format!("{file} has no heading for #{anchor}")),
             };
-            complaints.extend(problem.map(|problem| page.problem(link, &problem)));
+            problems.extend(problem.map(|problem| page.problem(link, &problem)));
         }
     }
-    complaints.extend(unlinked_files(pages, figures));
-    complaints
+    problems.extend(unlinked_files(pages, figures));
+    problems
 }
 
-/// Chapters and figures that nothing leads to.
+/// Returns a problem for each chapter or figure that no chapter links to.
 fn unlinked_files(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
     let links = pages.iter().flat_map(|page| &page.links);
     let reached: BTreeSet<&str> = links
@@ -40,14 +41,15 @@ fn unlinked_files(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
         .filter(|name| *name != SUMMARY)
         .chain(figures.iter().map(String::as_str));
     all.filter(|file| !reached.contains(file))
-        .map(|file| format!("{file}: nothing leads there"))
+        .map(|file| format!("{file}: no chapter links to it"))
         .collect()
 }
 
-/// The table of contents.
+/// The file with the table of contents.
 pub const SUMMARY: &str = "SUMMARY.md";
 
-/// Sections that an exam names and the chapters do not have, and items that name none.
+/// Returns the sections that an exam names but the chapters do not have, and the items without a
+/// section.
 pub fn missing_sections(pages: &[Page], exam: &Exam) -> Vec<String> {
     let headings: BTreeMap<&str, BTreeMap<String, &str>> = pages
         .iter()
@@ -62,14 +64,14 @@ pub fn missing_sections(pages: &[Page], exam: &Exam) -> Vec<String> {
         match headings.and_then(|headings| headings.get(section.anchor())) {
             None => Some(format!("the handout has no section {section}")),
             Some(heading) if *heading != section.heading() => Some(format!(
-                "{section} would be told as \"{}\", and the heading is \"{heading}\"",
+                "{section} would be shown as \"{}\", but its heading is \"{heading}\"",
                 section.heading()
             )),
             Some(_) => None,
         }
     };
     let items = exam.items.iter().map(|item| {
-        let none = "it has no section: see items/sections.rs".to_owned();
+        let none = "the item has no section: add one in items/sections.rs".to_owned();
         let problem = item.section.as_ref().map_or(Some(none), problem);
         problem.map(|problem| format!("{}: {problem}", item.id))
     });
@@ -110,9 +112,9 @@ mod tests {
         assert_eq!(
             missing_sections(&[Page::new("boxes.md", page)], &exam),
             [
-                "bbox.slab_after_slab: boxes.md#flat-boxes would be told as \"Flat boxes\", and the \
-                 heading is \"Flat, boxes\"",
-                "bbox.octants: it has no section: see items/sections.rs",
+                "bbox.slab_after_slab: boxes.md#flat-boxes would be shown as \"Flat boxes\", but \
+                 its heading is \"Flat, boxes\"",
+                "bbox.octants: the item has no section: add one in items/sections.rs",
             ]
         );
         assert_eq!(
@@ -153,8 +155,8 @@ mod tests {
                 "a.md:3: there is no c.md",
                 "a.md:4: a.md has no heading for #b",
                 "b.md:2: there is no figures/b.svg",
-                "b.md: nothing leads there",
-                "figures/a.svg: nothing leads there",
+                "b.md: no chapter links to it",
+                "figures/a.svg: no chapter links to it",
             ]
         );
     }

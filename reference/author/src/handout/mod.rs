@@ -1,5 +1,5 @@
-//! The handout: its figures are drawn here, its words are checked against the code, and it is made
-//! into a book.
+//! The handout: draws its figures, checks its links, names and commands against the code, and
+//! builds it as a book.
 
 #[cfg(feature = "book")]
 pub mod book;
@@ -24,7 +24,7 @@ use crate::handout::pages::{Page, pages};
 use crate::handout::source_file::SourceFile;
 use crate::proof::sources::{ReadError, read};
 
-/// What students see of the code, and what writes the files that they see.
+/// The code that students see, and the code that writes files that students see.
 const SOURCES: [&str; 8] = [
     "student/src",
     "student/protocol/src",
@@ -36,17 +36,17 @@ const SOURCES: [&str; 8] = [
     "scenes",
 ];
 
-/// Folders that hold nothing of ours.
+/// Folders that are not searched.
 const IGNORED_FOLDERS: [&str; 2] = [".git", "target"];
 
-/// The handout's generated files: its figures.
+/// Draws the handout's figures.
 pub fn generated_files() -> Vec<GeneratedFile> {
     let figure = |(name, svg)| GeneratedFile::new(format!("{CHAPTERS}/figures/{name}"), svg);
     figures::all().map(figure).collect()
 }
 
-/// All that is wrong with the handout of the workspace at `root`: links that lead nowhere, sections
-/// that an exam wants, names and commands that are not there.
+/// Returns all problems with the handout of the workspace at `root`: broken links, missing sections
+/// that the exam refers to, and unknown names and commands.
 pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, ReadError> {
     let pages = pages(&root.join(CHAPTERS))?;
     let figures = figures::all().map(|(name, _)| format!("figures/{name}"));
@@ -66,14 +66,14 @@ pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, ReadError> {
     let mut all = links::broken_links(&pages, &figures.collect());
     all.extend(links::missing_sections(&pages, exam));
     all.extend(pages.iter().flat_map(|page: &Page| {
-        let mut complaints = names::unknown_names(page, &known);
-        complaints.extend(commands::unknown_commands(page, &sources, &aliases));
-        complaints
+        let mut problems = names::unknown_names(page, &known);
+        problems.extend(commands::unknown_commands(page, &sources, &aliases));
+        problems
     }));
     Ok(all)
 }
 
-/// The names on the left of `[alias]`.
+/// Returns the names of the aliases in cargo's configuration.
 fn aliases(config: &str) -> BTreeSet<String> {
     let below = config.lines().skip_while(|line| *line != "[alias]");
     let names = below.filter_map(|line| line.split_once(" = "));
@@ -98,15 +98,15 @@ fn files(root: &Path) -> Result<BTreeSet<String>, ReadError> {
     Ok(files_below(root, root)?.into_iter().collect())
 }
 
-/// All files below a folder, from the root, with `/`.
+/// Returns the paths of all files below a folder, relative to the root, with `/`.
 fn files_below(root: &Path, folder: &Path) -> Result<Vec<String>, ReadError> {
-    let unreadable = |source: io::Error| ReadError {
+    let read_error = |source: io::Error| ReadError {
         path: folder.to_owned(),
         source,
     };
     let mut found = Vec::new();
-    for entry in fs::read_dir(folder).map_err(unreadable)? {
-        let path: PathBuf = entry.map_err(unreadable)?.path();
+    for entry in fs::read_dir(folder).map_err(read_error)? {
+        let path: PathBuf = entry.map_err(read_error)?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if IGNORED_FOLDERS.contains(&&*name) {
             continue;

@@ -1,8 +1,8 @@
-//! Whether what the handout calls by name is there under that name.
+//! Checks that every name that the handout mentions exists.
 //!
-//! Every identifier of code within the prose must be a word of the sources that students see, and
-//! of `Type::part` the part must stand in a file that has the type. Items must be the exam's, and
-//! files must be there.
+//! Every identifier in inline code must occur in the sources that students see. For `Type::member`,
+//! some file must declare the type and contain the member. Item ids must be the exam's, and files
+//! must exist.
 
 use std::collections::BTreeSet;
 
@@ -12,31 +12,31 @@ use super::commands;
 use super::pages::{Page, Snippet};
 use super::source_file::SourceFile;
 
-/// Rust's own words, and the names of other crates', that the handout uses.
+/// Names of Rust and of other crates that the handout uses.
 const RUST_NAMES: [&str; 12] = [
     "Option", "Some", "None", "Vec3", "std", "glam", "usize", "unsafe", "println", "todo", "main",
     "sh",
 ];
 
-/// Everything that a name can be the name of.
+/// The sources, files and items that names can refer to.
 #[derive(Debug)]
 pub struct KnownNames<'a> {
-    /// What students see of the code, and what writes the files that they see.
+    /// The code that students see, and the code that writes files that students see.
     pub sources: &'a [SourceFile],
-    /// All files of the repository, from its root.
+    /// All files of the repository, relative to its root.
     pub files: &'a BTreeSet<String>,
-    /// For the items' names.
+    /// The exam, for the ids of its items.
     pub exam: &'a Exam,
 }
 
-/// Names that are nobody's, each with its place.
+/// Returns the unknown names of a page, each with its line.
 pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
     let words: BTreeSet<&str> = known
         .sources
         .iter()
         .flat_map(|source| identifiers(&source.text))
         .collect();
-    // Pseudo-code has names of its own, which the prose around it may use.
+    // Pseudo-code defines names that the prose around it may use.
     let own: BTreeSet<&str> = page
         .blocks
         .iter()
@@ -47,7 +47,7 @@ pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
         let first = text.split(' ').next().unwrap_or_default();
         if first.starts_with("--") || first == "cargo" || commands::OTHER_COMMANDS.contains(&first)
         {
-            // A command: see `commands`.
+            // Commands are checked in `commands`.
             return None;
         }
         if let Some(item) = item_id(text) {
@@ -58,22 +58,20 @@ pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
             return (!path_exists(text, known)).then(|| format!("there is no file {text}"));
         }
         let parts = text.split("::").collect::<Vec<_>>();
-        if let [owner, part] = parts[..]
+        if let [owner, member] = parts[..]
             && is_identifier(owner)
-            && is_identifier(part)
+            && is_identifier(member)
             && !RUST_NAMES.contains(&owner)
         {
-            return (!has_member(owner, part, known)).then(|| format!("{owner} has no {part}"));
+            return (!has_member(owner, member, known)).then(|| format!("{owner} has no {member}"));
         }
         let is_known = |word: &str| {
             let named = words.contains(word) || own.contains(word) || RUST_NAMES.contains(&word);
-            // In files, variants of enums stand in small letters.
+            // Files contain the names of enum variants in snake case.
             named || words.contains(pascal_case(word).as_str())
         };
         let mut unknown = identifiers(text).filter(|word| word.len() > 1 && !is_known(word));
-        unknown
-            .next()
-            .map(|word| format!("nothing is called {word}"))
+        unknown.next().map(|word| format!("unknown name {word}"))
     };
     let codes = page.inline_code.iter();
     codes
@@ -81,7 +79,7 @@ pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
         .collect()
 }
 
-/// The item that a text names, if it is of that form: `sphere.from_inside`, with or without `#7`.
+/// Returns the item id of a text such as `sphere.from_inside` or `sphere.from_inside#7`.
 fn item_id(text: &str) -> Option<&str> {
     let id = text.split('#').next()?;
     let (task, name) = id.split_once('.')?;
@@ -89,14 +87,15 @@ fn item_id(text: &str) -> Option<&str> {
     (is_task && is_identifier(name) && name != "rs").then_some(id)
 }
 
-/// Whether a text is the name of a file or folder.
+/// Returns whether a text has the form of a file or folder name.
 fn is_path(text: &str) -> bool {
     let endings = [".rs", ".md", ".json", ".toml", ".obj", ".html", "/"];
     let plain = |letter: char| letter.is_alphanumeric() || "._-/".contains(letter);
     text.chars().all(plain) && (endings.iter().any(|ending| text.ends_with(ending)))
 }
 
-/// A path from the root, the name of a file anywhere, or something that a program writes.
+/// Returns whether a path exists: relative to the root, as the end of any file's path, or as a name
+/// that occurs in the sources because a program writes it.
 fn path_exists(path: &str, known: &KnownNames) -> bool {
     let folder = path.strip_suffix('/');
     let named = |file: &String| match folder {
@@ -107,12 +106,12 @@ fn path_exists(path: &str, known: &KnownNames) -> bool {
     known.files.iter().any(named) || known.sources.iter().any(written)
 }
 
-/// Whether some file has both a type and a part of it.
-fn has_member(owner: &str, part: &str, known: &KnownNames) -> bool {
+/// Returns whether some file declares the type `owner` and contains the name `member`.
+fn has_member(owner: &str, member: &str, known: &KnownNames) -> bool {
     let declared = ["struct", "enum", "impl"].map(|kind| format!("{kind} {owner}"));
     known.sources.iter().any(|source| {
         let declares = declared.iter().any(|text| source.text.contains(text));
-        declares && identifiers(&source.text).any(|word| word == part)
+        declares && identifiers(&source.text).any(|word| word == member)
     })
 }
 
@@ -121,7 +120,7 @@ fn is_identifier(text: &str) -> bool {
     all.next() == Some(text)
 }
 
-/// `timed_out` as the variant `TimedOut`.
+/// Converts snake case to Pascal case: `timed_out` to `TimedOut`.
 fn pascal_case(word: &str) -> String {
     let parts = word.split('_').map(|part| {
         let mut letters = part.chars();
@@ -131,10 +130,10 @@ fn pascal_case(word: &str) -> String {
     parts.collect()
 }
 
-/// The words of a text that could be names in Rust.
+/// Returns the words of a text that could be Rust identifiers.
 fn identifiers(text: &str) -> impl Iterator<Item = &str> {
-    let apart = |letter: char| !letter.is_alphanumeric() && letter != '_';
-    let words = text.split(apart);
+    let separates = |letter: char| !letter.is_alphanumeric() && letter != '_';
+    let words = text.split(separates);
     words.filter(|word| word.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_'))
 }
 
@@ -166,7 +165,7 @@ mod tests {
     fn existing_names_pass() {
         let text = "`Bvh::build` `max_leaf_size` `bbox.flat#3` `bvh.rs` `student/src/` `Option`";
         assert_eq!(problems(text), [""; 0]);
-        let pseudo = "```text\nhit2.t\n```\n`hit2.t` is of the slides.";
+        let pseudo = "```text\nhit2.t\n```\nThe slides use `hit2.t`.";
         assert_eq!(problems(pseudo), [""; 0]);
     }
 
@@ -177,7 +176,7 @@ mod tests {
             problems(text),
             [
                 "a.md:1: Bvh has no grow",
-                "a.md:2: nothing is called max_leaf",
+                "a.md:2: unknown name max_leaf",
                 "a.md:3: the exam has no item bbox.fat",
                 "a.md:4: there is no file tree.rs",
                 "a.md:5: there is no file starter/",

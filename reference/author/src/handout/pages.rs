@@ -1,4 +1,4 @@
-//! What the checks want to know of a chapter: its headings, links, formulas, code, commands.
+//! Reads chapters: their headings, links, formulas, code and commands.
 
 use std::fs;
 use std::ops::Range;
@@ -8,39 +8,39 @@ use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 
 use crate::proof::sources::{ReadError, read};
 
-/// A piece of a chapter, and where it stands.
+/// A text of a chapter, and its line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Snippet {
-    /// What it says.
+    /// The text.
     pub text: String,
-    /// Counted from 1.
+    /// The line, counted from 1.
     pub line: usize,
 }
 
-/// One chapter.
+/// A chapter of the handout.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
-    /// The file's name: `boxes.md`.
+    /// The file name, such as `boxes.md`.
     pub name: String,
-    /// The headings, as they read.
+    /// The text of each heading.
     pub headings: Vec<Snippet>,
-    /// Where links and pictures lead.
+    /// The targets of links and pictures.
     pub links: Vec<Snippet>,
-    /// Code within the prose.
+    /// The inline code.
     pub inline_code: Vec<Snippet>,
-    /// The commands in blocks of `sh`, without their comments.
+    /// The commands in `sh` blocks, without their comments.
     pub commands: Vec<Snippet>,
-    /// All other blocks of code: pseudo-code, and what programs print.
+    /// All other code blocks: pseudo-code and program output.
     pub blocks: Vec<Snippet>,
 }
 
-/// How chapters are read: as GitHub and mdBook do.
+/// Returns the Markdown extensions of the handout, which GitHub and mdBook support, too.
 pub fn options() -> Options {
     Options::ENABLE_TABLES | Options::ENABLE_MATH
 }
 
 impl Page {
-    /// Reads a chapter's Markdown.
+    /// Parses a chapter's Markdown.
     pub fn new(name: impl Into<String>, markdown: &str) -> Self {
         let mut page = Page {
             name: name.into(),
@@ -54,18 +54,18 @@ impl Page {
         page
     }
 
-    /// The anchors of the headings, as GitHub and mdBook make them.
+    /// Returns the anchors of the headings, as GitHub and mdBook generate them.
     pub fn anchors(&self) -> impl Iterator<Item = String> {
         self.headings.iter().map(|heading| anchor(&heading.text))
     }
 
-    /// A complaint about one of its pieces.
-    pub fn problem(&self, piece: &Snippet, words: &str) -> String {
-        format!("{}:{}: {words}", self.name, piece.line)
+    /// Returns a message about one of its snippets, with file name and line.
+    pub fn problem(&self, snippet: &Snippet, message: &str) -> String {
+        format!("{}:{}: {message}", self.name, snippet.line)
     }
 }
 
-/// What is open while a chapter is read.
+/// The heading and code block that are open while a chapter is parsed.
 #[derive(Default)]
 struct Reader {
     heading: Option<Snippet>,
@@ -75,26 +75,26 @@ struct Reader {
 impl Reader {
     #[expect(
         clippy::wildcard_enum_match_arm,
-        reason = "the parser's own: what else is in a chapter is not looked at"
+        reason = "the enum is the parser's, and other events are ignored"
     )]
     fn handle(&mut self, event: Event, line: usize, page: &mut Page) {
-        let piece = |text: &str| Snippet {
+        let snippet = |text: &str| Snippet {
             text: text.to_owned(),
             line,
         };
         match event {
-            Event::Start(Tag::Heading { .. }) => self.heading = Some(piece("")),
+            Event::Start(Tag::Heading { .. }) => self.heading = Some(snippet("")),
             Event::End(TagEnd::Heading(_)) => page.headings.extend(self.heading.take()),
             Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
-                page.links.push(piece(&dest_url));
+                page.links.push(snippet(&dest_url));
             }
             Event::Start(Tag::CodeBlock(kind)) => {
                 let language = match kind {
                     CodeBlockKind::Fenced(language) => language.to_string(),
                     CodeBlockKind::Indented => String::new(),
                 };
-                // The text begins on the line behind the fence.
-                self.block = Some((language, piece("")));
+                // The text starts on the line after the fence.
+                self.block = Some((language, snippet("")));
             }
             Event::End(TagEnd::CodeBlock) => {
                 if let Some((language, block)) = self.block.take() {
@@ -102,7 +102,7 @@ impl Reader {
                 }
             }
             Event::Code(text) => {
-                page.inline_code.push(piece(&text));
+                page.inline_code.push(snippet(&text));
                 if let Some(heading) = &mut self.heading {
                     heading.text.push_str(&text);
                 }
@@ -134,14 +134,14 @@ impl Page {
                 self.commands
                     .extend(commands.filter(|command| !command.text.is_empty()));
             }
-            // Formulas are the book's to check.
+            // Formulas are checked when the book is built.
             "math" => {}
             _ => self.blocks.push(block),
         }
     }
 }
 
-/// A heading's anchor: small letters, spaces as dashes, no punctuation.
+/// Returns a heading's anchor: lower case, with dashes for spaces, and without punctuation.
 pub fn anchor(heading: &str) -> String {
     let letters = heading.trim().chars().filter_map(|letter| match letter {
         ' ' => Some('-'),
@@ -152,15 +152,15 @@ pub fn anchor(heading: &str) -> String {
     letters.flat_map(char::to_lowercase).collect()
 }
 
-/// All chapters in a folder, by name.
+/// Reads all chapters in a folder, sorted by name.
 pub fn pages(folder: &Path) -> Result<Vec<Page>, ReadError> {
-    let unreadable = |source| ReadError {
+    let read_error = |source| ReadError {
         path: folder.to_owned(),
         source,
     };
     let mut pages = Vec::new();
-    for entry in fs::read_dir(folder).map_err(unreadable)? {
-        let path = entry.map_err(unreadable)?.path();
+    for entry in fs::read_dir(folder).map_err(read_error)? {
+        let path = entry.map_err(read_error)?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if name.ends_with(".md") {
             pages.push(Page::new(name.clone(), &read(&path)?));
@@ -170,7 +170,7 @@ pub fn pages(folder: &Path) -> Result<Vec<Page>, ReadError> {
     Ok(pages)
 }
 
-/// The formulas of a chapter, with their places: LaTeX, and whether it stands by itself.
+/// Returns the formulas of a chapter: byte range, LaTeX, and whether it is a display formula.
 #[expect(
     clippy::wildcard_enum_match_arm,
     reason = "the parser's own: what else is in a chapter is not looked at"
@@ -210,13 +210,13 @@ mod tests {
     #[test]
     fn reads_a_chapter_with_the_line_of_each_snippet() {
         let page = Page::new("a.md", CHAPTER);
-        let piece = |text: &str, line| Snippet {
+        let snippet = |text: &str, line| Snippet {
             text: text.to_owned(),
             line,
         };
-        assert_eq!(page.links, [piece("b.md#zero", 3)]);
-        assert_eq!(page.inline_code, [piece("Bvh::hit", 3)]);
-        assert_eq!(page.commands, [piece("cargo grade", 8)]);
+        assert_eq!(page.links, [snippet("b.md#zero", 3)]);
+        assert_eq!(page.inline_code, [snippet("Bvh::hit", 3)]);
+        assert_eq!(page.commands, [snippet("cargo grade", 8)]);
         let anchors: Vec<String> = page.anchors().collect();
         assert_eq!(anchors, ["a-chapter", "zero--minus-zero"]);
     }
@@ -226,7 +226,7 @@ mod tests {
         let found = formulas(CHAPTER);
         let found: Vec<(&str, bool)> = found
             .iter()
-            .map(|(_, text, by_itself)| (text.as_str(), *by_itself))
+            .map(|(_, text, is_display)| (text.as_str(), *is_display))
             .collect();
         assert_eq!(found, [("a_1", false), ("b \\\\ c\n", true)]);
     }

@@ -1,10 +1,10 @@
-//! What the handout's names are looked up in.
+//! The source files in which the handout's names are looked up.
 
-/// A source file: where it stands, and its text.
+/// A source file.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
-    /// From the workspace's root, with `/`.
+    /// The path relative to the workspace's root, with `/`.
     pub path: String,
-    /// All of it.
+    /// The whole text.
     pub text: String,
 }

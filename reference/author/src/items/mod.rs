@@ -1,7 +1,7 @@
-//! The exam's items: one file a task, one idea an item.
+//! The exam's items: one module per task, and one idea per item.
 //!
-//! An item's keys judge only what its idea is about. Every item asks for opposite answers (hits and
-//! misses, one side and the other), so that no constant passes it.
+//! An item's keys judge only the quantities that its idea is about. Every item has questions with
+//! opposite answers (hits and misses, or both sides), so that no constant answer passes it.
 
 pub mod bbox;
 pub mod build;
@@ -20,7 +20,7 @@ use protocol::{Question, Ray, Rays, Shape};
 
 use crate::oracle::{Intersection, Ray64, scan};
 
-/// An item from its parts; `text` is its title, and where to look.
+/// Creates an item. `text` is its title and a hint on where to look for the mistake.
 fn item(
     task: Task,
     name: &str,
@@ -43,27 +43,27 @@ fn item(
     }
 }
 
-/// A ray between two points, as it is asked.
+/// Returns the ray from one point toward another, in single precision.
 fn ray(from: DVec3, toward: DVec3) -> Ray {
     Ray::new(from.as_vec3(), (toward - from).as_vec3())
 }
 
-/// What the rays meet of all these shapes, each shape by its own `hit`.
-fn shapes_question(judged: &[HitCheck], shapes: Vec<Shape>, rays: Vec<Ray>) -> ExamQuestion {
-    let key = hits_key(judged, &rays, |beam| scan::closest_hit(beam, &shapes));
+/// Creates a question that asks for the closest hit of each ray, by the shapes' own `hit`.
+fn shapes_question(checks: &[HitCheck], shapes: Vec<Shape>, rays: Vec<Ray>) -> ExamQuestion {
+    let key = hits_key(checks, &rays, |ray64| scan::closest_hit(ray64, &shapes));
     let rays = Rays::List(rays);
     ExamQuestion::new(Question::Shapes { shapes, rays }, key)
 }
 
-/// The key to a list of rays.
+/// Returns the key of a list of rays, given the correct answer to each.
 fn hits_key(
-    judged: &[HitCheck],
+    checks: &[HitCheck],
     rays: &[Ray],
-    truth: impl Fn(&Ray64) -> Option<Intersection>,
+    answer: impl Fn(&Ray64) -> Option<Intersection>,
 ) -> Key {
-    let hit = |ray: &Ray| truth(&Ray64::from(ray)).map(|met| met.to_hit());
+    let key = |ray: &Ray| answer(&Ray64::from(ray)).map(|intersection| intersection.to_hit());
     Key::Hits {
-        checks: judged.to_vec(),
-        hits: rays.iter().map(hit).collect(),
+        checks: checks.to_vec(),
+        hits: rays.iter().map(key).collect(),
     }
 }

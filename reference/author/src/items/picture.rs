@@ -1,9 +1,10 @@
 //! Pictures of first hits.
 //!
-//! At an edge, honest answers differ in the last bit and so see different surfaces. Therefore a
-//! position's key is the set of what is seen there, at four neighbours closer to it than any mistake
-//! would move an edge, and on the way to these: the depth of a sphere's rim falls so steeply that
-//! an honest answer may lie between those of two neighbours.
+//! At an edge, correct answers that differ in the last bit see different surfaces. The key of a
+//! position is therefore a set of surfaces: those seen at the position itself, at four neighbours
+//! that are closer than any mistake would move an edge, and in between. The positions in between
+//! are needed because the depth near a sphere's silhouette changes so steeply that a correct answer
+//! may be between those of two neighbours.
 
 use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
 use grader::exam::{ExamQuestion, Key, Surface};
@@ -12,21 +13,22 @@ use protocol::{ExamCamera, Question, Rays, Sample, Shape, every_pixel};
 use crate::oracle::scan::Scan;
 use crate::oracle::{Intersection, Ray64};
 
-/// How far the neighbours are, in pixels, across and up.
+/// The distance of the neighbours along each axis, in pixels.
 const NEIGHBOUR_DISTANCE: f32 = 5e-4;
-/// How often the way to a neighbour that sees something else is halved.
+/// The maximum depth of bisection between a position and a neighbour that sees another surface.
 const HALVINGS: u32 = 12;
 
-/// A camera at the origin that looks down −z, with a view of 90 degrees.
+/// Returns a camera at the origin that looks down −z with a field of view of 90 degrees.
 ///
-/// Its numbers are so round that points in line with the middles of pixels are met exactly.
-pub fn view_from_origin(pixels: u32) -> ExamCamera {
-    view_along(Vec3::ZERO, DVec3::NEG_Z, 1.0, pixels)
+/// Its numbers are exact in single precision, so rays through the middles of pixels hit the points
+/// behind them exactly.
+pub fn camera_at_origin(pixels: u32) -> ExamCamera {
+    camera_along(Vec3::ZERO, DVec3::NEG_Z, 1.0, pixels)
 }
 
-/// A camera at `eye` that looks along `forward`, of length one and not along y; half of the square
-/// film is `half` wide at distance one.
-pub fn view_along(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> ExamCamera {
+/// Returns a camera at `eye` that looks along `forward`, which must have length one and not be
+/// parallel to y. At distance one, half of the square film is `half` wide.
+pub fn camera_along(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> ExamCamera {
     let right = forward.cross(DVec3::Y).normalize();
     let up = right.cross(forward);
     ExamCamera {
@@ -38,45 +40,46 @@ pub fn view_along(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> ExamCame
     }
 }
 
-/// The question of what is seen of these shapes, each by its own `hit`.
-pub fn picture_question(view: ExamCamera, shapes: Vec<Shape>) -> ExamQuestion {
+/// Creates a question that asks for a picture of these shapes, by the shapes' own `hit`.
+pub fn picture_question(camera: ExamCamera, shapes: Vec<Shape>) -> ExamQuestion {
     let scan = Scan::new(&shapes);
-    let key = first_hits_key(&view, |beam| scan.closest_hit(beam));
-    let rays = Rays::View(view);
+    let key = first_hits_key(&camera, |ray64| scan.closest_hit(ray64));
+    let rays = Rays::View(camera);
     ExamQuestion::new(Question::Shapes { shapes, rays }, key)
 }
 
-/// The key to a picture of what a ray sees.
-pub fn first_hits_key(view: &ExamCamera, sees: impl Fn(&Ray64) -> Option<Intersection>) -> Key {
-    let seen = |sample: Sample, aside: Vec2| {
-        let offset = sample.offset + aside;
-        let beam = Ray64::from(&view.ray(Sample { offset, ..sample }));
-        sees(&beam).map(|met| met.to_surface())
+/// Returns the key of a picture. `sees` returns the first intersection of a ray.
+pub fn first_hits_key(camera: &ExamCamera, sees: impl Fn(&Ray64) -> Option<Intersection>) -> Key {
+    let surface_at = |sample: Sample, shift: Vec2| {
+        let offset = sample.offset + shift;
+        let ray64 = Ray64::from(&camera.ray(Sample { offset, ..sample }));
+        sees(&ray64).map(|hit| hit.to_surface())
     };
     let mut hits = Vec::new();
-    let mut also: Vec<(u32, Option<Surface>)> = Vec::new();
-    for (place, sample) in (0..).zip(every_pixel(view.film)) {
-        let here = seen(sample, Vec2::ZERO);
-        let mut members = vec![here];
+    let mut alternatives: Vec<(u32, Option<Surface>)> = Vec::new();
+    for (index, sample) in (0..).zip(every_pixel(camera.film)) {
+        let here = surface_at(sample, Vec2::ZERO);
+        let mut surfaces = vec![here];
         for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
-            let toward = |part: f32| seen(sample, part * NEIGHBOUR_DISTANCE * vec2(x, y));
-            for member in surfaces_between(&toward, (0.0, here), (1.0, toward(1.0)), HALVINGS) {
-                if !members.iter().any(|other| is_judged_equal(other, &member)) {
-                    members.push(member);
+            let toward =
+                |fraction: f32| surface_at(sample, fraction * NEIGHBOUR_DISTANCE * vec2(x, y));
+            for surface in surfaces_between(&toward, (0.0, here), (1.0, toward(1.0)), HALVINGS) {
+                if !surfaces
+                    .iter()
+                    .any(|other| is_judged_equal(other, &surface))
+                {
+                    surfaces.push(surface);
                 }
             }
         }
-        hits.push(members[0]);
-        also.extend(members[1..].iter().map(|&member| (place, member)));
+        hits.push(surfaces[0]);
+        alternatives.extend(surfaces[1..].iter().map(|&surface| (index, surface)));
     }
-    Key::FirstHits {
-        hits,
-        alternatives: also,
-    }
+    Key::FirstHits { hits, alternatives }
 }
 
-/// What is seen on the way from one part of it to another, and at its end, in steps so small that
-/// each is like the next: or else halved so often that they are at an edge.
+/// Returns the surfaces seen between `start` and `end`, and at `end`. Bisects until neighbouring
+/// surfaces are equal within the tolerances, or until `halvings` is used up, at an edge.
 fn surfaces_between(
     toward: &impl Fn(f32) -> Option<Surface>,
     start: (f32, Option<Surface>),
@@ -86,22 +89,22 @@ fn surfaces_between(
     if halvings == 0 || is_judged_equal(&start.1, &end.1) {
         return vec![end.1];
     }
-    let part = (start.0 + end.0) / 2.0;
-    let middle = (part, toward(part));
-    let mut members = surfaces_between(toward, start, middle, halvings - 1);
-    members.extend(surfaces_between(toward, middle, end, halvings - 1));
-    members
+    let fraction = (start.0 + end.0) / 2.0;
+    let middle = (fraction, toward(fraction));
+    let mut surfaces = surfaces_between(toward, start, middle, halvings - 1);
+    surfaces.extend(surfaces_between(toward, middle, end, halvings - 1));
+    surfaces
 }
 
-/// Whether the judge takes one for the other.
+/// Returns whether the judge accepts one surface in place of the other.
 fn is_judged_equal(a: &Option<Surface>, b: &Option<Surface>) -> bool {
     match (a, b) {
         (None, None) => true,
         (Some(a), Some(b)) => {
-            let across = (a.uv.x - b.uv.x).rem_euclid(1.0);
+            let u_difference = (a.uv.x - b.uv.x).rem_euclid(1.0);
             (a.depth - b.depth).abs() <= 2e-4 * a.depth.max(1.0)
                 && a.normal.distance(b.normal) <= 5e-3
-                && across.min(1.0 - across) <= 2e-3
+                && u_difference.min(1.0 - u_difference) <= 2e-3
                 && (a.uv.y - b.uv.y).abs() <= 2e-3
         }
         (None, Some(_)) | (Some(_), None) => false,
@@ -112,32 +115,28 @@ fn is_judged_equal(a: &Option<Surface>, b: &Option<Surface>) -> bool {
 mod tests {
     use super::*;
 
-    /// A wall that ends exactly at the middle of the view.
+    /// Creates a picture of a wall that ends exactly at the middle of the film.
     fn wall() -> ExamQuestion {
         let corner = |x: f32, y: f32| Vec3::new(x, y, -1.0);
         let wall = Shape::FlatTriangle {
             corners: [corner(0.0, -9.0), corner(0.0, 9.0), corner(9.0, 0.0)],
             material: 0,
         };
-        picture_question(view_from_origin(9), vec![wall])
+        picture_question(camera_at_origin(9), vec![wall])
     }
 
     #[test]
     fn an_edge_accepts_both_sides_and_any_other_position_one_answer() {
-        let Key::FirstHits {
-            hits,
-            alternatives: also,
-        } = wall().key
-        else {
-            unreachable!("it is a picture")
+        let Key::FirstHits { hits, alternatives } = wall().key else {
+            unreachable!("the question is a picture")
         };
         assert_eq!(hits.len(), 9 * 9 * 5);
-        // The middles of the nine pixels of the middle column lie on the edge.
-        let places: Vec<u32> = also.iter().map(|(place, _)| *place).collect();
+        // The middles of the nine pixels in the middle column are on the edge.
+        let indices: Vec<u32> = alternatives.iter().map(|(index, _)| *index).collect();
         let expected: Vec<u32> = (0..9).map(|row| 5 * (9 * row + 4)).collect();
-        assert_eq!(places, expected);
-        for (place, other) in also {
-            assert_ne!(other.is_some(), hits[place as usize].is_some());
+        assert_eq!(indices, expected);
+        for (index, other) in alternatives {
+            assert_ne!(other.is_some(), hits[index as usize].is_some());
         }
         assert!(hits[0].is_none() && hits[5 * 8].is_some());
     }

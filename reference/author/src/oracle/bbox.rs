@@ -1,32 +1,32 @@
-//! Rays and boxes: the ray is cut by one pair of planes after the other.
+//! Intersections of rays and boxes, by clipping the ray to one pair of planes after the other.
 
 use glam::DVec3;
 
 use super::Ray64;
 
-/// A box, its numbers taken exactly.
+/// A box, in double precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// The smallest corner.
+    /// The corner with the smallest coordinates.
     pub min: DVec3,
-    /// The largest corner.
+    /// The corner with the largest coordinates.
     pub max: DVec3,
 }
 
 impl Bounds {
-    /// The tightest box around some points.
+    /// Returns the tightest box around some points.
     pub fn around(points: impl IntoIterator<Item = DVec3>) -> Bounds {
-        let nothing = Bounds {
+        let empty = Bounds {
             min: DVec3::INFINITY,
             max: DVec3::NEG_INFINITY,
         };
-        points.into_iter().fold(nothing, |bounds, point| Bounds {
+        points.into_iter().fold(empty, |bounds, point| Bounds {
             min: bounds.min.min(point),
             max: bounds.max.max(point),
         })
     }
 
-    /// The tightest box around both.
+    /// Returns the tightest box around this box and another.
     pub fn union(&self, other: &Bounds) -> Bounds {
         Bounds {
             min: self.min.min(other.min),
@@ -34,28 +34,28 @@ impl Bounds {
         }
     }
 
-    /// From the smallest to the largest corner.
+    /// Returns the length of the diagonal.
     pub fn diagonal(&self) -> f64 {
         self.min.distance(self.max)
     }
 
-    /// The middle.
+    /// Returns the centre.
     pub fn center(&self) -> DVec3 {
         0.5 * (self.min + self.max)
     }
 
-    /// The area of the six faces.
+    /// Returns the total area of the six faces.
     pub fn area(&self) -> f64 {
         let size = self.max - self.min;
         2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
     }
 
-    /// Whether the other box lies in this one.
+    /// Returns whether the other box is inside this one.
     pub fn contains(&self, other: &Bounds) -> bool {
         self.min.cmple(other.min).all() && other.max.cmple(self.max).all()
     }
 
-    /// A box larger by `margin` on every side.
+    /// Returns a box that is larger by `margin` on every side.
     pub fn grown(&self, margin: f64) -> Bounds {
         Bounds {
             min: self.min - margin,
@@ -63,11 +63,11 @@ impl Bounds {
         }
     }
 
-    /// When, within its range, the ray is in the box.
-    pub fn span(&self, beam: &Ray64) -> Option<(f64, f64)> {
-        let mut inside = (beam.min, beam.max);
+    /// Returns the part of the ray's range in which the ray is in the box, or `None` if it misses.
+    pub fn span(&self, ray: &Ray64) -> Option<(f64, f64)> {
+        let mut inside = (ray.min, ray.max);
         for axis in 0..3 {
-            let (from, step) = (beam.origin[axis], beam.dir[axis]);
+            let (from, step) = (ray.origin[axis], ray.dir[axis]);
             if step == 0.0 {
                 if from < self.min[axis] || from > self.max[axis] {
                     return None;
@@ -129,20 +129,20 @@ mod tests {
 
     #[test]
     fn a_point_is_in_the_box_exactly_when_it_is_in_the_span() {
-        let mut draw = Seed(3).rng("oracle");
+        let mut rng = Seed(3).rng("oracle");
         for _ in 0..1000 {
-            let mut beam = Ray64::from(&Ray::new(
-                draw.point(6.0).as_vec3(),
-                draw.direction().as_vec3(),
+            let mut ray = Ray64::from(&Ray::new(
+                rng.point(6.0).as_vec3(),
+                rng.direction().as_vec3(),
             ));
-            beam.max = draw.uniform(1.0, 12.0);
-            let span = BOX.span(&beam);
+            ray.max = rng.uniform(1.0, 12.0);
+            let span = BOX.span(&ray);
             for step in 0..200 {
-                let t = beam.max * f64::from(step) / 200.0;
-                let point = beam.at(t);
+                let t = ray.max * f64::from(step) / 200.0;
+                let point = ray.at(t);
                 let inside = BOX.contains(&Bounds::around([point]));
-                let told = span.is_some_and(|(enter, leave)| enter <= t && t <= leave);
-                assert_eq!(inside, told, "{beam:?} at {t}");
+                let in_span = span.is_some_and(|(enter, leave)| enter <= t && t <= leave);
+                assert_eq!(inside, in_span, "{ray:?} at {t}");
             }
         }
     }

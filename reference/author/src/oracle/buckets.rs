@@ -1,37 +1,37 @@
-//! What a bucketed builder's tree costs: of many ways to place the buckets, all of them honest, and
-//! of one way to misread what is in them.
+//! The cost of trees built with bucketed SAH: by several correct builders, which place the buckets
+//! differently, and by one with a known mistake.
 
 use crate::oracle::bbox::Bounds;
 
-/// What the buckets divide evenly.
+/// The box that the buckets divide evenly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BucketExtent {
-    /// The box around the primitives' centers.
+    /// The box around the centres of the primitives.
     Centers,
-    /// The node's own box.
+    /// The box of the node.
     Bounds,
 }
 
-/// What is taken for the two sides of a plane.
+/// The buckets that are counted as the two sides of a plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SideRule {
-    /// All buckets to the left of it, and all to the right.
+    /// All buckets to the left of the plane, and all to the right.
     AllBuckets,
-    /// The last bucket before it, and the first behind: wrong, and often seen.
+    /// Only the last bucket before the plane and the first one after it: a common mistake.
     AdjacentBuckets,
 }
 
-/// How a builder goes about it.
+/// A builder that chooses splits by bucketed SAH.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BucketedBuilder {
-    /// How many along each axis.
+    /// The number of buckets along each axis.
     count: usize,
     extent: BucketExtent,
     sides: SideRule,
 }
 
 impl BucketedBuilder {
-    /// Both sides of a plane are weighed.
+    /// Creates a correct builder, which compares the two whole sides of each plane.
     pub fn correct(count: usize, extent: BucketExtent) -> Self {
         let sides = SideRule::AllBuckets;
         BucketedBuilder {
@@ -41,7 +41,7 @@ impl BucketedBuilder {
         }
     }
 
-    /// The two buckets beside a plane are taken for its sides.
+    /// Creates a builder that mistakes the two buckets next to a plane for its two sides.
     pub fn with_adjacent_buckets_only(count: usize, extent: BucketExtent) -> Self {
         let sides = SideRule::AdjacentBuckets;
         BucketedBuilder {
@@ -52,34 +52,35 @@ impl BucketedBuilder {
     }
 }
 
-/// The cost of the tree that these buckets lead to: C_trav = C_isect = 1, areas by the root's. Wald,
-/// "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007, section 3.
-pub fn cost(boxes: &[Bounds], max_leaf_size: usize, buckets: BucketedBuilder) -> f64 {
+/// Returns the cost of the tree that this builder builds, with C_trav = C_isect = 1 and areas
+/// relative to the root's. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
+/// 2007, section 3.
+pub fn cost(boxes: &[Bounds], max_leaf_size: usize, builder: BucketedBuilder) -> f64 {
     let mut boxes = boxes.to_vec();
     let root = bounds_of(&boxes).area();
-    subtree_cost(&mut boxes, max_leaf_size, buckets) / root
+    subtree_cost(&mut boxes, max_leaf_size, builder) / root
 }
 
 fn bounds_of(boxes: &[Bounds]) -> Bounds {
     boxes.iter().fold(EMPTY.bounds, |all, next| all.union(next))
 }
 
-/// What a node costs, with all that is below it.
-fn subtree_cost(boxes: &mut [Bounds], max_leaf_size: usize, buckets: BucketedBuilder) -> f64 {
+/// Returns the cost of the subtree over these boxes.
+fn subtree_cost(boxes: &mut [Bounds], max_leaf_size: usize, builder: BucketedBuilder) -> f64 {
     let bounds = bounds_of(boxes);
     if boxes.len() <= max_leaf_size {
         return bounds.area() * boxes.len() as f64;
     }
-    let over = match buckets.extent {
+    let over = match builder.extent {
         BucketExtent::Centers => Bounds::around(boxes.iter().map(Bounds::center)),
         BucketExtent::Bounds => bounds,
     };
-    let first = match cheapest_split(boxes, &over, buckets) {
+    let first = match cheapest_split(boxes, &over, builder) {
         Some((axis, plane)) => {
-            let count = buckets.count;
-            let bucket = AxisSlices { over, axis, count };
-            boxes.sort_by_key(|bounds| bucket.index_of(bounds) >= plane);
-            boxes.partition_point(|bounds| bucket.index_of(bounds) < plane)
+            let count = builder.count;
+            let slices = AxisSlices { over, axis, count };
+            boxes.sort_by_key(|bounds| slices.index_of(bounds) >= plane);
+            boxes.partition_point(|bounds| slices.index_of(bounds) < plane)
         }
         None => {
             let size = over.max - over.min;
@@ -90,11 +91,11 @@ fn subtree_cost(boxes: &mut [Bounds], max_leaf_size: usize, buckets: BucketedBui
         }
     };
     let (left, right) = boxes.split_at_mut(first);
-    let [left, right] = [left, right].map(|side| subtree_cost(side, max_leaf_size, buckets));
+    let [left, right] = [left, right].map(|side| subtree_cost(side, max_leaf_size, builder));
     bounds.area() + left + right
 }
 
-/// Even slices of a box along one axis.
+/// Slices of equal width through a box along one axis.
 struct AxisSlices {
     over: Bounds,
     axis: usize,
@@ -109,7 +110,7 @@ impl AxisSlices {
     }
 }
 
-/// What lies in one or more buckets.
+/// The contents of one or more buckets.
 #[derive(Clone, Copy)]
 struct BucketContents {
     bounds: Bounds,
@@ -132,7 +133,8 @@ impl BucketContents {
         }
     }
 
-    /// None at all if it is empty, whatever the area of no box may be.
+    /// Returns the area times the count, or 0 if empty, because the area of an empty box is
+    /// undefined.
     fn cost(self) -> f64 {
         match self.count {
             0 => 0.0,
@@ -141,38 +143,39 @@ impl BucketContents {
     }
 }
 
-/// The axis, and how many buckets go to the first side; none if no plane separates anything.
+/// Returns the axis and the number of buckets on the first side, or `None` if no plane separates
+/// the boxes.
 fn cheapest_split(
     boxes: &[Bounds],
     over: &Bounds,
-    buckets: BucketedBuilder,
+    builder: BucketedBuilder,
 ) -> Option<(usize, usize)> {
-    let BucketedBuilder { count, sides, .. } = buckets;
+    let BucketedBuilder { count, sides, .. } = builder;
     let mut best: Option<(f64, (usize, usize))> = None;
     for axis in (0..3).filter(|&axis| over.max[axis] > over.min[axis]) {
-        let bucket = AxisSlices {
+        let slices = AxisSlices {
             over: *over,
             axis,
             count,
         };
-        let mut heaps = vec![EMPTY; count];
+        let mut buckets = vec![EMPTY; count];
         for &bounds in boxes {
-            let heap = &mut heaps[bucket.index_of(&bounds)];
-            *heap = heap.union(BucketContents { bounds, count: 1 });
+            let bucket = &mut buckets[slices.index_of(&bounds)];
+            *bucket = bucket.union(BucketContents { bounds, count: 1 });
         }
-        let sums = |heaps: &mut dyn Iterator<Item = &BucketContents>| -> Vec<BucketContents> {
-            let sum = |all: &mut BucketContents, heap: &BucketContents| {
-                *all = all.union(*heap);
+        let sums = |buckets: &mut dyn Iterator<Item = &BucketContents>| -> Vec<BucketContents> {
+            let sum = |all: &mut BucketContents, bucket: &BucketContents| {
+                *all = all.union(*bucket);
                 Some(*all)
             };
-            heaps.scan(EMPTY, sum).collect()
+            buckets.scan(EMPTY, sum).collect()
         };
-        let (lefts, rights) = (sums(&mut heaps.iter()), sums(&mut heaps.iter().rev()));
+        let (lefts, rights) = (sums(&mut buckets.iter()), sums(&mut buckets.iter().rev()));
         for plane in 1..count {
             let (left, right) = (lefts[plane - 1], rights[count - plane - 1]);
             let cost = match sides {
                 SideRule::AllBuckets => left.cost() + right.cost(),
-                SideRule::AdjacentBuckets => heaps[plane - 1].cost() + heaps[plane].cost(),
+                SideRule::AdjacentBuckets => buckets[plane - 1].cost() + buckets[plane].cost(),
             };
             let is_split = left.count > 0 && right.count > 0;
             if is_split && best.is_none_or(|(least, _)| cost < least) {
@@ -180,5 +183,5 @@ fn cheapest_split(
             }
         }
     }
-    best.map(|(_, place)| place)
+    best.map(|(_, split)| split)
 }

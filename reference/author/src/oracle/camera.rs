@@ -1,23 +1,23 @@
-//! Rays of a camera: a blend of the sensor's four corners.
+//! Ray directions of a camera, by interpolating between the four corners of the sensor.
 
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3, dvec3};
 use protocol::{PinholeCamera, Sample};
 
-/// The direction, of length one, through a place on the film.
+/// Returns the direction, of length one, through a position on the film.
 pub fn direction(camera: &PinholeCamera, sample: Sample) -> DVec3 {
-    // Half of the sensor's height, as seen from the camera: a right triangle of base 1.
+    // Half of the sensor's height, from a right triangle whose base has length 1.
     let top = libm::tan(f64::from(camera.vertical_fov) * PI / 360.0);
     let right = top * f64::from(camera.aspect_ratio);
 
     let film: DVec2 = camera.film.as_dvec2();
-    let place = (sample.pixel.as_dvec2() + sample.offset.as_dvec2()) / film;
+    let position = (sample.pixel.as_dvec2() + sample.offset.as_dvec2()) / film;
     let row = |y: f64| {
         let (from, to) = (dvec3(-right, y, -1.0), dvec3(right, y, -1.0));
-        from.lerp(to, place.x)
+        from.lerp(to, position.x)
     };
-    row(-top).lerp(row(top), place.y).normalize()
+    row(-top).lerp(row(top), position.y).normalize()
 }
 
 #[cfg(test)]
@@ -53,19 +53,19 @@ mod tests {
 
     #[test]
     fn agrees_with_the_slides_formula() {
-        let mut draw = Seed(4).rng("oracle");
+        let mut rng = Seed(4).rng("oracle");
         for _ in 0..1000 {
-            let film = uvec2(1 + draw.index(99) as u32, 1 + draw.index(99) as u32);
+            let film = uvec2(1 + rng.index(99) as u32, 1 + rng.index(99) as u32);
             let camera = PinholeCamera {
-                vertical_fov: draw.uniform(5.0, 150.0) as f32,
-                aspect_ratio: draw.uniform(0.3, 3.0) as f32,
+                vertical_fov: rng.uniform(5.0, 150.0) as f32,
+                aspect_ratio: rng.uniform(0.3, 3.0) as f32,
                 film,
             };
             let pixel = uvec2(
-                draw.index(film.x as usize) as u32,
-                draw.index(film.y as usize) as u32,
+                rng.index(film.x as usize) as u32,
+                rng.index(film.y as usize) as u32,
             );
-            let offset = vec2(draw.uniform(0.0, 1.0) as f32, draw.uniform(0.0, 1.0) as f32);
+            let offset = vec2(rng.uniform(0.0, 1.0) as f32, rng.uniform(0.0, 1.0) as f32);
             let height = 2.0 * libm::tan(f64::from(camera.vertical_fov).to_radians() / 2.0);
             let width = f64::from(camera.aspect_ratio) * height;
             let x = (f64::from(pixel.x) + f64::from(offset.x)) / f64::from(film.x);

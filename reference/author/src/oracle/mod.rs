@@ -1,5 +1,5 @@
-//! What is true, in double precision and from the definitions: none of it is the formula that
-//! students are taught, so that one slip can not hide in both.
+//! Correct answers in double precision, computed from the definitions. None of the formulas is the
+//! one that students are taught, so that the same slip cannot be in both.
 
 pub mod bbox;
 pub mod buckets;
@@ -13,31 +13,31 @@ use glam::{DVec2, DVec3};
 use grader::exam::{ExpectedHit, Surface};
 use protocol::{Interval, Ray};
 
-/// A ray as it was asked, its numbers taken exactly.
+/// A question's ray, converted exactly to double precision.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray64 {
-    /// Where it starts.
+    /// The point where the ray starts.
     pub origin: DVec3,
-    /// Where it goes: of length one, but for the rounding of the ray that was asked.
+    /// The direction. Its length is one, except for the rounding of the question's ray.
     pub dir: DVec3,
-    /// The least distance that counts.
+    /// The least distance at which hits count.
     pub min: f64,
-    /// The largest distance that counts; may be infinite.
+    /// The greatest distance at which hits count. May be infinite.
     pub max: f64,
 }
 
 impl Ray64 {
-    /// The point at distance `t`.
+    /// Returns the point at distance `t`.
     pub fn at(&self, t: f64) -> DVec3 {
         self.origin + t * self.dir
     }
 
-    /// Whether the distance `t` counts.
+    /// Returns whether the distance `t` is in the ray's range.
     pub fn is_in_range(&self, t: f64) -> bool {
         self.min <= t && t <= self.max
     }
 
-    /// The same ray, of which only this part counts.
+    /// Returns the same ray with another range.
     pub fn within(self, times: Interval) -> Ray64 {
         Ray64 {
             min: times.min.into(),
@@ -46,7 +46,7 @@ impl Ray64 {
         }
     }
 
-    /// The same ray from its start on, however far.
+    /// Returns the same ray with the range [0, ∞).
     pub fn ahead(self) -> Ray64 {
         self.within(Interval::AHEAD)
     }
@@ -63,23 +63,23 @@ impl From<&Ray> for Ray64 {
     }
 }
 
-/// Where a ray meets a surface.
+/// The intersection of a ray and a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intersection {
-    /// Along the ray.
+    /// The distance along the ray.
     pub distance: f64,
-    /// The point there.
+    /// The point of the intersection.
     pub position: DVec3,
-    /// The surface normal there, of length one.
+    /// The surface normal, of length one.
     pub normal: DVec3,
-    /// The texture coordinates there.
+    /// The texture coordinates.
     pub uv: DVec2,
-    /// The material of what was met.
+    /// The material of the shape.
     pub material: u32,
 }
 
 impl Intersection {
-    /// As the key of a table.
+    /// Converts to a key of a question with a list of rays.
     pub fn to_hit(&self) -> ExpectedHit {
         ExpectedHit {
             distance: self.distance as f32,
@@ -90,7 +90,7 @@ impl Intersection {
         }
     }
 
-    /// As the key of a picture.
+    /// Converts to a key of a picture.
     pub fn to_surface(&self) -> Surface {
         Surface {
             depth: self.distance as f32,

@@ -1,4 +1,4 @@
-//! The closest hit of a ray with a list of shapes: all of them, one after the other.
+//! Linear scans: the closest hit of a ray in a list of shapes, by testing all of them.
 
 use protocol::Shape;
 
@@ -6,75 +6,78 @@ use super::bbox::Bounds;
 use super::sphere::Sphere;
 use super::{Intersection, Ray64, triangle};
 
-/// Where the ray first meets this shape within its range.
-pub fn intersect(beam: &Ray64, shape: &Shape) -> Option<Intersection> {
+/// Returns the first intersection with this shape in the ray's range.
+pub fn intersect(ray: &Ray64, shape: &Shape) -> Option<Intersection> {
     match *shape {
         Shape::Triangle {
             ref vertices,
             material,
-        } => triangle::intersect(beam, vertices, material),
-        // Most facets are missed: their vertices are only made for those that are not.
+        } => triangle::intersect(ray, vertices, material),
+        // Most rays miss, so the vertices are computed only after a hit.
         Shape::FlatTriangle { corners, material } => {
-            let crossing =
-                triangle::intersect_inside(beam, corners.map(|corner| corner.as_dvec3()))?;
+            let intersection =
+                triangle::intersect_inside(ray, corners.map(|corner| corner.as_dvec3()))?;
             let vertices = Shape::flat_triangle_vertices(corners);
             Some(triangle::intersection_at(
-                beam, &crossing, &vertices, material,
+                ray,
+                &intersection,
+                &vertices,
+                material,
             ))
         }
         Shape::Sphere {
             center,
             radius,
             material,
-        } => sphere(center, radius).intersect(beam, material),
+        } => sphere(center, radius).intersect(ray, material),
     }
 }
 
-/// The closest of all meetings.
+/// Returns the closest intersection with any of the shapes.
 pub fn closest_hit<'a>(
-    beam: &Ray64,
+    ray: &Ray64,
     shapes: impl IntoIterator<Item = &'a Shape>,
 ) -> Option<Intersection> {
     shapes
         .into_iter()
-        .filter_map(|shape| intersect(beam, shape))
+        .filter_map(|shape| intersect(ray, shape))
         .min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
-/// Shapes that very many rays are to scan, as pictures do.
+/// A list of shapes with bounding spheres, for scans with very many rays, as in pictures.
 #[derive(Debug)]
 pub struct Scan<'a> {
     bounded_shapes: Vec<(Sphere, &'a Shape)>,
 }
 
 impl<'a> Scan<'a> {
-    /// Puts a ball around each shape, a little larger than it has to be.
+    /// Computes a bounding sphere for each shape, slightly larger than necessary.
     pub fn new(shapes: &'a [Shape]) -> Self {
-        let guarded = |shape| {
+        let with_sphere = |shape| {
             let bounds = bounds(shape);
-            let ball = Sphere {
+            let sphere = Sphere {
                 center: bounds.center(),
                 radius: 0.500_001 * bounds.min.distance(bounds.max),
             };
-            (ball, shape)
+            (sphere, shape)
         };
         Scan {
-            bounded_shapes: shapes.iter().map(guarded).collect(),
+            bounded_shapes: shapes.iter().map(with_sphere).collect(),
         }
     }
 
-    /// The closest of all meetings: what [`closest`] finds, but only shapes whose balls the ray's
-    /// line passes through are asked.
-    pub fn closest_hit(&self, beam: &Ray64) -> Option<Intersection> {
-        let passing = self
+    /// Returns the same as [`closest_hit`], but tests only the shapes whose bounding spheres the
+    /// ray's line hits.
+    pub fn closest_hit(&self, ray: &Ray64) -> Option<Intersection> {
+        let candidates = self
             .bounded_shapes
             .iter()
-            .filter(|(ball, _)| ball.is_hit_by_line(beam));
-        closest_hit(beam, passing.map(|&(_, shape)| shape))
+            .filter(|(sphere, _)| sphere.is_hit_by_line(ray));
+        closest_hit(ray, candidates.map(|&(_, shape)| shape))
     }
 }
 
-/// The tightest box around a shape.
+/// Returns the tightest box around a shape.
 pub fn bounds(shape: &Shape) -> Bounds {
     match *shape {
         Shape::Triangle { ref vertices, .. } => Bounds::around(triangle::corners(vertices)),
@@ -91,35 +94,36 @@ pub fn bounds(shape: &Shape) -> Bounds {
     }
 }
 
-/// Whether it is beyond doubt, in single precision and by any formula, if and where the ray meets
-/// this shape: nowhere near an edge, a tangent or an end of its range.
-pub fn is_unambiguous(beam: &Ray64, shape: &Shape) -> bool {
-    /// Of a distance to the ends of the range.
-    const FROM_ENDS: f64 = 2e-2;
-    /// Of the least weight to zero.
-    const FROM_EDGES: f64 = 2e-2;
-    /// Of the closest approach to a radius.
-    const FROM_TANGENT: f64 = 3e-2;
+/// Returns whether every correct formula in single precision agrees on whether and where the ray
+/// hits this shape: the hit or miss is not close to an edge, a tangent or an end of the range.
+pub fn is_unambiguous(ray: &Ray64, shape: &Shape) -> bool {
+    /// The least difference between a distance and the ends of the range.
+    const END_MARGIN: f64 = 2e-2;
+    /// The least absolute value of the least weight.
+    const EDGE_MARGIN: f64 = 2e-2;
+    /// The least difference between the closest approach and the radius, in radii.
+    const TANGENT_MARGIN: f64 = 3e-2;
 
-    let from_ends = |t: f64| (t - beam.min).abs() >= FROM_ENDS && (t - beam.max).abs() >= FROM_ENDS;
+    let is_away_from_ends =
+        |t: f64| (t - ray.min).abs() >= END_MARGIN && (t - ray.max).abs() >= END_MARGIN;
     let corners = match *shape {
         Shape::Triangle { ref vertices, .. } => triangle::corners(vertices),
         Shape::FlatTriangle { corners, .. } => corners.map(|corner| corner.as_dvec3()),
         Shape::Sphere { center, radius, .. } => {
-            let passage = sphere(center, radius).intersect_line(beam);
-            return (passage.closest_approach - 1.0).abs() >= FROM_TANGENT
-                && (passage.closest_approach > 1.0 || passage.roots.into_iter().all(from_ends));
+            let line = sphere(center, radius).intersect_line(ray);
+            return (line.closest_approach - 1.0).abs() >= TANGENT_MARGIN
+                && (line.closest_approach > 1.0 || line.roots.into_iter().all(is_away_from_ends));
         }
     };
     let [p0, p1, p2] = corners;
-    let slope = (p1 - p0).cross(p2 - p0).normalize().dot(beam.dir).abs();
-    match triangle::intersect_plane(beam, corners) {
+    let slope = (p1 - p0).cross(p2 - p0).normalize().dot(ray.dir).abs();
+    match triangle::intersect_plane(ray, corners) {
         None => false,
-        Some(crossing) if crossing.least_weight() < -FROM_EDGES && slope > 0.02 => true,
-        Some(crossing) => {
-            crossing.least_weight().abs() >= FROM_EDGES
+        Some(intersection) if intersection.least_weight() < -EDGE_MARGIN && slope > 0.02 => true,
+        Some(intersection) => {
+            intersection.least_weight().abs() >= EDGE_MARGIN
                 && slope > 0.1
-                && from_ends(crossing.distance)
+                && is_away_from_ends(intersection.distance)
         }
     }
 }
@@ -160,29 +164,29 @@ mod tests {
     #[test]
     fn the_nearest_shape_wins() {
         let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
-        let met = closest_hit(&Ray64::from(&ray), &shapes()).unwrap();
-        assert_eq!((met.distance, met.material), (5.0, 1));
-        let met = closest_hit(&Ray64::from(&ray.within(6.0, 20.0)), &shapes()).unwrap();
-        assert_eq!((met.distance, met.material), (7.0, 0));
+        let hit = closest_hit(&Ray64::from(&ray), &shapes()).unwrap();
+        assert_eq!((hit.distance, hit.material), (5.0, 1));
+        let hit = closest_hit(&Ray64::from(&ray.within(6.0, 20.0)), &shapes()).unwrap();
+        assert_eq!((hit.distance, hit.material), (7.0, 0));
     }
 
     #[test]
     fn bounding_spheres_do_not_change_the_result() {
-        let mut draw = Seed(1).rng("scan");
+        let mut rng = Seed(1).rng("scan");
         let shapes = shapes();
         let scan = Scan::new(&shapes);
         let mut hits = 0;
         for _ in 0..1000 {
-            let target = draw.point(4.0) - 6.0 * DVec3::Z;
-            let beam = Ray64 {
+            let target = rng.point(4.0) - 6.0 * DVec3::Z;
+            let ray = Ray64 {
                 origin: DVec3::ZERO,
                 dir: target.normalize(),
                 min: 0.0,
                 max: f64::INFINITY,
             };
-            let met = closest_hit(&beam, &shapes);
-            assert_eq!(scan.closest_hit(&beam), met);
-            hits += usize::from(met.is_some());
+            let hit = closest_hit(&ray, &shapes);
+            assert_eq!(scan.closest_hit(&ray), hit);
+            hits += usize::from(hit.is_some());
         }
         assert!((100..900).contains(&hits), "{hits} of 1000 hit");
     }

@@ -1,4 +1,5 @@
-//! Rays and spheres: the closest approach to the centre, then half the chord to either side.
+//! Intersections of rays and spheres: the closest approach to the centre, plus or minus half the
+//! chord.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,48 +7,49 @@ use glam::{DVec2, DVec3, dvec2};
 
 use super::{Intersection, Ray64};
 
-/// A sphere, its numbers taken exactly.
+/// A sphere, in double precision.
 #[derive(Clone, Copy, Debug)]
 pub struct Sphere {
-    /// Its centre.
+    /// The centre.
     pub center: DVec3,
-    /// Its radius.
+    /// The radius.
     pub radius: f64,
 }
 
-/// How a ray passes a sphere.
+/// The relation of a ray's whole line to a sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct LineIntersection {
-    /// From the centre to the ray, where they are closest, in radii: below 1 they meet.
+    /// The least distance from the centre to the line, in radii. The line hits the sphere if this
+    /// is below 1.
     pub closest_approach: f64,
-    /// Where the ray enters and leaves, whatever its range; not numbers if they do not meet.
+    /// The distances at which the line enters and leaves the sphere, or NaN if it misses.
     pub roots: [f64; 2],
 }
 
 impl Sphere {
-    /// How the ray's whole line passes the sphere.
-    pub fn intersect_line(&self, beam: &Ray64) -> LineIntersection {
-        let length = beam.dir.length();
-        let closest = (self.center - beam.origin).dot(beam.dir) / (length * length);
-        let miss_by = beam.at(closest).distance(self.center);
-        let half_chord = (self.radius * self.radius - miss_by * miss_by).sqrt() / length;
+    /// Intersects the ray's whole line with the sphere.
+    pub fn intersect_line(&self, ray: &Ray64) -> LineIntersection {
+        let length = ray.dir.length();
+        let closest = (self.center - ray.origin).dot(ray.dir) / (length * length);
+        let approach = ray.at(closest).distance(self.center);
+        let half_chord = (self.radius * self.radius - approach * approach).sqrt() / length;
         LineIntersection {
-            closest_approach: miss_by / self.radius,
+            closest_approach: approach / self.radius,
             roots: [closest - half_chord, closest + half_chord],
         }
     }
 
-    /// Whether the ray's whole line passes through the sphere.
-    pub fn is_hit_by_line(&self, beam: &Ray64) -> bool {
-        let aside = (self.center - beam.origin).cross(beam.dir);
-        aside.length_squared() <= self.radius * self.radius * beam.dir.length_squared()
+    /// Returns whether the ray's whole line passes through the sphere.
+    pub fn is_hit_by_line(&self, ray: &Ray64) -> bool {
+        let offset = (self.center - ray.origin).cross(ray.dir);
+        offset.length_squared() <= self.radius * self.radius * ray.dir.length_squared()
     }
 
-    /// Where the ray first meets the sphere within its range.
-    pub fn intersect(&self, beam: &Ray64, material: u32) -> Option<Intersection> {
-        let roots = self.intersect_line(beam).roots;
-        let distance = roots.into_iter().find(|&root| beam.is_in_range(root))?;
-        let position = beam.at(distance);
+    /// Returns the first intersection in the ray's range.
+    pub fn intersect(&self, ray: &Ray64, material: u32) -> Option<Intersection> {
+        let roots = self.intersect_line(ray).roots;
+        let distance = roots.into_iter().find(|&root| ray.is_in_range(root))?;
+        let position = ray.at(distance);
         let normal = (position - self.center).normalize();
         Some(Intersection {
             distance,
@@ -59,8 +61,8 @@ impl Sphere {
     }
 }
 
-/// The texture coordinates in this direction from the centre: u once around the y-axis, from +x
-/// over +z; v from 0 at −y to 1 at +y, by the angle.
+/// Returns the texture coordinates in this direction from the centre. u goes once around the
+/// y-axis, from +x toward +z; v is proportional to the angle, from 0 at −y to 1 at +y.
 pub fn uv(dir: DVec3) -> DVec2 {
     let u = libm::atan2(dir.z, dir.x) / TAU;
     let v = libm::acos(-dir.y.clamp(-1.0, 1.0)) / PI;
@@ -75,14 +77,15 @@ mod tests {
     use super::*;
     use crate::seed::Seed;
 
-    const BALL: Sphere = Sphere {
+    const SPHERE: Sphere = Sphere {
         center: DVec3::new(1.0, 2.0, 3.0),
         radius: 2.0,
     };
 
     fn distance(ray: Ray) -> Option<f64> {
-        BALL.intersect(&Ray64::from(&ray), 0)
-            .map(|met| met.distance)
+        SPHERE
+            .intersect(&Ray64::from(&ray), 0)
+            .map(|hit| hit.distance)
     }
 
     #[test]
@@ -108,25 +111,25 @@ mod tests {
 
     #[test]
     fn both_roots_solve_the_quadratic() {
-        let mut draw = Seed(2).rng("oracle");
+        let mut rng = Seed(2).rng("oracle");
         for _ in 0..1000 {
-            let beam = Ray64 {
-                origin: draw.point(6.0),
-                dir: draw.direction() * draw.uniform(0.5, 2.0),
+            let ray = Ray64 {
+                origin: rng.point(6.0),
+                dir: rng.direction() * rng.uniform(0.5, 2.0),
                 min: 0.0,
                 max: f64::INFINITY,
             };
-            let o = beam.origin - BALL.center;
-            let (a, b) = (beam.dir.dot(beam.dir), 2.0 * o.dot(beam.dir));
-            let c = o.dot(o) - BALL.radius * BALL.radius;
+            let o = ray.origin - SPHERE.center;
+            let (a, b) = (ray.dir.dot(ray.dir), 2.0 * o.dot(ray.dir));
+            let c = o.dot(o) - SPHERE.radius * SPHERE.radius;
             let discriminant = b * b - 4.0 * a * c;
-            let passage = BALL.intersect_line(&beam);
-            assert_eq!(passage.closest_approach <= 1.0, discriminant >= 0.0);
+            let line = SPHERE.intersect_line(&ray);
+            assert_eq!(line.closest_approach <= 1.0, discriminant >= 0.0);
             if discriminant > 1e-6 {
                 let near = (-b - discriminant.sqrt()) / (2.0 * a);
                 let far = (-b + discriminant.sqrt()) / (2.0 * a);
-                assert!((passage.roots[0] - near).abs() < 1e-8);
-                assert!((passage.roots[1] - far).abs() < 1e-8);
+                assert!((line.roots[0] - near).abs() < 1e-8);
+                assert!((line.roots[1] - far).abs() < 1e-8);
             }
         }
     }

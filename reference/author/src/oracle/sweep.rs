@@ -1,29 +1,29 @@
-//! The surface area heuristic, exactly: at each node the best of all partitions by a plane.
+//! The exact surface area heuristic (SAH): at each node, the best of all partitions by a plane.
 
 use grader::drawing_data::{LevelNode, Sweep};
 
 use super::bbox::Bounds;
 
-/// The cost of the tree that the greedy sweep builds, with C_trav = C_isect = 1: the sum over
-/// interior nodes of S/S_root, and over leaves of S/S_root times the number of primitives.
+/// Returns the cost of the tree that the greedy sweep builds, with C_trav = C_isect = 1: the sum of
+/// S/S_root over interior nodes, and of S/S_root times the number of primitives over leaves.
 ///
-/// At each node with more than `max_leaf_size` primitives the cheapest partition between two
-/// consecutive centers along any axis is taken (MacDonald and Booth, "Heuristics for ray tracing
-/// using space subdivision", The Visual Computer 6, 1990). Primitives whose centers coincide along
-/// the axis stay together; if that holds along all axes, half of them go to each side.
+/// At each node with more than `max_leaf_size` primitives, the sweep takes the cheapest partition
+/// between two consecutive centres along any axis (MacDonald and Booth, "Heuristics for ray tracing
+/// using space subdivision", The Visual Computer 6, 1990). Primitives whose centres coincide along
+/// the axis stay together; if they coincide along all axes, half of them go to each side.
 pub fn cost(boxes: &[Bounds], max_leaf_size: usize) -> f64 {
-    let mut places: Vec<usize> = (0..boxes.len()).collect();
-    SweepBuilder::new(boxes, max_leaf_size).node_cost(&mut places, 0, 0)
+    let mut indices: Vec<usize> = (0..boxes.len()).collect();
+    SweepBuilder::new(boxes, max_leaf_size).node_cost(&mut indices, 0, 0)
 }
 
-/// The upper levels of that tree, and where its root is parted.
+/// Returns the upper levels of the same tree, and the plane that splits its root.
 pub fn upper_levels(boxes: &[Bounds], max_leaf_size: usize) -> Sweep {
-    let mut places: Vec<usize> = (0..boxes.len()).collect();
-    let mut sweeping = SweepBuilder::new(boxes, max_leaf_size);
-    sweeping.node_cost(&mut places, 0, 0);
-    let root = (boxes.len() > max_leaf_size).then(|| cheapest_partition(boxes, &places));
+    let mut indices: Vec<usize> = (0..boxes.len()).collect();
+    let mut builder = SweepBuilder::new(boxes, max_leaf_size);
+    builder.node_cost(&mut indices, 0, 0);
+    let root = (boxes.len() > max_leaf_size).then(|| cheapest_partition(boxes, &indices));
     Sweep {
-        nodes: sweeping.upper_nodes,
+        nodes: builder.upper_nodes,
         plane: root.flatten().map(|partition| {
             let mut centers: Vec<f64> = boxes
                 .iter()
@@ -36,15 +36,15 @@ pub fn upper_levels(boxes: &[Bounds], max_leaf_size: usize) -> Sweep {
     }
 }
 
-/// From where to where there is no center along this axis, at the best of all partitions; `None` if
-/// that is along another axis, or if another is nearly as good.
+/// Returns the gap between two centres at which the best partition splits along this axis. Returns
+/// `None` if the best partition is along another axis, or if another one is nearly as good.
 pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
-    /// By how much the second best must cost more.
-    const CLEAR: f64 = 1.05;
+    /// The least cost of the second best partition, relative to the best.
+    const MIN_RATIO: f64 = 1.05;
 
-    let places: Vec<usize> = (0..boxes.len()).collect();
+    let indices: Vec<usize> = (0..boxes.len()).collect();
     let mut all: Vec<Partition> = (0..3)
-        .flat_map(|axis| partitions(boxes, &places, axis))
+        .flat_map(|axis| partitions(boxes, &indices, axis))
         .collect();
     all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let [best, second, ..] = &all[..] else {
@@ -52,11 +52,11 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
     };
     let mut centers: Vec<f64> = boxes.iter().map(|bounds| bounds.center()[axis]).collect();
     centers.sort_by(f64::total_cmp);
-    (best.axis == axis && second.cost >= CLEAR * best.cost)
+    (best.axis == axis && second.cost >= MIN_RATIO * best.cost)
         .then(|| (centers[best.left - 1], centers[best.left]))
 }
 
-/// A sweep under way.
+/// A sweep that builds the tree and records its upper levels.
 struct SweepBuilder<'a> {
     boxes: &'a [Bounds],
     max_leaf_size: usize,
@@ -75,20 +75,21 @@ impl SweepBuilder<'_> {
         }
     }
 
-    /// The cost of the tree over these primitives, with so many to the left of it.
-    fn node_cost(&mut self, places: &mut [usize], level: u32, start: usize) -> f64 {
-        let share = bounds_of(self.boxes, places).area() / self.root_area;
-        let is_leaf = places.len() <= self.max_leaf_size;
+    /// Returns the cost of the subtree over the primitives `indices`. `start` is the number of
+    /// primitives to the left of it.
+    fn node_cost(&mut self, indices: &mut [usize], level: u32, start: usize) -> f64 {
+        let relative_area = bounds_of(self.boxes, indices).area() / self.root_area;
+        let is_leaf = indices.len() <= self.max_leaf_size;
         let own = if is_leaf {
-            share * places.len() as f64
+            relative_area * indices.len() as f64
         } else {
-            share
+            relative_area
         };
         if level < Sweep::LEVELS {
             self.upper_nodes.push(LevelNode {
                 level,
                 start: start as u32,
-                count: places.len() as u32,
+                count: indices.len() as u32,
                 is_leaf,
                 cost: own as f32,
             });
@@ -96,50 +97,50 @@ impl SweepBuilder<'_> {
         if is_leaf {
             return own;
         }
-        let middle = match cheapest_partition(self.boxes, places) {
+        let middle = match cheapest_partition(self.boxes, indices) {
             Some(partition) => {
-                sort_by_center(self.boxes, places, partition.axis);
+                sort_by_center(self.boxes, indices, partition.axis);
                 partition.left
             }
-            None => places.len() / 2,
+            None => indices.len() / 2,
         };
-        let (left, right) = places.split_at_mut(middle);
+        let (left, right) = indices.split_at_mut(middle);
         own + self.node_cost(left, level + 1, start)
             + self.node_cost(right, level + 1, start + middle)
     }
 }
 
-/// So many of the primitives, in the order along an axis, go to the left.
+/// A partition in which the first `left` primitives, sorted along `axis`, go to the left.
 struct Partition {
     axis: usize,
     left: usize,
     cost: f64,
 }
 
-/// The cheapest partition along any axis.
-fn cheapest_partition(boxes: &[Bounds], places: &[usize]) -> Option<Partition> {
-    let all = (0..3).flat_map(|axis| partitions(boxes, places, axis));
+/// Returns the cheapest partition along any axis.
+fn cheapest_partition(boxes: &[Bounds], indices: &[usize]) -> Option<Partition> {
+    let all = (0..3).flat_map(|axis| partitions(boxes, indices, axis));
     all.min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
 
-/// All partitions along an axis.
-fn partitions(boxes: &[Bounds], places: &[usize], axis: usize) -> Vec<Partition> {
-    let mut sorted = places.to_vec();
+/// Returns all partitions along an axis.
+fn partitions(boxes: &[Bounds], indices: &[usize], axis: usize) -> Vec<Partition> {
+    let mut sorted = indices.to_vec();
     sort_by_center(boxes, &mut sorted, axis);
     let center = |i: usize| boxes[sorted[i]].center()[axis];
 
-    // The areas of all that comes before, and from here on.
-    let growing = |order: &mut dyn Iterator<Item = &usize>| -> Vec<f64> {
+    // The areas of the boxes around all primitives up to and including each one.
+    let accumulated_areas = |order: &mut dyn Iterator<Item = &usize>| -> Vec<f64> {
         let mut bounds = Bounds::around([]);
         order
-            .map(|&place| {
-                bounds = bounds.union(&boxes[place]);
+            .map(|&index| {
+                bounds = bounds.union(&boxes[index]);
                 bounds.area()
             })
             .collect()
     };
-    let before = growing(&mut sorted.iter());
-    let mut after = growing(&mut sorted.iter().rev());
+    let before = accumulated_areas(&mut sorted.iter());
+    let mut after = accumulated_areas(&mut sorted.iter().rev());
     after.reverse();
 
     (1..sorted.len())
@@ -152,18 +153,18 @@ fn partitions(boxes: &[Bounds], places: &[usize], axis: usize) -> Vec<Partition>
         .collect()
 }
 
-fn sort_by_center(boxes: &[Bounds], places: &mut [usize], axis: usize) {
-    // Ties in a fixed order, so that the result does not hang on the order that came in.
-    places.sort_by(|&a, &b| {
+fn sort_by_center(boxes: &[Bounds], indices: &mut [usize], axis: usize) {
+    // Ties are in a fixed order, so that the result does not depend on the order of the input.
+    indices.sort_by(|&a, &b| {
         let (left, right) = (boxes[a].center()[axis], boxes[b].center()[axis]);
         left.total_cmp(&right).then(a.cmp(&b))
     });
 }
 
-fn bounds_of(boxes: &[Bounds], places: &[usize]) -> Bounds {
-    let nothing = Bounds::around([]);
-    let all = places.iter().map(|&place| boxes[place]);
-    all.fold(nothing, |bounds, next| bounds.union(&next))
+fn bounds_of(boxes: &[Bounds], indices: &[usize]) -> Bounds {
+    let empty = Bounds::around([]);
+    let all = indices.iter().map(|&index| boxes[index]);
+    all.fold(empty, |bounds, next| bounds.union(&next))
 }
 
 #[cfg(test)]
@@ -192,7 +193,7 @@ mod tests {
 
     #[test]
     fn splits_off_the_lone_cube() {
-        // 1 + 3 is cheaper than 2 + 2: the first has 6 · 1 + 14 · 3, not 6.44 · 2 + 38 · 2.
+        // 1 + 3 primitives cost less than 2 + 2: 6 · 1 + 14 · 3 instead of 86 · 2 + 10 · 2.
         let cubes = [cube(0.0), cube(20.0), cube(21.0), cube(22.0)];
         let root = 2.0 * (23.0 + 23.0 + 1.0);
         let expected = 1.0 + 6.0 / root + 3.0 * 14.0 / root;
@@ -217,29 +218,31 @@ mod tests {
             node(1, 1, 3, true, 3.0 * 14.0 / root),
         ];
         assert_eq!(sweep.nodes, expected);
-        // Between the centers of the first and the second.
+        // Halfway between the first and the second centre.
         assert_eq!(sweep.plane, Some((0, 10.5)));
         assert_eq!(upper_levels(&cubes, 4).plane, None);
     }
 
     #[test]
     fn coinciding_centers_are_split_by_count() {
-        // Every node has the root's area: one interior node, and four leaves or two of two.
+        // Every node has the root's area. There are three interior nodes and four leaves of one
+        // primitive, or one interior node and two leaves of two.
         assert_eq!(cost(&[cube(0.0); 4], 1), 3.0 + 4.0);
         assert_eq!(cost(&[cube(0.0); 4], 2), 1.0 + 4.0);
     }
 
     #[test]
     fn no_other_first_partition_is_cheaper_with_two_leaves() {
-        let mut draw = Seed(5).rng("oracle");
+        let mut rng = Seed(5).rng("oracle");
         for _ in 0..100 {
             let boxes: Vec<Bounds> = (0..6)
                 .map(|_| {
-                    let at = draw.point(3.0);
-                    Bounds::around([at, at + DVec3::splat(draw.uniform(0.1, 1.0))])
+                    let at = rng.point(3.0);
+                    Bounds::around([at, at + DVec3::splat(rng.uniform(0.1, 1.0))])
                 })
                 .collect();
-            // With leaves of up to 5 of 6 there is one partition; try all of them by brute force.
+            // Leaves may hold 5 of the 6 primitives, so there is one split: find the best by brute
+            // force.
             let all: Vec<usize> = (0..6).collect();
             let root = bounds_of(&boxes, &all).area();
             let mut least = f64::INFINITY;

@@ -1,37 +1,39 @@
-//! Rays and triangles: the plane first, then areas.
+//! Intersections of rays and triangles: first with the plane, then a comparison of areas.
 
 use glam::{DVec2, DVec3};
 use protocol::Vertex;
 
 use super::{Intersection, Ray64};
 
-/// Where a ray crosses a triangle's plane.
+/// The intersection of a ray's line and a triangle's plane.
 #[derive(Clone, Copy, Debug)]
 pub struct PlaneIntersection {
-    /// Along the ray; may be negative.
+    /// The distance along the ray. May be negative.
     pub distance: f64,
-    /// The weights of the corners there; all of them at least zero inside the triangle.
+    /// The barycentric weights of the corners. Inside the triangle, none is negative.
     pub weights: [f64; 3],
 }
 
 impl PlaneIntersection {
-    /// The least weight: how far inside (positive) or outside the triangle.
+    /// Returns the least weight, which is positive inside the triangle and negative outside.
     pub fn least_weight(&self) -> f64 {
         self.weights.into_iter().fold(f64::INFINITY, f64::min)
     }
 }
 
-/// Where the ray crosses the plane of the corners; `None` if there is no plane or it is parallel.
-pub fn intersect_plane(beam: &Ray64, [p0, p1, p2]: [DVec3; 3]) -> Option<PlaneIntersection> {
+/// Intersects the ray's line with the plane of the corners. Returns `None` if the corners define no
+/// plane, or if the plane is parallel to the ray.
+pub fn intersect_plane(ray: &Ray64, [p0, p1, p2]: [DVec3; 3]) -> Option<PlaneIntersection> {
     let normal = (p1 - p0).cross(p2 - p0);
-    let slope = normal.dot(beam.dir);
+    let slope = normal.dot(ray.dir);
     if slope == 0.0 {
         return None;
     }
-    let distance = normal.dot(p0 - beam.origin) / slope;
+    let distance = normal.dot(p0 - ray.origin) / slope;
 
-    // A corner weighs as much as the triangle between the point and the other two, of the whole.
-    let point = beam.at(distance);
+    // The weight of a corner is the area of the triangle between the point and the other two
+    // corners, divided by the area of the whole triangle.
+    let point = ray.at(distance);
     let area = |a: DVec3, b: DVec3| (a - point).cross(b - point).dot(normal);
     let whole = normal.length_squared();
     Some(PlaneIntersection {
@@ -40,40 +42,42 @@ pub fn intersect_plane(beam: &Ray64, [p0, p1, p2]: [DVec3; 3]) -> Option<PlaneIn
     })
 }
 
-/// The corners of a triangle, exactly.
+/// Returns the corners of a triangle in double precision.
 pub fn corners([p0, p1, p2]: &[Vertex; 3]) -> [DVec3; 3] {
     [p0, p1, p2].map(|vertex| vertex.position.as_dvec3())
 }
 
-/// Where the ray passes through the triangle within its range.
-pub fn intersect_inside(beam: &Ray64, corners: [DVec3; 3]) -> Option<PlaneIntersection> {
-    intersect_plane(beam, corners)
-        .filter(|crossing| beam.is_in_range(crossing.distance) && crossing.least_weight() >= 0.0)
+/// Intersects the ray with the plane of the corners, and returns the intersection if it is inside
+/// the triangle and in the ray's range.
+pub fn intersect_inside(ray: &Ray64, corners: [DVec3; 3]) -> Option<PlaneIntersection> {
+    intersect_plane(ray, corners).filter(|intersection| {
+        ray.is_in_range(intersection.distance) && intersection.least_weight() >= 0.0
+    })
 }
 
-/// What is met there.
+/// Interpolates between the vertices at an intersection with the plane.
 pub fn intersection_at(
-    beam: &Ray64,
-    crossing: &PlaneIntersection,
+    ray: &Ray64,
+    intersection: &PlaneIntersection,
     vertices: &[Vertex; 3],
     material: u32,
 ) -> Intersection {
-    let weighted = || crossing.weights.into_iter().zip(vertices);
+    let weighted = || intersection.weights.into_iter().zip(vertices);
     let normal: DVec3 = weighted().map(|(w, v)| w * v.normal.as_dvec3()).sum();
     let uv: DVec2 = weighted().map(|(w, v)| w * v.uv.as_dvec2()).sum();
     Intersection {
-        distance: crossing.distance,
-        position: beam.at(crossing.distance),
+        distance: intersection.distance,
+        position: ray.at(intersection.distance),
         normal: normal.normalize_or_zero(),
         uv,
         material,
     }
 }
 
-/// Where the ray meets the triangle within its range.
-pub fn intersect(beam: &Ray64, vertices: &[Vertex; 3], material: u32) -> Option<Intersection> {
-    let crossing = intersect_inside(beam, corners(vertices))?;
-    Some(intersection_at(beam, &crossing, vertices, material))
+/// Returns the intersection in the ray's range.
+pub fn intersect(ray: &Ray64, vertices: &[Vertex; 3], material: u32) -> Option<Intersection> {
+    let intersection = intersect_inside(ray, corners(vertices))?;
+    Some(intersection_at(ray, &intersection, vertices, material))
 }
 
 #[cfg(test)]
@@ -94,15 +98,15 @@ mod tests {
 
     #[test]
     fn interpolates_by_the_weights() {
-        // At (1, 2, 0): p1 weighs 1/4, p2 weighs 2/4, p0 the rest.
+        // At (1, 2, 0), the weights of p0, p1 and p2 are 1/4, 1/4 and 2/4.
         let ray = Ray::new(vec3(1.0, 2.0, 3.0), Vec3::NEG_Z);
-        let met = intersect(&Ray64::from(&ray), &triangle(), 5).unwrap();
-        assert_eq!(met.distance, 3.0);
-        assert_eq!(met.position, dvec3(1.0, 2.0, 0.0));
-        assert_eq!(met.uv, dvec2(0.25, 1.0));
+        let hit = intersect(&Ray64::from(&ray), &triangle(), 5).unwrap();
+        assert_eq!(hit.distance, 3.0);
+        assert_eq!(hit.position, dvec3(1.0, 2.0, 0.0));
+        assert_eq!(hit.uv, dvec2(0.25, 1.0));
         let normal = dvec3(0.25, 0.25, 0.5).normalize();
-        assert!(met.normal.abs_diff_eq(normal, 1e-15), "{met:?}");
-        assert_eq!(met.material, 5);
+        assert!(hit.normal.abs_diff_eq(normal, 1e-15), "{hit:?}");
+        assert_eq!(hit.material, 5);
     }
 
     #[test]
@@ -126,26 +130,26 @@ mod tests {
     #[test]
     fn solves_the_three_linear_equations() {
         // o + t·d = p0 + u·e1 + v·e2, by inverting the matrix.
-        let mut draw = Seed(1).rng("oracle");
+        let mut rng = Seed(1).rng("oracle");
         for _ in 0..1000 {
-            let corners = [draw.point(2.0), draw.point(2.0), draw.point(2.0)];
-            let beam = Ray64 {
-                origin: draw.point(5.0),
-                dir: draw.direction(),
+            let corners = [rng.point(2.0), rng.point(2.0), rng.point(2.0)];
+            let ray = Ray64 {
+                origin: rng.point(5.0),
+                dir: rng.direction(),
                 min: 0.0,
                 max: f64::INFINITY,
             };
             let [p0, p1, p2] = corners;
-            let equations = DMat3::from_cols(p1 - p0, p2 - p0, -beam.dir);
+            let equations = DMat3::from_cols(p1 - p0, p2 - p0, -ray.dir);
             if equations.determinant().abs() < 1e-3 {
                 continue;
             }
-            let solved = equations.inverse() * (beam.origin - p0);
-            let crossing = intersect_plane(&beam, corners).unwrap();
-            let [_, u, v] = crossing.weights;
-            let found = dvec3(u, v, crossing.distance);
+            let solved = equations.inverse() * (ray.origin - p0);
+            let intersection = intersect_plane(&ray, corners).unwrap();
+            let [_, u, v] = intersection.weights;
+            let found = dvec3(u, v, intersection.distance);
             assert!((found - solved).length() < 1e-8 * (1.0 + solved.length()));
-            assert!((crossing.weights.iter().sum::<f64>() - 1.0).abs() < 1e-8);
+            assert!((intersection.weights.iter().sum::<f64>() - 1.0).abs() < 1e-8);
         }
     }
 }

@@ -1,18 +1,18 @@
-//! classroom50's folder: its entry point, and the grader in an archive beside it. Students can read
-//! all of it, so it asks the practice exam.
+//! The package for classroom50: a folder with an entry point, and the grader in an archive beside
+//! it. Students can read all of it, so it uses the practice exam.
 
 use std::path::Path;
 
 use crate::bundle::{Bundle, archive};
 use crate::package::{PackageError, grader_files};
 
-/// What the runner starts.
+/// The script that the runner starts: file name and contents.
 const ENTRY_POINT: (&str, &str) = (
     "autograder.py",
-    include_str!("own/classroom50/autograder.py"),
+    include_str!("templates/classroom50/autograder.py"),
 );
 
-/// All files of the folder.
+/// Collects all files of the folder.
 pub(super) fn package(root: &Path, policy: &str) -> Result<Bundle, PackageError> {
     let students = Bundle::collect(root, None)?;
     let mut grader = Bundle::default();

@@ -1,5 +1,5 @@
-//! Gradescope's zip: two scripts at its root, the grader with the crates that it is built from, the
-//! reference, and the final exam.
+//! The package for Gradescope: a zip file with two scripts at its root, the grader and the crates
+//! that it is built from, the reference, and the final exam.
 
 use std::path::Path;
 
@@ -7,19 +7,22 @@ use crate::bundle::folders::copy_tree;
 use crate::bundle::{Bundle, crates};
 use crate::package::{PackageError, grader_files, package_path};
 
-/// What Gradescope runs, and what both of these call.
+/// The two scripts that Gradescope runs, and the one that both of them call.
 const SCRIPTS: [(&str, &str); 3] = [
-    ("setup.sh", include_str!("own/gradescope/setup.sh")),
+    ("setup.sh", include_str!("templates/gradescope/setup.sh")),
     (
         "run_autograder",
-        include_str!("own/gradescope/run_autograder"),
+        include_str!("templates/gradescope/run_autograder"),
     ),
-    ("pathtracing/grade", include_str!("own/gradescope/grade")),
+    (
+        "pathtracing/grade",
+        include_str!("templates/gradescope/grade"),
+    ),
 ];
-/// What of the reference is asked in place of what a submission lacks.
-const REFERENCE: [&str; 2] = ["reference/src", "reference/carried"];
+/// The folders from which the grader takes substituted parts.
+const REFERENCE: [&str; 2] = ["reference/src", "reference/substitution"];
 
-/// All files of the zip.
+/// Collects all files of the zip.
 pub(super) fn package(root: &Path, exam: &str, policy: &str) -> Result<Bundle, PackageError> {
     let students = Bundle::collect(root, None)?;
     let mut package = Bundle::default();

@@ -1,6 +1,8 @@
-//! What staff uploads to a platform: the grader, all that it needs, and the platform's own scripts.
+//! Autograder packages that instructors upload to a platform: the grader, everything that it needs,
+//! and the platform's scripts.
 //!
-//! It is made of what students get ([`crate::bundle`]), so that both grade alike.
+//! A package is made from the students' bundle ([`crate::bundle`]), so that both grade the same
+//! way.
 
 mod classroom50;
 mod gradescope;
@@ -17,70 +19,72 @@ use crate::bundle::folders::FoldersError;
 use crate::bundle::{Bundle, BundleError, archive};
 use crate::exams::ExamGenerationError;
 
-/// Where submissions are graded.
+/// A platform that grades submissions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Platform {
-    /// A zip to upload as the assignment's autograder.
+    /// Gradescope: a zip file to upload as the assignment's autograder.
     Gradescope,
-    /// A folder for the assignment's autograder in the classroom's repository.
+    /// classroom50: a folder for the classroom's repository.
     Classroom50,
-    /// A template repository that grades every push.
+    /// GitHub: a template repository whose workflow grades every push.
     Github,
 }
 
-/// What only this course decides.
+/// The choices of a course.
 #[derive(Clone, Debug)]
 pub struct Course {
-    /// The final exam's text, where the platform can keep it from students.
+    /// The text of the final exam, if the platform can hide it from students.
     pub exam: Option<String>,
-    /// The policy's text.
+    /// The text of the policy file.
     pub policy: String,
 }
 
-/// There is no package.
+/// The package cannot be collected.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
-    /// Not even one for students.
+    /// The students' bundle cannot be collected.
     #[error(transparent)]
     Bundle(#[from] BundleError),
-    /// The reference can not be read.
+    /// The reference cannot be read.
     #[error(transparent)]
     Folders(#[from] FoldersError),
-    /// The crates that it is built with are not at hand.
+    /// The crates of the lock file cannot be read.
     #[error(transparent)]
     Crates(#[from] CratesError),
-    /// The archive in it can not be made.
-    #[error("can not make the archive: {0}")]
+    /// The archive in the package cannot be created.
+    #[error("cannot create the archive: {0}")]
     Zip(#[from] zip::result::ZipError),
-    /// There is no exam of this seed.
+    /// The exam of the seed cannot be generated.
     #[error(transparent)]
     Exam(#[from] ExamGenerationError),
-    /// The exam's file is none.
+    /// The exam file is invalid.
     #[error(transparent)]
     ExamFile(#[from] ExamError),
-    /// The policy is none.
+    /// The policy file is invalid.
     #[error(transparent)]
     Policy(#[from] PolicyError),
-    /// A file of the course's can not be read.
-    #[error("can not read {}: {source}", path.display())]
+    /// The exam file or policy file cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// Which.
+        /// The file or folder.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: std::io::Error,
     },
-    /// Gradescope alone keeps an exam secret.
-    #[error("{0} is read by students: only a package for gradescope can hold a final exam")]
+    /// A final exam was given for a platform that would show it to students.
+    #[error("students can read {0}: only a package for gradescope can contain a final exam")]
     ExamNotSecret(&'static str),
-    /// Without one, what counts would be what students have.
+    /// No final exam was given for Gradescope. The practice exam, which students have, is never
+    /// used instead.
     #[error(
-        "name the final exam: --exam-seed S, a long number that nobody guesses, or --exam FILE"
+        "the final exam is missing: add --exam-seed S, a long number that is hard to guess, or \
+         --exam FILE"
     )]
     MissingExam,
 }
 
 impl Course {
-    /// From the exam and the policy that the command line names.
+    /// Reads the exam and the policy that the command line names.
     pub fn new(
         seed: Option<u64>,
         exam: Option<&Path>,
@@ -112,7 +116,7 @@ fn read(path: &Path) -> Result<String, PackageError> {
     })
 }
 
-/// The files of a platform's package, from the workspace at `root`.
+/// Collects the files of a platform's package from the workspace at `root`.
 pub fn collect(root: &Path, platform: Platform, course: Course) -> Result<Bundle, PackageError> {
     match (platform, course.exam) {
         (Platform::Gradescope, Some(exam)) => gradescope::package(root, &exam, &course.policy),
@@ -126,15 +130,16 @@ pub fn collect(root: &Path, platform: Platform, course: Course) -> Result<Bundle
     }
 }
 
-/// What the grader needs of what students get: no book, no scenes, no workflow.
+/// Returns the files of the students' bundle that the grader needs: not the handout, the scenes and
+/// the workflow.
 fn grader_files(students: &Bundle) -> impl Iterator<Item = (&str, &Vec<u8>)> {
-    const LEFT_OUT: [&str; 4] = ["handout/", "scenes/", ".github/", "README.md"];
+    const EXCLUDED: [&str; 4] = ["handout/", "scenes/", ".github/", "README.md"];
     let files = students.files.iter();
     let files = files.map(|(path, contents)| (path.as_str(), contents));
-    files.filter(|(path, _)| !LEFT_OUT.iter().any(|left_out| path.starts_with(left_out)))
+    files.filter(|(path, _)| !EXCLUDED.iter().any(|start| path.starts_with(start)))
 }
 
-/// The name of a file in the package's copy of the project.
+/// Returns the path of a file in the package's copy of the project.
 fn package_path(path: &str) -> String {
     format!("{}/{path}", archive::TOP_FOLDER)
 }

@@ -1,4 +1,5 @@
-//! Known mistakes, as small changes to the reference: `reference/mistakes/TASK/*.toml`.
+//! The catalogue of known mistakes, which are small changes to the reference:
+//! `reference/mistakes/TASK/*.toml`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,78 +14,82 @@ use crate::proof::sources::{ReadError, Sources, read};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mistake {
-    /// The task's id, a dot, and a name: `sphere.far_first`.
+    /// The task's id, a dot, and a name, such as `sphere.far_first`.
     pub id: String,
-    /// What such code does.
+    /// A description of what the wrong code does.
     pub title: String,
-    /// Where real people were seen to make it: numbers of the list in `reference/mistakes/README.md`.
+    /// The sources in which real people made the mistake, as numbers of the list in
+    /// `reference/mistakes/README.md`.
     #[serde(default)]
     pub seen: Vec<String>,
-    /// For students: a question that leads there.
+    /// A question for students that leads to the mistake.
     pub nudge: String,
-    /// For students: what is wrong, in words.
+    /// An explanation for students of what is wrong.
     pub hint: String,
-    /// The section of the handout that teaches it, where that is not what teaches the items that
-    /// show it.
+    /// The section of the handout about the mistake, if it differs from the section of the items
+    /// that fail.
     #[serde(default)]
     pub section: Option<Section>,
-    /// The items that it fails, whatever the seed.
+    /// The items that fail with every seed.
     pub fails: Vec<String>,
-    /// What makes the reference wrong; nearly always one change.
+    /// The changes to the reference; nearly always one.
     #[serde(rename = "change")]
     pub changes: Vec<Change>,
 }
 
-/// Another text in the place of one that stands in a file exactly once.
+/// A replacement of a text that occurs exactly once in a file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Change {
-    /// Which of the five files; without one, the task's own.
+    /// The task file to change. By default, the file of the mistake's task.
     pub file: Option<String>,
-    /// As it stands in the reference.
+    /// The text in the reference.
     pub was: String,
-    /// As the mistake has it.
+    /// The text that replaces it.
     pub now: String,
 }
 
-/// The catalogue can not be used.
+/// The catalogue cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum CatalogueError {
-    /// A file or folder can not be read.
+    /// A file or folder cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// A file is not a catalogue.
+    /// A file of the catalogue is invalid.
     #[error("{}: {source}", path.display())]
     Toml {
-        /// Which.
+        /// The file or folder.
         path: PathBuf,
-        /// Line, column, and what is wrong there.
+        /// The parse error, with its line and column.
         source: toml::de::Error,
     },
-    /// An id is not as it has to be.
-    #[error("{}: the id `{id}` has no task before its dot, or stands twice", path.display())]
+    /// An id does not begin with its task, or is used twice.
+    #[error(
+        "{}: the id `{id}` does not begin with its task and a dot, or is used twice",
+        path.display()
+    )]
     Id {
-        /// Where.
+        /// The file.
         path: PathBuf,
         /// The id.
         id: String,
     },
-    /// The reference has changed under a mistake.
+    /// The text that a mistake changes is no longer in the reference exactly once.
     #[error(
-        "{id} does not apply any more: its `was` stands {count} times in reference/src/{file}; \
-         adapt it in reference/mistakes"
+        "{id} no longer applies: its `was` occurs {count} times in reference/src/{file} instead of \
+         once; adapt it in reference/mistakes"
     )]
     DoesNotApply {
         /// The mistake.
         id: String,
         /// The file that it changes.
         file: String,
-        /// How often, where once is wanted.
+        /// The number of occurrences.
         count: usize,
     },
 }
 
-/// All known mistakes of the workspace at `root`: by task, and then as they stand in the files.
+/// Reads all known mistakes of the workspace at `root`, by task and then in the order of the files.
 pub fn mistakes(root: &Path) -> Result<Vec<Mistake>, CatalogueError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -128,15 +133,15 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, ReadError> {
 }
 
 impl Mistake {
-    /// Whose points it must cost.
+    /// Returns the task that must lose points.
     pub fn task(&self) -> Task {
         let of = |task: &Task| self.id.split('.').next() == Some(task.id());
         let task = Task::ALL.into_iter().find(of);
         task.expect("ids were checked when they were read")
     }
 
-    /// The tasks that may lose points: its own, and for two mistakes that hide each other those of
-    /// the items that must fail.
+    /// Returns the tasks that may lose points: the mistake's own, and the tasks of the items that
+    /// must fail. The latter differ for two combined mistakes that hide each other.
     pub fn tasks(&self) -> Vec<Task> {
         let failed = |task: &Task| {
             let of_task = |id: &String| id.split('.').next() == Some(task.id());
@@ -145,7 +150,7 @@ impl Mistake {
         Task::ALL.into_iter().filter(failed).collect()
     }
 
-    /// The reference with this mistake.
+    /// Returns the reference with this mistake.
     pub fn apply(&self, reference: &Sources) -> Result<Sources, CatalogueError> {
         let mut sources = reference.clone();
         for change in &self.changes {

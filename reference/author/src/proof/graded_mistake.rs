@@ -1,10 +1,10 @@
-//! A mistake, and what became of it in an exam.
+//! A mistake and its score in an exam.
 
 use grader::score::{ItemScore, Score};
 
 use crate::proof::catalogue::Mistake;
 
-/// A mistake, and what it earned.
+/// A mistake and its score in an exam.
 #[derive(Debug)]
 pub struct GradedMistake<'a> {
     /// The mistake.
@@ -14,7 +14,7 @@ pub struct GradedMistake<'a> {
 }
 
 impl GradedMistake<'_> {
-    /// What is not as it must be: lost points where there should be, none where there should not.
+    /// Returns the differences between the expected and the actual loss of points.
     pub fn problems(&self) -> Vec<String> {
         let mistake = self.mistake;
         let tasks = mistake.tasks();
@@ -32,7 +32,7 @@ impl GradedMistake<'_> {
         };
         for item in self.lost_items().filter(|item| !of_tasks(item)) {
             problems.push(format!(
-                "{} costs points in {}, of another task",
+                "{} costs points in {}, an item of another task",
                 mistake.id, item.id
             ));
         }

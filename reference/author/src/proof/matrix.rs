@@ -1,4 +1,5 @@
-//! Which mistake fails which item: a table for people, and the check that none goes unpunished.
+//! The table of which mistake fails which item. Building it checks that every mistake loses points
+//! where it must.
 
 use std::fmt::Write;
 
@@ -11,37 +12,37 @@ use crate::proof::graded_mistake::GradedMistake;
 use crate::proof::solutions::{ProofError, Solutions};
 use crate::proof::workbench::Workbench;
 
-/// Where the table stands.
+/// The table's file.
 const PATH: &str = "reference/mistakes/matrix.md";
 
-/// The table, of the practice exam that is committed. An error if a mistake is not judged as it
-/// should be.
+/// Builds the table for the committed practice exam. It is an error if a mistake does not lose the
+/// points that it must lose.
 pub fn generated_file() -> Result<GeneratedFile, ProofError> {
-    let exhibits = Solutions::load(Workbench::open()?)?;
-    let exam = exams::load_practice(exhibits.workbench.root())?;
-    let tried = exhibits.grade_mistakes(&exam)?;
-    let problems: Vec<String> = tried.iter().flat_map(GradedMistake::problems).collect();
+    let solutions = Solutions::load(Workbench::open()?)?;
+    let exam = exams::load_practice(solutions.workbench.root())?;
+    let graded = solutions.grade_mistakes(&exam)?;
+    let problems: Vec<String> = graded.iter().flat_map(GradedMistake::problems).collect();
     if !problems.is_empty() {
         return Err(ProofError::Problems(problems));
     }
-    Ok(table(&exam, &tried))
+    Ok(table(&exam, &graded))
 }
 
-/// The table, of one exam.
-fn table(exam: &Exam, tried: &[GradedMistake]) -> GeneratedFile {
+/// Builds the table for one exam.
+fn table(exam: &Exam, graded: &[GradedMistake]) -> GeneratedFile {
     let mut text = format!(
         "# Which mistake fails which item\n\n\
-         Written by `cargo author mistakes`: {} known mistakes, each a change to the reference, in \
-         the {} exam. ● all of the item's points are lost, ◐ some of them. Where an item of another \
-         task would fail, it is asked again with the reference's part (see `handout/src/grading.md`), \
-         so one mistake costs its own task only.\n",
-        tried.len(),
+         Written by `cargo author mistakes` for {} known mistakes, each a change to the reference, \
+         and the {} exam. ● means that all of the item's points are lost, ◐ that some are. If an \
+         item of another task would fail because of a mistake, it is graded with the reference's \
+         part (see `handout/src/grading.md`), so that a mistake costs points in its own task only.\n",
+        graded.len(),
         exam.id
     );
     for task in Task::ALL {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
-        let of_task = tried.iter().filter(|tried| tried.mistake.task() == task);
-        task_table(&mut text, task, &items, of_task).expect("text takes text");
+        let of_task = graded.iter().filter(|graded| graded.mistake.task() == task);
+        task_table(&mut text, task, &items, of_task).expect("writing to a String cannot fail");
     }
     GeneratedFile::new(PATH, text)
 }
@@ -50,7 +51,7 @@ fn task_table<'a>(
     out: &mut String,
     task: Task,
     items: &[&Item],
-    tried: impl Iterator<Item = &'a GradedMistake<'a>>,
+    graded: impl Iterator<Item = &'a GradedMistake<'a>>,
 ) -> std::fmt::Result {
     writeln!(out, "\n## {}\n", task.title())?;
     for (number, item) in (1..).zip(items) {
@@ -61,7 +62,7 @@ fn task_table<'a>(
         .collect();
     writeln!(out, "\n| mistake | what such code does | lost |{numbers}")?;
     writeln!(out, "|---|---|--:|{}", ":-:|".repeat(items.len()))?;
-    for GradedMistake { mistake, score } in tried {
+    for GradedMistake { mistake, score } in graded {
         let lines: Vec<&ItemScore> = score
             .items()
             .filter(|line| items.iter().any(|item| item.id == line.id))

@@ -1,8 +1,9 @@
-//! That the exam catches every known mistake and fails no honest answer: shown by asking them.
+//! Proves that the exam catches every known mistake and gives full marks to correct code, by
+//! grading many solutions.
 //!
-//! `reference/mistakes` holds small wrong changes to the reference, `reference/variants` other
-//! right solutions, `reference/mutants` what a program makes of it. Each is built and asked like any
-//! submission, through the same pipe.
+//! `reference/mistakes` contains known mistakes, which are small changes to the reference,
+//! `reference/variants` other correct solutions, and `reference/mutants` mechanical changes. Each
+//! is built and graded like any submission.
 
 pub mod calibrate;
 pub mod catalogue;

@@ -1,5 +1,5 @@
-//! How well hints are given: whether each known mistake is recognised, and whether a mistake that
-//! is not known is taken for another.
+//! Measures the quality of hints: whether each known mistake is recognised, and whether an unknown
+//! mistake is confused with a known one.
 
 use std::fmt;
 
@@ -12,60 +12,64 @@ use crate::proof::solutions::{ProofError, Solutions};
 use crate::proof::sources::Sources;
 use crate::proof::workbench::WorkbenchError;
 
-/// What was found out, of all mistakes.
+/// The results of recognising all known mistakes, by their ids.
 #[derive(Debug, Default)]
 pub struct Recognition {
-    /// Recognised: it is the first hint, or one of several that nothing tells apart.
+    /// Mistakes that are recognised: their hint is given, perhaps among others that fit as well.
     pub recognised: Vec<String>,
-    /// Taken for another, or for none: its hints.
+    /// Mistakes that get other hints or none, with these hints.
     pub misrecognised: Vec<(String, Vec<String>)>,
-    /// Nothing is told of it: only pictures show it, or it is mute, or like too many others.
+    /// Mistakes without a signature: only pictures show them, they give no answers, or too many
+    /// other mistakes give the same ones.
     pub without_signature: Vec<String>,
-    /// Left out of the catalogue, and taken for these.
+    /// Mistakes that get hints for other mistakes when they are removed from the catalogue, with
+    /// these hints.
     pub confused_when_unknown: Vec<(String, Vec<String>)>,
 }
 
-/// Asks every mistake, and what the exam would say of it: as it is, and had it not known of it.
-pub fn recognise(exhibits: &Solutions, exam: &Exam) -> Result<Recognition, ProofError> {
-    let places: Vec<usize> = (0..exhibits.mistakes.len()).collect();
-    let all: Result<Vec<_>, ProofError> = places
+/// Runs every mistake and determines its hints, with the exam as it is and without the mistake's
+/// signature.
+pub fn recognise(solutions: &Solutions, exam: &Exam) -> Result<Recognition, ProofError> {
+    let indices: Vec<usize> = (0..solutions.mistakes.len()).collect();
+    let all: Result<Vec<_>, ProofError> = indices
         .par_iter()
-        .map(|&place| {
-            let (mistake, sources) = &exhibits.mistakes[place];
-            let sightings = observe(exhibits, exam, &mistake.id, sources)?;
-            let hints = first_hints(&sightings, exam, place, exam);
+        .map(|&index| {
+            let (mistake, sources) = &solutions.mistakes[index];
+            let observations = observe(solutions, exam, &mistake.id, sources)?;
+            let hints = first_hints(&observations, exam, index, exam);
             let without = first_hints(
-                &sightings,
-                &without_mistake(exam, place as u32),
-                place,
+                &observations,
+                &without_mistake(exam, index as u32),
+                index,
                 exam,
             );
             Ok((mistake.id.clone(), hints, without.unwrap_or_default()))
         })
         .collect();
 
-    let mut found = Recognition::default();
+    let mut recognition = Recognition::default();
     for (id, hints, without) in all? {
         match hints {
-            None => found.without_signature.push(id.clone()),
-            Some(hints) if hints.contains(&id) => found.recognised.push(id.clone()),
-            Some(hints) => found.misrecognised.push((id.clone(), hints)),
+            None => recognition.without_signature.push(id.clone()),
+            Some(hints) if hints.contains(&id) => recognition.recognised.push(id.clone()),
+            Some(hints) => recognition.misrecognised.push((id.clone(), hints)),
         }
         if !without.is_empty() {
-            found.confused_when_unknown.push((id, without));
+            recognition.confused_when_unknown.push((id, without));
         }
     }
-    Ok(found)
+    Ok(recognition)
 }
 
+/// Runs a solution on the items of its task, and records its answers.
 fn observe(
-    exhibits: &Solutions,
+    solutions: &Solutions,
     exam: &Exam,
     id: &str,
     sources: &Sources,
 ) -> Result<Observations, ProofError> {
-    let solution = exhibits.workbench.build(sources, id)?;
-    let mut sightings = Observations::default();
+    let solution = solutions.workbench.build(sources, id)?;
+    let mut observations = Observations::default();
     let task = id.split('.').next();
     for item in exam
         .items
@@ -73,15 +77,15 @@ fn observe(
         .filter(|item| Some(item.task.id()) == task)
     {
         let answers = solution.answers(item).map_err(WorkbenchError::from)?;
-        sightings.record(item, answers.as_deref().map_err(Fault::no_answer_reason));
+        observations.record(item, answers.as_deref().map_err(Fault::no_answer_reason));
     }
-    Ok(sightings)
+    Ok(observations)
 }
 
-/// The hints at the first item of which `known` tells that this mistake gets it wrong; none if
-/// there is no such item.
+/// Returns the hints at the first item for which `known` has a signature of this mistake, or `None`
+/// if there is no such item.
 fn first_hints(
-    sightings: &Observations,
+    observations: &Observations,
     exam: &Exam,
     mistake: usize,
     known: &Exam,
@@ -91,31 +95,31 @@ fn first_hints(
         item.signatures
             .mistake_answers
             .iter()
-            .any(|told| told.mistakes.contains(&mistake))
+            .any(|answers| answers.mistakes.contains(&mistake))
     };
-    let place = known.items.iter().position(fails)?;
-    let hints = sightings.explain(exam, &exam.items[place]);
+    let index = known.items.iter().position(fails)?;
+    let hints = observations.explain(exam, &exam.items[index]);
     Some(hints.iter().map(|hint| hint.id.clone()).collect())
 }
 
-/// The exam, had nobody known of this mistake.
+/// Returns the exam without the signatures of this mistake.
 fn without_mistake(exam: &Exam, mistake: u32) -> Exam {
     let mut exam = exam.clone();
-    for told in exam
+    for answers in exam
         .items
         .iter_mut()
         .flat_map(|item| &mut item.signatures.mistake_answers)
     {
-        told.mistakes.retain(|other| *other != mistake);
+        answers.mistakes.retain(|other| *other != mistake);
     }
     exam
 }
 
 impl Recognition {
-    /// Of those of which something is told, how many are recognised.
+    /// Returns the fraction of the mistakes with a signature that are recognised.
     pub fn recognised_share(&self) -> f64 {
-        let told = self.recognised.len() + self.misrecognised.len();
-        self.recognised.len() as f64 / told.max(1) as f64
+        let with_signature = self.recognised.len() + self.misrecognised.len();
+        self.recognised.len() as f64 / with_signature.max(1) as f64
     }
 }
 
@@ -126,26 +130,27 @@ impl fmt::Display for Recognition {
                 true => "none".to_owned(),
                 false => hints.join(" or "),
             };
-            writeln!(f, "{id} is taken for {hints}")?;
+            writeln!(f, "{id} gets the hint {hints}")?;
         }
         for (id, hints) in &self.confused_when_unknown {
-            writeln!(f, "{id}, left out, is taken for {}", hints.join(" or "))?;
+            writeln!(f, "{id}, if unknown, gets the hint {}", hints.join(" or "))?;
         }
         writeln!(
             f,
-            "told by pictures alone: {}",
+            "shown by pictures only: {}",
             self.without_signature.join(", ")
         )?;
-        let told = self.recognised.len() + self.misrecognised.len();
+        let with_signature = self.recognised.len() + self.misrecognised.len();
         write!(
             f,
-            "hints: {} of {told} mistakes recognised ({:.0} %), {} of which nothing is told; left \
-             out one at a time, {} of {} are taken for another",
+            "hints: {} of {with_signature} mistakes recognised ({:.0} %), {} more without a \
+             signature; when removed from the catalogue one at a time, {} of {} get a hint for \
+             another mistake",
             self.recognised.len(),
             100.0 * self.recognised_share(),
             self.without_signature.len(),
             self.confused_when_unknown.len(),
-            told + self.without_signature.len(),
+            with_signature + self.without_signature.len(),
         )
     }
 }

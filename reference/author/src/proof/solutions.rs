@@ -1,4 +1,4 @@
-//! All that a proof asks: every mistake and every variant, put together from their files.
+//! The solutions that a proof grades: every mistake and every variant.
 
 use std::io;
 use std::path::PathBuf;
@@ -14,61 +14,61 @@ use crate::proof::variants::{Variant, VariantsError, variants};
 use crate::proof::workbench::{BuiltSolution, Workbench, WorkbenchError};
 use crate::recording::{Recorder, RecordingError};
 
-/// There is no proof: our fault, or the machine's.
+/// A proof cannot be run.
 #[derive(Debug, thiserror::Error)]
 pub enum ProofError {
-    /// The mistakes can not be used.
+    /// The mistakes cannot be used.
     #[error(transparent)]
     Catalogue(#[from] CatalogueError),
-    /// The variants can not be used.
+    /// The variants cannot be used.
     #[error(transparent)]
     Variants(#[from] VariantsError),
-    /// A file can not be read.
+    /// A file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// A solution can not be built or asked.
+    /// A solution cannot be built or run.
     #[error(transparent)]
     Workbench(#[from] WorkbenchError),
-    /// The practice exam can not be used.
+    /// The practice exam cannot be used.
     #[error(transparent)]
     Exam(#[from] ExamError),
-    /// There is no exam.
+    /// The exam's picture cannot be recorded.
     #[error(transparent)]
     Recording(#[from] RecordingError),
-    /// Mistakes are not judged as they should be.
+    /// Mistakes do not lose the points that they must lose.
     #[error(
-        "the practice exam and reference/mistakes do not agree; mend the items or the mistakes:\n{}",
+        "the practice exam and reference/mistakes do not agree; fix the items or the mistakes:\n{}",
         .0.join("\n")
     )]
     Problems(Vec<String>),
-    /// There is nothing of this name to ask.
-    #[error("there is no variant {0}: reference/variants/variants.toml lists them")]
+    /// There is no variant with this id.
+    #[error("there is no variant {0}: see reference/variants/variants.toml for a list")]
     UnknownVariant(String),
-    /// What was found out can not be kept.
-    #[error("can not write {}: {source}", path.display())]
+    /// Results cannot be saved.
+    #[error("cannot write {}: {source}", path.display())]
     Write {
-        /// Where.
+        /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
 }
 
-/// All that is asked.
+/// The known mistakes and variants with their sources, and the means to build and grade them.
 #[derive(Debug)]
 pub struct Solutions {
-    /// Wrong ones, in the order of the catalogue.
+    /// Known wrong solutions, in the order of the catalogue.
     pub mistakes: Vec<(Mistake, Sources)>,
-    /// Right ones, in the order of the list.
+    /// Known correct solutions, in the order of the list.
     pub variants: Vec<(Variant, Sources)>,
-    /// What builds them.
+    /// Builds solutions.
     pub workbench: Workbench,
-    /// What draws the exams' pictures.
+    /// Records the exams' pictures.
     pub recorder: Recorder,
 }
 
 impl Solutions {
-    /// Reads everything, and applies it to the reference.
+    /// Reads all mistakes and variants, and applies them to the reference.
     pub fn load(workbench: Workbench) -> Result<Self, ProofError> {
         let root = workbench.root();
         let reference = Sources::reference(root)?;
@@ -94,7 +94,7 @@ impl Solutions {
         })
     }
 
-    /// One variant alone, and no mistakes.
+    /// Keeps one variant, and drops all others and the mistakes.
     pub fn only_variant(mut self, id: &str) -> Result<Self, ProofError> {
         self.mistakes.clear();
         self.variants.retain(|(variant, _)| variant.id == id);
@@ -104,7 +104,7 @@ impl Solutions {
         }
     }
 
-    /// What every mistake earns in an exam.
+    /// Grades every mistake with an exam.
     pub fn grade_mistakes(&self, exam: &Exam) -> Result<Vec<GradedMistake<'_>>, ProofError> {
         self.mistakes
             .par_iter()
@@ -112,7 +112,7 @@ impl Solutions {
             .collect()
     }
 
-    /// What one mistake earns.
+    /// Grades one mistake with an exam.
     pub fn grade_mistake<'a>(
         &self,
         mistake: &'a Mistake,
@@ -123,7 +123,7 @@ impl Solutions {
         Ok(GradedMistake { mistake, score })
     }
 
-    /// The items in which a variant loses points and should not.
+    /// Returns the items in which a variant loses points although it must not.
     pub fn variant_losses(
         &self,
         variant: &Variant,
@@ -144,7 +144,7 @@ impl Solutions {
     }
 }
 
-/// The items of these tasks, and those that need one of them.
+/// Returns the exam's items of these tasks, and those that depend on one of them.
 pub fn tasks_and_dependents(exam: &Exam, tasks: &[Task]) -> Exam {
     let of_tasks = |id: &String| {
         let task = id.split('.').next();

@@ -1,4 +1,4 @@
-//! The five files of a submission that is made here: the reference's, some of them changed.
+//! The task files of a solution: those of the reference, with some of them changed.
 
 use std::fs;
 use std::io;
@@ -7,17 +7,17 @@ use std::path::{Path, PathBuf};
 use grader::given_files::{TASK_FILES, TaskFile};
 use grader::submission::Submission;
 
-/// A file of this repository can not be read.
+/// A file or folder of the repository cannot be read.
 #[derive(Debug, thiserror::Error)]
-#[error("can not read {}: {source}", path.display())]
+#[error("cannot read {}: {source}", path.display())]
 pub struct ReadError {
-    /// Which.
+    /// The file or folder.
     pub path: PathBuf,
-    /// What the system says.
+    /// The system's error.
     pub source: io::Error,
 }
 
-/// The text of a file.
+/// Reads a text file.
 pub fn read(path: &Path) -> Result<String, ReadError> {
     fs::read_to_string(path).map_err(|source| ReadError {
         path: path.to_owned(),
@@ -25,16 +25,16 @@ pub fn read(path: &Path) -> Result<String, ReadError> {
     })
 }
 
-/// Five files, in lecture order.
+/// The five task files of a solution, in lecture order.
 #[derive(Clone, Debug)]
 pub struct Sources {
     files: Vec<(TaskFile, String)>,
-    /// What they name that submissions may not.
+    /// The crates that the files use in addition to those that submissions may use.
     crates: Vec<String>,
 }
 
 impl Sources {
-    /// The reference's, of the workspace at `root`.
+    /// Reads the reference's files in the workspace at `root`.
     pub fn reference(root: &Path) -> Result<Self, ReadError> {
         let text = |file: TaskFile| Ok((file, read(&root.join("reference/src").join(file.name))?));
         let files: Result<_, _> = TASK_FILES.into_iter().map(text).collect();
@@ -44,14 +44,14 @@ impl Sources {
         })
     }
 
-    /// The text of one of the five.
+    /// Returns the text of one of the files.
     pub fn text(&self, name: &str) -> Option<&str> {
         let mut files = self.files.iter();
         let (_, text) = files.find(|(file, _)| file.name == name)?;
         Some(text)
     }
 
-    /// With another text in the place of one file's.
+    /// Replaces the text of one file.
     pub fn with_file(mut self, name: &str, text: String) -> Self {
         for (file, old) in &mut self.files {
             if file.name == name {
@@ -61,18 +61,18 @@ impl Sources {
         self
     }
 
-    /// With these crates at hand, beside those of every submission.
+    /// Allows these crates in addition to those that submissions may use.
     pub fn with_crates(self, crates: &[String]) -> Self {
         let crates = crates.to_vec();
         Sources { crates, ..self }
     }
 
-    /// The crates that they name, beside those of every submission.
+    /// Returns the crates that the files use in addition to those that submissions may use.
     pub fn crates(&self) -> &[String] {
         &self.crates
     }
 
-    /// As the grader takes it.
+    /// Converts the files to a submission for the grader.
     pub fn to_submission(&self, name: &str) -> Submission {
         let files = self.files.iter();
         Submission {

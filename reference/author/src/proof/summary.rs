@@ -1,4 +1,4 @@
-//! What a proof has found out.
+//! The results of a proof.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -7,46 +7,46 @@ use serde::{Deserialize, Serialize};
 
 use crate::generated_file::GeneratedFile;
 
-/// What came of one seed.
+/// The result of a proof for one seed.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct SeedResult {
-    /// Which.
+    /// The seed.
     pub seed: u64,
-    /// Whether the mistakes were asked as well.
+    /// Whether the mistakes were graded as well.
     pub with_mistakes: bool,
-    /// Variants that lost points which they should not.
+    /// The variants that lost points although they are correct, with the items.
     pub false_fails: BTreeMap<String, Vec<String>>,
-    /// Mistakes that did not cost what they should.
+    /// The mistakes that did not lose the points that they must lose, with the problems.
     pub uncaught: BTreeMap<String, Vec<String>>,
 }
 
-/// What came of all seeds.
+/// The results of a proof for all seeds.
 #[derive(Debug)]
 pub struct ProofSummary {
-    /// From the first on, up to and without the last.
+    /// The seeds.
     pub seeds: Range<u64>,
-    /// In the order of the seeds.
+    /// The result of each seed.
     pub results: Vec<SeedResult>,
-    /// How many there are of each.
+    /// The number of mistakes.
     pub mistakes: usize,
-    /// How many there are.
+    /// The number of variants.
     pub variants: usize,
 }
 
 impl ProofSummary {
-    /// The closing line.
+    /// Returns a one-line summary.
     pub fn summary_line(&self) -> String {
-        let uncaught = self.names(|found| &found.uncaught);
-        let failed = self.names(|found| &found.false_fails);
+        let uncaught = self.names(|result| &result.uncaught);
+        let failed = self.names(|result| &result.false_fails);
         let false_fails: usize = self
             .results
             .iter()
-            .map(|found| found.false_fails.len())
+            .map(|result| result.false_fails.len())
             .sum();
         let with_mistakes = self
             .results
             .iter()
-            .filter(|found| found.with_mistakes)
+            .filter(|result| result.with_mistakes)
             .count();
         format!(
             "mistakes caught {} of {} ({with_mistakes} seeds), variants passed {} of {}, seeds {}, \
@@ -59,25 +59,26 @@ impl ProofSummary {
         )
     }
 
-    /// Whether nothing was found that should not be.
+    /// Returns whether every variant and every mistake got the score that it must get.
     pub fn is_proven(&self) -> bool {
-        let fine = |found: &SeedResult| found.false_fails.is_empty() && found.uncaught.is_empty();
-        self.results.iter().all(fine)
+        let is_proven =
+            |result: &SeedResult| result.false_fails.is_empty() && result.uncaught.is_empty();
+        self.results.iter().all(is_proven)
     }
 
-    /// What was found that should not be, a line each.
+    /// Returns the problems found, one line each.
     pub fn problems(&self) -> Vec<String> {
         let mut lines = Vec::new();
-        for found in &self.results {
-            for (id, losses) in &found.false_fails {
+        for result in &self.results {
+            for (id, losses) in &result.false_fails {
                 lines.push(format!(
-                    "seed {}: {id} is right and loses: {}",
-                    found.seed,
+                    "seed {}: {id} is correct but loses points: {}",
+                    result.seed,
                     losses.join("; ")
                 ));
             }
-            for problems in found.uncaught.values() {
-                lines.push(format!("seed {}: {}", found.seed, problems.join("; ")));
+            for problems in result.uncaught.values() {
+                lines.push(format!("seed {}: {}", result.seed, problems.join("; ")));
             }
         }
         lines
@@ -87,20 +88,20 @@ impl ProofSummary {
         let mut names: Vec<&String> = self
             .results
             .iter()
-            .flat_map(|found| of(found).keys())
+            .flat_map(|result| of(result).keys())
             .collect();
         names.sort();
         names.dedup();
         names
     }
 
-    /// The whole of it, to be committed: when, and of which commit.
+    /// Returns the file that records the proof, with its date and commit.
     pub fn record(&self, date: &str, commit: &str) -> GeneratedFile {
         let mut text = format!(
-            "# What was proven last\n\n\
-             Written by `cargo author prove --seeds {}..{} --write` on {date}, at commit {commit}: \
-             the exams of these seeds were asked of every right solution in `reference/variants`, and \
-             the first few of them of every mistake in `reference/mistakes`.\n\n\
+            "# The latest proof\n\n\
+             Written by `cargo author prove --seeds {}..{} --write` on {date}, at commit {commit}. \
+             Every correct solution in `reference/variants` was graded with the exams of these \
+             seeds, and every mistake in `reference/mistakes` with the first few of them.\n\n\
              > {}\n",
             self.seeds.start,
             self.seeds.end,

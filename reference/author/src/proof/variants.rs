@@ -1,5 +1,5 @@
-//! Other right solutions: `reference/variants/STEM/NAME.rs`, each in the place of the reference's
-//! `STEM.rs`.
+//! Variants: known correct solutions that differ from the reference. Each file
+//! `reference/variants/STEM/NAME.rs` replaces the reference's `STEM.rs`.
 
 use std::path::{Path, PathBuf};
 
@@ -8,46 +8,46 @@ use serde::Deserialize;
 
 use crate::proof::sources::{ReadError, Sources, read};
 
-/// Where they stand.
+/// The folder of the variants.
 const FOLDER: &str = "reference/variants";
 
-/// A known right solution.
+/// A known correct solution.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
-    /// The file's name without its end, a dot, and a name: `sphere.stable_quadratic`.
+    /// The stem of the file that it replaces, a dot, and a name, such as `sphere.stable_quadratic`.
     pub id: String,
-    /// How it goes about it.
+    /// A description of its method.
     pub title: String,
-    /// Where that is described.
+    /// A publication that describes the method.
     #[serde(default)]
     pub source: Option<String>,
-    /// The only items in which it may lose points: what a tree costs that is not built by the
-    /// surface area heuristic.
+    /// The only items in which it may lose points: the items about the cost of a tree, for a
+    /// builder that does not use the surface area heuristic.
     #[serde(default)]
     pub may_lose: Vec<String>,
-    /// The crates that it names and submissions may not.
+    /// The crates that it uses although submissions may not.
     #[serde(default)]
     pub crates: Vec<String>,
 }
 
-/// The list can not be used.
+/// The list cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum VariantsError {
-    /// A file can not be read.
+    /// A file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// The list is not one.
+    /// The list is invalid.
     #[error("{}: {source}", path.display())]
     Toml {
         /// The list.
         path: PathBuf,
-        /// Line, column, and what is wrong there.
+        /// The parse error, with its line and column.
         source: toml::de::Error,
     },
 }
 
-/// All variants of the workspace at `root`.
+/// Reads the list of all variants of the workspace at `root`.
 pub fn variants(root: &Path) -> Result<Vec<Variant>, VariantsError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -62,23 +62,23 @@ pub fn variants(root: &Path) -> Result<Vec<Variant>, VariantsError> {
 }
 
 impl Variant {
-    /// The one of the five files that it replaces.
+    /// Returns the name of the task file that it replaces.
     pub fn file(&self) -> String {
         format!("{}.rs", self.id.split('.').next().unwrap_or_default())
     }
 
-    /// Its own file, from the workspace's root.
+    /// Returns the path of its file, relative to the workspace's root.
     pub fn path(&self) -> PathBuf {
         Path::new(FOLDER).join(format!("{}.rs", self.id.replace('.', "/")))
     }
 
-    /// The tasks that it solves.
+    /// Returns the tasks that its file solves.
     pub fn tasks(&self) -> Vec<Task> {
         let of_file = |task: &Task| task.file() == self.file();
         Task::ALL.into_iter().filter(of_file).collect()
     }
 
-    /// The reference with this file in the place of its own.
+    /// Returns the reference with its own file replaced by this variant.
     pub fn apply(&self, reference: &Sources, root: &Path) -> Result<Sources, ReadError> {
         let text = read(&root.join(self.path()))?;
         let sources = reference.clone().with_file(&self.file(), text);

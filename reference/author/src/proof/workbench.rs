@@ -1,4 +1,4 @@
-//! Building and asking many solutions, again and again: what was built once is kept.
+//! Builds and runs solutions. Built programs are cached, since proofs use the same ones repeatedly.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -18,42 +18,44 @@ use protocol::Answer;
 
 use crate::proof::sources::Sources;
 
-/// An honest item takes milliseconds; a mistake that never ends should not take long.
+/// The time limit of an item. A correct solution takes milliseconds; the limit is for mistakes that
+/// never terminate.
 const BUDGET: Budget = Budget {
     cpu: Duration::from_secs(2),
 };
 
-/// What builds solutions.
+/// Builds solutions in a workspace.
 #[derive(Debug)]
 pub struct Workbench {
     workspace: Workspace,
     builder: Builder,
 }
 
-/// A solution of ours was not tried: our fault, or the machine's.
+/// A solution cannot be built or run.
 #[derive(Debug, thiserror::Error)]
 pub enum WorkbenchError {
-    /// There is no project around.
+    /// The workspace cannot be found.
     #[error(transparent)]
     Workspace(#[from] WorkspaceError),
-    /// The grader can not build.
+    /// The build failed for a reason other than the solution.
     #[error(transparent)]
     Build(#[from] BuildError),
     /// The solution does not compile.
     #[error("{id} does not compile:\n{message}")]
     NotCompiled {
-        /// Which.
+        /// The solution's id.
         id: String,
-        /// The compiler's words.
+        /// The compiler's message.
         message: String,
     },
-    /// A probe can not be started.
-    #[error("can not start a probe: {0}")]
+    /// A probe cannot be started.
+    #[error("cannot start a probe: {0}")]
     Probe(#[from] std::io::Error),
 }
 
 impl Workbench {
-    /// As the staff's grader builds: with the reference at hand.
+    /// Opens the workspace. Solutions are built as by instructors: with the reference's parts as
+    /// substitutes, if there is a reference.
     pub fn open() -> Result<Self, WorkbenchError> {
         let workspace = Workspace::find()?;
         let builder =
@@ -65,17 +67,17 @@ impl Workbench {
         Ok(Workbench { workspace, builder })
     }
 
-    /// The workspace's folder.
+    /// Returns the workspace's folder.
     pub fn root(&self) -> &Path {
         self.workspace.root()
     }
 
-    /// Where results may be kept that can be made again.
+    /// Returns the folder for results that can be computed again.
     pub fn scratch(&self) -> PathBuf {
         self.workspace.output_folder()
     }
 
-    /// Builds a solution, of which all must compile.
+    /// Builds a solution. It is an error if any of its files does not compile.
     pub fn build(&self, sources: &Sources, id: &str) -> Result<BuiltSolution, WorkbenchError> {
         let builder = match sources.crates() {
             [] => Cow::Borrowed(&self.builder),
@@ -95,40 +97,41 @@ impl Workbench {
             }),
             None => Err(WorkbenchError::NotCompiled {
                 id,
-                message: "there is no program".to_owned(),
+                message: "the build has no program".to_owned(),
             }),
         }
     }
 }
 
+/// Returns the message of the first file that does not compile.
 fn compile_error(not_compiled: &BTreeMap<&'static str, NotCompiled>) -> Option<String> {
-    let (file, why) = not_compiled.first_key_value()?;
-    Some(file_message(file, why))
+    let (file, reason) = not_compiled.first_key_value()?;
+    Some(file_message(file, reason))
 }
 
-/// A solution, ready to be asked.
+/// A solution that was built and can be run.
 #[derive(Debug)]
 pub struct BuiltSolution {
-    /// Whose.
+    /// The solution's id.
     pub id: String,
     build: Build,
     launcher: Launcher,
 }
 
 impl BuiltSolution {
-    /// Starts its probe.
+    /// Returns the launcher of its probe.
     pub fn launcher(&self) -> &Launcher {
         &self.launcher
     }
 
-    /// Its answers to one item, each item of a fresh probe.
+    /// Returns its answers to one item, given by a new probe.
     pub fn answers(&self, item: &Item) -> std::io::Result<Result<Vec<Answer>, Fault>> {
         let mut probe = self.launcher.start(BUDGET)?;
-        let questions = item.questions.iter().map(|asked| &asked.question);
+        let questions = item.questions.iter().map(|question| &question.question);
         Ok(probe.ask(questions, BUDGET))
     }
 
-    /// Its score in an exam.
+    /// Grades it with an exam.
     pub fn score(&self, exam: &Exam) -> Result<Score, WorkbenchError> {
         let name = ExamName {
             id: exam.id.clone(),

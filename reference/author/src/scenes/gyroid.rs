@@ -1,4 +1,4 @@
-//! A ball carved out of a gyroid: one surface, full of holes, that no box fits well.
+//! A gyroid inside a ball: one surface with many holes, which boxes fit badly.
 
 use std::f64::consts::TAU;
 
@@ -8,17 +8,18 @@ use libm::{cos, sin};
 use super::obj::Obj;
 use super::surface_net::extract_surface;
 
-/// From one repetition of the gyroid to the next, in radii of the ball.
+/// The period of the gyroid, in radii of the ball.
 const PERIOD: f64 = 0.8;
 
-/// How wide the rim is where both meet, in radii of the ball: sharp edges would become spikes.
+/// The width of the rounded edge between gyroid and ball, in radii of the ball. Sharp edges would
+/// become spikes in the mesh.
 const BLEND_WIDTH: f64 = 0.3;
 
 const ABOUT: &str = "\
 One side of Schoen's gyroid (NASA TN D-5541, 1970) within a ball of radius 1.
 Coarse on purpose: made to be subdivided. Written by `cargo author scenes`.";
 
-/// The mesh.
+/// Returns the mesh as OBJ text.
 pub(super) fn obj() -> String {
     let net = extract_surface(solid, 1.05, 28);
     let mut obj = Obj::new(ABOUT);
@@ -33,16 +34,17 @@ pub(super) fn obj() -> String {
     obj.finish()
 }
 
-/// Negative inside.
+/// Returns a value that is negative inside the solid and positive outside.
 fn solid(p: DVec3) -> f64 {
     let DVec3 { x, y, z } = p * (TAU / PERIOD);
     let gyroid = sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x);
-    // About a distance, as the ball's is: the gyroid's slope is about one and a half.
+    // Scaled to be roughly a distance, like that of the ball: the gyroid's gradient is about 1.5.
     let distance = gyroid / 1.5 * (PERIOD / TAU);
     smooth_max(distance, p.length() - 1.0)
 }
 
-/// The larger of two, rounded where they are less than [`RIM`] apart.
+/// Returns the larger of two values, blended smoothly where they differ by less than
+/// [`BLEND_WIDTH`].
 fn smooth_max(a: f64, b: f64) -> f64 {
     let overlap = (1.0 - (a - b).abs() / BLEND_WIDTH).max(0.0);
     a.max(b) + overlap * overlap * BLEND_WIDTH / 4.0

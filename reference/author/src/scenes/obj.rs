@@ -1,71 +1,73 @@
-//! Meshes as OBJ text, small and the same on every machine.
+//! Meshes as OBJ text, which is short and the same on every machine.
 
 use std::collections::HashMap;
 use std::fmt::Write;
 
-/// An OBJ text in the making.
+/// An OBJ file that is being written.
 pub(super) struct Obj {
     header: String,
-    kinds: [Lines; 3],
+    sections: [Lines; 3],
     faces: String,
 }
 
-/// The lines of one kind. Equal lines are one, so that neighbours share their corners.
+/// The lines with one keyword. Equal lines are written once, so that neighbouring triangles share
+/// their corners.
 struct Lines {
-    kind: &'static str,
+    keyword: &'static str,
     text: String,
-    numbers: HashMap<String, usize>,
+    indices: HashMap<String, usize>,
 }
 
 impl Obj {
-    /// A text that begins by saying where the mesh is from.
+    /// Creates a file without a mesh, with `about` as a comment at the top.
     pub(super) fn new(about: &str) -> Self {
-        let lines = |kind| Lines {
-            kind,
+        let lines = |keyword| Lines {
+            keyword,
             text: String::new(),
-            numbers: HashMap::new(),
+            indices: HashMap::new(),
         };
         Obj {
             header: about.lines().map(|line| format!("# {line}\n")).collect(),
-            kinds: [lines("v"), lines("vt"), lines("vn")],
+            sections: [lines("v"), lines("vt"), lines("vn")],
             faces: String::new(),
         }
     }
 
-    /// The number of a position.
+    /// Returns the index of a position, adding the position if it is new.
     pub(super) fn position(&mut self, position: [f64; 3]) -> usize {
-        self.kinds[0].index_of(&position)
+        self.sections[0].index_of(&position)
     }
 
-    /// The number of texture coordinates.
+    /// Returns the index of a pair of texture coordinates, adding the pair if it is new.
     pub(super) fn uv(&mut self, uv: [f64; 2]) -> usize {
-        self.kinds[1].index_of(&uv)
+        self.sections[1].index_of(&uv)
     }
 
-    /// The number of a normal.
+    /// Returns the index of a normal, adding the normal if it is new.
     pub(super) fn normal(&mut self, normal: [f64; 3]) -> usize {
-        self.kinds[2].index_of(&normal)
+        self.sections[2].index_of(&normal)
     }
 
-    /// A triangle of positions alone; none if two of them are the same.
+    /// Adds a triangle that has positions only. Does nothing if two of them are the same.
     pub(super) fn triangle(&mut self, [a, b, c]: [usize; 3]) {
         if a != b && b != c && c != a {
-            writeln!(self.faces, "f {a} {b} {c}").expect("a String takes it");
+            writeln!(self.faces, "f {a} {b} {c}").expect("writing to a String succeeds");
         }
     }
 
-    /// A triangle of (position, texture coordinates, normal); none if two positions are the same.
+    /// Adds a triangle whose corners are (position, texture coordinates, normal). Does nothing if
+    /// two positions are the same.
     pub(super) fn full_triangle(&mut self, corners: [(usize, usize, usize); 3]) {
         let [a, b, c] = corners.map(|(position, _, _)| position);
         if a != b && b != c && c != a {
             let [a, b, c] = corners.map(|(v, vt, vn)| format!("{v}/{vt}/{vn}"));
-            writeln!(self.faces, "f {a} {b} {c}").expect("a String takes it");
+            writeln!(self.faces, "f {a} {b} {c}").expect("writing to a String succeeds");
         }
     }
 
-    /// The whole text.
+    /// Returns the text of the file.
     pub(super) fn finish(self) -> String {
-        let [v, vt, vn] = self.kinds.map(|lines| lines.text);
+        let [v, vt, vn] = self.sections.map(|lines| lines.text);
         [self.header, v, vt, vn, self.faces].concat()
     }
 }
@@ -73,16 +75,16 @@ impl Obj {
 impl Lines {
     fn index_of(&mut self, numbers: &[f64]) -> usize {
         let words: Vec<String> = numbers.iter().copied().map(format_number).collect();
-        let words = words.join(" ");
-        let next = self.numbers.len() + 1;
-        *self.numbers.entry(words).or_insert_with_key(|words| {
-            writeln!(self.text, "{} {words}", self.kind).expect("a String takes it");
+        let line = words.join(" ");
+        let next = self.indices.len() + 1;
+        *self.indices.entry(line).or_insert_with_key(|line| {
+            writeln!(self.text, "{} {line}", self.keyword).expect("writing to a String succeeds");
             next
         })
     }
 }
 
-/// Four digits behind the point, less those that say nothing.
+/// Formats a number with at most four decimal places, without trailing zeros.
 fn format_number(number: f64) -> String {
     let text = format!("{number:.4}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
@@ -98,8 +100,8 @@ mod tests {
 
     #[test]
     fn numbers_are_short_and_zero_has_no_sign() {
-        let shown = [1.0, -0.000_01, 0.12345, 20.0, -1.5].map(format_number);
-        assert_eq!(shown, ["1", "0", "0.1235", "20", "-1.5"]);
+        let formatted = [1.0, -0.000_01, 0.12345, 20.0, -1.5].map(format_number);
+        assert_eq!(formatted, ["1", "0", "0.1235", "20", "-1.5"]);
     }
 
     #[test]

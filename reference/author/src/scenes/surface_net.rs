@@ -1,23 +1,26 @@
-//! A mesh around the solid where a function is negative.
+//! Extraction of a mesh of the surface where a function is zero.
 //!
-//! Gibson, "Constrained Elastic Surface Nets", 1998, without the relaxation: a corner in each
-//! cell that the surface passes through, a quadrilateral around each grid edge that it cuts.
+//! The method is Gibson's, "Constrained Elastic Surface Nets", 1998, without the relaxation: one
+//! vertex in each cell that the surface passes through, and one quadrilateral around each grid edge
+//! that it crosses.
 
 use std::collections::HashMap;
 
 use glam::{DVec3, IVec3, ivec3};
 
-/// Corners, and triangles that turn counter-clockwise seen from outside.
+/// Vertices, and triangles whose corners are counter-clockwise seen from outside.
 pub(super) struct Net {
     pub(super) positions: Vec<DVec3>,
     pub(super) triangles: Vec<[usize; 3]>,
 }
 
-/// The surface of `solid` inside the cube from −`half` to `half`, on `cells`³ cells. The solid must
-/// not reach the cube's faces.
+/// Extracts the surface of the solid where `solid` is negative, on a grid of `cells`³ cells that
+/// covers the cube from −`half` to `half`. The solid must not touch the faces of the cube.
 pub(super) fn extract_surface(solid: impl Fn(DVec3) -> f64, half: f64, cells: i32) -> Net {
-    let place = |at: IVec3| (at.as_dvec3() / f64::from(cells) * 2.0 - 1.0) * half;
-    let values: HashMap<IVec3, f64> = grid(cells + 1).map(|at| (at, solid(place(at)))).collect();
+    let position = |at: IVec3| (at.as_dvec3() / f64::from(cells) * 2.0 - 1.0) * half;
+    let values: HashMap<IVec3, f64> = grid(cells + 1)
+        .map(|at| (at, solid(position(at))))
+        .collect();
 
     let mut net = Net {
         positions: Vec::new(),
@@ -31,7 +34,7 @@ pub(super) fn extract_surface(solid: impl Fn(DVec3) -> f64, half: f64, cells: i3
             .filter(|(from, to)| (values[from] < 0.0) != (values[to] < 0.0))
             .map(|(from, to)| {
                 let along = values[&from] / (values[&from] - values[&to]);
-                place(from).lerp(place(to), along)
+                position(from).lerp(position(to), along)
             })
             .collect();
         if !cuts.is_empty() {
@@ -47,12 +50,12 @@ pub(super) fn extract_surface(solid: impl Fn(DVec3) -> f64, half: f64, cells: i3
             (IVec3::Z, IVec3::X, IVec3::Y),
         ] {
             let inside = [from, from + along].map(|at| values[&at] < 0.0);
-            // The four cells around the edge, counter-clockwise seen from its far end.
-            let around = [from - u - v, from - v, from, from - u];
+            // The four cells around the edge, counter-clockwise as seen from its far end.
+            let cells_around = [from - u - v, from - v, from, from - u];
             let [a, b, c, d] = match inside {
-                [true, false] => around.map(|cell| corners[&cell]),
+                [true, false] => cells_around.map(|cell| corners[&cell]),
                 [false, true] => {
-                    let [a, b, c, d] = around.map(|cell| corners[&cell]);
+                    let [a, b, c, d] = cells_around.map(|cell| corners[&cell]);
                     [a, d, c, b]
                 }
                 [true, true] | [false, false] => continue,
@@ -64,7 +67,7 @@ pub(super) fn extract_surface(solid: impl Fn(DVec3) -> f64, half: f64, cells: i3
 }
 
 impl Net {
-    /// Two triangles, along the shorter diagonal.
+    /// Adds two triangles that share the shorter diagonal of the quadrilateral.
     fn quadrilateral(&mut self, [a, b, c, d]: [usize; 4]) {
         let length = |from: usize, to: usize| self.positions[from].distance(self.positions[to]);
         let halves = match length(a, c) <= length(b, d) {
@@ -75,7 +78,7 @@ impl Net {
     }
 }
 
-/// All places from 0 to `side` − 1 along each axis, in a fixed order.
+/// Returns all integer positions from 0 to `side` − 1 along each axis, in a fixed order.
 fn grid(side: i32) -> impl Iterator<Item = IVec3> {
     let plane = move |z| (0..side).flat_map(move |y| (0..side).map(move |x| ivec3(x, y, z)));
     (0..side).flat_map(plane)
@@ -109,14 +112,14 @@ mod tests {
                 .iter()
                 .all(|p| (p.length() - 1.0).abs() < 0.02)
         );
-        // By the divergence theorem, which counts on every face being there and facing outward.
+        // The divergence theorem gives the volume only if the mesh is closed and faces outward.
         let volume: f64 = net
             .triangles
             .iter()
             .map(|triangle| triangle.map(|corner| net.positions[corner]))
             .map(|[a, b, c]| a.dot(b.cross(c)) / 6.0)
             .sum();
-        let truth = 4.0 / 3.0 * std::f64::consts::PI;
-        assert!((volume / truth - 1.0).abs() < 0.02, "{volume}");
+        let expected = 4.0 / 3.0 * std::f64::consts::PI;
+        assert!((volume / expected - 1.0).abs() < 0.02, "{volume}");
     }
 }

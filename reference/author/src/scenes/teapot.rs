@@ -1,8 +1,8 @@
 //! Martin Newell's teapot, from its Bézier patches.
 //!
 //! Newell, "The Utilization of Procedure Models in Digital Image Synthesis", University of Utah,
-//! 1975; the published table with the bottom, as Blinn squeezed it. Only what differs is listed:
-//! the pot is symmetric, so each patch is mirrored.
+//! 1975. This is the published table with the bottom added and with Blinn's reduced height. The pot
+//! is symmetric, so the table lists each patch once and its mirror images are derived.
 
 mod table;
 
@@ -11,14 +11,14 @@ use glam::DVec3;
 use self::table::{PATCHES, Patch, Symmetry};
 use super::obj::Obj;
 
-/// Each patch becomes this many squares along each side.
+/// The number of squares along each side of a tessellated patch.
 const SQUARES: usize = 8;
 
 const ABOUT: &str = "\
 The Utah teapot: Martin Newell's patches (1975), with normals and texture coordinates.
 Written by `cargo author scenes`.";
 
-/// The mesh, standing on y = 0, with the spout toward +x.
+/// Returns the mesh as OBJ text. The pot stands on y = 0, and its spout points toward +x.
 pub(super) fn obj() -> String {
     let mut obj = Obj::new(ABOUT);
     for patch in PATCHES {
@@ -29,15 +29,16 @@ pub(super) fn obj() -> String {
     obj.finish()
 }
 
-/// The sixteen control points of a piece of surface, row by row.
+/// The sixteen control points of a Bézier patch, row by row.
 type ControlPoints = [[DVec3; 4]; 4];
 
-/// A patch and its mirror images. A mirror turns inside out, so rows are read backwards in it.
+/// Returns a patch and its mirror images. Mirroring turns a patch inside out, so the rows of a
+/// mirrored patch are reversed.
 fn mirror_images(patch: &Patch) -> Vec<ControlPoints> {
     let control = patch.control_points();
-    let image = |scale: DVec3, turned: bool| {
+    let image = |scale: DVec3, is_reversed: bool| {
         control.map(|mut row| {
-            if turned {
+            if is_reversed {
                 row.reverse();
             }
             row.map(|point| point * scale)
@@ -72,20 +73,21 @@ fn tessellate(control: &ControlPoints, obj: &mut Obj) {
     }
 }
 
-/// Newell's z is up; ours is y.
+/// Converts from Newell's coordinates, where z is up, to ours, where y is up.
 fn y_up(v: DVec3) -> [f64; 3] {
     [v.x, v.z, -v.y]
 }
 
-/// The point of the patch at u along the rows and v across them.
+/// Returns the point of the patch at u along the rows and v across them.
 fn point_at(control: &ControlPoints, u: f64, v: f64) -> DVec3 {
     let rows = control.map(|row| weighted_sum(row, bernstein(u)));
     weighted_sum(rows, bernstein(v))
 }
 
-/// The outward normal. Where a side of the patch is a single point, the one beside it.
+/// Returns the outward normal. Where a side of the patch degenerates to a point, returns the normal
+/// next to that point.
 fn normal(control: &ControlPoints, u: f64, v: f64) -> DVec3 {
-    let slope = |u: f64, v: f64| {
+    let normal_at = |u: f64, v: f64| {
         let along = weighted_sum(
             control.map(|row| weighted_sum(row, bernstein_derivatives(u))),
             bernstein(v),
@@ -96,12 +98,12 @@ fn normal(control: &ControlPoints, u: f64, v: f64) -> DVec3 {
         );
         along.cross(across)
     };
-    let beside = |t: f64| t.clamp(1e-4, 1.0 - 1e-4);
-    let normal = slope(u, v);
+    let inside = |t: f64| t.clamp(1e-4, 1.0 - 1e-4);
+    let normal = normal_at(u, v);
     if normal.length() > 1e-9 {
         normal.normalize()
     } else {
-        slope(beside(u), beside(v)).normalize()
+        normal_at(inside(u), inside(v)).normalize()
     }
 }
 
@@ -113,13 +115,13 @@ fn weighted_sum(points: [DVec3; 4], weights: [f64; 4]) -> DVec3 {
         .sum()
 }
 
-/// The cubic Bernstein polynomials.
+/// Evaluates the cubic Bernstein polynomials.
 fn bernstein(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
     [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]
 }
 
-/// Their derivatives.
+/// Evaluates the derivatives of the cubic Bernstein polynomials.
 fn bernstein_derivatives(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
     [

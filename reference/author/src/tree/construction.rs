@@ -1,4 +1,4 @@
-//! Growing trees over shapes.
+//! Construction of trees over shapes.
 
 use glam::{DVec3, Vec3};
 use protocol::{Shape, TreeNode};
@@ -7,7 +7,7 @@ use super::Tree;
 use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 
-/// A tree by halves: along the longest axis of the centers, as many to one side as to the other.
+/// Builds a tree by median splits along the longest axis of the centres.
 pub fn median_split(shapes: Vec<Shape>, max_leaf_size: usize) -> Tree {
     let mut tree = Tree {
         shapes: Vec::new(),
@@ -18,14 +18,15 @@ pub fn median_split(shapes: Vec<Shape>, max_leaf_size: usize) -> Tree {
     tree
 }
 
-/// A chain: at each level one leaf goes off, with the first shape that is left, on the left.
+/// Builds a degenerate tree: the left child of each interior node is a leaf with one shape, in the
+/// order of the shapes.
 pub fn chain(shapes: Vec<Shape>) -> Tree {
     let mut tree = Tree {
         shapes: Vec::new(),
         nodes: Vec::new(),
         root: 0,
     };
-    // From the deep end upward.
+    // From the deepest node upward.
     let mut below: Option<usize> = None;
     for shape in shapes.into_iter().rev() {
         let leaf = tree.add_leaf(vec![shape]);
@@ -34,18 +35,18 @@ pub fn chain(shapes: Vec<Shape>) -> Tree {
             Some(rest) => tree.add_interior(leaf, rest),
         });
     }
-    tree.root = below.expect("a chain has shapes");
+    tree.root = below.expect("there is at least one shape");
     tree
 }
 
 impl Tree {
-    /// Adds a leaf with these shapes and a tight box; returns its place.
+    /// Adds a leaf with these shapes and a tight box, and returns its index.
     pub fn add_leaf(&mut self, shapes: Vec<Shape>) -> usize {
         let boxes = shapes.iter().map(scan::bounds);
         let bounds = boxes.fold(Bounds::around([]), |all, next| all.union(&next));
         let node = TreeNode {
-            min: rounded_outward(bounds.min, f32::next_down),
-            max: rounded_outward(bounds.max, f32::next_up),
+            min: round_outward(bounds.min, f32::next_down),
+            max: round_outward(bounds.max, f32::next_up),
             start: self.shapes.len() as u32,
             size: shapes.len() as u32,
             l: 0,
@@ -56,7 +57,7 @@ impl Tree {
         self.nodes.len() - 1
     }
 
-    /// Adds a node around two others; returns its place.
+    /// Adds an interior node around two others, and returns its index.
     pub fn add_interior(&mut self, l: usize, r: usize) -> usize {
         let (left, right) = (&self.nodes[l], &self.nodes[r]);
         let node = TreeNode {
@@ -91,15 +92,15 @@ impl Tree {
     }
 }
 
-/// In single precision; where that is not exact, one step outward. Corners of facets are exact, so
-/// flat boxes stay flat; a sphere's ends may not be.
-fn rounded_outward(exact: DVec3, outward: fn(f32) -> f32) -> Vec3 {
+/// Rounds a corner of a box to single precision, outward where it is not exact. The corners of flat
+/// triangles are exact, so flat boxes stay flat. The extents of a sphere may not be.
+fn round_outward(exact: DVec3, outward: fn(f32) -> f32) -> Vec3 {
     let component = |axis: usize| {
-        let close = exact[axis] as f32;
-        if f64::from(close) == exact[axis] {
-            close
+        let nearest = exact[axis] as f32;
+        if f64::from(nearest) == exact[axis] {
+            nearest
         } else {
-            outward(close)
+            outward(nearest)
         }
     };
     Vec3::new(component(0), component(1), component(2))

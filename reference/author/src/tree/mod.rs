@@ -1,4 +1,4 @@
-//! Trees for traversal: the exam's own, so that it does not depend on a submission's `build`.
+//! The exam's own trees, so that traversal can be tested without a submission's `build`.
 
 pub mod construction;
 pub mod decoy;
@@ -10,21 +10,21 @@ use crate::oracle::bbox::Bounds;
 use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::Rng;
 
-/// A tree as it is asked about.
+/// A tree of an exam question.
 #[derive(Clone, Debug)]
 pub struct Tree {
-    /// The primitives, in the order that the leaves count. Some may be in no leaf.
+    /// The primitives, in the order to which the leaves refer. Some may be in no leaf.
     pub shapes: Vec<Shape>,
-    /// The nodes. Some may be below no other and not the root: nobody gets there.
+    /// The nodes. Some may be unreachable from the root.
     pub nodes: Vec<TreeNode>,
-    /// The place of the root.
+    /// The index of the root in `nodes`.
     pub root: usize,
 }
 
-/// Where the root stands among the nodes.
+/// The position of the root among the nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RootPosition {
-    /// At 0.
+    /// At index 0.
     First,
     /// At neither end.
     Middle,
@@ -33,18 +33,18 @@ pub enum RootPosition {
 }
 
 impl Tree {
-    /// The box of a node.
-    pub fn bounds(&self, place: usize) -> Bounds {
-        let node = &self.nodes[place];
+    /// Returns the box of a node.
+    pub fn bounds(&self, index: usize) -> Bounds {
+        let node = &self.nodes[index];
         Bounds {
             min: node.min.as_dvec3(),
             max: node.max.as_dvec3(),
         }
     }
 
-    /// The places of all nodes below a node, and its own, parents before children.
-    pub fn subtree(&self, place: usize) -> Vec<usize> {
-        let mut found = vec![place];
+    /// Returns the indices of a node and of all nodes below it, parents before children.
+    pub fn subtree(&self, index: usize) -> Vec<usize> {
+        let mut found = vec![index];
         let mut next = 0;
         while next < found.len() {
             let node = &self.nodes[found[next]];
@@ -56,111 +56,116 @@ impl Tree {
         found
     }
 
-    /// The places of all leaves that can be reached.
+    /// Returns the indices of all leaves that can be reached from the root.
     pub fn leaves(&self) -> Vec<usize> {
         let mut nodes = if self.nodes.is_empty() {
             Vec::new()
         } else {
             self.subtree(self.root)
         };
-        nodes.retain(|&place| self.nodes[place].is_leaf());
+        nodes.retain(|&index| self.nodes[index].is_leaf());
         nodes
     }
 
-    /// The places of the primitives in a leaf.
+    /// Returns the indices of the primitives in a leaf.
     pub fn primitives(&self, leaf: usize) -> std::ops::Range<usize> {
         let node = &self.nodes[leaf];
         node.start as usize..(node.start + node.size) as usize
     }
 
-    /// The way from the root down to a node, both included.
+    /// Returns the path from the root down to a node, both included.
     pub fn path(&self, to: usize) -> Vec<usize> {
         let mut path = vec![to];
         let nodes = self.subtree(self.root);
         while path[path.len() - 1] != self.root {
             let child = path[path.len() - 1];
-            let is_parent = |place: &&usize| {
-                let node = &self.nodes[**place];
+            let is_parent = |index: &&usize| {
+                let node = &self.nodes[**index];
                 !node.is_leaf() && (node.l as usize == child || node.r as usize == child)
             };
-            path.push(*nodes.iter().find(is_parent).expect("it hangs in the tree"));
+            path.push(
+                *nodes
+                    .iter()
+                    .find(is_parent)
+                    .expect("the node is in the tree"),
+            );
         }
         path.reverse();
         path
     }
 
-    /// The other child of a node's parent; the root has none.
-    pub fn sibling(&self, place: usize) -> Option<usize> {
-        let path = self.path(place);
+    /// Returns the other child of a node's parent, or `None` for the root.
+    pub fn sibling(&self, index: usize) -> Option<usize> {
+        let path = self.path(index);
         let parent = &self.nodes[*path.iter().rev().nth(1)?];
         let (l, r) = (parent.l as usize, parent.r as usize);
-        Some(if l == place { r } else { l })
+        Some(if l == index { r } else { l })
     }
 
-    /// Whether each primitive lies in the box of a leaf that can be reached and holds it. What does
-    /// not is a trap, or in no leaf at all.
+    /// Returns for each primitive whether it is ordinary: in a reachable leaf, and inside that
+    /// leaf's box. All other primitives are decoys or unreferenced.
     pub fn ordinary_primitives(&self) -> Vec<bool> {
         let leaves = self.leaves();
-        let places = 0..self.shapes.len();
-        places
-            .map(|place| self.is_ordinary(place, &leaves))
+        let indices = 0..self.shapes.len();
+        indices
+            .map(|index| self.is_ordinary(index, &leaves))
             .collect()
     }
 
-    /// Whether this primitive lies in the box of one of these leaves, which holds it.
-    fn is_ordinary(&self, place: usize, leaves: &[usize]) -> bool {
-        // Boxes are rounded to single precision, outward or not: a breath of room.
-        let room = |leaf: usize| self.bounds(leaf).grown(1e-5);
-        let bounds = scan::bounds(&self.shapes[place]);
-        let mut holding = leaves
+    /// Returns whether one of these leaves holds the primitive and has it inside its box.
+    fn is_ordinary(&self, index: usize, leaves: &[usize]) -> bool {
+        // A small tolerance, because boxes are rounded to single precision, not always outward.
+        let enlarged = |leaf: usize| self.bounds(leaf).grown(1e-5);
+        let bounds = scan::bounds(&self.shapes[index]);
+        let mut holders = leaves
             .iter()
-            .filter(|leaf| self.primitives(**leaf).contains(&place));
-        holding.any(|&leaf| room(leaf).contains(&bounds))
+            .filter(|leaf| self.primitives(**leaf).contains(&index));
+        holders.any(|&leaf| enlarged(leaf).contains(&bounds))
     }
 
-    /// What is true: the closest hit with an honest primitive.
-    pub fn expected_hit(&self, beam: &Ray64) -> Option<Intersection> {
-        let met = (0..).zip(&self.shapes);
-        let mut met: Vec<(usize, Intersection)> = met
-            .filter_map(|(place, shape)| Some((place, scan::intersect(beam, shape)?)))
+    /// Returns the correct answer: the closest hit with an ordinary primitive.
+    pub fn expected_hit(&self, ray64: &Ray64) -> Option<Intersection> {
+        let indexed = (0..).zip(&self.shapes);
+        let mut hits: Vec<(usize, Intersection)> = indexed
+            .filter_map(|(index, shape)| Some((index, scan::intersect(ray64, shape)?)))
             .collect();
-        met.sort_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance));
+        hits.sort_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance));
         let leaves = self.leaves();
-        let mut honest = met.into_iter();
-        let (_, closest) = honest.find(|(place, _)| self.is_ordinary(*place, &leaves))?;
+        let mut hits = hits.into_iter();
+        let (_, closest) = hits.find(|(index, _)| self.is_ordinary(*index, &leaves))?;
         Some(closest)
     }
 
-    /// The leaf that holds what the ray hits, if it hits anything.
-    pub fn leaf_of_hit(&self, beam: &Ray64) -> Option<usize> {
-        let hit = self.expected_hit(beam)?;
-        let is_hit = |place: usize| self.shapes[place].material() == hit.material;
+    /// Returns the leaf that holds the primitive of the expected hit, or `None` if there is no hit.
+    pub fn leaf_of_hit(&self, ray64: &Ray64) -> Option<usize> {
+        let hit = self.expected_hit(ray64)?;
+        let is_hit = |index: usize| self.shapes[index].material() == hit.material;
         let mut leaves = self.leaves().into_iter();
         leaves.find(|&leaf| self.primitives(leaf).any(is_hit))
     }
 
-    /// Adds a primitive to a leaf whose box does not change.
+    /// Adds a primitive to a leaf without changing the leaf's box.
     pub fn add_to_leaf(&mut self, leaf: usize, shape: Shape) {
         let at = self.primitives(leaf).end;
         self.shapes.insert(at, shape);
-        for (place, node) in self.nodes.iter_mut().enumerate() {
-            if node.is_leaf() && node.start as usize >= at && place != leaf {
+        for (index, node) in self.nodes.iter_mut().enumerate() {
+            if node.is_leaf() && node.start as usize >= at && index != leaf {
                 node.start += 1;
             }
         }
         self.nodes[leaf].size += 1;
     }
 
-    /// The same tree with its nodes in another order.
-    pub fn with_nodes_shuffled(&self, draw: &mut Rng, root: RootPosition) -> Tree {
-        let others = (0..self.nodes.len()).filter(|&place| place != self.root);
-        let mut order = draw.shuffled(others.collect());
-        let place = match root {
+    /// Returns the same tree with its nodes in random order and the root at the given position.
+    pub fn with_nodes_shuffled(&self, rng: &mut Rng, root: RootPosition) -> Tree {
+        let others = (0..self.nodes.len()).filter(|&index| index != self.root);
+        let mut order = rng.shuffled(others.collect());
+        let root_index = match root {
             RootPosition::First => 0,
             RootPosition::Middle => order.len() / 2,
             RootPosition::Last => order.len(),
         };
-        order.insert(place, self.root);
+        order.insert(root_index, self.root);
 
         let mut moved = vec![0; order.len()];
         for (new, &old) in order.iter().enumerate() {
@@ -180,21 +185,23 @@ impl Tree {
         Tree {
             shapes: self.shapes.clone(),
             nodes: order.iter().map(node).collect(),
-            root: place,
+            root: root_index,
         }
     }
 
-    /// The same tree with its root at the front, followed by a copy of the whole tree whose root is
-    /// at the end: whoever begins at either end, and not at `root`, begins rightly.
+    /// Returns the same tree with its root first, followed by a copy of the whole tree with its
+    /// root last. A traversal that starts at the first or the last node instead of at `root` is
+    /// still correct in it.
     ///
-    /// The copy has nodes of its own. Were it only the root's, its children would have two parents,
-    /// and whoever notes parents or depths in one pass over all nodes would be led astray.
-    pub fn with_roots_at_both_ends(&self, draw: &mut Rng) -> Tree {
-        let mut tree = self.with_nodes_shuffled(draw, RootPosition::First);
+    /// The copy has nodes of its own. If only the root were copied, its children would have two
+    /// parents, which would confuse code that computes parents or depths in one pass over all
+    /// nodes.
+    pub fn with_roots_at_both_ends(&self, rng: &mut Rng) -> Tree {
+        let mut tree = self.with_nodes_shuffled(rng, RootPosition::First);
         let count = tree.nodes.len() as u32;
         let copied = |node: &TreeNode| match node.is_leaf() {
             true => *node,
-            // Node 1 is copied to the place after the last, and so on.
+            // Node 1 is copied to the index after the last node, and so on.
             false => TreeNode {
                 l: node.l + count - 1,
                 r: node.r + count - 1,
@@ -207,12 +214,12 @@ impl Tree {
         tree
     }
 
-    /// Makes two nodes change places.
+    /// Swaps two nodes, and updates all indices that refer to them.
     pub fn swap_nodes(&mut self, a: usize, b: usize) {
-        let moved = |place: usize| match place {
-            place if place == a => b,
-            place if place == b => a,
-            place => place,
+        let moved = |index: usize| match index {
+            index if index == a => b,
+            index if index == b => a,
+            index => index,
         };
         self.nodes.swap(a, b);
         for node in self.nodes.iter_mut().filter(|node| !node.is_leaf()) {
@@ -222,7 +229,7 @@ impl Tree {
         self.root = moved(self.root);
     }
 
-    /// The question of what these rays meet in this tree.
+    /// Returns the question that asks for the closest hits of these rays in this tree.
     pub fn question(&self, rays: Vec<Ray>) -> Question {
         Question::Traverse {
             shapes: self.shapes.clone(),

@@ -1,23 +1,23 @@
-//! Ways through a tree: the right one, and the one that the slides' pseudo-code takes to the
-//! letter.
+//! Traversals of a tree: the correct one, and the slides' pseudo-code taken literally.
 
 use super::Tree;
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Intersection, Ray64, scan};
 
-/// What the contract leaves open, and what single precision may decide either way.
+/// The choices that the contract leaves open to a correct traversal, and those that depend on
+/// rounding in single precision.
 #[derive(Clone, Copy, Debug)]
 pub struct TraversalRule {
-    /// Of two children that are entered at nearly the same place, which goes first.
+    /// Whether the left child goes first if the ray enters both at nearly the same distance.
     pub left_first: bool,
-    /// Whether a node's box is tested when it is entered, or already by its parent.
+    /// Whether a node's box is tested when the node is entered, instead of by its parent.
     pub tests_on_entry: bool,
-    /// Whether to enter all that is not skipped by a clear margin.
+    /// Whether to enter every node that is not skipped by a clear margin.
     pub conservative: bool,
 }
 
 impl TraversalRule {
-    /// Every manner in which the contract can be kept.
+    /// All combinations of the choices.
     pub const ALL: [TraversalRule; 8] = {
         const fn from_bits(bits: usize) -> TraversalRule {
             TraversalRule {
@@ -39,147 +39,148 @@ impl TraversalRule {
     };
 }
 
-/// The margin by which traps are out of reach, of a box's diagonal.
+/// The margin by which decoys are out of reach, as a fraction of a box's diagonal.
 pub const MARGIN: f64 = 0.01;
 
-/// What became of a walk.
+/// The result and the record of a traversal.
 #[derive(Clone, Debug, Default)]
 pub struct Traversal {
     /// The closest hit.
     pub closest: Option<Intersection>,
-    /// The places of all primitives that were tested.
+    /// The indices of all primitives that were tested.
     pub tested_primitives: Vec<usize>,
-    /// The places of all nodes that were come to, in order, and whether they were entered.
+    /// The indices of all nodes that were reached, in order, and whether they were entered.
     pub reached_nodes: Vec<(usize, bool)>,
 }
 
 impl Traversal {
-    /// The right way: what is missed is not entered, the nearer child goes first, and what begins
-    /// beyond the closest hit is not entered.
-    pub fn correct(tree: &Tree, beam: &Ray64, manner: TraversalRule) -> Traversal {
-        let mut walk = Traversal::default();
+    /// Traverses the tree correctly: nodes that the ray misses are not entered, the nearer child
+    /// goes first, and nodes that begin beyond the closest hit are not entered.
+    pub fn correct(tree: &Tree, ray64: &Ray64, rule: TraversalRule) -> Traversal {
+        let mut traversal = Traversal::default();
         if !tree.nodes.is_empty() {
-            match walk.entry_distance(tree, tree.root, beam, manner) {
-                Some(begin) => walk.traverse(tree, tree.root, begin, beam, manner),
-                None => walk.reached_nodes.push((tree.root, false)),
+            match traversal.entry_distance(tree, tree.root, ray64, rule) {
+                Some(entry) => traversal.traverse(tree, tree.root, entry, ray64, rule),
+                None => traversal.reached_nodes.push((tree.root, false)),
             }
         }
-        walk
+        traversal
     }
 
     fn traverse(
         &mut self,
         tree: &Tree,
-        place: usize,
-        begin: f64,
-        beam: &Ray64,
-        manner: TraversalRule,
+        index: usize,
+        entry: f64,
+        ray64: &Ray64,
+        rule: TraversalRule,
     ) {
-        let node = &tree.nodes[place];
-        let is_entered = !self.is_beyond(begin, tree.bounds(place), manner);
-        self.reached_nodes.push((place, is_entered));
+        let node = &tree.nodes[index];
+        let is_entered = !self.is_beyond(entry, tree.bounds(index), rule);
+        self.reached_nodes.push((index, is_entered));
         if !is_entered {
             return;
         }
         if node.is_leaf() {
-            tree.primitives(place)
-                .for_each(|primitive| self.test_primitive(tree, primitive, beam));
+            tree.primitives(index)
+                .for_each(|primitive| self.test_primitive(tree, primitive, ray64));
             return;
         }
         let children = [node.l as usize, node.r as usize];
-        let mut ahead: Vec<(usize, f64)> = children
+        let mut candidates: Vec<(usize, f64)> = children
             .into_iter()
-            .filter_map(|child| Some((child, self.entry_distance(tree, child, beam, manner)?)))
+            .filter_map(|child| Some((child, self.entry_distance(tree, child, ray64, rule)?)))
             .collect();
-        let is_ahead = |child: &usize| ahead.iter().any(|(other, _)| other == child);
-        let missed = children.iter().filter(|child| !is_ahead(child));
+        let is_candidate = |child: &usize| candidates.iter().any(|(other, _)| other == child);
+        let missed = children.iter().filter(|child| !is_candidate(child));
         self.reached_nodes
             .extend(missed.map(|&child| (child, false)));
-        if let [(_, l), (_, r)] = ahead[..] {
-            let tie = (l - r).abs() < MARGIN * tree.bounds(place).diagonal();
-            if (tie && !manner.left_first) || (!tie && r < l) {
-                ahead.reverse();
+        if let [(_, l), (_, r)] = candidates[..] {
+            let is_tie = (l - r).abs() < MARGIN * tree.bounds(index).diagonal();
+            if (is_tie && !rule.left_first) || (!is_tie && r < l) {
+                candidates.reverse();
             }
         }
-        for (child, begin) in ahead {
-            // On entry the box is tested against what is left of the ray by then.
-            let begin = if manner.tests_on_entry {
-                self.entry_distance(tree, child, beam, manner)
+        for (child, entry) in candidates {
+            // A test on entry uses the ray as the closest hit so far has shortened it.
+            let entry = if rule.tests_on_entry {
+                self.entry_distance(tree, child, ray64, rule)
             } else {
-                Some(begin)
+                Some(entry)
             };
-            match begin {
-                Some(begin) => self.traverse(tree, child, begin, beam, manner),
+            match entry {
+                Some(entry) => self.traverse(tree, child, entry, ray64, rule),
                 None => self.reached_nodes.push((child, false)),
             }
         }
     }
 
-    /// Where the ray enters a node's box, or surely does not.
+    /// Returns the distance at which the ray enters a node's box, or `None` if the node is skipped.
     fn entry_distance(
         &self,
         tree: &Tree,
-        place: usize,
-        beam: &Ray64,
-        manner: TraversalRule,
+        index: usize,
+        ray64: &Ray64,
+        rule: TraversalRule,
     ) -> Option<f64> {
-        let exact = tree.bounds(place);
-        // The hesitant look at the whole ray; the others at what is left of it.
-        if manner.conservative {
+        let exact = tree.bounds(index);
+        // Conservative traversal tests the whole ray; otherwise the closest hit limits the ray.
+        if rule.conservative {
             let grown = exact.grown(MARGIN * exact.diagonal());
-            let begin = exact.span(&beam.ahead()).map(|(begin, _)| begin);
+            let entry = exact.span(&ray64.ahead()).map(|(entry, _)| entry);
             return grown
-                .span(&beam.ahead())
-                .map(|(grazed, _)| begin.unwrap_or(grazed));
+                .span(&ray64.ahead())
+                .map(|(grazed, _)| entry.unwrap_or(grazed));
         }
-        let left = Ray64 {
-            max: self.closest.map_or(beam.max, |closest| closest.distance),
-            ..*beam
+        let shortened = Ray64 {
+            max: self.closest.map_or(ray64.max, |closest| closest.distance),
+            ..*ray64
         };
-        exact.span(&left).map(|(begin, _)| begin)
+        exact.span(&shortened).map(|(entry, _)| entry)
     }
 
-    fn is_beyond(&self, begin: f64, bounds: Bounds, manner: TraversalRule) -> bool {
-        let margin = if manner.conservative {
+    fn is_beyond(&self, entry: f64, bounds: Bounds, rule: TraversalRule) -> bool {
+        let margin = if rule.conservative {
             MARGIN * bounds.diagonal()
         } else {
             0.0
         };
         self.closest
-            .is_some_and(|closest| begin > closest.distance + margin)
+            .is_some_and(|closest| entry > closest.distance + margin)
     }
 
-    fn test_primitive(&mut self, tree: &Tree, primitive: usize, beam: &Ray64) {
+    fn test_primitive(&mut self, tree: &Tree, primitive: usize, ray64: &Ray64) {
         self.tested_primitives.push(primitive);
-        if let Some(met) = scan::intersect(beam, &tree.shapes[primitive])
+        if let Some(hit) = scan::intersect(ray64, &tree.shapes[primitive])
             && self
                 .closest
-                .is_none_or(|closest| met.distance < closest.distance)
+                .is_none_or(|closest| hit.distance < closest.distance)
         {
-            self.closest = Some(met);
+            self.closest = Some(hit);
         }
     }
 
-    /// The slides' pseudo-code to the letter: it enters `first` even if both boxes are missed, and
-    /// compares `hit2.t` even where child 2 is `first`. A miss has `t` = ∞.
-    pub fn by_the_slides(tree: &Tree, beam: &Ray64) -> Traversal {
-        let mut walk = Traversal::default();
+    /// Traverses the tree by the slides' pseudo-code, taken literally: it enters `first` even if
+    /// both boxes are missed, and compares `hit2.t` even where child 2 is `first`. The `t` of a
+    /// miss is ∞.
+    pub fn by_the_slides(tree: &Tree, ray64: &Ray64) -> Traversal {
+        let mut traversal = Traversal::default();
         if !tree.nodes.is_empty() {
-            walk.traverse_by_the_slides(tree, tree.root, beam);
+            traversal.traverse_by_the_slides(tree, tree.root, ray64);
         }
-        walk
+        traversal
     }
 
-    fn traverse_by_the_slides(&mut self, tree: &Tree, place: usize, beam: &Ray64) {
-        let node = &tree.nodes[place];
+    fn traverse_by_the_slides(&mut self, tree: &Tree, index: usize, ray64: &Ray64) {
+        let node = &tree.nodes[index];
         if node.is_leaf() {
-            tree.primitives(place)
-                .for_each(|primitive| self.test_primitive(tree, primitive, beam));
+            tree.primitives(index)
+                .for_each(|primitive| self.test_primitive(tree, primitive, ray64));
             return;
         }
         let time = |child: usize| {
-            let span = tree.bounds(child).span(beam);
-            span.map_or(f64::INFINITY, |(begin, _)| begin)
+            let span = tree.bounds(child).span(ray64);
+            span.map_or(f64::INFINITY, |(entry, _)| entry)
         };
         let (child1, child2) = (node.l as usize, node.r as usize);
         let (hit1, hit2) = (time(child1), time(child2));
@@ -188,12 +189,12 @@ impl Traversal {
         } else {
             (child2, child1)
         };
-        self.traverse_by_the_slides(tree, first, beam);
+        self.traverse_by_the_slides(tree, first, ray64);
         let best = self
             .closest
             .map_or(f64::INFINITY, |closest| closest.distance);
         if hit2 < best {
-            self.traverse_by_the_slides(tree, second, beam);
+            self.traverse_by_the_slides(tree, second, ray64);
         }
     }
 }

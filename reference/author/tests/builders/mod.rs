@@ -1,25 +1,26 @@
-//! Bad builders that people write.
+//! Bad builders, as people write them by mistake.
 
 use author::oracle::bbox::Bounds;
 use author::oracle::scan;
 use protocol::Shape;
 
-/// How a node is split.
+/// The rule by which a builder splits a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Splitter {
-    /// Binned SAH over one axis.
+    /// SAH with buckets, along one axis only.
     OneAxis(usize),
-    /// At the middle of the longest axis of the centers.
+    /// In the middle of the longest axis of the centres.
     Middle,
     /// Half of the primitives to each side, along the longest axis.
     Median,
-    /// Areas that are those of single buckets, not of all that go to a side.
+    /// SAH with the areas of single buckets, instead of all buckets of a side.
     AreaPerBucket,
-    /// The most expensive partition.
+    /// The partition with the highest cost.
     Worst,
 }
 
-/// The cost of the tree over these shapes: C_trav = C_isect = 1, areas by the root's.
+/// Returns the cost of the tree over these shapes, with C_trav = C_isect = 1 and areas relative to
+/// the root's.
 pub fn cost(shapes: &[Shape], max_leaf_size: usize, splitter: Splitter) -> f64 {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let root = enclosing(&boxes).area();

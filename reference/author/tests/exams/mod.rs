@@ -1,5 +1,5 @@
-//! Exams of some seeds, made once for all tests of a file.
-#![allow(dead_code, reason = "each test file uses its own part of this")]
+//! Exams of a few seeds, generated once for all tests of a file.
+#![allow(dead_code, reason = "not every test file uses all of this module")]
 
 use std::sync::LazyLock;
 
@@ -10,19 +10,19 @@ use glam::{UVec2, Vec3};
 use grader::exam::Exam;
 use protocol::Question;
 
-/// What is true must be so with each of them.
+/// The seeds that the tests use.
 pub const SEEDS: [u64; 3] = [2025, 77, 78];
 
-/// An exam of each seed; their pictures of radiance are none.
+/// The exam of each seed, with a placeholder for the path-traced picture.
 static EXAMS: LazyLock<Vec<Exam>> = LazyLock::new(|| SEEDS.map(make_exam).into());
 
-/// The exam of one of the seeds.
+/// Returns the exam of one of the [`SEEDS`].
 pub fn exam_of(seed: u64) -> &'static Exam {
-    let place = SEEDS.iter().position(|other| *other == seed);
-    &EXAMS[place.expect("one of the seeds")]
+    let index = SEEDS.iter().position(|other| *other == seed);
+    &EXAMS[index.expect("the seed is in SEEDS")]
 }
 
-/// An exam without a picture of radiance.
+/// Generates an exam with a placeholder for the path-traced picture.
 pub fn make_exam(seed: u64) -> Exam {
     let question = Question::Radiance {
         scene: String::new(),

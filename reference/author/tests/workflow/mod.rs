@@ -1,4 +1,5 @@
-//! The workflow that grades every push, against a strict model of what GitHub reads.
+//! Tests of the workflow that grades every push, which is parsed with a strict model of GitHub's
+//! format.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +7,7 @@ use serde::Deserialize;
 
 use crate::BUNDLE;
 
-/// A workflow of one kind: no matrix, no services, no reuse.
+/// A simple workflow: no matrix, no services, no reusable workflows.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Workflow {

@@ -1,4 +1,5 @@
-//! The reference's box, that counts how often it is tested: all that its other files call of it.
+//! The reference's box, with a counter of its tests. It has only the methods that the reference's
+//! other files use.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};
@@ -6,10 +7,10 @@ use protocol::{Interval, Ray};
 use crate::count;
 
 #[path = "../../../src/bbox.rs"]
-#[allow(dead_code, unused_imports, reason = "its tests do not run here")]
+#[allow(dead_code, unused_imports, reason = "its tests are not run here")]
 mod plain;
 
-/// See the reference.
+/// A box that counts its tests; see the reference's `BBox`.
 #[derive(Clone, Copy, Debug)]
 pub struct BBox {
     pub min: Vec3,

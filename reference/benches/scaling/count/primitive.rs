@@ -1,4 +1,4 @@
-//! The reference's primitive, that counts how often it is tested.
+//! The reference's primitive, with a counter of its tests.
 
 use protocol::{Ray, Shape, Trace};
 
@@ -6,10 +6,10 @@ use crate::bbox::BBox;
 use crate::count;
 
 #[path = "../../../src/primitive.rs"]
-#[allow(dead_code, reason = "nobody asks for its material")]
+#[allow(dead_code, reason = "its material is not used here")]
 mod plain;
 
-/// See the reference.
+/// A primitive that counts its tests; see the reference's `Primitive`.
 #[derive(Clone, Copy, Debug)]
 pub struct Primitive(plain::Primitive);
 

@@ -1,5 +1,5 @@
-//! A home without anything in it but the archives of the crates that the bundle needs: what cargo
-//! would have fetched, so that nothing asks the network.
+//! An empty home directory, as on a student's machine with a fresh installation of Rust. It
+//! contains only the crates that the bundle needs, so that cargo does not use the network.
 
 use std::env;
 use std::fs;
@@ -9,52 +9,54 @@ use std::process::Command;
 
 use crate::bundle::crates::{self, CratesError};
 
-/// A home, and the programs of a freshly installed Rust.
+/// An empty home directory, and the programs of a Rust toolchain.
 #[derive(Debug)]
 pub(super) struct Home {
     folder: PathBuf,
-    /// The folder with cargo and rustc themselves: rustup's stand-ins would miss their own home.
+    /// The toolchain's own folder of programs. Rustup's proxies would not work, since they look for
+    /// toolchains in the home directory.
     programs: PathBuf,
 }
 
-/// There is no home.
+/// The home directory cannot be created.
 #[derive(Debug, thiserror::Error)]
 pub enum HomeError {
-    /// Cargo did not start us.
-    #[error("cargo has to say where it is: run `cargo author bundle --check`")]
+    /// The environment variable `CARGO` is not set.
+    #[error("CARGO is not set: run `cargo author bundle --check`")]
     NoCargo,
-    /// The crates are not at hand.
+    /// The crates cannot be read.
     #[error(transparent)]
     Crates(#[from] CratesError),
-    /// The system does not let us.
-    #[error("can not furnish {}: {source}", path.display())]
+    /// A file operation failed.
+    #[error("cannot create {}: {source}", path.display())]
     Io {
-        /// What.
+        /// The file or folder.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
 }
 
 impl Home {
-    /// Makes the home in `place`, with the crates that this lock file names and this machine has.
-    pub(super) fn create(place: &Path, lock: &str) -> Result<Self, HomeError> {
+    /// Creates the home directory in `parent`, with the crates of a lock file that cargo has
+    /// fetched on this machine.
+    pub(super) fn create(parent: &Path, lock: &str) -> Result<Self, HomeError> {
         let cargo = env::var_os("CARGO").ok_or(HomeError::NoCargo)?;
         let programs = Path::new(&cargo).parent().ok_or(HomeError::NoCargo)?;
         let home = Home {
-            folder: place.join("home"),
+            folder: parent.join("home"),
             programs: programs.to_owned(),
         };
-        let at = |source| HomeError::Io {
+        let io_error = |source| HomeError::Io {
             path: home.folder.clone(),
             source,
         };
         if home.folder.exists() {
-            fs::remove_dir_all(&home.folder).map_err(at)?;
+            fs::remove_dir_all(&home.folder).map_err(io_error)?;
         }
         let registry = home.cargo_home().join("registry");
         for (path, contents) in crates::registry_files(lock)? {
-            write_file(&registry.join(path), &contents).map_err(at)?;
+            write_file(&registry.join(path), &contents).map_err(io_error)?;
         }
         Ok(home)
     }
@@ -63,7 +65,7 @@ impl Home {
         self.folder.join(".cargo")
     }
 
-    /// A program of this name: Rust's, if it is one.
+    /// Returns the toolchain's program with this name, or else the name itself.
     pub(super) fn program(&self, name: &str) -> PathBuf {
         let program = self
             .programs
@@ -75,7 +77,8 @@ impl Home {
         }
     }
 
-    /// Lets a command know of this home, and of nothing that this shell has set for Rust.
+    /// Makes a command use this home directory, without the Rust settings of the current
+    /// environment.
     pub(super) fn apply_to(&self, command: &mut Command) {
         for (name, _) in env::vars_os() {
             let text = name.to_string_lossy();
@@ -96,7 +99,7 @@ impl Home {
             .env("USERPROFILE", &self.folder)
             .env("CARGO_HOME", self.cargo_home())
             .env("CARGO_NET_OFFLINE", "true")
-            // Beside the home, where it stays from one trial to the next.
+            // Beside the home directory, so that it is reused by the next check.
             .env("CARGO_TARGET_DIR", self.folder.with_file_name("built"));
     }
 }

@@ -1,5 +1,6 @@
-//! The trial of the archive: unpacked on a machine that has Rust and nothing else, it does what its
-//! texts say, gives the starter no point and the solution all of them.
+//! Checks a bundle's archive as a student would use it: unpacks it with an empty home directory,
+//! runs the commands that its documents show, and grades the starter (0 points) and the reference
+//! (100).
 
 mod home;
 mod shell_commands;
@@ -17,81 +18,85 @@ use zip::result::ZipError;
 use crate::bundle::check::home::{Home, HomeError};
 use crate::bundle::{Bundle, archive};
 
-/// Where it is tried, from the workspace's root. What was compiled there stays for the next time.
+/// The folder of the check, relative to the workspace's root. Compiled files stay there for the
+/// next check.
 const TEST_FOLDER: &str = "target/bundle";
-/// The texts whose commands are tried.
+/// The documents solution commands are run.
 const DOCUMENTS: [&str; 2] = ["README.md", "handout/src/start.md"];
-/// Where `cargo grade` leaves what it found out, from the unpacked folder.
+/// The score file that `cargo grade` writes, relative to the unpacked folder.
 const SCORE_FILE: &str = "target/grade/student/score.json";
 
-/// The archive was not tried: our fault, or the machine's.
+/// The bundle cannot be checked.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
-    /// The archive can not be made or unpacked.
-    #[error("the archive: {0}")]
+    /// The archive cannot be created or unpacked.
+    #[error("cannot create or unpack the archive: {0}")]
     Zip(#[from] ZipError),
-    /// There is no empty home.
+    /// The home directory cannot be created.
     #[error(transparent)]
     Home(#[from] HomeError),
-    /// The system does not let us.
-    #[error("can not use {}: {source}", path.display())]
+    /// A file operation failed.
+    #[error("cannot use {}: {source}", path.display())]
     Io {
-        /// What.
+        /// The file or folder.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
 }
 
-/// What is read of the score file.
+/// The part of a score file that is checked.
 #[derive(Deserialize)]
 struct Score {
     points: u32,
 }
 
-/// A command of the texts, and how it ended.
+/// A command that a document shows, and its result.
 struct CommandRun {
     command: String,
+    /// The exit code, or `None` after a signal.
     code: Option<i32>,
     stderr: String,
 }
 
-/// Tries the archive of the workspace at `root`, and tells what is not as it should be.
+/// Checks the bundle's archive in the workspace at `root`, and returns the problems found.
 pub fn check(root: &Path, bundle: &Bundle) -> Result<Vec<String>, CheckError> {
     let unpacked = archive::unzip(&archive::zip(bundle)?)?;
     if unpacked != *bundle {
-        return Ok(vec!["the archive unpacks to something else".to_owned()]);
+        return Ok(vec![
+            "the archive does not unpack to the bundle's files".to_owned(),
+        ]);
     }
     let root = &root.canonicalize().map_err(io_error(root))?;
-    let place = root.join(TEST_FOLDER);
+    let test_folder = root.join(TEST_FOLDER);
     let lock = bundle.text("Cargo.lock").unwrap_or_default();
-    let home = Home::create(&place, lock)?;
-    let folder = place.join(archive::TOP_FOLDER);
+    let home = Home::create(&test_folder, lock)?;
+    let folder = test_folder.join(archive::TOP_FOLDER);
     unpack_fresh(&folder, &unpacked).map_err(io_error(&folder))?;
 
     let commands =
         shell_commands::commands(DOCUMENTS.into_iter().filter_map(|path| unpacked.text(path)));
-    let mut complaints = Vec::new();
-    for tried in run_commands(&commands, &home, &folder)? {
-        // A stub ends an example with 101 and a picture with 1; nothing else is in order.
-        let in_order = matches!(tried.code, Some(0 | 1 | 101));
-        if !in_order || tried.stderr.contains("could not compile") {
-            complaints.push(tried.problem("the starter"));
+    let mut problems = Vec::new();
+    for run in run_commands(&commands, &home, &folder)? {
+        // A stub ends `cargo examples` with 101 and `cargo render` with 1.
+        let is_expected = matches!(run.code, Some(0 | 1 | 101));
+        if !is_expected || run.stderr.contains("could not compile") {
+            problems.push(run.problem("the starter"));
         }
     }
-    check_points(0, "the starter", &folder, &mut complaints);
+    check_points(0, "the starter", &folder, &mut problems);
 
     for file in TASK_FILES {
         let (from, to) = (root.join("reference/src"), folder.join("student/src"));
         fs::copy(from.join(file.name), to.join(file.name)).map_err(io_error(&to))?;
     }
-    for tried in run_commands(&commands, &home, &folder)? {
-        if tried.code != Some(0) {
-            complaints.push(tried.problem("the reference"));
+    for run in run_commands(&commands, &home, &folder)? {
+        if run.code != Some(0) {
+            problems.push(run.problem("the reference"));
         }
     }
-    check_points(100, "the reference", &folder, &mut complaints);
-    Ok(complaints)
+    check_points(100, "the reference", &folder, &mut problems);
+    Ok(problems)
 }
 
 fn io_error(path: &Path) -> impl FnOnce(io::Error) -> CheckError {
@@ -106,7 +111,7 @@ fn unpack_fresh(folder: &Path, bundle: &Bundle) -> io::Result<()> {
     archive::write_files(bundle, folder)
 }
 
-/// Runs each command in turn, and says on the terminal how long it took.
+/// Runs each command in turn, and prints how long it took.
 fn run_commands(
     commands: &[Vec<String>],
     home: &Home,
@@ -114,50 +119,48 @@ fn run_commands(
 ) -> Result<Vec<CommandRun>, CheckError> {
     let one = |words: &Vec<String>| {
         let [program, arguments @ ..] = words.as_slice() else {
-            unreachable!("a line without words is no command");
+            unreachable!("shell_commands::commands skips empty lines");
         };
-        let began = Instant::now();
+        let start = Instant::now();
         let mut command = Command::new(home.program(program));
         home.apply_to(&mut command);
         let output = command.args(arguments).current_dir(folder).output();
         let output = output.map_err(io_error(Path::new(program)))?;
-        let tried = CommandRun {
+        let run = CommandRun {
             command: words.join(" "),
             code: output.status.code(),
             stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
         };
-        let seconds = began.elapsed().as_secs_f64();
-        eprintln!("{seconds:6.1} s  {}", tried.command);
-        Ok(tried)
+        let seconds = start.elapsed().as_secs_f64();
+        eprintln!("{seconds:6.1} s  {}", run.command);
+        Ok(run)
     };
     commands.iter().map(one).collect()
 }
 
-fn check_points(points: u32, whose: &str, folder: &Path, complaints: &mut Vec<String>) {
+fn check_points(points: u32, solution: &str, folder: &Path, problems: &mut Vec<String>) {
     let score = fs::read(folder.join(SCORE_FILE)).ok();
     let score = score.and_then(|text| serde_json::from_slice::<Score>(&text).ok());
     match score {
         Some(score) if score.points == points => {}
-        Some(score) => complaints.push(format!(
-            "{whose} has {} points in the bundle, and should have {points}",
+        Some(score) => problems.push(format!(
+            "{solution} has {} points in the bundle, but should have {points}",
             score.points
         )),
-        None => complaints.push(format!(
-            "{whose} has no score in the bundle: no {SCORE_FILE}"
+        None => problems.push(format!(
+            "{solution} has no score in the bundle: there is no valid {SCORE_FILE}"
         )),
     }
 }
 
 impl CommandRun {
-    fn problem(&self, whose: &str) -> String {
+    fn problem(&self, solution: &str) -> String {
         let code = self
             .code
             .map_or("a signal".to_owned(), |code| code.to_string());
         let CommandRun {
-            command,
-            stderr: said,
-            ..
+            command, stderr, ..
         } = self;
-        format!("with {whose}, `{command}` ended with {code}:\n{said}")
+        format!("with {solution}, `{command}` ended with {code}:\n{stderr}")
     }
 }

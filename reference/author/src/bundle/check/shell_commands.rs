@@ -1,6 +1,6 @@
-//! The commands that a text shows.
+//! Extracts the commands that Markdown documents show.
 
-/// Each line of the texts' `sh` blocks once, as words, without its comment.
+/// Returns each distinct line of the documents' `sh` blocks, split into words, without its comment.
 pub(super) fn commands<'a>(texts: impl Iterator<Item = &'a str>) -> Vec<Vec<String>> {
     let mut commands = Vec::new();
     for text in texts {

@@ -1,42 +1,42 @@
-//! LaTeX in Markdown becomes MathML, which browsers draw by themselves.
+//! Converts the LaTeX formulas in Markdown to MathML, which browsers render without a script.
 
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 
 use crate::handout::pages::formulas;
 
-/// A formula that is not understood.
+/// A formula cannot be converted.
 #[derive(Debug, thiserror::Error)]
 #[error("{chapter}: the formula `{formula}`: {problem}")]
 pub struct FormulaError {
     /// The chapter's title.
     pub chapter: String,
-    /// As it stands there.
+    /// The LaTeX source.
     pub formula: String,
-    /// What is wrong with it.
+    /// The converter's message.
     pub problem: String,
 }
 
-/// The chapter, its formulas as MathML.
+/// Returns the chapter with its formulas as MathML.
 pub fn render_formulas(chapter: &str, markdown: &str) -> Result<String, FormulaError> {
-    let no_formula = |formula: &str, problem: String| FormulaError {
+    let formula_error = |formula: &str, problem: String| FormulaError {
         chapter: chapter.to_owned(),
         formula: formula.trim().to_owned(),
         problem,
     };
     let converter = LatexToMathML::new(MathCoreConfig::default())
-        .map_err(|problem| no_formula("", format!("{problem:?}")))?;
+        .map_err(|problem| formula_error("", format!("{problem:?}")))?;
     let mut text = markdown.to_owned();
-    // From the end, so that the places before stay what they are.
-    for (range, latex, by_itself) in formulas(markdown).into_iter().rev() {
-        let display = match by_itself {
+    // From the end, so that the ranges of earlier formulas stay valid.
+    for (range, latex, is_display) in formulas(markdown).into_iter().rev() {
+        let display = match is_display {
             true => MathDisplay::Block,
             false => MathDisplay::Inline,
         };
         let mathml = converter
             .convert_with_local_state(latex.trim(), display)
-            .map_err(|problem| no_formula(&latex, problem.to_string()))?;
+            .map_err(|problem| formula_error(&latex, problem.to_string()))?;
         let mathml = escape_markdown(&mathml.mathml);
-        let html = match by_itself {
+        let html = match is_display {
             true => format!("<div class=\"formula\">{mathml}</div>\n"),
             false => mathml,
         };
@@ -45,11 +45,11 @@ pub fn render_formulas(chapter: &str, markdown: &str) -> Result<String, FormulaE
     Ok(text)
 }
 
-/// Markdown goes on reading between the tags: what it would take for its own is written as a
-/// number.
+/// Writes characters that are special in Markdown as numeric entities: Markdown is parsed between
+/// the tags of MathML, too.
 fn escape_markdown(mathml: &str) -> String {
     let mut inside = false;
-    let mut shielded = String::with_capacity(mathml.len());
+    let mut escaped = String::with_capacity(mathml.len());
     for letter in mathml.chars().filter(|letter| *letter != '\n') {
         match letter {
             '<' => inside = true,
@@ -57,12 +57,12 @@ fn escape_markdown(mathml: &str) -> String {
             _ => {}
         }
         if !inside && "*_`[]\\|~'\"".contains(letter) {
-            shielded.push_str(&format!("&#{};", u32::from(letter)));
+            escaped.push_str(&format!("&#{};", u32::from(letter)));
         } else {
-            shielded.push(letter);
+            escaped.push(letter);
         }
     }
-    shielded
+    escaped
 }
 
 #[cfg(test)]
@@ -83,12 +83,12 @@ mod tests {
 
     #[test]
     fn reports_an_invalid_formula_with_its_chapter() {
-        let told = render_formulas("Boxes", "$\\fraction{1}{2}$")
+        let message = render_formulas("Boxes", "$\\fraction{1}{2}$")
             .unwrap_err()
             .to_string();
         assert!(
-            told.starts_with("Boxes: the formula `\\fraction{1}{2}`"),
-            "{told}"
+            message.starts_with("Boxes: the formula `\\fraction{1}{2}`"),
+            "{message}"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! The handout as a book: pages that need no network and no script but the book's own.
+//! Builds the handout as a book, whose pages need no network and no scripts but the book's own.
 
 mod formulas;
 mod pages;
@@ -15,24 +15,24 @@ use self::pages::problems;
 use self::pictures::inline_figures;
 use crate::proof::sources::ReadError;
 
-/// Why there is no book.
+/// The book cannot be built.
 #[derive(Debug, thiserror::Error)]
 pub enum BookError {
-    /// A formula is none.
-    #[error("{0}; mend the formula in handout/src")]
+    /// A formula is invalid.
+    #[error("{0}; correct the formula in handout/src")]
     Formula(#[from] formulas::FormulaError),
-    /// A page is not as the chapters mean it.
-    #[error("the book is not whole:\n{}", .0.join("\n"))]
+    /// A page lacks a heading, or loads something from the network.
+    #[error("the pages of the book have problems:\n{}", .0.join("\n"))]
     Pages(Vec<String>),
-    /// A page or chapter can not be read.
+    /// A page or chapter cannot be read.
     #[error(transparent)]
     Unreadable(#[from] ReadError),
-    /// mdBook can not make it.
+    /// mdBook failed.
     #[error("mdBook: {0:#}")]
     Driver(Error),
 }
 
-/// Makes the book of the workspace at `root` into the folder `to`.
+/// Builds the book of the workspace at `root` into the folder `to`.
 pub fn build(root: &Path, to: &Path) -> Result<(), BookError> {
     let mut book = MDBook::load(root.join("handout")).map_err(BookError::Driver)?;
     book.config.build.build_dir = to.to_owned();
@@ -44,16 +44,16 @@ pub fn build(root: &Path, to: &Path) -> Result<(), BookError> {
     }
 }
 
-/// Puts MathML in the place of formulas, and drawings in the place of pictures.
+/// Replaces formulas by MathML, and figures by inline SVG.
 fn render_chapters(book: &mut Book) -> Result<(), BookError> {
-    let mut outcome = Ok(());
+    let mut result = Ok(());
     book.for_each_mut(|item| {
         if let BookItem::Chapter(chapter) = item
-            && outcome.is_ok()
+            && result.is_ok()
         {
-            let formed = render_formulas(&chapter.name, &chapter.content);
-            outcome = formed.map(|content| chapter.content = inline_figures(&content));
+            let rendered = render_formulas(&chapter.name, &chapter.content);
+            result = rendered.map(|content| chapter.content = inline_figures(&content));
         }
     });
-    Ok(outcome?)
+    Ok(result?)
 }

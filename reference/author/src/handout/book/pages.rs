@@ -1,5 +1,5 @@
-//! What mdBook made is looked at: that links which are right in Markdown are right in the book, and
-//! that no page asks for anything from elsewhere.
+//! Checks the pages that mdBook built: every anchor of the Markdown chapters exists, and no page
+//! loads anything from the network.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::handout::links::SUMMARY;
 use crate::handout::pages::{Page, pages};
 use crate::proof::sources::{ReadError, read};
 
-/// What is wrong with the pages in the folder `book`, made from the workspace at `root`.
+/// Returns the problems with the pages in the folder `book`, built from the workspace at `root`.
 pub fn problems(root: &Path, book: &Path) -> Result<Vec<String>, ReadError> {
     let mut problems = Vec::new();
     let chapters = pages(&root.join(CHAPTERS))?;
@@ -25,12 +25,12 @@ fn page_problems(chapter: &Page, html: &str) -> Vec<String> {
         .anchors()
         .filter(|anchor| !html.contains(&format!("id=\"{anchor}\"")))
         .map(|anchor| format!("{}: the page has no #{anchor}", chapter.name));
-    // A link may lead elsewhere; nothing may be fetched from there.
+    // Links to other sites are allowed, but nothing may be loaded from them.
     let fetched = ["src=\"http", "src=\"//", "url(http", "@import"]
         .into_iter()
         .chain(["rel=\"stylesheet\" href=\"http", "mathjax"])
         .filter(|fetch| html.contains(fetch))
-        .map(|fetch| format!("{}: the page fetches something: {fetch}", chapter.name));
+        .map(|fetch| format!("{}: the page loads something: {fetch}", chapter.name));
     missing.chain(fetched).collect()
 }
 
@@ -48,7 +48,7 @@ mod tests {
             page_problems(&chapter, bad),
             [
                 "a.md: the page has no #two",
-                "a.md: the page fetches something: src=\"http"
+                "a.md: the page loads something: src=\"http"
             ]
         );
     }

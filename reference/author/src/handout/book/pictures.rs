@@ -1,4 +1,4 @@
-//! Figures become part of the page, so that they are light or dark as the book's theme is.
+//! Inlines the figures into the pages, so that they follow the book's light or dark theme.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use pulldown_cmark::{Event, Parser, Tag};
 use crate::handout::figures;
 use crate::handout::pages::options;
 
-/// The chapter, its figures drawn in place.
+/// Returns the chapter with its figures as inline SVG.
 pub fn inline_figures(markdown: &str) -> String {
     let drawn: BTreeMap<String, String> = figures::all()
         .map(|(name, svg)| (format!("figures/{name}"), svg))
@@ -21,7 +21,7 @@ pub fn inline_figures(markdown: &str) -> String {
     let mut text = markdown.to_owned();
     for (range, file) in pictures.into_iter().rev() {
         if let Some(svg) = drawn.get(&file) {
-            // A line of its own in the page: an empty one would end it.
+            // On one line, since an empty line would end the HTML block.
             let svg = svg.replace('\n', "");
             text.replace_range(range, &format!("<figure>{svg}</figure>"));
         }

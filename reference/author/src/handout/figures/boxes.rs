@@ -1,16 +1,17 @@
-//! Figures of "Boxes".
+//! Figures of the chapter "Ray-box intersection".
 
 use glam::{DVec2, dvec2};
 
 use super::drawing::{Drawing, Hue, Side};
 
-/// The ray of the first two figures: per axis, the times in the slab.
+/// The times at which the ray of the first two figures enters and leaves each slab.
 const X: [f64; 2] = [2.0, 6.0];
 const Y: [f64; 2] = [3.0, 7.5];
 const Z: [f64; 2] = [0.8, 6.8];
+/// The argument `times` of the example.
 const TIMES: [f64; 2] = [2.4, 9.0];
 
-/// Two slabs, the box that they share, and a ray through it.
+/// Draws two slabs, the box in which they cross, and a ray through it.
 pub fn slabs() -> String {
     let mut drawing = Drawing::new(480.0, 330.0);
     let (origin, step) = (dvec2(40.0, 300.0), dvec2(46.0, -32.0));
@@ -82,25 +83,25 @@ pub fn slabs() -> String {
         );
     drawing.finish(
         "Two slabs and a ray",
-        "The x slab is an upright band, the y slab a level one; the box is where they cross. The ray \
-         enters the x slab at time 2 and the y slab at time 3, leaves the x slab at 6 and the y slab \
-         at 7.5. It is in the box from 3, the last entry, to 6, the first exit.",
+        "The x slab is a vertical band, the y slab a horizontal one; the box is where they cross. \
+         The ray enters the x slab at time 2 and the y slab at time 3, and leaves the x slab at 6 \
+         and the y slab at 7.5. It is in the box from 3, the last entry, to 6, the first exit.",
     )
 }
 
-/// The same ray as intervals of time, with a third slab and the times that are asked for.
+/// Draws the same ray as intervals of time, with a third slab and the argument `times`.
 pub fn times() -> String {
     let mut drawing = Drawing::new(480.0, 290.0);
-    let place = |t: f64, row: f64| dvec2(110.0 + 38.0 * t, 40.0 + 40.0 * row);
+    let point = |t: f64, row: f64| dvec2(110.0 + 38.0 * t, 40.0 + 40.0 * row);
     let enter = X[0].max(Y[0]).max(Z[0]).max(TIMES[0]);
     let leave = X[1].min(Y[1]).min(Z[1]).min(TIMES[1]);
     drawing
         .area(
             Hue::Blue,
-            &super::drawing::corners(place(enter, -0.5), place(leave, 4.3)),
+            &super::drawing::corners(point(enter, -0.5), point(leave, 4.3)),
         )
-        .dashed(Hue::Blue, place(enter, -0.5), place(enter, 4.3))
-        .dashed(Hue::Blue, place(leave, -0.5), place(leave, 4.3));
+        .dashed(Hue::Blue, point(enter, -0.5), point(enter, 4.3))
+        .dashed(Hue::Blue, point(leave, -0.5), point(leave, 4.3));
     let rows = [
         ("x slab", X, Hue::Orange),
         ("y slab", Y, Hue::Green),
@@ -111,16 +112,16 @@ pub fn times() -> String {
     for (row, (name, [from, to], hue)) in (0..).zip(rows) {
         let row = f64::from(row);
         let tick = dvec2(0.0, 7.0);
-        let (a, b) = (place(from, row), place(to, row));
+        let (a, b) = (point(from, row), point(to, row));
         drawing
             .label(hue, Side::Left, dvec2(98.0, a.y + 6.0), name)
             .line(hue, a, b)
             .line(hue, a - tick, a + tick)
             .line(hue, b - tick, b + tick);
     }
-    drawing.arrow(Hue::Soft, place(0.0, 5.0), place(9.3, 5.0));
+    drawing.arrow(Hue::Soft, point(0.0, 5.0), point(9.3, 5.0));
     for t in 0..=9 {
-        let at = place(f64::from(t), 5.0);
+        let at = point(f64::from(t), 5.0);
         drawing
             .line(Hue::Soft, at - dvec2(0.0, 4.0), at + dvec2(0.0, 4.0))
             .small_label(
@@ -133,18 +134,18 @@ pub fn times() -> String {
     drawing.label(
         Hue::Soft,
         Side::Right,
-        place(9.3, 5.0) + dvec2(2.0, 5.0),
+        point(9.3, 5.0) + dvec2(2.0, 5.0),
         "t",
     );
     drawing.finish(
-        "Intervals of time and what they share",
-        "Five intervals above an axis of time: the x slab from 2 to 6, the y slab from 3 to 7.5, the z \
-         slab from 0.8 to 6.8, the times asked for from 2.4 to 9. All of them share 3 to 6: from the \
-         last entry to the first exit.",
+        "Intervals of time and their intersection",
+        "Five intervals above a time axis: the x slab from 2 to 6, the y slab from 3 to 7.5, the z \
+         slab from 0.8 to 6.8, and the argument times from 2.4 to 9. Their intersection is 3 to 6, \
+         from the last entry to the first exit.",
     )
 }
 
-/// What becomes of a direction without x, and of a box without thickness.
+/// Draws the special cases: a direction whose x component is zero, and a flat box.
 pub fn special() -> String {
     let mut drawing = Drawing::new(480.0, 300.0);
     let (low, high) = (dvec2(90.0, 110.0), dvec2(190.0, 200.0));
@@ -179,15 +180,15 @@ pub fn special() -> String {
         .small_label(Hue::Blue, Side::Left, dvec2(380.0, 138.0), "enter = leave")
         .small_label(Hue::Blue, Side::Middle, dvec2(385.0, 284.0), "a hit");
     drawing.finish(
-        "A direction without x, and a box without height",
-        "Left, three rays with direction x zero, beside, in and beyond the x slab: dividing by zero \
-         gives plus and plus infinity left of it, minus and plus infinity inside, minus and minus \
-         infinity right of it. Right, a flat box: the ray enters and leaves it at the same time, and \
-         that is a hit.",
+        "A direction without an x component, and a flat box",
+        "Left: three rays whose direction has the x component zero. Dividing by zero gives plus \
+         and plus infinity for the ray left of the x slab, minus and plus infinity for the one \
+         inside it, and minus and minus infinity for the one right of it. Right: a flat box. The \
+         ray enters and leaves it at the same time, and that is a hit.",
     )
 }
 
-/// Where the line from `a` to `b` has the height `y`.
+/// Returns the point of the line from `a` to `b` at height `y`.
 fn at_height(a: DVec2, b: DVec2, y: f64) -> DVec2 {
     a.lerp(b, (y - a.y) / (b.y - a.y))
 }

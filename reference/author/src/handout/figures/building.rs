@@ -1,47 +1,48 @@
-//! Figures of "Building a BVH".
+//! Figures of the chapter "Building a BVH".
 
 use glam::{DVec2, dvec2};
 
 use super::drawing::{Drawing, Hue, Side};
 
-/// The balls of the chapter's example: radius 1/2, at 0, 2, 4, …
-const BALLS: u32 = 10;
+/// The number of spheres in the chapter's example. They have radius 1/2 and are at 0, 2, 4, …
+const SPHERES: u32 = 10;
 const BUCKETS: u32 = 8;
 
-fn center(ball: u32) -> f64 {
-    f64::from(2 * ball)
+fn center(sphere: u32) -> f64 {
+    f64::from(2 * sphere)
 }
 
-/// Which bucket a center is in; the last one falls off the end, and is put back.
+/// Returns the bucket of a centre. The largest centre would be in bucket 8, so the index is
+/// clamped.
 fn bucket(center_at: f64) -> u32 {
-    let extent = center(BALLS - 1);
-    let place = (center_at / extent * f64::from(BUCKETS)).floor() as u32;
-    place.min(BUCKETS - 1)
+    let extent = center(SPHERES - 1);
+    let index = (center_at / extent * f64::from(BUCKETS)).floor() as u32;
+    index.min(BUCKETS - 1)
 }
 
-/// How many balls are left of the plane before each bucket but the first.
+/// Returns the number of spheres left of each plane between two buckets.
 fn left_of_planes() -> Vec<u32> {
     let left_of = |plane: u32| {
-        (0..BALLS)
-            .filter(|ball| bucket(center(*ball)) < plane)
+        (0..SPHERES)
+            .filter(|sphere| bucket(center(*sphere)) < plane)
             .count()
     };
     (1..BUCKETS).map(|plane| left_of(plane) as u32).collect()
 }
 
-/// The surface of the box around `n` neighbours: 2n − 1 long, 1 high, 1 deep.
+/// Returns the surface area of the box around `n` neighbours: 2n − 1 long, 1 high, 1 deep.
 fn surface_area(n: u32) -> f64 {
     8.0 * f64::from(n) - 2.0
 }
 
-/// C with C_trav = C_isect = 1.
+/// Returns the cost C of a partition, with C_trav = C_isect = 1.
 fn cost(left: u32) -> f64 {
-    let right = BALLS - left;
+    let right = SPHERES - left;
     let side = |n: u32| surface_area(n) * f64::from(n);
-    1.0 + (side(left) + side(right)) / surface_area(BALLS)
+    1.0 + (side(left) + side(right)) / surface_area(SPHERES)
 }
 
-/// Boxes in boxes, and the same as a tree.
+/// Draws nested boxes, and the same as a tree.
 pub fn tree() -> String {
     let mut drawing = Drawing::new(480.0, 350.0);
     let triangle = |drawing: &mut Drawing, hue: Hue, at: DVec2| {
@@ -102,97 +103,98 @@ pub fn tree() -> String {
         .small_label(Hue::Orange, Side::Right, dvec2(388.0, 270.0), "size 2");
     drawing.finish(
         "A bounding volume hierarchy",
-        "A box N around everything, and in it a box A around three triangles and a box B around two. \
-         As a tree, N has the children A and B, which are leaves. The list of primitives is cut into \
-         pieces: places 0 to 2 belong to A, with start 0 and size 3, places 3 and 4 to B, with start 3 \
-         and size 2.",
+        "A box N around everything contains a box A around three triangles and a box B around two. \
+         As a tree, N has the children A and B, which are leaves. The list of primitives is \
+         divided between them: indices 0 to 2 belong to A, with start 0 and size 3, and indices 3 \
+         and 4 to B, with start 3 and size 2.",
     )
 }
 
-/// The example's ten balls in eight buckets, and the cheapest plane.
+/// Draws the example's ten spheres in eight buckets, and the cheapest plane.
 pub fn buckets() -> String {
     let mut drawing = Drawing::new(480.0, 240.0);
-    let place = |x: f64, y: f64| dvec2(33.0 + 23.0 * x, 96.0 + y);
-    let width = center(BALLS - 1) / f64::from(BUCKETS);
+    let point = |x: f64, y: f64| dvec2(33.0 + 23.0 * x, 96.0 + y);
+    let width = center(SPHERES - 1) / f64::from(BUCKETS);
     let edge = |bucket: u32| f64::from(bucket) * width;
     drawing
-        .filled_box(Hue::Blue, place(-0.5, -11.5), place(8.5, 11.5))
-        .filled_box(Hue::Orange, place(9.5, -11.5), place(18.5, 11.5));
+        .filled_box(Hue::Blue, point(-0.5, -11.5), point(8.5, 11.5))
+        .filled_box(Hue::Orange, point(9.5, -11.5), point(18.5, 11.5));
     for plane in 0..=BUCKETS {
         let at = edge(plane);
-        let ends = (place(at, -62.0), place(at, 58.0));
+        let ends = (point(at, -62.0), point(at, 58.0));
         if plane == BUCKETS / 2 {
             drawing.line(Hue::Green, ends.0, ends.1);
         } else {
             drawing.dashed(Hue::Soft, ends.0, ends.1);
         }
     }
-    for ball in 0..BALLS {
-        let at = center(ball);
+    for sphere in 0..SPHERES {
+        let at = center(sphere);
         drawing
-            .disc(Hue::Ink, place(at, 0.0), 11.5)
-            .dot(Hue::Ink, place(at, 0.0));
+            .disc(Hue::Ink, point(at, 0.0), 11.5)
+            .dot(Hue::Ink, point(at, 0.0));
     }
     for number in 0..BUCKETS {
-        let count = (0..BALLS)
-            .filter(|ball| bucket(center(*ball)) == number)
+        let count = (0..SPHERES)
+            .filter(|sphere| bucket(center(*sphere)) == number)
             .count();
         let middle = edge(number) + width / 2.0;
         drawing
             .small_label(
                 Hue::Soft,
                 Side::Middle,
-                place(middle, -46.0),
+                point(middle, -46.0),
                 &number.to_string(),
             )
             .label(
                 Hue::Ink,
                 Side::Middle,
-                place(middle, 48.0),
+                point(middle, 48.0),
                 &count.to_string(),
             );
     }
     drawing
-        .small_label(Hue::Soft, Side::Right, place(-0.9, -76.0), "bucket")
-        .small_label(Hue::Ink, Side::Right, place(-0.9, 78.0), "centers in it")
+        .small_label(Hue::Soft, Side::Right, point(-0.9, -76.0), "bucket")
+        .small_label(Hue::Ink, Side::Right, point(-0.9, 78.0), "centres in it")
         .label(
             Hue::Blue,
             Side::Middle,
-            place(4.0, 108.0),
+            point(4.0, 108.0),
             "A: N_A = 5, S_A = 38",
         )
         .label(
             Hue::Orange,
             Side::Middle,
-            place(14.2, 108.0),
+            point(14.2, 108.0),
             "B: N_B = 5, S_B = 38",
         )
-        .small_label(Hue::Green, Side::Middle, place(9.0, -70.0), "this plane")
-        .small_label(Hue::Soft, Side::Middle, place(9.0, 132.0), "S_N = 78");
+        .small_label(Hue::Green, Side::Middle, point(9.0, -70.0), "this plane")
+        .small_label(Hue::Soft, Side::Middle, point(9.0, 132.0), "S_N = 78");
     drawing.finish(
-        "Ten balls in eight buckets",
-        "Ten balls in a row. Their centers go from 0 to 18, in eight buckets of equal width, which hold \
-         2, 1, 1, 1, 1, 1, 1 and 2 of them. The plane in the middle has five balls on either side; the \
-         box around five has the surface 38, the box around all has 78.",
+        "Ten spheres in eight buckets",
+        "Ten spheres in a row. Their centres range from 0 to 18 and are sorted into eight buckets \
+         of equal width, which hold 2, 1, 1, 1, 1, 1, 1 and 2 of them. The plane in the middle has \
+         five spheres on either side. The box around five spheres has surface area 38, and the box \
+         around all of them 78.",
     )
 }
 
-/// What each of the seven planes costs.
+/// Draws the cost of each of the seven planes.
 pub fn costs() -> String {
     let mut drawing = Drawing::new(480.0, 300.0);
-    let place = |plane: f64, cost: f64| dvec2(40.0 + 54.0 * plane, 250.0 - 82.0 * (cost - 5.4));
-    drawing.arrow(Hue::Soft, place(0.4, 5.4), place(7.9, 5.4));
-    drawing.arrow(Hue::Soft, place(0.4, 5.4), place(0.4, 8.35));
+    let point = |plane: f64, cost: f64| dvec2(40.0 + 54.0 * plane, 250.0 - 82.0 * (cost - 5.4));
+    drawing.arrow(Hue::Soft, point(0.4, 5.4), point(7.9, 5.4));
+    drawing.arrow(Hue::Soft, point(0.4, 5.4), point(0.4, 8.35));
     let planes: Vec<(f64, u32)> = (1..BUCKETS).map(f64::from).zip(left_of_planes()).collect();
     let curve: Vec<DVec2> = planes
         .iter()
-        .map(|(plane, left)| place(*plane, cost(*left)))
+        .map(|(plane, left)| point(*plane, cost(*left)))
         .collect();
     drawing.curve(Hue::Soft, &curve);
     for (plane, left) in planes {
-        let (cost, right) = (cost(left), BALLS - left);
+        let (cost, right) = (cost(left), SPHERES - left);
         let hue = if left == right { Hue::Green } else { Hue::Blue };
-        let at = place(plane, cost);
+        let at = point(plane, cost);
         drawing
             .dot(hue, at)
             .small_label(
@@ -204,7 +206,7 @@ pub fn costs() -> String {
             .small_label(
                 Hue::Ink,
                 Side::Middle,
-                place(plane, 5.4) + dvec2(0.0, 22.0),
+                point(plane, 5.4) + dvec2(0.0, 22.0),
                 &format!("{left}|{right}"),
             );
     }
@@ -213,20 +215,20 @@ pub fn costs() -> String {
         .label(
             Hue::Green,
             Side::Middle,
-            place(4.0, 5.87) + dvec2(0.0, 26.0),
+            point(4.0, 5.87) + dvec2(0.0, 26.0),
             "the cheapest",
         )
         .small_label(
             Hue::Ink,
             Side::Middle,
             dvec2(256.0, 294.0),
-            "balls to the left and right of the plane",
+            "spheres to the left and right of the plane",
         );
     drawing.finish(
-        "What the planes cost",
-        "The cost of the seven partitions of ten balls. With 2 balls left of the plane and 8 right of \
-         it 7.72, with 3 and 7 it is 6.69, with 4 and 6 it is 6.08, with 5 and 5 it is 5.87, the \
-         cheapest; and the same again to the other side.",
+        "The costs of the planes",
+        "The costs of the seven partitions of ten spheres. With 2 spheres left of the plane and 8 \
+         right of it the cost is 7.72, with 3 and 7 it is 6.69, with 4 and 6 it is 6.08, and with \
+         5 and 5 it is 5.87, the cheapest. The other three are symmetric to these.",
     )
 }
 

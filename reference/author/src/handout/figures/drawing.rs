@@ -1,16 +1,16 @@
-//! Lines, areas and words as SVG: as much of it as the handout's figures need.
+//! Draws lines, areas and labels as SVG, as far as the handout's figures need them.
 //!
-//! A drawing has a card of its own below it, so that it can be read on any page; the card is light
-//! or dark as the reader's system is, and in the book as the book's theme is. No colour says
-//! something alone: areas also have words, and lines their places. The colours are those of Okabe
-//! and Ito, which nobody takes for each other.
+//! Every drawing has a background card, so that it is readable on any page. The card follows the
+//! light or dark mode of the reader's system, or the theme of the book. No information depends on
+//! colour alone: areas and lines are also labelled. The colours are those of Okabe and Ito, which
+//! people with colour blindness can distinguish.
 
 use glam::{DVec2, dvec2};
 
 use super::svg::{circle, escape, format_number, path, with_subscripts};
 
-/// How a reader's page, light or dark, colours a drawing. The book's own style sheet, `handout.css`,
-/// says the same for each of its themes.
+/// The style sheet of a drawing, in light and dark mode. The book's style sheet, `handout.css`,
+/// sets the same colours for each of its themes.
 const STYLE: &str = "\
 .figure{--card:#fff;--ink:#1c1c1c;--soft:#6f6f6f;--blue:#0072b2;--orange:#c25400;--green:#00795a;--pink:#a8467f;\
 font:17px system-ui,-apple-system,'Segoe UI',sans-serif}\
@@ -22,20 +22,20 @@ font:17px system-ui,-apple-system,'Segoe UI',sans-serif}\
 .figure text{paint-order:stroke;stroke:var(--card);stroke-width:4px;stroke-linejoin:round}\
 .figure .small{font-size:15px}";
 
-/// What a stroke, an area or a word is drawn in.
+/// The colour of a line, an area or a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hue {
-    /// What is there: boxes, axes, surfaces, words.
+    /// For objects: boxes, axes, surfaces, and their labels.
     Ink,
-    /// What helps: grids, continuations.
+    /// For helper lines: grids, continuations.
     Soft,
-    /// The ray, and the first of two things.
+    /// For the ray, and the first of several objects.
     Blue,
-    /// The second of two things, and what is wrong.
+    /// For the second of several objects, and for mistakes.
     Orange,
-    /// The third thing, and what is right.
+    /// For the third of several objects, and for correct results.
     Green,
-    /// A fourth thing.
+    /// For the fourth of several objects.
     Pink,
 }
 
@@ -52,19 +52,19 @@ impl Hue {
     }
 }
 
-/// Where a word stands beside its place.
+/// The horizontal alignment of a label relative to its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// It begins there.
+    /// To the right: the text starts at the position.
     Right,
-    /// Its middle is there.
+    /// Centred at the position.
     Middle,
-    /// It ends there.
+    /// To the left: the text ends at the position.
     Left,
 }
 
-/// A figure that is being drawn: x to the right, y down, in units of which a phone shows three in
-/// four pixels.
+/// A figure that is being drawn. x points right, y down. On a phone, a unit is about three quarters
+/// of a pixel.
 #[derive(Clone, Debug)]
 pub struct Drawing {
     size: DVec2,
@@ -72,7 +72,7 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// A card with nothing on it.
+    /// Creates an empty drawing.
     pub fn new(width: f64, height: f64) -> Self {
         Drawing {
             size: dvec2(width, height),
@@ -80,10 +80,10 @@ impl Drawing {
         }
     }
 
-    /// The file: `title` is the figure's name, and `description` what it shows, in words.
+    /// Returns the SVG file. `title` names the figure, and `description` describes it in words.
     pub fn finish(&self, title: &str, description: &str) -> String {
         let (w, h) = (self.size.x, self.size.y);
-        // Larger than its units where there is room.
+        // The preferred size, if the page has room for it.
         let (wide, high) = (w * 1.25, h * 1.25);
         let (title, description) = (escape(title), escape(description));
         let body = &self.body;
@@ -95,17 +95,17 @@ impl Drawing {
         )
     }
 
-    /// A line from `a` to `b`.
+    /// Draws a line from `a` to `b`.
     pub fn line(&mut self, hue: Hue, a: DVec2, b: DVec2) -> &mut Self {
         self.stroke(hue, "line", &path(&[a, b]))
     }
 
-    /// A dotted line from `a` to `b`.
+    /// Draws a dotted line from `a` to `b`.
     pub fn dashed(&mut self, hue: Hue, a: DVec2, b: DVec2) -> &mut Self {
         self.stroke(hue, "line dashed", &path(&[a, b]))
     }
 
-    /// A line with a tip at `b`.
+    /// Draws an arrow from `a` to `b`.
     pub fn arrow(&mut self, hue: Hue, a: DVec2, b: DVec2) -> &mut Self {
         let along = (b - a).normalize();
         let (back, aside) = (b - 11.0 * along, 4.5 * along.perp());
@@ -117,18 +117,18 @@ impl Drawing {
         ))
     }
 
-    /// A line with a tip at either end: a measure.
+    /// Draws a dimension line: an arrow with a tip at each end.
     pub fn measure(&mut self, a: DVec2, b: DVec2) -> &mut Self {
         let middle = a.midpoint(b);
         self.arrow(Hue::Soft, middle, a).arrow(Hue::Soft, middle, b)
     }
 
-    /// Lines through all of the points.
+    /// Draws lines through all of the points.
     pub fn curve(&mut self, hue: Hue, points: &[DVec2]) -> &mut Self {
         self.stroke(hue, "line", &path(points))
     }
 
-    /// A closed outline, its inside tinted.
+    /// Fills a polygon with a light tint, without an outline.
     pub fn area(&mut self, hue: Hue, points: &[DVec2]) -> &mut Self {
         let (path, name) = (path(points), hue.name());
         self.element(&format!(
@@ -136,29 +136,29 @@ impl Drawing {
         ))
     }
 
-    /// A closed outline.
+    /// Draws the outline of a polygon.
     pub fn outline(&mut self, hue: Hue, points: &[DVec2]) -> &mut Self {
         self.stroke(hue, "line", &format!("{}Z", path(points)))
     }
 
-    /// A box between two corners, its inside tinted.
+    /// Draws a tinted box between two corners.
     pub fn filled_box(&mut self, hue: Hue, a: DVec2, b: DVec2) -> &mut Self {
         let corners = corners(a, b);
         self.area(hue, &corners).outline(hue, &corners)
     }
 
-    /// A box between two corners.
+    /// Draws the outline of a box between two corners.
     pub fn open_box(&mut self, hue: Hue, a: DVec2, b: DVec2) -> &mut Self {
         self.outline(hue, &corners(a, b))
     }
 
-    /// A piece of the bare card, to hide what lies below.
+    /// Covers a box with the background, to hide what was drawn there.
     pub fn card(&mut self, a: DVec2, b: DVec2) -> &mut Self {
         let path = path(&corners(a, b));
         self.element(&format!("<path class=\"card\" d=\"{path}Z\"/>"))
     }
 
-    /// A circle, its inside tinted.
+    /// Draws a tinted circle.
     pub fn disc(&mut self, hue: Hue, center: DVec2, radius: f64) -> &mut Self {
         let (at, name) = (circle(center, radius), hue.name());
         self.element(&format!(
@@ -169,13 +169,13 @@ impl Drawing {
         ))
     }
 
-    /// A point.
+    /// Draws a point.
     pub fn dot(&mut self, hue: Hue, at: DVec2) -> &mut Self {
         let (at, name) = (circle(at, 4.5), hue.name());
         self.element(&format!("<circle {at} fill=\"var(--{name})\"/>"))
     }
 
-    /// A point that does not count: a small ring.
+    /// Draws a small ring, for a point that does not count.
     pub fn ring(&mut self, hue: Hue, at: DVec2) -> &mut Self {
         let (at, name) = (circle(at, 5.0), hue.name());
         self.element(&format!(
@@ -183,19 +183,19 @@ impl Drawing {
         ))
     }
 
-    /// A cross: what is not done, not there, not right.
+    /// Draws a cross, for something that is wrong, missing or not done.
     pub fn cross(&mut self, hue: Hue, at: DVec2) -> &mut Self {
         let (a, b) = (dvec2(7.0, 7.0), dvec2(7.0, -7.0));
         self.line(hue, at - a, at + a).line(hue, at - b, at + b)
     }
 
-    /// Words, their base line through `at`. `_` puts the next letter below the line,
-    /// `S_A`; `__` is a `_`.
+    /// Draws a label whose base line goes through `at`. `_` makes the next letter a subscript, as
+    /// in `S_A`; `__` is an underscore.
     pub fn label(&mut self, hue: Hue, side: Side, at: DVec2, text: &str) -> &mut Self {
         self.text("", hue, side, at, text)
     }
 
-    /// Words that say less.
+    /// Draws a label in a smaller font.
     pub fn small_label(&mut self, hue: Hue, side: Side, at: DVec2, text: &str) -> &mut Self {
         self.text(" class=\"small\"", hue, side, at, text)
     }
@@ -231,7 +231,7 @@ impl Drawing {
     }
 }
 
-/// The corners of a box, around it.
+/// Returns the corners of a box in order around it.
 pub fn corners(a: DVec2, b: DVec2) -> [DVec2; 4] {
     [a, dvec2(b.x, a.y), b, dvec2(a.x, b.y)]
 }

@@ -1,4 +1,4 @@
-//! The handout's figures: drawn from numbers, so that none can be a little off.
+//! The handout's figures. They are computed from numbers, so that they are exact.
 
 mod boxes;
 mod building;
@@ -10,7 +10,7 @@ mod svg;
 mod traversal;
 mod triangle;
 
-/// A figure's name, and what draws it.
+/// A figure's name, and the function that draws it.
 type Figure = (&'static str, fn() -> String);
 
 const FIGURES: [Figure; 18] = [
@@ -27,14 +27,14 @@ const FIGURES: [Figure; 18] = [
     ("building-tree", building::tree),
     ("building-buckets", building::buckets),
     ("building-costs", building::costs),
-    ("walking-pruned", traversal::pruned),
-    ("walking-overlapping", traversal::overlapping),
-    ("walking-walk", traversal::example),
-    ("walking-trap", traversal::decoy),
+    ("traversal-pruned", traversal::pruned),
+    ("traversal-overlapping", traversal::overlapping),
+    ("traversal-example", traversal::example),
+    ("traversal-decoy", traversal::decoy),
     ("grading-edge", grading::edge),
 ];
 
-/// All figures: file name and SVG.
+/// Returns the file name and the SVG of every figure.
 pub fn all() -> impl Iterator<Item = (String, String)> {
     FIGURES
         .into_iter()

@@ -1,10 +1,10 @@
-//! Figures of "Where a ray meets a sphere".
+//! Figures of the chapter "Ray-sphere intersection".
 
 use glam::{DVec2, dvec2};
 
 use super::drawing::{Drawing, Hue, Side};
 
-/// Rays that start outside, beside and inside of a sphere, and which of the roots counts.
+/// Draws rays from outside and inside a sphere and one that misses it, and the root that counts.
 pub fn roots() -> String {
     let mut drawing = Drawing::new(480.0, 330.0);
     let (center, radius) = (dvec2(270.0, 180.0), 110.0);
@@ -13,7 +13,7 @@ pub fn roots() -> String {
         .dot(Hue::Soft, center);
     let half = |height: f64| dvec2((radius * radius - height * height).sqrt(), 0.0);
 
-    // From outside: the near root is ahead, and counts.
+    // A ray from outside: the near root is ahead of the origin, and counts.
     let (up, start) = (dvec2(0.0, -55.0), dvec2(30.0, 125.0));
     let (near, far) = (center + up - half(55.0), center + up + half(55.0));
     drawing
@@ -31,7 +31,7 @@ pub fn roots() -> String {
         )
         .label(Hue::Blue, Side::Right, far + dvec2(12.0, -10.0), "far");
 
-    // From inside: the near root is behind the origin, the far one counts.
+    // A ray from inside: the near root is behind the origin, so the far one counts.
     let (down, inside) = (dvec2(0.0, 45.0), dvec2(250.0, 225.0));
     let (near, far) = (center + down - half(45.0), center + down + half(45.0));
     drawing
@@ -53,7 +53,7 @@ pub fn roots() -> String {
             "far: counts",
         );
 
-    // Past it: no root at all.
+    // A ray that misses the sphere: there is no root.
     let past = dvec2(30.0, 40.0);
     drawing
         .arrow(Hue::Green, past, dvec2(450.0, 40.0))
@@ -65,14 +65,14 @@ pub fn roots() -> String {
             "none: discriminant < 0",
         );
     drawing.finish(
-        "Two roots, one that counts, or none",
-        "Three rays and a sphere. One starts outside and meets it twice: the near meeting counts. One \
-         starts inside: its near root lies behind it, t is negative, so the far one counts. One \
-         passes by and has no root.",
+        "The roots of three rays",
+        "Three rays and a sphere. One starts outside and intersects the sphere twice: the near \
+         intersection counts. One starts inside: its near root is behind it, where t is negative, \
+         so the far one counts. One misses the sphere and has no root.",
     )
 }
 
-/// The two roots by geometry: the closest approach, and half a chord to either side.
+/// Draws the geometry of the two roots: the closest approach, and half a chord to either side.
 pub fn chord() -> String {
     let mut drawing = Drawing::new(480.0, 290.0);
     let (center, radius) = (dvec2(300.0, 140.0), 105.0);
@@ -119,14 +119,14 @@ pub fn chord() -> String {
         );
     drawing.finish(
         "Half a chord to either side of the closest approach",
-        "A ray from o passes the sphere's centre at some distance. Its closest approach lies at minus \
-         the product of o and d along the ray; the near root half a chord before it, the far root half \
-         a chord behind it. Half of the chord, the distance of the approach and the radius form a right \
-         triangle.",
+        "A ray from o passes the sphere's centre at some distance. Its closest approach is at \
+         minus the dot product of o and d along the ray. The near root is half a chord before it, \
+         and the far root half a chord behind it. Half of the chord, the distance of the closest \
+         approach and the radius form a right triangle.",
     )
 }
 
-/// The sign of a right angle at `corner`, to its upper left.
+/// Returns the mark of a right angle at `corner`, to its upper left.
 fn right_angle_mark(corner: DVec2) -> [DVec2; 4] {
     let side = 12.0;
     [

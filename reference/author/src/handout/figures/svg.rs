@@ -1,21 +1,21 @@
-//! Numbers, paths and words, as SVG writes them.
+//! Formats numbers, paths and text as SVG.
 
 use std::fmt::Write;
 
 use glam::DVec2;
 
-/// A path through all of the points.
+/// Returns the data of a path through all of the points.
 pub(super) fn path(points: &[DVec2]) -> String {
     let mut path = String::new();
-    for (place, point) in points.iter().enumerate() {
-        let to = if place == 0 { 'M' } else { 'L' };
+    for (index, point) in points.iter().enumerate() {
+        let command = if index == 0 { 'M' } else { 'L' };
         let (x, y) = (format_number(point.x), format_number(point.y));
-        write!(path, "{to}{x} {y}").expect("text takes text");
+        write!(path, "{command}{x} {y}").expect("writing to a String cannot fail");
     }
     path
 }
 
-/// The attributes of a circle.
+/// Returns the attributes of a circle.
 pub(super) fn circle(center: DVec2, radius: f64) -> String {
     let (x, y, r) = (
         format_number(center.x),
@@ -25,8 +25,7 @@ pub(super) fn circle(center: DVec2, radius: f64) -> String {
     format!("cx=\"{x}\" cy=\"{y}\" r=\"{r}\"")
 }
 
-/// A number with at most one digit behind the point: less than a pixel, and the same
-/// on every machine.
+/// Formats a number with at most one decimal: finer than a pixel, and the same on every machine.
 pub(super) fn format_number(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;
     let (whole, tenth) = (tenths.abs() / 10, tenths.abs() % 10);
@@ -37,10 +36,10 @@ pub(super) fn format_number(value: f64) -> String {
     }
 }
 
-/// Stands for a `__` while single ones are looked for.
+/// Temporary replacement for `__` while single underscores are processed.
 const LITERAL: &str = "\u{1}";
 
-/// With each letter behind a `_` below the line.
+/// Returns the text with each letter after a `_` as a subscript.
 pub(super) fn with_subscripts(text: &str) -> String {
     let text = text.replace("__", LITERAL);
     let mut pieces = text.split('_');
@@ -53,12 +52,12 @@ pub(super) fn with_subscripts(text: &str) -> String {
             lowered,
             "<tspan dy=\"4\" font-size=\"75%\">{letter}</tspan><tspan dy=\"-4\">{rest}</tspan>"
         )
-        .expect("text takes text");
+        .expect("writing to a String cannot fail");
     }
     lowered.replace(LITERAL, "_")
 }
 
-/// Text that can not end an element.
+/// Escapes the characters that are special in XML text.
 pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")

@@ -1,17 +1,18 @@
-//! Figures of "Walking a BVH".
+//! Figures of the chapter "Traversing a BVH".
 
 use glam::{DVec2, dvec2};
 
 use super::drawing::{Drawing, Hue, Side};
 
-/// The height of the ray in these figures, and the place of a time on it.
+/// The height of the ray in these figures.
 const RAY: f64 = 120.0;
 
+/// Returns the point on the ray at time `t`.
 fn on_ray(t: f64) -> DVec2 {
     dvec2(30.0 + 42.0 * t, RAY)
 }
 
-/// A box over some of the ray, from `up` above it to `down` below it.
+/// Draws a box around a part of the ray, from `up` above the ray to `down` below it.
 fn node(drawing: &mut Drawing, hue: Hue, from: f64, to: f64, up: f64, down: f64) {
     let (a, b) = (on_ray(from) - dvec2(0.0, up), on_ray(to) + dvec2(0.0, down));
     drawing.filled_box(hue, a, b);
@@ -25,7 +26,7 @@ fn ray(drawing: &mut Drawing, hit: f64) {
         .label(Hue::Ink, Side::Middle, on_ray(0.0) + dvec2(0.0, -14.0), "o");
 }
 
-/// A surface across the ray.
+/// Draws a surface across the ray.
 fn surface(drawing: &mut Drawing, hue: Hue, t: f64, lean: f64) {
     let half = dvec2(lean, 34.0);
     drawing.line(hue, on_ray(t) - half, on_ray(t) + half);
@@ -38,7 +39,7 @@ fn mark(drawing: &mut Drawing, hue: Hue, side: Side, t: f64, text: &str) {
         .small_label(hue, side, foot + dvec2(0.0, 18.0), text);
 }
 
-/// The second box begins beyond the hit in the first: it is not entered.
+/// Draws the case that the second box begins beyond the hit in the first: it is not entered.
 pub fn pruned() -> String {
     let mut drawing = Drawing::new(480.0, 270.0);
     drawing.open_box(
@@ -67,16 +68,16 @@ pub fn pruned() -> String {
             Hue::Orange,
             Side::Right,
             on_ray(7.0) + dvec2(8.0, -38.0),
-            "B: not at all",
+            "B: skipped",
         );
     drawing.finish(
         "A box that begins beyond the hit",
-        "A ray enters box A at 2 and hits something in it at 5. It would enter box B at 7. Since 7 is \
-         beyond 5, B is not entered.",
+        "A ray enters box A at 2 and has a hit in it at 5. It would enter box B at 7, which is \
+         beyond 5, so B is not entered.",
     )
 }
 
-/// The second box begins before the hit in the first: it holds a nearer one.
+/// Draws the case that the second box begins before the hit in the first, and has a closer hit.
 pub fn overlapping() -> String {
     let mut drawing = Drawing::new(480.0, 270.0);
     node(&mut drawing, Hue::Blue, 2.0, 8.8, 84.0, 50.0);
@@ -89,7 +90,7 @@ pub fn overlapping() -> String {
         .ring(Hue::Blue, on_ray(8.0));
     mark(&mut drawing, Hue::Blue, Side::Middle, 2.0, "2");
     mark(&mut drawing, Hue::Orange, Side::Left, 4.0, "4 < 8");
-    mark(&mut drawing, Hue::Orange, Side::Right, 5.0, "5: nearer");
+    mark(&mut drawing, Hue::Orange, Side::Right, 5.0, "5: closer");
     mark(&mut drawing, Hue::Blue, Side::Middle, 8.0, "8: a hit");
     drawing
         .label(
@@ -102,19 +103,19 @@ pub fn overlapping() -> String {
             Hue::Orange,
             Side::Left,
             on_ray(9.8) + dvec2(-8.0, 76.0),
-            "B: as well",
+            "B: second",
         );
     drawing.finish(
         "A box that begins before the hit",
-        "The boxes overlap. A ray enters box A at 2 and hits something near its far end at 8. It enters \
-         box B at 4, before 8, so B must be asked as well: it holds a hit at 5, which is nearer.",
+        "The boxes overlap. A ray enters box A at 2 and has a hit near the far end of A, at 8. It \
+         enters box B at 4, before 8, so B must be searched, too: its hit at 5 is closer.",
     )
 }
 
-/// The walk of the chapter's example through a tree: what is entered, and what is not.
+/// Draws the traversal of the chapter's example: the nodes that are entered and those that are not.
 pub fn example() -> String {
     let mut drawing = Drawing::new(480.0, 375.0);
-    // Where the ray, which comes from x = 25, enters the box whose last ball is this.
+    // The ray starts at x = 25. Returns where it enters the box whose last sphere is `last`.
     let entry = |last: u32| 25.0 - (f64::from(2 * last) + 0.5);
     let hit = entry(9);
     let root = dvec2(150.0, 36.0);
@@ -176,16 +177,17 @@ pub fn example() -> String {
             &format!("{hit}, so skipped"),
         );
     drawing.finish(
-        "One ball asked out of ten",
-        "A tree over ten balls, and a ray that comes from the right. The root N has the children A, with \
-         balls 0 to 4, entered at 16.5, and B, with balls 5 to 9, entered at 6.5. The walk goes to B, to \
-         balls 7 to 9, to 8 and 9, and to ball 9, which it hits at 6.5. The other children on the way, \
-         balls 8, 7, 5 and 6, and A, are entered at 8.5, 10.5, 12.5 and 16.5, beyond the hit: all are \
-         skipped.",
+        "One of ten spheres is tested",
+        "A tree over ten spheres, and a ray from the right. The root N has the children A, with \
+         spheres 0 to 4, entered at 16.5, and B, with spheres 5 to 9, entered at 6.5. The \
+         traversal enters B, then the node with spheres 7 to 9, then the one with 8 and 9, and \
+         then sphere 9, which the ray hits at 6.5. The other children on the way contain sphere 8, \
+         sphere 7, spheres 5 and 6, and A. They begin at 8.5, 10.5, 12.5 and 16.5, beyond the hit, \
+         so all of them are skipped.",
     )
 }
 
-/// A box of a tree, with its name.
+/// Draws a node of a tree as a box with a label.
 fn labelled_box(drawing: &mut Drawing, hue: Hue, at: DVec2, name: &str) {
     let half = dvec2(32.0, 16.0);
     drawing
@@ -194,25 +196,25 @@ fn labelled_box(drawing: &mut Drawing, hue: Hue, at: DVec2, name: &str) {
         .label(hue, Side::Middle, at + dvec2(0.0, 6.0), name);
 }
 
-/// A leaf that lies: its box is missed, and what it holds lies on the ray.
+/// Draws a decoy: the ray misses the box of its leaf, but would hit the sphere itself.
 pub fn decoy() -> String {
     let mut drawing = Drawing::new(480.0, 250.0);
     let axis = 180.0;
-    let (start, lying, honest) = (dvec2(440.0, axis), dvec2(300.0, axis), dvec2(110.0, axis));
+    let (start, decoy, answer) = (dvec2(440.0, axis), dvec2(300.0, axis), dvec2(110.0, axis));
     drawing
         .filled_box(Hue::Orange, dvec2(180.0, 30.0), dvec2(270.0, 90.0))
-        .dashed(Hue::Orange, dvec2(262.0, 90.0), lying - dvec2(8.0, 24.0))
-        .disc(Hue::Orange, lying, 26.0)
+        .dashed(Hue::Orange, dvec2(262.0, 90.0), decoy - dvec2(8.0, 24.0))
+        .disc(Hue::Orange, decoy, 26.0)
         .filled_box(
             Hue::Green,
-            honest - dvec2(26.0, 26.0),
-            honest + dvec2(26.0, 26.0),
+            answer - dvec2(26.0, 26.0),
+            answer + dvec2(26.0, 26.0),
         )
-        .disc(Hue::Green, honest, 26.0)
-        .arrow(Hue::Blue, start, honest + dvec2(26.0, 0.0))
+        .disc(Hue::Green, answer, 26.0)
+        .arrow(Hue::Blue, start, answer + dvec2(26.0, 0.0))
         .dot(Hue::Ink, start)
-        .cross(Hue::Orange, lying + dvec2(26.0, 0.0))
-        .dot(Hue::Green, honest + dvec2(26.0, 0.0));
+        .cross(Hue::Orange, decoy + dvec2(26.0, 0.0))
+        .dot(Hue::Green, answer + dvec2(26.0, 0.0));
     drawing
         .label(Hue::Ink, Side::Middle, start + dvec2(0.0, -14.0), "o")
         .label(Hue::Orange, Side::Left, dvec2(172.0, 56.0), "the box of")
@@ -220,24 +222,24 @@ pub fn decoy() -> String {
             Hue::Orange,
             Side::Left,
             dvec2(172.0, 78.0),
-            "ball 1: missed",
+            "sphere 1: missed",
         )
         .label(
             Hue::Orange,
             Side::Right,
             dvec2(318.0, 134.0),
-            "ball 1: not asked",
+            "sphere 1: not tested",
         )
         .label(
             Hue::Green,
             Side::Middle,
-            honest + dvec2(12.0, 54.0),
-            "ball 0: the answer",
+            answer + dvec2(12.0, 54.0),
+            "sphere 0: the answer",
         );
     drawing.finish(
-        "A leaf that lies",
-        "A ray runs from right to left. Ball 1 lies on the ray, but the box of its leaf lies elsewhere \
-         and is missed by the ray: whoever culls never asks ball 1. Ball 0 lies farther on, in its own \
-         box, and is the answer.",
+        "A decoy",
+        "A ray goes from right to left. Sphere 1 is on the ray, but the box of its leaf is \
+         somewhere else, and the ray misses that box. A correct traversal therefore never tests \
+         sphere 1. Sphere 0 is farther along the ray, in its own box, and is the answer.",
     )
 }

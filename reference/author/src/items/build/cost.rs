@@ -1,4 +1,4 @@
-//! What a tree costs.
+//! Items about the cost of a tree.
 
 use grader::exam::{ExamQuestion, Item, Key};
 use protocol::{Question, Shape};
@@ -10,7 +10,7 @@ use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder};
 use crate::oracle::{scan, sweep};
 use crate::seed::{Rng, Seed};
 
-/// A question about the cost alone.
+/// Creates a question that is judged by the cost only.
 pub(super) fn cost_question(shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let sweep_cost = Some(sweep::cost(&boxes, max_leaf_size as usize));
@@ -25,52 +25,52 @@ pub(super) fn cost_question(shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuest
     ExamQuestion::new(question, key)
 }
 
-/// Every honest builder's tree costs at most this, by the cost of the exact sweep's: the judge gives
-/// full marks up to 1.12.
+/// The upper limit of the cost of a correct builder's tree, relative to the exact sweep's. The
+/// judge gives full marks up to 1.12.
 pub const MAX_CORRECT_COST: f64 = 1.06;
 
-/// The tree of who weighs only the two buckets beside a plane costs at least this, by the same: luck
-/// must not hide what is often seen.
+/// The lower limit of the cost of a tree whose builder compares only the two buckets next to a
+/// plane, relative to the exact sweep's. It makes sure that luck does not hide this common mistake.
 pub const MIN_ADJACENT_COST: f64 = 1.2;
 
-/// One question, about a mesh that is fair and that tells: drawn again until it is.
-fn cost_item(name: &str, points: u32, text: [&str; 2], draw_of: Rng, mesh: MeshFn) -> Item {
-    let mut draw = draw_of;
-    let asked = draw.retry(|draw| {
-        let shapes = mesh(draw);
-        let asked = cost_question(meshes::number_shapes(draw.shuffled(shapes)), 4);
-        (highest_correct_cost(&asked) <= MAX_CORRECT_COST
-            && lowest_adjacent_cost(&asked) >= MIN_ADJACENT_COST)
-            .then_some(asked)
+/// Creates an item with one question, about a random mesh that is fair to correct builders and
+/// reveals the mistake.
+fn cost_item(name: &str, points: u32, text: [&str; 2], mut rng: Rng, mesh: MeshFn) -> Item {
+    let question = rng.retry(|rng| {
+        let shapes = mesh(rng);
+        let question = cost_question(meshes::number_shapes(rng.shuffled(shapes)), 4);
+        (highest_correct_cost(&question) <= MAX_CORRECT_COST
+            && lowest_adjacent_cost(&question) >= MIN_ADJACENT_COST)
+            .then_some(question)
     });
-    item(name, points, text, vec![asked])
+    item(name, points, text, vec![question])
 }
 
-/// The cost of the dearest tree that buckets lead to, by the cost of the exact sweep's. Now and then
-/// all planes of some builder just miss what divides a mesh best.
-fn highest_correct_cost(asked: &ExamQuestion) -> f64 {
+/// Returns the highest relative cost among correct bucketed builders. Occasionally, all planes of a
+/// builder just miss the best place to divide a mesh.
+fn highest_correct_cost(question: &ExamQuestion) -> f64 {
     let costs = [8, 12, 16, 17, 24, 32].into_iter().flat_map(|count| {
         [BucketExtent::Centers, BucketExtent::Bounds]
-            .map(|extent| relative_cost(asked, BucketedBuilder::correct(count, extent)))
+            .map(|extent| relative_cost(question, BucketedBuilder::correct(count, extent)))
     });
     costs.fold(0.0, f64::max)
 }
 
-/// The cost of the cheapest tree of who takes the two buckets beside a plane for its two sides. Now
-/// and then luck leads them to planes that are good enough.
-fn lowest_adjacent_cost(asked: &ExamQuestion) -> f64 {
+/// Returns the lowest relative cost among builders that mistake the two buckets next to a plane for
+/// its two sides. Occasionally, they find planes that are good enough by luck.
+fn lowest_adjacent_cost(question: &ExamQuestion) -> f64 {
     let costs = [8, 12, 16, 24, 32].map(|count| {
         relative_cost(
-            asked,
+            question,
             BucketedBuilder::with_adjacent_buckets_only(count, BucketExtent::Centers),
         )
     });
     costs.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// What a bucketed builder's tree costs, by the cost of the exact sweep's.
-pub fn relative_cost(asked: &ExamQuestion, buckets: BucketedBuilder) -> f64 {
-    match (&asked.question, &asked.key) {
+/// Returns the cost of a bucketed builder's tree divided by the cost of the exact sweep's.
+pub fn relative_cost(question: &ExamQuestion, builder: BucketedBuilder) -> f64 {
+    match (&question.question, &question.key) {
         (
             Question::Build {
                 shapes,
@@ -82,7 +82,7 @@ pub fn relative_cost(asked: &ExamQuestion, buckets: BucketedBuilder) -> f64 {
             },
         ) => {
             let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
-            buckets::cost(&boxes, *max_leaf_size as usize, buckets) / sweep
+            buckets::cost(&boxes, *max_leaf_size as usize, builder) / sweep
         }
         (question, _) => unreachable!("{question:?} is not about a tree's cost"),
     }
@@ -95,12 +95,12 @@ pub(super) fn cost_strands(seed: Seed) -> Item {
         "cost_strands",
         1,
         [
-            "all three axes are tried: strands along x, y and z",
-            "The cheapest of the partitions along all axes counts, at every node anew: not always \
-             the same axis, and not the longest.",
+            "the best of all three axes is chosen, for strands along x, y and z",
+            "Choose the cheapest partition along all axes anew at every node: it is not always \
+             along the same axis, and not always along the longest.",
         ],
         seed.rng("build.cost_strands"),
-        |draw| meshes::strands(draw, 750),
+        |rng| meshes::strands(rng, 750),
     )
 }
 
@@ -109,12 +109,12 @@ pub(super) fn cost_sheets(seed: Seed) -> Item {
         "cost_sheets",
         1,
         [
-            "the areas decide: sheets above each other",
-            "S_A and S_B are the areas of the boxes around *all* primitives of a side: join the \
+            "the areas of both sides decide, for sheets stacked above each other",
+            "S_A and S_B are the areas of the boxes around *all* primitives of a side: merge the \
              buckets from the left and from the right.",
         ],
         seed.rng("build.cost_sheets"),
-        |draw| meshes::sheets(draw, 900),
+        |rng| meshes::sheets(rng, 900),
     )
 }
 
@@ -123,11 +123,11 @@ pub(super) fn cost_town(seed: Seed) -> Item {
         "cost_town",
         2,
         [
-            "areas and numbers decide together: crowds on an open field",
-            "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, and \
-             its cost.",
+            "areas and counts decide together, for crowds on an open field",
+            "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, \
+             together with its cost.",
         ],
         seed.rng("build.cost_town"),
-        |draw| meshes::town(draw, 1200),
+        |rng| meshes::town(rng, 1200),
     )
 }

@@ -1,4 +1,5 @@
-//! Task 3, step 1: building trees. What comes back is a tree, and is judged part by part.
+//! Items of task 3, step 1: building trees. The answer is a tree, and each of its properties is
+//! judged separately.
 
 mod cost;
 mod split;
@@ -14,7 +15,7 @@ use crate::seed::Seed;
 
 pub use cost::{MAX_CORRECT_COST, MIN_ADJACENT_COST, relative_cost};
 
-/// The items of the task `build`.
+/// Returns the items of the task `build`.
 pub fn items(seed: Seed) -> Vec<Item> {
     let all: [fn(Seed) -> Item; 16] = [
         structure::partition,
@@ -37,23 +38,23 @@ pub fn items(seed: Seed) -> Vec<Item> {
     all.into_iter().map(|item| item(seed)).collect()
 }
 
-/// An item with one question more than its idea: without a tree, or with half of all in one leaf,
-/// it is wrong. How large leaves may be is the idea of one item. Its primitives lie far apart, so that
-/// no heuristic would rather keep them together.
+/// Creates an item, and adds a control question that is wrong if there is no tree or if half of the
+/// primitives are in one leaf. The exact leaf size is the idea of another item, so the control's
+/// primitives are far apart: no heuristic prefers to keep them together.
 fn item(name: &str, points: u32, text: [&str; 2], mut questions: Vec<ExamQuestion>) -> Item {
-    let mut draw = Seed(0).rng("build.control");
-    let soup = meshes::soup(&mut draw, 24, 2.0, 0.1);
+    let mut rng = Seed(0).rng("build.control");
+    let soup = meshes::soup(&mut rng, 24, 2.0, 0.1);
     questions.push(build_question(&[Partition, Split], soup, 4));
     super::item(Task::Build, name, points, text, questions)
 }
 
-fn build_question(judged: &[TreeCheck], shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
+fn build_question(checks: &[TreeCheck], shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
     let question = Question::Build {
         shapes,
         max_leaf_size,
     };
     let key = Key::Tree {
-        checks: judged.to_vec(),
+        checks: checks.to_vec(),
         sweep_cost: None,
     };
     ExamQuestion::new(question, key)

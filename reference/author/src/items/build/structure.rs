@@ -1,4 +1,4 @@
-//! What must hold of every tree.
+//! Items about properties that every tree must have.
 
 use grader::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight};
 use grader::exam::{ExamQuestion, Item};
@@ -7,28 +7,28 @@ use super::{build_question, item};
 use crate::items::meshes;
 use crate::seed::Seed;
 
-/// Soups of several sizes, for leaves of several sizes.
+/// Creates a question about random small triangles for each (number of triangles, leaf size).
 fn soup_questions(
     name: &str,
     seed: Seed,
-    judged: &[TreeCheck],
+    checks: &[TreeCheck],
     sizes: &[(usize, u32)],
 ) -> Vec<ExamQuestion> {
-    soup_questions_of_size(0.2, name, seed, judged, sizes)
+    soup_questions_of_size(0.2, name, seed, checks, sizes)
 }
 
-/// The same of primitives of this size.
+/// Creates the same questions as [`soup_questions`], with triangles of this size.
 fn soup_questions_of_size(
     size: f64,
     name: &str,
     seed: Seed,
-    judged: &[TreeCheck],
+    checks: &[TreeCheck],
     sizes: &[(usize, u32)],
 ) -> Vec<ExamQuestion> {
-    let mut draw = seed.rng(name);
+    let mut rng = seed.rng(name);
     let question = |&(count, max_leaf_size): &(usize, u32)| {
-        let shapes = meshes::soup(&mut draw, count, 3.0, size);
-        build_question(judged, shapes, max_leaf_size)
+        let shapes = meshes::soup(&mut rng, count, 3.0, size);
+        build_question(checks, shapes, max_leaf_size)
     };
     sizes.iter().map(question).collect()
 }
@@ -39,8 +39,8 @@ pub(super) fn partition(seed: Seed) -> Item {
         2,
         [
             "every primitive is in exactly one leaf",
-            "A partition loses nothing and doubles nothing: the primitives of a node go to one of \
-             its children each, and start and size of the leaves count all of them once.",
+            "A partition neither loses nor duplicates primitives: each one goes to one of the \
+             node's children, and the leaves' start and size cover all of them once.",
         ],
         soup_questions(
             "build.partition",
@@ -56,9 +56,9 @@ pub(super) fn contains(seed: Seed) -> Item {
         "contains",
         2,
         [
-            "every box holds all that is below it",
-            "If a box misses some of its primitives, the bucket in which a primitive was counted may \
-             not be the side to which it was moved.",
+            "every box contains everything below it",
+            "If a box misses some of its primitives, check that a primitive is moved to the side \
+             to which its bucket was counted.",
         ],
         soup_questions("build.contains", seed, &[Contains], &[(64, 1), (300, 4)]),
     )
@@ -69,27 +69,28 @@ pub(super) fn tight(seed: Seed) -> Item {
         "tight",
         1,
         [
-            "no box is larger than what is below it needs",
-            "A node's box is the union of its primitives' boxes. One that starts at the origin \
-             instead of BBox::EMPTY, or is its parent's, is too large.",
+            "no box is larger than its contents need",
+            "A node's box is the union of its primitives' boxes. A box that starts at the origin \
+             instead of BBox::EMPTY, or is the parent's box, is too large.",
         ],
         soup_questions("build.tight", seed, &[Tight], &[(64, 1), (150, 4)]),
     )
 }
 
 pub(super) fn leaf_size(seed: Seed) -> Item {
-    let mut draw = seed.rng("build.leaf_size.crowd");
-    let crowd = build_question(&[LeafSize], meshes::soup(&mut draw, 100, 0.3, 2.5), 1);
+    let mut rng = seed.rng("build.leaf_size.crowd");
+    let crowd = build_question(&[LeafSize], meshes::soup(&mut rng, 100, 0.3, 2.5), 1);
     item(
         "leaf_size",
         2,
         [
             "no leaf holds more than max_leaf_size primitives",
-            "Split until a node has at most so many, whatever the heuristic says of it.",
+            "Split a node until it has at most max_leaf_size primitives, even if a leaf would be \
+             cheaper by the heuristic.",
         ],
-        // So large that the heuristic alone would rather not split some of them; in the first one so
-        // many that some node is split at its very last plane; and in the last one so close to each
-        // other that buckets over the node's box do not tell them apart.
+        // The triangles are so large that the heuristic alone would leave some of them unsplit. In
+        // the first question there are so many that some node is split at its very last plane; in
+        // the last one they are so close that buckets over the node's box do not separate them.
         soup_questions_of_size(
             2.5,
             "build.leaf_size",

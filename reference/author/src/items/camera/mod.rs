@@ -1,8 +1,8 @@
-//! Task 1: cameras.
+//! Items of task 1: cameras.
 //!
-//! A mistake in one quantity shall not spoil the others' items. So most of them look along the
-//! middle row of the film, where only x counts, and at the middles of pixels; and film and sensor
-//! have the same shape, but where that is the idea.
+//! A mistake in one quantity should not fail the items about the others. Most items therefore use
+//! the middle row of the film, where only x matters, and the middles of pixels; and except in the
+//! items about it, film and sensor have the same aspect ratio.
 
 mod ray;
 mod sensor;
@@ -16,7 +16,7 @@ use crate::seed::{Rng, Seed};
 
 const MIDDLE: Vec2 = Vec2::splat(0.5);
 
-/// The items of the task `camera`.
+/// Returns the items of the task `camera`.
 pub fn items(seed: Seed) -> Vec<Item> {
     let all: [fn(Seed) -> Item; 12] = [
         sensor::corners,
@@ -39,11 +39,15 @@ fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<ExamQuestion>) 
     super::item(Task::Camera, name, points, text, questions)
 }
 
-fn camera_question(judged: &[RayCheck], camera: PinholeCamera, samples: Samples) -> ExamQuestion {
-    let truth = |sample| oracle::camera::direction(&camera, sample).as_vec3();
-    let directions = samples.to_vec(camera.film).into_iter().map(truth).collect();
+fn camera_question(checks: &[RayCheck], camera: PinholeCamera, samples: Samples) -> ExamQuestion {
+    let expected = |sample| oracle::camera::direction(&camera, sample).as_vec3();
+    let directions = samples
+        .to_vec(camera.film)
+        .into_iter()
+        .map(expected)
+        .collect();
     let key = Key::Rays {
-        checks: judged.to_vec(),
+        checks: checks.to_vec(),
         directions,
     };
     ExamQuestion::new(Question::Camera { camera, samples }, key)
@@ -61,7 +65,7 @@ fn camera(vertical_fov: f64, aspect_ratio: f64, film: UVec2) -> PinholeCamera {
     }
 }
 
-/// The middles of all pixels of the middle row of a film with an odd number of rows.
+/// Returns the middles of all pixels in the middle row of a film with an odd number of rows.
 fn middle_row(film: UVec2) -> Vec<Sample> {
     let pixels = (0..film.x).map(|x| uvec2(x, film.y / 2));
     pixels
@@ -72,6 +76,6 @@ fn middle_row(film: UVec2) -> Vec<Sample> {
         .collect()
 }
 
-fn random_below(draw: &mut Rng, n: u32) -> u32 {
-    draw.index(n as usize) as u32
+fn random_below(rng: &mut Rng, n: u32) -> u32 {
+    rng.index(n as usize) as u32
 }

@@ -1,4 +1,4 @@
-//! The place in the pixel, and the ray itself.
+//! Items about the offset in the pixel and the ray itself.
 
 use glam::{UVec2, uvec2, vec2};
 use grader::exam::{ExamQuestion, Item, RayCheck};
@@ -7,17 +7,17 @@ use protocol::{Sample, Samples};
 use super::{MIDDLE, camera, camera_question, direction_question, item, random_below};
 use crate::seed::{Rng, Seed};
 
-fn random_offset(draw: &mut Rng) -> f32 {
-    // Not at the very ends: 1 is none of the offsets.
-    draw.uniform(0.02, 0.98) as f32
+fn random_offset(rng: &mut Rng) -> f32 {
+    // Not at the very ends, because 1 is not a valid offset.
+    rng.uniform(0.02, 0.98) as f32
 }
 
 pub(super) fn offset(seed: Seed) -> Item {
-    let mut draw = seed.rng("camera.offset");
+    let mut rng = seed.rng("camera.offset");
     let mut question = |film: UVec2| {
         let samples = (0..24).map(|_| Sample {
-            pixel: uvec2(random_below(&mut draw, film.x), 0),
-            offset: vec2(random_offset(&mut draw), 0.5),
+            pixel: uvec2(random_below(&mut rng, film.x), 0),
+            offset: vec2(random_offset(&mut rng), 0.5),
         });
         let aspect = f64::from(film.x);
         direction_question(camera(50.0, aspect, film), samples.collect())
@@ -27,8 +27,8 @@ pub(super) fn offset(seed: Seed) -> Item {
         2,
         [
             "the offset moves the ray within its pixel",
-            "Pixel x covers [x, x + 1) of the film, so the place on the film is the pixel plus the \
-             offset, in pixels. The offset is given: draw no numbers of your own.",
+            "Pixel x covers [x, x + 1) of the film, so add the offset to the pixel. The offset is \
+             given to you: do not draw random numbers of your own.",
         ],
         vec![
             question(uvec2(1, 1)),
@@ -39,18 +39,18 @@ pub(super) fn offset(seed: Seed) -> Item {
 }
 
 pub(super) fn offset_axes(seed: Seed) -> Item {
-    let mut draw = seed.rng("camera.offset_axes");
+    let mut rng = seed.rng("camera.offset_axes");
     let samples = (0..24).map(|i| {
-        let (near, far) = (
-            draw.uniform(0.05, 0.25) as f32,
-            draw.uniform(0.6, 0.95) as f32,
+        let (small, large) = (
+            rng.uniform(0.05, 0.25) as f32,
+            rng.uniform(0.6, 0.95) as f32,
         );
         Sample {
             pixel: uvec2(0, 0),
             offset: if i % 2 == 0 {
-                vec2(near, far)
+                vec2(small, large)
             } else {
-                vec2(far, near)
+                vec2(large, small)
             },
         }
     });
@@ -59,89 +59,89 @@ pub(super) fn offset_axes(seed: Seed) -> Item {
         "offset_axes",
         1,
         [
-            "the offset's x moves the ray to the right, its y moves it up",
-            "The two components are independent: each belongs to its own axis.",
+            "the offset's x moves the ray to the right, and its y moves it up",
+            "The two components are independent, and each belongs to its own axis.",
         ],
         vec![question],
     )
 }
 
 pub(super) fn large_film(seed: Seed) -> Item {
-    let mut draw = seed.rng("camera.large_film");
+    let mut rng = seed.rng("camera.large_film");
     let film = uvec2(3840, 2160);
     let samples = (0..32).map(|_| Sample {
         pixel: uvec2(
-            random_below(&mut draw, film.x),
-            random_below(&mut draw, film.y),
+            random_below(&mut rng, film.x),
+            random_below(&mut rng, film.y),
         ),
-        offset: vec2(random_offset(&mut draw), random_offset(&mut draw)),
+        offset: vec2(random_offset(&mut rng), random_offset(&mut rng)),
     });
     let question = direction_question(camera(40.0, 16.0 / 9.0, film), samples.collect());
     item(
         "large_film",
         1,
         [
-            "all of it together holds on a large film",
-            "If this is the only item that fails, look for whole numbers where fractions are \
-             needed: dividing integers drops what is behind the point.",
+            "everything works together on a large film",
+            "If only this item fails, look for an integer division: it drops the fraction.",
         ],
         vec![question],
     )
 }
 
-/// Directions that differ much, so that a direction of wrong length or another origin is told apart
-/// from a constant answer.
-fn spread_question(judged: &[RayCheck], draw: &mut Rng) -> ExamQuestion {
+/// Creates a question with very different directions, so that an item about length, origin or range
+/// is not passed by a constant answer.
+fn spread_question(checks: &[RayCheck], rng: &mut Rng) -> ExamQuestion {
     let film = uvec2(7, 7);
     let samples = (0..16).map(|_| Sample {
-        pixel: uvec2(random_below(draw, 7), random_below(draw, 7)),
+        pixel: uvec2(random_below(rng, 7), random_below(rng, 7)),
         offset: MIDDLE,
     });
     let samples = Samples::List(samples.collect());
-    camera_question(judged, camera(90.0, 1.0, film), samples)
+    camera_question(checks, camera(90.0, 1.0, film), samples)
 }
 
 pub(super) fn unit_length(seed: Seed) -> Item {
-    let mut draw = seed.rng("camera.unit_length");
+    let mut rng = seed.rng("camera.unit_length");
     item(
         "unit_length",
         1,
         [
             "the direction has length one",
-            "Distances along a ray are measured in lengths of its direction. Ray::new brings it to \
-             length one; filling in the fields does not.",
+            "Distances along a ray are measured in lengths of its direction. Ray::new normalises \
+             the direction; filling in the fields yourself does not.",
         ],
         vec![spread_question(
             &[RayCheck::Direction, RayCheck::UnitLength],
-            &mut draw,
+            &mut rng,
         )],
     )
 }
 
 pub(super) fn origin_and_range(seed: Seed) -> Item {
-    let mut draw = seed.rng("camera.origin_and_range");
-    let judged = [RayCheck::Direction, RayCheck::Origin, RayCheck::Range];
+    let mut rng = seed.rng("camera.origin_and_range");
+    let checks = [RayCheck::Direction, RayCheck::Origin, RayCheck::Range];
     item(
         "origin_and_range",
         1,
         [
-            "the ray starts at the camera and reaches on without end",
-            "The camera stands at (0, 0, 0), not on the sensor, and the ray counts from 0 to ∞.",
+            "the ray starts at the camera and has no end",
+            "The camera is at (0, 0, 0), not on the sensor, and the range of the ray is from 0 to \
+             ∞.",
         ],
-        vec![spread_question(&judged, &mut draw)],
+        vec![spread_question(&checks, &mut rng)],
     )
 }
 
 pub(super) fn picture(seed: Seed) -> Item {
-    let mut draw = seed.rng("camera.picture");
-    let camera = camera(draw.uniform(45.0, 75.0), 1.5, uvec2(64, 64));
+    let mut rng = seed.rng("camera.picture");
+    let camera = camera(rng.uniform(45.0, 75.0), 1.5, uvec2(64, 64));
     item(
         "picture",
         2,
         [
-            "every pixel of a picture looks the right way",
-            "Five places in each pixel are compared. If only some are wrong, see which: one edge, \
-             one half, or all but the middles of pixels?",
+            "every pixel of a picture looks in the right direction",
+            "Five positions in each pixel are compared. See which of them are wrong: those at one \
+             edge, in one half, or all except the middles of pixels?",
         ],
         vec![camera_question(
             &[RayCheck::Direction],

@@ -1,4 +1,4 @@
-//! How the film lies on the sensor.
+//! Items about how the film maps to the sensor.
 
 use glam::{UVec2, uvec2};
 use grader::exam::Item;
@@ -8,7 +8,7 @@ use super::{MIDDLE, camera, direction_question, item, middle_row};
 use crate::seed::Seed;
 
 pub(super) fn corners(_: Seed) -> Item {
-    // tan 45° = 1: a sensor 2 × 2, whatever is made of degrees.
+    // tan 45° = 1, so the sensor is 2 × 2.
     let question = |n: u32| {
         let film = UVec2::splat(n);
         let corners = [
@@ -28,27 +28,27 @@ pub(super) fn corners(_: Seed) -> Item {
         "corners",
         1,
         [
-            "the film's corners are the sensor's corners, and its middle is straight ahead",
-            "The whole film maps to the whole sensor: at 90 degrees the sensor reaches from −1 to 1, \
-             so half of its height is tan(45°), and the middle of the film is (0, 0, −1).",
+            "the film's corners map to the sensor's corners, and its middle to (0, 0, −1)",
+            "At 90 degrees the sensor reaches from −1 to 1, because half of its height is \
+             tan(45°).",
         ],
         [3, 5, 64].map(question).to_vec(),
     )
 }
 
 pub(super) fn field_of_view(seed: Seed) -> Item {
-    let mut draw = seed.rng("camera.field_of_view");
+    let mut rng = seed.rng("camera.field_of_view");
     let film = UVec2::splat(9);
     let question = |(from, to): (f64, f64)| {
-        direction_question(camera(draw.uniform(from, to), 1.0, film), middle_row(film))
+        direction_question(camera(rng.uniform(from, to), 1.0, film), middle_row(film))
     };
     item(
         "field_of_view",
         2,
         [
-            "the sensor grows with the field of view as 2·tan(fov/2)",
+            "the sensor's height is 2·tan(fov/2)",
             "vertical_fov is the full angle, in degrees. Draw the triangle from the camera to the \
-             sensor's middle and its upper edge: which angle is at the camera?",
+             middle and the upper edge of the sensor: which angle is at the camera?",
         ],
         [(15.0, 25.0), (30.0, 50.0), (55.0, 80.0), (100.0, 125.0)]
             .map(question)
@@ -65,9 +65,9 @@ pub(super) fn aspect_ratio(_: Seed) -> Item {
         "aspect_ratio",
         1,
         [
-            "the sensor's width is the aspect ratio times its height",
-            "The field of view is vertical: it gives the height. Only then does the aspect ratio \
-             give the width.",
+            "the sensor's width is its height times the aspect ratio",
+            "The vertical field of view gives the height; multiply it by the aspect ratio to get \
+             the width.",
         ],
         [uvec2(15, 9), uvec2(9, 15), uvec2(21, 7)]
             .map(question)
@@ -76,17 +76,17 @@ pub(super) fn aspect_ratio(_: Seed) -> Item {
 }
 
 pub(super) fn other_aspect(seed: Seed) -> Item {
-    let mut draw = seed.rng("camera.other_aspect");
+    let mut rng = seed.rng("camera.other_aspect");
     let question = |(film, from, to)| {
-        direction_question(camera(70.0, draw.uniform(from, to), film), middle_row(film))
+        direction_question(camera(70.0, rng.uniform(from, to), film), middle_row(film))
     };
     item(
         "other_aspect",
         1,
         [
             "the sensor's shape comes from aspect_ratio, not from the film",
-            "Pixels need not be square: the film only says into how many parts the sensor is \
-             divided.",
+            "Pixels need not be square: the film only says how many pixels the sensor is divided \
+             into.",
         ],
         [
             (uvec2(9, 9), 1.6, 2.4),
@@ -112,8 +112,9 @@ pub(super) fn film(_: Seed) -> Item {
         "film",
         1,
         [
-            "x is divided by the film's width, y by its height",
-            "On a film that is not square the two must not be mixed up, nor one used for both.",
+            "x is divided by the film's width, and y by its height",
+            "The film need not be square, so do not mix up its two sizes or use one of them for \
+             both axes.",
         ],
         [uvec2(17, 5), uvec2(5, 17)].map(question).to_vec(),
     )
@@ -133,7 +134,8 @@ pub(super) fn bottom_left(_: Seed) -> Item {
         1,
         [
             "pixel (0, 0) is at the bottom left",
-            "y is up in the film as it is in space: small y looks down, and small x looks left.",
+            "y points up on the film, as it does in space: a small y looks down, and a small x \
+             looks left.",
         ],
         [8, 11].map(question).to_vec(),
     )

@@ -1,4 +1,4 @@
-//! Task 2, step 2: spheres.
+//! Items of task 2, step 2: spheres.
 
 mod roots;
 mod surface;
@@ -10,7 +10,7 @@ use crate::oracle::sphere::Sphere;
 use crate::oracle::{Ray64, scan};
 use crate::seed::{Rng, Seed};
 
-/// The items of the task `sphere`.
+/// Returns the items of the task `sphere`.
 pub fn items(seed: Seed) -> Vec<Item> {
     let all: [fn(Seed) -> Item; 14] = [
         roots::near_side,
@@ -35,82 +35,82 @@ fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<ExamQuestion>) 
     super::item(Task::Sphere, name, points, text, questions)
 }
 
-fn random_sphere(draw: &mut Rng, radius: f64) -> Sphere {
+fn random_sphere(rng: &mut Rng, radius: f64) -> Sphere {
     Sphere {
-        center: draw.point(3.0).as_vec3().as_dvec3(),
+        center: rng.point(3.0).as_vec3().as_dvec3(),
         radius: f64::from(radius as f32),
     }
 }
 
-fn shape(ball: &Sphere, material: u32) -> Shape {
+fn shape(sphere: &Sphere, material: u32) -> Shape {
     Shape::Sphere {
-        center: ball.center.as_vec3(),
-        radius: ball.radius as f32,
+        center: sphere.center.as_vec3(),
+        radius: sphere.radius as f32,
         material,
     }
 }
 
-/// A ray from outside that passes the centre at this distance, in radii.
-fn ray_passing_at(draw: &mut Rng, ball: &Sphere, approach: f64) -> Ray {
-    let dir = draw.direction();
-    let aside = draw.perpendicular_to(dir) * approach * ball.radius;
-    let back = ball.radius * draw.uniform(1.5, 4.0);
-    super::ray(ball.center + aside - back * dir, ball.center + aside)
+/// Returns a ray from outside whose closest approach to the centre is this many radii.
+fn ray_passing_at(rng: &mut Rng, sphere: &Sphere, approach: f64) -> Ray {
+    let dir = rng.direction();
+    let offset = rng.perpendicular_to(dir) * approach * sphere.radius;
+    let back = sphere.radius * rng.uniform(1.5, 4.0);
+    super::ray(sphere.center + offset - back * dir, sphere.center + offset)
 }
 
-fn hitting_ray(draw: &mut Rng, ball: &Sphere) -> Ray {
-    let approach = draw.uniform(0.05, 0.85);
-    ray_passing_at(draw, ball, approach)
+fn hitting_ray(rng: &mut Rng, sphere: &Sphere) -> Ray {
+    let approach = rng.uniform(0.05, 0.85);
+    ray_passing_at(rng, sphere, approach)
 }
 
-fn missing_ray(draw: &mut Rng, ball: &Sphere) -> Ray {
-    let approach = draw.uniform(1.15, 2.5);
-    ray_passing_at(draw, ball, approach)
+fn missing_ray(rng: &mut Rng, sphere: &Sphere) -> Ray {
+    let approach = rng.uniform(1.15, 2.5);
+    ray_passing_at(rng, sphere, approach)
 }
 
-fn ray_from_inside(draw: &mut Rng, ball: &Sphere) -> Ray {
-    let origin = ball.center + draw.direction() * draw.uniform(0.1, 0.8) * ball.radius;
-    super::ray(origin, origin + draw.direction())
+fn ray_from_inside(rng: &mut Rng, sphere: &Sphere) -> Ray {
+    let origin = sphere.center + rng.direction() * rng.uniform(0.1, 0.8) * sphere.radius;
+    super::ray(origin, origin + rng.direction())
 }
 
 fn sphere_question(
-    judged: &[HitCheck],
-    ball: &Sphere,
+    checks: &[HitCheck],
+    sphere: &Sphere,
     material: u32,
     rays: Vec<Ray>,
 ) -> ExamQuestion {
-    super::shapes_question(judged, vec![shape(ball, material)], rays)
+    super::shapes_question(checks, vec![shape(sphere, material)], rays)
 }
 
-/// Questions about a sphere of each radius: rays of some kind, and some that miss.
+/// Creates one question per radius, with rays of one kind and some rays that miss.
 fn table_questions(
     name: &str,
     seed: Seed,
-    judged: &[HitCheck],
+    checks: &[HitCheck],
     radii: &[f64],
     kind: impl Fn(&mut Rng, &Sphere) -> Ray,
 ) -> Vec<ExamQuestion> {
-    let mut draw = seed.rng(name);
+    let mut rng = seed.rng(name);
     let table = |&radius: &f64| {
-        let ball = random_sphere(&mut draw, radius);
+        let sphere = random_sphere(&mut rng, radius);
         let mut rays: Vec<Ray> = (0..12)
-            .map(|_| unambiguous_ray(&mut draw, &ball, |draw| kind(draw, &ball)))
+            .map(|_| unambiguous_ray(&mut rng, &sphere, |rng| kind(rng, &sphere)))
             .collect();
-        rays.extend((0..5).map(|_| missing_ray(&mut draw, &ball)));
-        sphere_question(judged, &ball, 0, draw.shuffled(rays))
+        rays.extend((0..5).map(|_| missing_ray(&mut rng, &sphere)));
+        sphere_question(checks, &sphere, 0, rng.shuffled(rays))
     };
     radii.iter().map(table).collect()
 }
 
-/// A ray of some kind about which there is no doubt; and no meeting so near to a pole that its
-/// texture coordinates would be doubtful.
-fn unambiguous_ray(draw: &mut Rng, ball: &Sphere, mut kind: impl FnMut(&mut Rng) -> Ray) -> Ray {
-    draw.retry(|draw| {
-        let ray = kind(draw);
-        let beam = Ray64::from(&ray);
-        let off_poles = ball
-            .intersect(&beam, 0)
-            .is_none_or(|met| met.normal.y.abs() < 0.97);
-        (off_poles && scan::is_unambiguous(&beam, &shape(ball, 0))).then_some(ray)
+/// Returns an unambiguous ray of one kind. It does not hit the sphere near a pole, where texture
+/// coordinates are sensitive to rounding.
+fn unambiguous_ray(rng: &mut Rng, sphere: &Sphere, mut kind: impl FnMut(&mut Rng) -> Ray) -> Ray {
+    rng.retry(|rng| {
+        let ray = kind(rng);
+        let ray64 = Ray64::from(&ray);
+        let is_off_poles = sphere
+            .intersect(&ray64, 0)
+            .is_none_or(|hit| hit.normal.y.abs() < 0.97);
+        (is_off_poles && scan::is_unambiguous(&ray64, &shape(sphere, 0))).then_some(ray)
     })
 }

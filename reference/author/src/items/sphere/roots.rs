@@ -1,4 +1,4 @@
-//! Which of the two roots counts, if any.
+//! Items about which of the two roots counts, if any.
 
 use grader::exam::{ExamQuestion, HitCheck, Item};
 use protocol::Ray;
@@ -16,7 +16,7 @@ pub(super) fn near_side(seed: Seed) -> Item {
         1,
         [
             "from outside, the near side is hit",
-            "Of the two roots the smaller is met first. Mind that the ray's origin must be taken \
+            "The smaller of the two roots is hit first. Make sure that you take the ray's origin \
              relative to the sphere's centre.",
         ],
         table_questions(
@@ -30,28 +30,28 @@ pub(super) fn near_side(seed: Seed) -> Item {
 }
 
 pub(super) fn beside(seed: Seed) -> Item {
-    let mut draw = seed.rng("sphere.beside");
+    let mut rng = seed.rng("sphere.beside");
     let mut table = |radius: f64| {
-        let ball = random_sphere(&mut draw, radius);
-        let mut rays: Vec<Ray> = (0..8).map(|_| missing_ray(&mut draw, &ball)).collect();
-        rays.extend((0..2).map(|_| hitting_ray(&mut draw, &ball)));
-        // A sphere that is somewhat too large or too small is noticed by those that just pass it
-        // and those that just meet it.
+        let sphere = random_sphere(&mut rng, radius);
+        let mut rays: Vec<Ray> = (0..8).map(|_| missing_ray(&mut rng, &sphere)).collect();
+        rays.extend((0..2).map(|_| hitting_ray(&mut rng, &sphere)));
+        // Rays that barely miss and rays that barely hit reveal a sphere that is slightly too large
+        // or too small.
         for (approach, count) in [([1.15, 1.25], 4), ([0.75, 0.85], 2)] {
             rays.extend((0..count).map(|_| {
-                let approach = draw.uniform(approach[0], approach[1]);
-                ray_passing_at(&mut draw, &ball, approach)
+                let approach = rng.uniform(approach[0], approach[1]);
+                ray_passing_at(&mut rng, &sphere, approach)
             }));
         }
-        sphere_question(&[], &ball, 0, draw.shuffled(rays))
+        sphere_question(&[], &sphere, 0, rng.shuffled(rays))
     };
     item(
         "beside",
         1,
         [
             "a ray that passes beside the sphere misses it",
-            "Then the quadratic has no real root: look at what stands below the square root before \
-             you take it.",
+            "The quadratic then has no real root: check the value under the square root before you \
+             take the root.",
         ],
         vec![table(1.0), table(0.6), table(2.0)],
     )
@@ -62,8 +62,8 @@ pub(super) fn radius(seed: Seed) -> Item {
         "radius",
         1,
         [
-            "spheres of any radius are hit where they are",
-            "The radius comes into the quadratic's c, squared.",
+            "spheres of any radius are hit at the right distance",
+            "The square of the radius is part of the quadratic's c.",
         ],
         table_questions(
             "sphere.radius",
@@ -76,11 +76,11 @@ pub(super) fn radius(seed: Seed) -> Item {
 }
 
 pub(super) fn behind(seed: Seed) -> Item {
-    let mut draw = seed.rng("sphere.behind");
+    let mut rng = seed.rng("sphere.behind");
     let mut table = |radius: f64| {
-        let ball = random_sphere(&mut draw, radius);
+        let sphere = random_sphere(&mut rng, radius);
         let rays = (0..16).map(|i| {
-            let ray = hitting_ray(&mut draw, &ball);
+            let ray = hitting_ray(&mut rng, &sphere);
             if i % 2 == 0 {
                 ray
             } else {
@@ -88,14 +88,14 @@ pub(super) fn behind(seed: Seed) -> Item {
             }
         });
         let rays = rays.collect();
-        sphere_question(&[HitCheck::Distance], &ball, 0, rays)
+        sphere_question(&[HitCheck::Distance], &sphere, 0, rays)
     };
     item(
         "behind",
         1,
         [
             "a sphere behind the ray is missed",
-            "There both roots are negative, and so outside of ray.range.",
+            "Both roots are then negative, and so outside ray.range.",
         ],
         vec![table(1.0), table(1.5)],
     )
@@ -107,8 +107,8 @@ pub(super) fn from_inside(seed: Seed) -> Item {
         1,
         [
             "from inside, the far side is hit",
-            "The near root is negative there, the far one is not: see which of them lies in \
-             ray.range. Both t and everything that follows from it are the far one's.",
+            "The near root is then negative and the far one is not. Choose the root that is in \
+             ray.range, and compute everything else from it.",
         ],
         table_questions(
             "sphere.from_inside",
@@ -120,61 +120,62 @@ pub(super) fn from_inside(seed: Seed) -> Item {
     )
 }
 
-/// Rays through a sphere, each with a range that is made of its two roots.
+/// Creates questions with rays through a sphere, where `range` computes each ray's range from its
+/// index and its two roots.
 fn range_questions(
     name: &str,
     seed: Seed,
     range: impl Fn(&mut Rng, usize, [f64; 2]) -> (f64, f64),
 ) -> Vec<ExamQuestion> {
-    let mut draw = seed.rng(name);
+    let mut rng = seed.rng(name);
     let mut table = |radius: f64| {
-        let ball = random_sphere(&mut draw, radius);
+        let sphere = random_sphere(&mut rng, radius);
         let rays = (0..16).map(|i| {
-            unambiguous_ray(&mut draw, &ball, |draw| {
-                let ray = draw.retry(|draw| {
-                    let ray = hitting_ray(draw, &ball);
-                    let [near, far] = ball.intersect_line(&Ray64::from(&ray)).roots;
+            unambiguous_ray(&mut rng, &sphere, |rng| {
+                let ray = rng.retry(|rng| {
+                    let ray = hitting_ray(rng, &sphere);
+                    let [near, far] = sphere.intersect_line(&Ray64::from(&ray)).roots;
                     (far - near > 0.4).then_some(ray)
                 });
-                let (min, max) = range(draw, i, ball.intersect_line(&Ray64::from(&ray)).roots);
+                let (min, max) = range(rng, i, sphere.intersect_line(&Ray64::from(&ray)).roots);
                 ray.within(min as f32, max as f32)
             })
         });
         let rays = rays.collect();
-        sphere_question(&[HitCheck::Distance], &ball, 0, rays)
+        sphere_question(&[HitCheck::Distance], &sphere, 0, rays)
     };
     vec![table(1.0), table(2.0)]
 }
 
 pub(super) fn far_root(seed: Seed) -> Item {
-    let range = |draw: &mut Rng, i: usize, [near, far]: [f64; 2]| {
-        // Begins before the sphere, within it, or behind it.
+    let range = |rng: &mut Rng, i: usize, [near, far]: [f64; 2]| {
+        // The range starts before the sphere, inside it, or behind it.
         let from = match i % 3 {
-            0 => draw.uniform(0.0, near - 0.05),
-            1 => draw.uniform(near + 0.05, far - 0.05),
+            0 => rng.uniform(0.0, near - 0.05),
+            1 => rng.uniform(near + 0.05, far - 0.05),
             _ => far + 0.05,
         };
-        (from, far + draw.uniform(0.1, 3.0))
+        (from, far + rng.uniform(0.1, 3.0))
     };
     item(
         "far_root",
         1,
         [
-            "if the near side lies before the range, the far side is hit",
-            "The range's start need not be 0. The near root outside and the far one inside: the far \
-             one counts.",
+            "if the near side is before the range, the far side is hit",
+            "The range need not start at 0. If the near root is outside the range and the far root \
+             is inside, the far root counts.",
         ],
         range_questions("sphere.far_root", seed, range),
     )
 }
 
 pub(super) fn range_max(seed: Seed) -> Item {
-    let range = |draw: &mut Rng, i: usize, [near, far]: [f64; 2]| {
-        // Ends before the sphere, within it, or behind it.
+    let range = |rng: &mut Rng, i: usize, [near, far]: [f64; 2]| {
+        // The range ends before the sphere, inside it, or behind it.
         let max = match i % 3 {
-            0 => near - draw.uniform(0.03, 0.3),
-            1 => draw.uniform(near + 0.05, far - 0.05),
-            _ => far + draw.uniform(0.05, 1.0),
+            0 => near - rng.uniform(0.03, 0.3),
+            1 => rng.uniform(near + 0.05, far - 0.05),
+            _ => far + rng.uniform(0.05, 1.0),
         };
         (0.0, max)
     };
@@ -182,21 +183,21 @@ pub(super) fn range_max(seed: Seed) -> Item {
         "range_max",
         1,
         [
-            "only what is met before the end of the range counts",
-            "A ray that ends inside the sphere still hits its near side: each root is looked at by \
-             itself.",
+            "only hits before the end of the range count",
+            "A ray that ends inside the sphere still hits the near side: check each root \
+             separately.",
         ],
         range_questions("sphere.range_max", seed, range),
     )
 }
 
 pub(super) fn range_within(seed: Seed) -> Item {
-    let range = |draw: &mut Rng, i: usize, [near, far]: [f64; 2]| {
+    let range = |rng: &mut Rng, i: usize, [near, far]: [f64; 2]| {
         let size = far - near;
-        // Between the roots, behind both, or around the first.
+        // The range is between the roots, behind both, or around the first one.
         match i % 3 {
-            0 => (near + 0.1 * size, far - draw.uniform(0.1, 0.3) * size),
-            1 => (far + 0.05, far + draw.uniform(1.0, 3.0)),
+            0 => (near + 0.1 * size, far - rng.uniform(0.1, 0.3) * size),
+            1 => (far + 0.05, far + rng.uniform(1.0, 3.0)),
             _ => (near - 0.1, near + 0.5 * size),
         }
     };
@@ -204,9 +205,9 @@ pub(super) fn range_within(seed: Seed) -> Item {
         "range_within",
         1,
         [
-            "a range that holds neither side is a miss",
-            "Between the roots the ray is inside the sphere, and meets nothing; beyond both it has \
-             left it.",
+            "a range that contains neither root is a miss",
+            "Between the roots the ray is inside the sphere and hits nothing; beyond both it has \
+             left the sphere.",
         ],
         range_questions("sphere.range_within", seed, range),
     )

@@ -1,4 +1,4 @@
-//! What is told of the meeting.
+//! Items about the quantities of a hit, and a picture.
 
 use glam::{DVec3, Vec3, dvec3};
 use grader::exam::{HitCheck, Item};
@@ -12,11 +12,11 @@ use crate::items::picture;
 use crate::oracle::sphere::Sphere;
 use crate::seed::{Rng, Seed};
 
-fn hitting_ray_from_either_side(draw: &mut Rng, ball: &Sphere) -> Ray {
-    if draw.coin() {
-        hitting_ray(draw, ball)
+fn hitting_ray_from_either_side(rng: &mut Rng, sphere: &Sphere) -> Ray {
+    if rng.coin() {
+        hitting_ray(rng, sphere)
     } else {
-        ray_from_inside(draw, ball)
+        ray_from_inside(rng, sphere)
     }
 }
 
@@ -25,9 +25,9 @@ pub(super) fn position(seed: Seed) -> Item {
         "position",
         1,
         [
-            "position is the point of the meeting, in world space",
-            "It is the ray's point at the distance t. A point relative to the centre still has the \
-             centre to be added.",
+            "position is the point of the hit, in world space",
+            "It is the ray's point at the distance t. If your point is relative to the centre, add \
+             the centre.",
         ],
         table_questions(
             "sphere.position",
@@ -40,12 +40,12 @@ pub(super) fn position(seed: Seed) -> Item {
 }
 
 pub(super) fn normal(seed: Seed) -> Item {
-    let judged = [HitCheck::Normal, HitCheck::UnitNormal];
-    let outside = table_questions("sphere.normal", seed, &judged, &[0.5, 3.0], hitting_ray);
+    let checks = [HitCheck::Normal, HitCheck::UnitNormal];
+    let outside = table_questions("sphere.normal", seed, &checks, &[0.5, 3.0], hitting_ray);
     let inside = table_questions(
         "sphere.normal.inside",
         seed,
-        &judged,
+        &checks,
         &[2.0],
         ray_from_inside,
     );
@@ -53,9 +53,9 @@ pub(super) fn normal(seed: Seed) -> Item {
         "normal",
         1,
         [
-            "the normal points away from the centre, with length one, also from inside",
-            "From the centre to the meeting, divided by its length. It belongs to the surface, not \
-             to the ray: it is never flipped toward it.",
+            "the normal points away from the centre and has length one, also from inside",
+            "Divide the vector from the centre to the hit by its length. The normal belongs to the \
+             surface, so it is never flipped toward the ray.",
         ],
         outside.into_iter().chain(inside).collect(),
     )
@@ -67,8 +67,8 @@ pub(super) fn uv(seed: Seed) -> Item {
         1,
         [
             "uv comes from the direction from the centre",
-            "Sphere::uv is given: call it with the direction from the centre to the meeting, not \
-             with the position or the ray's direction.",
+            "Call the given Sphere::uv with the direction from the centre to the hit, not with the \
+             position or the ray's direction.",
         ],
         table_questions("sphere.uv", seed, &[HitCheck::Uv], &[1.0, 1.0], hitting_ray),
     )
@@ -80,8 +80,8 @@ pub(super) fn uv_radius(seed: Seed) -> Item {
         1,
         [
             "uv does not depend on the radius",
-            "Sphere::uv wants a direction of length one: from the centre to the meeting is a vector \
-             as long as the radius.",
+            "Sphere::uv needs a direction of length one, but the vector from the centre to the hit \
+             is as long as the radius.",
         ],
         table_questions(
             "sphere.uv_radius",
@@ -94,15 +94,15 @@ pub(super) fn uv_radius(seed: Seed) -> Item {
 }
 
 pub(super) fn origin_and_material(seed: Seed) -> Item {
-    let mut draw = seed.rng("sphere.origin_and_material");
+    let mut rng = seed.rng("sphere.origin_and_material");
     let mut table = |material: u32| {
-        let ball = random_sphere(&mut draw, 1.2);
-        let mut rays: Vec<Ray> = (0..3).map(|_| hitting_ray(&mut draw, &ball)).collect();
-        rays.extend((0..3).map(|_| ray_from_inside(&mut draw, &ball)));
-        rays.extend((0..3).map(|_| missing_ray(&mut draw, &ball)));
+        let sphere = random_sphere(&mut rng, 1.2);
+        let mut rays: Vec<Ray> = (0..3).map(|_| hitting_ray(&mut rng, &sphere)).collect();
+        rays.extend((0..3).map(|_| ray_from_inside(&mut rng, &sphere)));
+        rays.extend((0..3).map(|_| missing_ray(&mut rng, &sphere)));
         sphere_question(
             &[HitCheck::Origin, HitCheck::Material],
-            &ball,
+            &sphere,
             material,
             rays,
         )
@@ -111,26 +111,26 @@ pub(super) fn origin_and_material(seed: Seed) -> Item {
         "origin_and_material",
         1,
         [
-            "the answer names the ray's origin and the sphere's material",
-            "Both are copied: origin from the ray that was asked, also if you moved it to the \
-             sphere's centre for the sums; material from the sphere.",
+            "the trace holds the ray's origin and the sphere's material",
+            "Copy both: the origin from the ray that you were given, even if you computed with a \
+             shifted one, and the material from the sphere.",
         ],
         vec![table(0), table(3), table(99)],
     )
 }
 
 pub(super) fn picture(seed: Seed) -> Item {
-    let mut draw = seed.rng("sphere.picture");
+    let mut rng = seed.rng("sphere.picture");
     let mut sphere = |x: f64, y: f64, z: f64, radius: f64| {
-        let center = dvec3(x, y, z) + draw.point(0.1);
+        let center = dvec3(x, y, z) + rng.point(0.1);
         Shape::Sphere {
             center: center.as_vec3(),
             radius: radius as f32,
             material: 0,
         }
     };
-    let view = |half, pixels| picture::view_along(Vec3::ZERO, DVec3::NEG_Z, half, pixels);
-    // No centre is so high or low that its sphere would show a pole.
+    let camera = |half, pixels| picture::camera_along(Vec3::ZERO, DVec3::NEG_Z, half, pixels);
+    // No sphere is so high or so low that it would show a pole.
     let from_outside = vec![
         sphere(0.2, 0.0, -5.0, 1.2),
         sphere(-1.6, 0.3, -4.0, 0.7),
@@ -143,13 +143,14 @@ pub(super) fn picture(seed: Seed) -> Item {
         "picture",
         2,
         [
-            "a picture of spheres is right in hit, depth, normal and uv",
-            "Some seen from outside, and one from inside. If all pixels of one are wrong, see what \
-             sets it apart: its radius, or where the camera is.",
+            "a picture of spheres is correct in hits, depth, normals and uv",
+            "Some spheres are seen from outside, and one from inside. If all pixels of one sphere \
+             are wrong, see how it differs from the others: in its radius, or in where the camera \
+             is?",
         ],
         vec![
-            picture::picture_question(view(0.6, 64), from_outside),
-            picture::picture_question(view(0.6, 32), from_inside),
+            picture::picture_question(camera(0.6, 64), from_outside),
+            picture::picture_question(camera(0.6, 32), from_inside),
         ],
     )
 }

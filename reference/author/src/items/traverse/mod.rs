@@ -1,9 +1,10 @@
-//! Task 3, step 2: walking trees; the exam's own, so that nothing hangs on a submission's `build`.
+//! Items of task 3, step 2: traversal of the exam's own trees, so that the result does not depend
+//! on a submission's `build`.
 //!
-//! Before some of the rays stand *orphans*: primitives that are in no leaf. Whoever asks all
-//! primitives, without the tree, answers those. See [`crate::tree::trap`] for the traps that tell
-//! ways of walking apart. Where the root stands is the idea of one item; in all others whoever
-//! begins at the first node or the last begins rightly.
+//! Some rays have an unreferenced primitive in front of them, which is in no leaf. A linear scan
+//! over all primitives, without the tree, hits it and is wrong. [`crate::tree::decoy`] describes
+//! the decoys that reveal nodes that should not have been entered. The position of the root is the
+//! idea of one item; in all others, starting at the first or the last node is correct as well.
 
 mod end_to_end;
 mod needs;
@@ -21,7 +22,7 @@ use crate::tree::{Tree, construction, decoy};
 
 pub use end_to_end::{radiance_item, radiance_question};
 
-/// The items of the task `traverse`, but for [`radiance_item`].
+/// Returns the items of the task `traverse`, except [`radiance_item`].
 pub fn items(seed: Seed) -> Vec<Item> {
     let all: [fn(Seed) -> Item; 15] = [
         without_decoys::closest_hit,
@@ -48,70 +49,74 @@ fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<ExamQuestion>) 
     needs::add(needs::add(item, &needs::TRIANGLES), &needs::BOXES)
 }
 
-/// The materials of orphans begin here, those of the tree's own primitives at 0.
+/// The material of the first unreferenced primitive. Materials of primitives in leaves start at 0.
 const FIRST_UNREFERENCED: u32 = 10_000;
 
-/// What the rays meet in the tree. Distances tell everything: no two primitives that a ray could
-/// answer are at the same.
+/// Creates a question that asks for the closest hits of the rays in the tree. Only distances are
+/// judged: no two primitives that a ray could hit are at the same distance.
 fn traversal_question(tree: &Tree, rays: Vec<Ray>) -> ExamQuestion {
-    let key = super::hits_key(&[HitCheck::Distance], &rays, |beam| tree.expected_hit(beam));
+    let key = super::hits_key(&[HitCheck::Distance], &rays, |ray64| {
+        tree.expected_hit(ray64)
+    });
     ExamQuestion::new(tree.question(rays), key)
 }
 
-/// A ray from around the tree toward somewhere in it.
-fn ray_from_around(draw: &mut Rng, tree: &Tree) -> Ray {
+/// Returns a ray from a point around the tree toward a point in it.
+fn ray_from_around(rng: &mut Rng, tree: &Tree) -> Ray {
     let bounds = tree.bounds(tree.root);
-    let target = bounds.center() + draw.point(0.45) * (bounds.max - bounds.min);
-    let away = draw.direction() * draw.uniform(0.6, 1.0) * bounds.diagonal();
+    let target = bounds.center() + rng.point(0.45) * (bounds.max - bounds.min);
+    let away = rng.direction() * rng.uniform(0.6, 1.0) * bounds.diagonal();
     super::ray(target + away, target)
 }
 
-/// Rays about which there is no doubt: so many that hit something, and so many that do not.
+/// Returns rays of one kind whose answers are unambiguous, in random order: `hits` rays that hit
+/// something, and `misses` rays that do not.
 fn unambiguous_rays(
-    draw: &mut Rng,
+    rng: &mut Rng,
     tree: &Tree,
     [hits, misses]: [usize; 2],
     mut kind: impl FnMut(&mut Rng, &Tree) -> Ray,
 ) -> Vec<Ray> {
     let mut rays = Vec::new();
-    for (wanted, count) in [(true, hits), (false, misses)] {
+    for (expected, count) in [(true, hits), (false, misses)] {
         for _ in 0..count {
-            rays.push(draw.retry(|draw| {
-                let ray = kind(draw, tree);
-                let hits = tree.expected_hit(&Ray64::from(&ray)).is_some();
-                (hits == wanted && decoy::is_fair(tree, &[ray])).then_some(ray)
+            rays.push(rng.retry(|rng| {
+                let ray = kind(rng, tree);
+                let is_hit = tree.expected_hit(&Ray64::from(&ray)).is_some();
+                (is_hit == expected && decoy::is_fair(tree, &[ray])).then_some(ray)
             }));
         }
     }
-    draw.shuffled(rays)
+    rng.shuffled(rays)
 }
 
-/// Puts orphans before every third ray.
-fn add_unreferenced(draw: &mut Rng, tree: &mut Tree, rays: &[Ray]) {
+/// Adds an unreferenced primitive in front of every third ray.
+fn add_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: &[Ray]) {
     for (number, ray) in (FIRST_UNREFERENCED..).zip(rays.iter().step_by(3)) {
         let end = tree
             .expected_hit(&Ray64::from(ray))
-            .map_or(3.0, |met| met.distance);
+            .map_or(3.0, |hit| hit.distance);
         let start = f64::from(ray.range.min);
-        let distance = start + (end - start) * draw.uniform(0.3, 0.7);
-        let orphan = decoy::triangle_across(draw, ray, distance, 0.1, number);
-        tree.shapes.push(orphan);
+        let distance = start + (end - start) * rng.uniform(0.3, 0.7);
+        let triangle = decoy::triangle_across(rng, ray, distance, 0.1, number);
+        tree.shapes.push(triangle);
     }
 }
 
-/// A question whose tree tells the truth, but for orphans.
+/// Creates a question about a tree without decoys, but with unreferenced primitives.
 fn question_without_decoys(
-    draw: &mut Rng,
+    rng: &mut Rng,
     mut tree: Tree,
     counts: [usize; 2],
     kind: impl FnMut(&mut Rng, &Tree) -> Ray,
 ) -> ExamQuestion {
-    let rays = unambiguous_rays(draw, &tree, counts, kind);
-    add_unreferenced(draw, &mut tree, &rays);
-    traversal_question(&tree.with_roots_at_both_ends(draw), rays)
+    let rays = unambiguous_rays(rng, &tree, counts, kind);
+    add_unreferenced(rng, &mut tree, &rays);
+    traversal_question(&tree.with_roots_at_both_ends(rng), rays)
 }
 
-/// A tree over a soup. Leaves of several are the idea of one item: elsewhere they hold one.
-fn soup_tree(draw: &mut Rng, count: usize, size: f64, max_leaf_size: usize) -> Tree {
-    construction::median_split(meshes::soup(draw, count, 2.0, size), max_leaf_size)
+/// Returns a tree over random triangles. Items use leaves of one primitive, unless larger leaves
+/// are their idea.
+fn soup_tree(rng: &mut Rng, count: usize, size: f64, max_leaf_size: usize) -> Tree {
+    construction::median_split(meshes::soup(rng, count, 2.0, size), max_leaf_size)
 }

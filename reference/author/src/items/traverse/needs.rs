@@ -1,9 +1,10 @@
-//! What a walk rests on. An item names all that could fail it without the walk being wrong, and no
-//! more: whoever fails it and one of these is told to mend that one first.
+//! Dependencies of the traversal items: the items that could make a correct traversal fail, and no
+//! others. A student who fails an item and one of its dependencies is told to fix the dependency
+//! first.
 
 use grader::exam::Item;
 
-/// What tells how far away a triangle is, or that it is not hit.
+/// Items about the distance and the misses of triangles.
 pub(super) const TRIANGLES: [&str; 6] = [
     "triangle.inside",
     "triangle.outside",
@@ -13,7 +14,7 @@ pub(super) const TRIANGLES: [&str; 6] = [
     "triangle.behind_the_ray",
 ];
 
-/// What else is told of a hit.
+/// Items about the other quantities of a hit.
 pub(super) const SURFACES: [&str; 6] = [
     "triangle.position",
     "triangle.normal",
@@ -23,7 +24,7 @@ pub(super) const SURFACES: [&str; 6] = [
     "triangle.origin_and_material",
 ];
 
-/// What tells how far away a sphere is, or that it is not hit.
+/// Items about the distance and the misses of spheres.
 pub(super) const SPHERES: [&str; 8] = [
     "sphere.near_side",
     "sphere.beside",
@@ -35,7 +36,7 @@ pub(super) const SPHERES: [&str; 8] = [
     "sphere.range_within",
 ];
 
-/// What decides which nodes are entered, and in which order.
+/// Items about boxes, which decide which nodes are entered and in which order.
 pub(super) const BOXES: [&str; 10] = [
     "bbox.through",
     "bbox.slab_after_slab",
@@ -49,7 +50,7 @@ pub(super) const BOXES: [&str; 10] = [
     "bbox.flat",
 ];
 
-/// What makes a tree that can be walked, whatever it costs.
+/// Items about building a tree that can be traversed, whatever its cost.
 pub(super) const TREES: [&str; 12] = [
     "build.partition",
     "build.contains",
@@ -65,7 +66,7 @@ pub(super) const TREES: [&str; 12] = [
     "build.one_or_none",
 ];
 
-/// What makes a picture's rays.
+/// Items about the rays of a picture.
 pub(super) const CAMERA: [&str; 11] = [
     "camera.corners",
     "camera.field_of_view",
@@ -80,7 +81,7 @@ pub(super) const CAMERA: [&str; 11] = [
     "camera.origin_and_range",
 ];
 
-/// The item, resting on these as well.
+/// Adds these items to the dependencies of an item.
 pub(super) fn add(mut item: Item, needed: &[&str]) -> Item {
     item.needs.extend(needed.iter().map(|id| (*id).to_owned()));
     item

@@ -1,4 +1,4 @@
-//! Roots elsewhere, and none at all.
+//! Items about roots at unusual positions, and about empty trees.
 
 use glam::Vec3;
 use grader::exam::{ExamQuestion, Item};
@@ -14,27 +14,30 @@ use crate::seed::{Rng, Seed};
 use crate::tree::{RootPosition, Tree, decoy};
 
 pub(super) fn root(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.root");
-    let question = |place: RootPosition| {
-        let tree = soup_tree(&mut draw, 20, 0.9, 1);
-        let rays = unambiguous_rays(&mut draw, &tree, [10, 4], ray_from_around);
-        let inner = if place == RootPosition::First {
-            place
+    let mut rng = seed.rng("traverse.root");
+    let question = |position: RootPosition| {
+        let tree = soup_tree(&mut rng, 20, 0.9, 1);
+        let rays = unambiguous_rays(&mut rng, &tree, [10, 4], ray_from_around);
+        let inner = if position == RootPosition::First {
+            position
         } else {
             RootPosition::Middle
         };
-        let tree = tree.with_nodes_shuffled(&mut draw, inner);
-        traversal_question(&with_detached_subtrees(&mut draw, tree, &rays, place), rays)
+        let tree = tree.with_nodes_shuffled(&mut rng, inner);
+        traversal_question(
+            &with_detached_subtrees(&mut rng, tree, &rays, position),
+            rays,
+        )
     };
-    let mut draw = seed.rng("traverse.root.leaf_in_front");
-    let leaf_in_front = question_with_a_leaf_in_front(&mut draw);
+    let mut rng = seed.rng("traverse.root.leaf_in_front");
+    let leaf_in_front = question_with_a_leaf_in_front(&mut rng);
     item(
         "root",
         1,
         [
-            "the walk begins at root, wherever that is",
-            "The root need be neither the first node nor the last: Bvh::root says where it stands, \
-             and there may be nodes that are no part of the tree.",
+            "traversal starts at root, wherever it is in nodes",
+            "The root need be neither the first node nor the last: its index is Bvh::root, and \
+             some nodes may not belong to the tree.",
         ],
         [
             RootPosition::First,
@@ -48,51 +51,51 @@ pub(super) fn root(seed: Seed) -> Item {
     )
 }
 
-/// A question about a tree whose first node is a leaf, with what one of the rays hits: a child may
-/// stand at 0 as well.
-fn question_with_a_leaf_in_front(draw: &mut Rng) -> ExamQuestion {
-    let tree = soup_tree(draw, 20, 0.9, 1);
-    let rays = unambiguous_rays(draw, &tree, [10, 4], ray_from_around);
-    let mut tree = tree.with_nodes_shuffled(draw, RootPosition::Last);
+/// Creates a question about a tree whose first node is a leaf that one of the rays hits: a child
+/// may have index 0, too.
+fn question_with_a_leaf_in_front(rng: &mut Rng) -> ExamQuestion {
+    let tree = soup_tree(rng, 20, 0.9, 1);
+    let rays = unambiguous_rays(rng, &tree, [10, 4], ray_from_around);
+    let mut tree = tree.with_nodes_shuffled(rng, RootPosition::Last);
     let mut hits = rays.iter().map(Ray64::from);
-    let leaf = hits.find_map(|beam| tree.leaf_of_hit(&beam));
+    let leaf = hits.find_map(|ray64| tree.leaf_of_hit(&ray64));
     tree.swap_nodes(0, leaf.expect("some rays hit something"));
     traversal_question(&tree, rays)
 }
 
-/// Adds two trees, over primitives right before the rays, that do not hang below the root. Their
-/// own roots stand at those ends of the list where the tree's does not.
+/// Adds two detached subtrees over primitives in front of the rays. Their roots are at the ends of
+/// the node list, except where the tree's own root is.
 fn with_detached_subtrees(
-    draw: &mut Rng,
+    rng: &mut Rng,
     mut tree: Tree,
     rays: &[Ray],
-    place: RootPosition,
+    position: RootPosition,
 ) -> Tree {
-    let mut decoy = |tree: &mut Tree, nearness: f64| {
-        let facets = rays.iter().enumerate().map(|(i, ray)| {
+    let mut add_detached_subtree = |tree: &mut Tree, distance: f64| {
+        let triangles = rays.iter().enumerate().map(|(i, ray)| {
             let material = FIRST_UNREFERENCED + tree.shapes.len() as u32 + i as u32;
-            decoy::triangle_across(draw, ray, nearness, 0.1, material)
+            decoy::triangle_across(rng, ray, distance, 0.1, material)
         });
-        let mut left: Vec<Shape> = facets.collect();
+        let mut left: Vec<Shape> = triangles.collect();
         let right = left.split_off(left.len() / 2);
         let l = tree.add_leaf(left);
         let r = tree.add_leaf(right);
         tree.add_interior(l, r)
     };
-    let first = decoy(&mut tree, 0.4);
-    if place != RootPosition::First {
+    let first = add_detached_subtree(&mut tree, 0.4);
+    if position != RootPosition::First {
         tree.swap_nodes(0, first);
     }
-    // The last node added is the last.
-    let last = decoy(&mut tree, 0.6);
-    if place == RootPosition::Last {
+    // The node that was added last is at the end of the list.
+    let last = add_detached_subtree(&mut tree, 0.6);
+    if position == RootPosition::Last {
         tree.swap_nodes(tree.root, last);
     }
     tree
 }
 
 pub(super) fn no_nodes(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.no_nodes");
+    let mut rng = seed.rng("traverse.no_nodes");
     let nothing = Tree {
         shapes: Vec::new(),
         nodes: Vec::new(),
@@ -107,21 +110,21 @@ pub(super) fn no_nodes(seed: Seed) -> Item {
         l: 0,
         r: 0,
     });
-    let toward = |draw: &mut Rng| {
-        let target = draw.point(0.8);
-        ray(target + 4.0 * draw.direction(), target)
+    let toward = |rng: &mut Rng| {
+        let target = rng.point(0.8);
+        ray(target + 4.0 * rng.direction(), target)
     };
-    let mut ask =
-        |tree: &Tree| traversal_question(tree, (0..8).map(|_| toward(&mut draw)).collect());
-    let empty = [ask(&nothing), ask(&empty_leaf)];
-    let tree = soup_tree(&mut draw, 12, 0.9, 1);
-    let control = question_without_decoys(&mut draw, tree, [8, 4], ray_from_around);
+    let mut empty_question =
+        |tree: &Tree| traversal_question(tree, (0..8).map(|_| toward(&mut rng)).collect());
+    let empty = [empty_question(&nothing), empty_question(&empty_leaf)];
+    let tree = soup_tree(&mut rng, 12, 0.9, 1);
+    let control = question_without_decoys(&mut rng, tree, [8, 4], ray_from_around);
     item(
         "no_nodes",
         1,
         [
-            "a tree that holds nothing is hit nowhere",
-            "Without nodes there is none at root: look before you take it.",
+            "an empty tree has no hits",
+            "Without nodes there is no node at index root: check before you access it.",
         ],
         empty.into_iter().chain([control]).collect(),
     )

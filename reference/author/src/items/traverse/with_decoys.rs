@@ -1,4 +1,4 @@
-//! Trees with traps.
+//! Items with decoys in their trees.
 
 use grader::exam::{ExamQuestion, Item};
 use protocol::Ray;
@@ -12,59 +12,57 @@ use crate::tree::Tree;
 use crate::tree::decoy::{self, SkipReason};
 use crate::tree::traversal::Traversal;
 
-/// Whether the slides' pseudo-code, taken literally, answers this ray rightly.
+/// Returns whether the slides' pseudo-code, taken literally, answers this ray correctly.
 fn slides_are_correct(tree: &Tree, ray: &Ray) -> bool {
-    let beam = Ray64::from(ray);
-    Traversal::by_the_slides(tree, &beam).closest == tree.expected_hit(&beam)
+    let ray64 = Ray64::from(ray);
+    Traversal::by_the_slides(tree, &ray64).closest == tree.expected_hit(&ray64)
 }
 
-/// The materials of traps begin here, those of orphans below.
+/// The material of the first decoy. Materials of unreferenced primitives are below it.
 const FIRST_DECOY: u32 = 20_000;
 
-/// Which leaves shall hold traps for a ray.
+/// A filter for the leaves that may hold a decoy for a ray.
 type LeafFilter<'a> = &'a dyn Fn(&Tree, usize, &Ray64) -> bool;
 
-/// The rays of a question that may get a trap; the others come after them.
+/// The number of rays of a question that may get a decoy. The others come after them.
 const RAYS_WITH_DECOYS: usize = 10;
 const OTHER_RAYS: [usize; 2] = [4, 4];
-/// So few traps say little.
+/// A question with fewer decoys than this is drawn again.
 const MIN_DECOYS: usize = 4;
 
-/// A question with traps before most of the rays that hit something, each in a leaf that `fits`.
-/// What the slides' pseudo-code makes of them is as given; all other rays it answers rightly.
-fn question_with_decoys(draw: &mut Rng, fits: LeafFilter, slides: SlidesAnswer) -> ExamQuestion {
-    draw.retry(|draw| {
-        let tree = soup_tree(draw, 48, 0.7, 1);
-        let rays = rays_with_candidate_leaves(draw, &tree, fits);
-        let (mut tree, count) = add_decoys(draw, tree, &rays, fits, slides);
+/// Creates a question with decoys in front of most rays that hit something, each in a leaf that
+/// `fits` accepts. The slides' literal pseudo-code answers rays with decoys as `slides` says, and
+/// all other rays correctly.
+fn question_with_decoys(rng: &mut Rng, fits: LeafFilter, slides: SlidesAnswer) -> ExamQuestion {
+    rng.retry(|rng| {
+        let tree = soup_tree(rng, 48, 0.7, 1);
+        let rays = rays_with_candidate_leaves(rng, &tree, fits);
+        let (mut tree, count) = add_decoys(rng, tree, &rays, fits, slides);
         if count < MIN_DECOYS {
             return None;
         }
-        add_unreferenced(draw, &mut tree, &rays);
-        Some(traversal_question(
-            &tree.with_roots_at_both_ends(draw),
-            rays,
-        ))
+        add_unreferenced(rng, &mut tree, &rays);
+        Some(traversal_question(&tree.with_roots_at_both_ends(rng), rays))
     })
 }
 
-/// Rays that have a leaf that fits, and then some others.
-fn rays_with_candidate_leaves(draw: &mut Rng, tree: &Tree, fits: LeafFilter) -> Vec<Ray> {
-    let mut passing = unambiguous_rays(draw, tree, [RAYS_WITH_DECOYS, 0], |draw, tree| {
-        draw.retry(|draw| {
-            let ray = ray_from_around(draw, tree);
-            let beam = Ray64::from(&ray);
+/// Returns rays that have a leaf that fits, followed by some other rays.
+fn rays_with_candidate_leaves(rng: &mut Rng, tree: &Tree, fits: LeafFilter) -> Vec<Ray> {
+    let mut chosen = unambiguous_rays(rng, tree, [RAYS_WITH_DECOYS, 0], |rng, tree| {
+        rng.retry(|rng| {
+            let ray = ray_from_around(rng, tree);
+            let ray64 = Ray64::from(&ray);
             let mut leaves = tree.leaves().into_iter();
-            leaves.any(|leaf| fits(tree, leaf, &beam)).then_some(ray)
+            leaves.any(|leaf| fits(tree, leaf, &ray64)).then_some(ray)
         })
     });
-    passing.extend(unambiguous_rays(draw, tree, OTHER_RAYS, ray_from_around));
-    passing
+    chosen.extend(unambiguous_rays(rng, tree, OTHER_RAYS, ray_from_around));
+    chosen
 }
 
-/// Sets a trap for each of the first rays, where that can be done, and counts them.
+/// Adds a decoy for each of the first rays where that is possible, and counts the decoys.
 fn add_decoys(
-    draw: &mut Rng,
+    rng: &mut Rng,
     mut tree: Tree,
     rays: &[Ray],
     fits: LeafFilter,
@@ -72,140 +70,140 @@ fn add_decoys(
 ) -> (Tree, usize) {
     const ATTEMPTS: usize = 30;
     let mut done = Vec::new();
-    for ray in 0..RAYS_WITH_DECOYS {
-        let material = FIRST_DECOY + ray as u32;
-        let set = (0..ATTEMPTS).find_map(|_| {
-            let trapped = decoy::add_decoy(draw, &tree, rays, ray, material, fits)?;
-            let as_wanted = (0..).zip(rays).all(|(place, asked)| {
-                let gets_one = place == ray || done.contains(&place);
-                let wrong = gets_one && slides == SlidesAnswer::Wrong;
-                slides_are_correct(&trapped, asked) != wrong
+    for index in 0..RAYS_WITH_DECOYS {
+        let material = FIRST_DECOY + index as u32;
+        let added = (0..ATTEMPTS).find_map(|_| {
+            let with_decoy = decoy::add_decoy(rng, &tree, rays, index, material, fits)?;
+            let is_as_required = (0..).zip(rays).all(|(other, ray)| {
+                let has_decoy = other == index || done.contains(&other);
+                let is_wrong = has_decoy && slides == SlidesAnswer::Wrong;
+                slides_are_correct(&with_decoy, ray) != is_wrong
             });
-            as_wanted.then_some(trapped)
+            is_as_required.then_some(with_decoy)
         });
-        // Not every leaf that fits is on the side where the slides do as wanted.
-        if let Some(trapped) = set {
-            tree = trapped;
-            done.push(ray);
+        // A leaf that fits may be on a side where the slides' answer is not as required.
+        if let Some(with_decoy) = added {
+            tree = with_decoy;
+            done.push(index);
         }
     }
     (tree, done.len())
 }
 
-/// What the slides' pseudo-code, taken literally, makes of a trap.
+/// The answer of the slides' literal pseudo-code to a ray with a decoy.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum SlidesAnswer {
-    /// It is not caught.
+    /// The decoy is not tested.
     Correct,
-    /// It is caught.
+    /// The decoy is tested and hit.
     Wrong,
 }
 
-fn is_skipped_for(tree: &Tree, leaf: usize, beam: &Ray64, wanted: SkipReason) -> bool {
-    decoy::skip_reason(tree, leaf, beam) == Some(wanted)
+fn is_skipped_for(tree: &Tree, leaf: usize, ray64: &Ray64, reason: SkipReason) -> bool {
+    decoy::skip_reason(tree, leaf, ray64) == Some(reason)
 }
 
-/// Whether the ray misses the box of the leaf's sibling as well.
-fn misses_sibling(tree: &Tree, leaf: usize, beam: &Ray64) -> bool {
+/// Returns whether the ray misses the box of the leaf's sibling as well.
+fn misses_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     let sibling = tree.sibling(leaf);
-    sibling.is_some_and(|sibling| tree.bounds(sibling).span(beam).is_none())
+    sibling.is_some_and(|sibling| tree.bounds(sibling).span(ray64).is_none())
 }
 
 pub(super) fn skips_missed(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.skips_missed");
-    let fits = |tree: &Tree, leaf: usize, beam: &Ray64| {
-        is_skipped_for(tree, leaf, beam, SkipReason::Missed)
+    let mut rng = seed.rng("traverse.skips_missed");
+    let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+        is_skipped_for(tree, leaf, ray64, SkipReason::Missed)
     };
     item(
         "skips_missed",
         2,
         [
             "a node whose box the ray misses is not entered",
-            "That is what the tree is for. In this exam some leaves hold primitives that lie outside \
-             of their boxes: who enters a box that is missed, finds them.",
+            "This is what the tree is for. In this exam, some leaves hold primitives outside their \
+             boxes: a traversal that enters a missed box finds them.",
         ],
         vec![
-            question_with_decoys(&mut draw, &fits, SlidesAnswer::Correct),
-            question_with_decoys(&mut draw, &fits, SlidesAnswer::Correct),
+            question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct),
+            question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct),
         ],
     )
 }
 
 pub(super) fn prunes(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.prunes");
-    let fits = |tree: &Tree, leaf: usize, beam: &Ray64| {
-        is_skipped_for(tree, leaf, beam, SkipReason::SubtreePruned)
+    let mut rng = seed.rng("traverse.prunes");
+    let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+        is_skipped_for(tree, leaf, ray64, SkipReason::SubtreePruned)
     };
-    // The leaf is itself what comes second: nothing is compared any more on the way to it.
-    let second = |tree: &Tree, leaf: usize, beam: &Ray64| {
-        let fork = decoy::find_fork(tree, leaf, beam);
-        fork.is_some_and(|fork| fork.toward_leaf == leaf) && fits(tree, leaf, beam)
+    // The leaf itself is the second child, so no further comparison happens on the way to it.
+    let second = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+        let fork = decoy::find_fork(tree, leaf, ray64);
+        fork.is_some_and(|fork| fork.toward_leaf == leaf) && fits(tree, leaf, ray64)
     };
     item(
         "prunes",
         2,
         [
             "a node that begins beyond the closest hit is not entered",
-            "The nearer child goes first. If what it finds is nearer than the other's box, nothing \
-             in there can be nearer still.",
+            "Enter the nearer child first. If its hit is nearer than the other child's box, \
+             nothing in that box can be nearer still.",
         ],
         vec![
-            question_with_decoys(&mut draw, &fits, SlidesAnswer::Correct),
-            question_with_decoys(&mut draw, &second, SlidesAnswer::Correct),
+            question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct),
+            question_with_decoys(&mut rng, &second, SlidesAnswer::Correct),
         ],
     )
 }
 
 pub(super) fn nearer_first(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.nearer_first");
-    let fits = |tree: &Tree, leaf: usize, beam: &Ray64| {
-        is_skipped_for(tree, leaf, beam, SkipReason::SubtreePruned)
+    let mut rng = seed.rng("traverse.nearer_first");
+    let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+        is_skipped_for(tree, leaf, ray64, SkipReason::SubtreePruned)
     };
-    let left_last = |tree: &Tree, leaf: usize, beam: &Ray64| {
-        let fork = decoy::find_fork(tree, leaf, beam);
-        fork.is_some_and(|fork| fork.toward_leaf == leaf && fork.exits_hit_side_last(tree, beam))
-            && fits(tree, leaf, beam)
+    let left_last = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+        let fork = decoy::find_fork(tree, leaf, ray64);
+        fork.is_some_and(|fork| fork.toward_leaf == leaf && fork.exits_hit_side_last(tree, ray64))
+            && fits(tree, leaf, ray64)
     };
     item(
         "nearer_first",
         1,
         [
-            "the nearer child goes first, be it l or r, and the other is pruned",
-            "Where r goes first, it is l that may begin beyond the closest hit. The slides compare \
-             hit2.t in both cases: compare the entry of whichever child comes second.",
+            "the nearer child goes first, whether it is l or r, and the other is pruned",
+            "If r goes first, l may begin beyond the closest hit. The slides compare hit2.t in \
+             both cases: compare the entry of the child that comes second.",
         ],
         vec![
-            question_with_decoys(&mut draw, &fits, SlidesAnswer::Wrong),
-            question_with_decoys(&mut draw, &left_last, SlidesAnswer::Wrong),
+            question_with_decoys(&mut rng, &fits, SlidesAnswer::Wrong),
+            question_with_decoys(&mut rng, &left_last, SlidesAnswer::Wrong),
         ],
     )
 }
 
 pub(super) fn both_sides(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.both_sides");
-    let one = |tree: &Tree, leaf: usize, beam: &Ray64| {
-        is_skipped_for(tree, leaf, beam, SkipReason::Missed) && !misses_sibling(tree, leaf, beam)
+    let mut rng = seed.rng("traverse.both_sides");
+    let one = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+        is_skipped_for(tree, leaf, ray64, SkipReason::Missed) && !misses_sibling(tree, leaf, ray64)
     };
-    let both = |tree: &Tree, leaf: usize, beam: &Ray64| {
-        is_skipped_for(tree, leaf, beam, SkipReason::Missed) && misses_sibling(tree, leaf, beam)
+    let both = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+        is_skipped_for(tree, leaf, ray64, SkipReason::Missed) && misses_sibling(tree, leaf, ray64)
     };
-    let alone = |tree: &Tree, leaf: usize, beam: &Ray64| {
-        is_skipped_for(tree, leaf, beam, SkipReason::LeafPruned)
-            && decoy::siblings_beyond_are_missed(tree, leaf, beam)
+    let alone = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+        is_skipped_for(tree, leaf, ray64, SkipReason::LeafPruned)
+            && decoy::siblings_beyond_are_missed(tree, leaf, ray64)
     };
     item(
         "both_sides",
         1,
         [
-            "each child is entered only if its own box is hit, before the closest hit",
-            "If one box is missed only the other child is entered, unless it begins beyond the \
-             closest hit; if both are, neither. The slides enter `first` in any case, and after it \
-             the child whose box was missed.",
+            "a child is entered only if its own box is hit, before the closest hit",
+            "If one box is missed, enter only the other child, unless it begins beyond the closest \
+             hit; if both are missed, enter neither. The slides always enter `first`, and after it \
+             a child whose box was missed.",
         ],
         vec![
-            question_with_decoys(&mut draw, &one, SlidesAnswer::Wrong),
-            question_with_decoys(&mut draw, &both, SlidesAnswer::Wrong),
-            question_with_decoys(&mut draw, &alone, SlidesAnswer::Wrong),
+            question_with_decoys(&mut rng, &one, SlidesAnswer::Wrong),
+            question_with_decoys(&mut rng, &both, SlidesAnswer::Wrong),
+            question_with_decoys(&mut rng, &alone, SlidesAnswer::Wrong),
         ],
     )
 }

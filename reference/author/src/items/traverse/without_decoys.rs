@@ -1,4 +1,4 @@
-//! Trees that tell the truth: every primitive lies in its leaf, but for orphans.
+//! Items with trees without decoys: every primitive in a leaf is inside the leaf's box.
 
 use glam::DVec3;
 use grader::exam::Item;
@@ -11,19 +11,19 @@ use crate::seed::{Rng, Seed};
 use crate::tree::{Tree, construction};
 
 pub(super) fn closest_hit(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.closest_hit");
-    // Large facets: the boxes of siblings overlap much.
-    let tree = soup_tree(&mut draw, 40, 1.6, 1);
+    let mut rng = seed.rng("traverse.closest_hit");
+    // With large triangles, the boxes of siblings overlap considerably.
+    let tree = soup_tree(&mut rng, 40, 1.6, 1);
     item(
         "closest_hit",
         1,
         [
-            "of all hits the closest is the answer, not the first that is found",
-            "Boxes overlap: the child that is entered first may hold a hit that is farther than one \
-             in the other. Keep the closest so far, and look on.",
+            "the closest hit counts, not the first one found",
+            "Boxes overlap: the child that is entered first may hold a hit that is farther than \
+             one in the other child. Keep the closest hit so far, and continue.",
         ],
         vec![question_without_decoys(
-            &mut draw,
+            &mut rng,
             tree,
             [24, 8],
             ray_from_around,
@@ -32,19 +32,19 @@ pub(super) fn closest_hit(seed: Seed) -> Item {
 }
 
 pub(super) fn first_box_empty(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.first_box_empty");
-    // Small facets in large boxes.
-    let tree = soup_tree(&mut draw, 40, 0.5, 1);
+    let mut rng = seed.rng("traverse.first_box_empty");
+    // Small triangles leave most of a node's box empty.
+    let tree = soup_tree(&mut rng, 40, 0.5, 1);
     item(
         "first_box_empty",
         1,
         [
-            "a box that is hit may hold nothing that is",
-            "As long as nothing was hit there is no closest hit, and nothing is farther away than \
-             it: a distance that starts at 0 skips everything.",
+            "a ray may hit a box without hitting anything inside it",
+            "Until something is hit, there is no closest hit to compare with: a closest distance \
+             that starts at 0 skips everything.",
         ],
         vec![question_without_decoys(
-            &mut draw,
+            &mut rng,
             tree,
             [16, 16],
             ray_from_around,
@@ -53,23 +53,23 @@ pub(super) fn first_box_empty(seed: Seed) -> Item {
 }
 
 pub(super) fn range(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.range");
-    let tree = soup_tree(&mut draw, 40, 1.4, 1);
-    // From between the first two of the hits, or up to somewhere before the first or the second.
-    let kind = |draw: &mut Rng, tree: &Tree| {
-        draw.retry(|draw| {
-            let ray = ray_from_around(draw, tree);
-            let beam = Ray64::from(&ray);
-            let first = tree.expected_hit(&beam)?.distance;
+    let mut rng = seed.rng("traverse.range");
+    let tree = soup_tree(&mut rng, 40, 1.4, 1);
+    // The range starts between the first two hits, or ends before the first or the second.
+    let kind = |rng: &mut Rng, tree: &Tree| {
+        rng.retry(|rng| {
+            let ray = ray_from_around(rng, tree);
+            let ray64 = Ray64::from(&ray);
+            let first = tree.expected_hit(&ray64)?.distance;
             let rest = Ray64 {
                 min: first + 0.05,
-                ..beam
+                ..ray64
             };
             let second = tree.expected_hit(&rest)?.distance;
-            let (min, max) = match draw.index(3) {
-                0 => (draw.uniform(first, second), second + 9.0),
-                1 => (0.0, draw.uniform(first * 0.5, first)),
-                _ => (0.0, draw.uniform(first, second)),
+            let (min, max) = match rng.index(3) {
+                0 => (rng.uniform(first, second), second + 9.0),
+                1 => (0.0, rng.uniform(first * 0.5, first)),
+                _ => (0.0, rng.uniform(first, second)),
             };
             Some(ray.within(min as f32, max as f32))
         })
@@ -79,42 +79,42 @@ pub(super) fn range(seed: Seed) -> Item {
         1,
         [
             "only hits within the ray's range count",
-            "The ray's own range is the first limit; a closer hit only makes it smaller. It has \
-                 a start as well.",
+            "The ray's own range is the first limit, and it has a start as well. A closer hit only \
+             shortens it.",
         ],
-        vec![question_without_decoys(&mut draw, tree, [20, 8], kind)],
+        vec![question_without_decoys(&mut rng, tree, [20, 8], kind)],
     )
 }
 
 pub(super) fn leaf_of_several(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.leaf_of_several");
-    let tree = soup_tree(&mut draw, 48, 1.0, 8);
-    // Of several hits in a leaf the closest is now that of its first primitive, now that of its
-    // last, now one between.
-    let mut turns = 0;
-    let kind = |draw: &mut Rng, tree: &Tree| {
-        draw.retry(|draw| {
-            let ray = ray_from_around(draw, tree);
-            let beam = Ray64::from(&ray);
-            let Some(leaf) = tree.leaf_of_hit(&beam) else {
+    let mut rng = seed.rng("traverse.leaf_of_several");
+    let tree = soup_tree(&mut rng, 48, 1.0, 8);
+    // The closest of several hits in a leaf is in turn the first primitive's, the last one's, and
+    // one in between.
+    let mut count = 0;
+    let kind = |rng: &mut Rng, tree: &Tree| {
+        rng.retry(|rng| {
+            let ray = ray_from_around(rng, tree);
+            let ray64 = Ray64::from(&ray);
+            let Some(leaf) = tree.leaf_of_hit(&ray64) else {
                 return Some(ray);
             };
-            let places = tree.primitives(leaf);
-            let met = places.clone().filter_map(|place| {
-                let met = scan::intersect(&beam, &tree.shapes[place])?;
-                Some((met.distance, place))
+            let indices = tree.primitives(leaf);
+            let hits = indices.clone().filter_map(|index| {
+                let hit = scan::intersect(&ray64, &tree.shapes[index])?;
+                Some((hit.distance, index))
             });
-            let met: Vec<(f64, usize)> = met.collect();
-            let &(_, closest) = met.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
-            let is_in_turn = match turns % 3 {
-                0 => closest == places.start,
-                1 => closest + 1 == places.end,
-                _ => closest != places.start && closest + 1 != places.end,
+            let hits: Vec<(f64, usize)> = hits.collect();
+            let &(_, closest) = hits.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+            let is_in_turn = match count % 3 {
+                0 => closest == indices.start,
+                1 => closest + 1 == indices.end,
+                _ => closest != indices.start && closest + 1 != indices.end,
             };
-            if met.len() < 2 || !is_in_turn {
+            if hits.len() < 2 || !is_in_turn {
                 return None;
             }
-            turns += 1;
+            count += 1;
             Some(ray)
         })
     };
@@ -122,30 +122,30 @@ pub(super) fn leaf_of_several(seed: Seed) -> Item {
         "leaf_of_several",
         1,
         [
-            "every primitive of a leaf is asked",
-            "A leaf holds primitives[start..start + size]; the closest of their hits counts, not the \
-             first.",
+            "every primitive of a leaf is tested",
+            "A leaf holds primitives[start..start + size]. The closest of their hits counts, not \
+             the first.",
         ],
-        vec![question_without_decoys(&mut draw, tree, [24, 8], kind)],
+        vec![question_without_decoys(&mut rng, tree, [24, 8], kind)],
     )
 }
 
 pub(super) fn deep(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.deep");
+    let mut rng = seed.rng("traverse.deep");
     const LEVELS: usize = 60;
-    let chips = (0..LEVELS).map(|i| {
-        let center = DVec3::X * (0.5 * i as f64) + draw.point(0.3);
-        meshes::random_flat_triangle(&mut draw, center, 0.5)
+    let triangles = (0..LEVELS).map(|i| {
+        let center = DVec3::X * (0.5 * i as f64) + rng.point(0.3);
+        meshes::random_flat_triangle(&mut rng, center, 0.5)
     });
-    let chips: Vec<Shape> = chips.collect();
-    let tree = construction::chain(meshes::number_shapes(chips));
-    // Along the chain, from either end, and across it.
-    let kind = |draw: &mut Rng, _: &Tree| {
-        let target = DVec3::X * draw.uniform(0.0, 30.0) + draw.point(0.4);
-        let away = match draw.index(3) {
-            0 => DVec3::X + draw.point(0.2),
-            1 => DVec3::NEG_X + draw.point(0.2),
-            _ => draw.direction(),
+    let triangles: Vec<Shape> = triangles.collect();
+    let tree = construction::chain(meshes::number_shapes(triangles));
+    // Rays along the chain, from both ends, and across it.
+    let kind = |rng: &mut Rng, _: &Tree| {
+        let target = DVec3::X * rng.uniform(0.0, 30.0) + rng.point(0.4);
+        let away = match rng.index(3) {
+            0 => DVec3::X + rng.point(0.2),
+            1 => DVec3::NEG_X + rng.point(0.2),
+            _ => rng.direction(),
         };
         ray(target + 6.0 * away, target)
     };
@@ -153,35 +153,36 @@ pub(super) fn deep(seed: Seed) -> Item {
         "deep",
         1,
         [
-            "a tree of 60 levels is walked to its end",
-            "A stack of fixed size must be large enough, and what is put on it must come off again.",
+            "a tree of 60 levels is traversed to the end",
+            "A stack of fixed size must be large enough, and every node that is pushed must be \
+             popped again.",
         ],
-        vec![question_without_decoys(&mut draw, tree, [24, 8], kind)],
+        vec![question_without_decoys(&mut rng, tree, [24, 8], kind)],
     )
 }
 
 pub(super) fn flat(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.flat");
-    // Axis-parallel facets, one to a leaf.
-    let tiles = (0..36).map(|i| {
+    let mut rng = seed.rng("traverse.flat");
+    // Axis-parallel triangles, one per leaf.
+    let triangles = (0..36).map(|i| {
         let axis = i % 3;
         let (x, y) = (DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]);
-        let corner = draw.point(2.0);
-        let size = draw.uniform(0.6, 1.4) * draw.sign();
+        let corner = rng.point(2.0);
+        let size = rng.uniform(0.6, 1.4) * rng.sign();
         meshes::flat_triangle([corner, corner + size * x, corner + size * y], 0)
     });
-    let tiles: Vec<Shape> = tiles.collect();
-    let tree = construction::median_split(meshes::number_shapes(tiles), 1);
+    let triangles: Vec<Shape> = triangles.collect();
+    let tree = construction::median_split(meshes::number_shapes(triangles), 1);
     item(
         "flat",
         1,
         [
             "leaves with flat boxes are entered",
-            "A ray enters a box without thickness and leaves it at the same time. If the box test is \
-             right, see how its answer is used: an interval of one point is not empty.",
+            "A ray enters and leaves a flat box at the same time. If your box test is correct, \
+             check how you use its result: an interval of one point is not empty.",
         ],
         vec![question_without_decoys(
-            &mut draw,
+            &mut rng,
             tree,
             [24, 8],
             ray_from_around,
@@ -190,15 +191,15 @@ pub(super) fn flat(seed: Seed) -> Item {
 }
 
 pub(super) fn mixed(seed: Seed) -> Item {
-    let mut draw = seed.rng("traverse.mixed");
+    let mut rng = seed.rng("traverse.mixed");
     let shapes = (0..36).map(|i| {
-        let center = draw.point(2.0);
+        let center = rng.point(2.0);
         if i % 2 == 0 {
-            meshes::random_flat_triangle(&mut draw, center, 0.9)
+            meshes::random_flat_triangle(&mut rng, center, 0.9)
         } else {
             Shape::Sphere {
                 center: center.as_vec3(),
-                radius: draw.uniform(0.2, 0.5) as f32,
+                radius: rng.uniform(0.2, 0.5) as f32,
                 material: 0,
             }
         }
@@ -209,11 +210,11 @@ pub(super) fn mixed(seed: Seed) -> Item {
         "mixed",
         1,
         [
-            "spheres and triangles live in one tree",
-            "Primitive::hit asks whichever it is; their distances are compared alike.",
+            "a tree can hold spheres and triangles",
+            "Primitive::hit tests either kind, and their distances are compared in the same way.",
         ],
         vec![question_without_decoys(
-            &mut draw,
+            &mut rng,
             tree,
             [24, 8],
             ray_from_around,

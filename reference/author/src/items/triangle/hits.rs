@@ -1,4 +1,4 @@
-//! Hit or miss, and how far away.
+//! Items about hit or miss, and the distance.
 
 use glam::{Vec2, Vec3, vec3};
 use grader::exam::{ExamQuestion, HitCheck, Item};
@@ -18,37 +18,37 @@ pub(super) fn inside(seed: Seed) -> Item {
         "inside",
         2,
         [
-            "a ray through the inside hits, at the distance t",
-            "Solve the three equations for u, v and t. Mind the signs in Cramer's rule, and that the \
-             last column of the matrix is −d.",
+            "a ray through the inside hits the triangle at the distance t",
+            "Solve the three equations for u, v and t. Check the signs in Cramer's rule, and that \
+             the last column of the matrix is −d.",
         ],
         table_questions("triangle.inside", seed, &[HitCheck::Distance], Side::Front),
     )
 }
 
 pub(super) fn outside(seed: Seed) -> Item {
-    let mut draw = seed.rng("triangle.outside");
+    let mut rng = seed.rng("triangle.outside");
     let mut table = || {
-        let vertices = random_triangle(&mut draw);
+        let vertices = random_triangle(&mut rng);
         let mut rays: Vec<Ray> = (0..12)
             .map(|i| {
-                // A third of them next to the edge.
+                // A third of them are next to the edge.
                 let beyond = if i < 4 { (0.022, 0.06) } else { (0.06, 0.6) };
-                let beyond = draw.uniform(beyond.0, beyond.1);
-                let weights = weights_beyond_edge_by(&mut draw, i % 3, beyond);
-                ray_through(&mut draw, &vertices, weights, Side::Front)
+                let beyond = rng.uniform(beyond.0, beyond.1);
+                let weights = weights_beyond_edge_by(&mut rng, i % 3, beyond);
+                ray_through(&mut rng, &vertices, weights, Side::Front)
             })
             .collect();
-        rays.extend((0..4).map(|_| hitting_ray(&mut draw, &vertices, Side::Front)));
-        shapes_question(&[], vec![shape(&vertices, 0)], draw.shuffled(rays))
+        rays.extend((0..4).map(|_| hitting_ray(&mut rng, &vertices, Side::Front)));
+        shapes_question(&[], vec![shape(&vertices, 0)], rng.shuffled(rays))
     };
     item(
         "outside",
         2,
         [
             "a ray that crosses the plane beyond an edge misses",
-            "u, v and w = 1 − u − v belong to one corner each. Beyond an edge the weight of the \
-             corner opposite is negative: there are three edges.",
+            "u, v and w = 1 − u − v each belong to one corner. Beyond any of the three edges, the \
+             weight of the opposite corner is negative.",
         ],
         vec![table(), table(), table()],
     )
@@ -60,7 +60,7 @@ pub(super) fn from_behind(seed: Seed) -> Item {
         1,
         [
             "a triangle is hit from behind as well",
-            "Seen from behind the determinant has the other sign. That is no reason for a miss.",
+            "Seen from behind, the determinant has the other sign, which is no reason for a miss.",
         ],
         table_questions(
             "triangle.from_behind",
@@ -71,20 +71,21 @@ pub(super) fn from_behind(seed: Seed) -> Item {
     )
 }
 
-/// Hits and misses through the same triangle that differ by their range alone.
+/// Creates questions with rays through a triangle, where only the range decides between hit and
+/// miss.
 fn range_questions(
     name: &str,
     seed: Seed,
     range: impl Fn(&mut Rng, f64) -> (f64, f64),
 ) -> Vec<ExamQuestion> {
-    let mut draw = seed.rng(name);
+    let mut rng = seed.rng(name);
     let mut table = || {
-        let vertices = random_triangle(&mut draw);
+        let vertices = random_triangle(&mut rng);
         let rays = (0..12).map(|_| {
-            let ray = hitting_ray(&mut draw, &vertices, Side::Either);
-            let met =
-                triangle::intersect(&Ray64::from(&ray), &vertices, 0).expect("it was aimed at it");
-            let (min, max) = range(&mut draw, met.distance);
+            let ray = hitting_ray(&mut rng, &vertices, Side::Either);
+            let hit = triangle::intersect(&Ray64::from(&ray), &vertices, 0)
+                .expect("the ray was aimed at the triangle");
+            let (min, max) = range(&mut rng, hit.distance);
             ray.within(min as f32, max as f32)
         });
         let rays = rays.collect();
@@ -94,37 +95,38 @@ fn range_questions(
 }
 
 pub(super) fn range_max(seed: Seed) -> Item {
-    let range = |draw: &mut Rng, t: f64| (0.0, t + draw.sign() * draw.uniform(0.03, 0.6));
+    let range = |rng: &mut Rng, t: f64| (0.0, t + rng.sign() * rng.uniform(0.03, 0.6));
     item(
         "range_max",
         1,
         [
-            "beyond the end of the ray's range there is no hit",
-            "Compare t with ray.range before you answer: a shadow ray ends at the light.",
+            "there is no hit beyond the end of the ray's range",
+            "Compare t with ray.range before you return a hit: a shadow ray, for example, ends at \
+             the light.",
         ],
         range_questions("triangle.range_max", seed, range),
     )
 }
 
 pub(super) fn range_min(seed: Seed) -> Item {
-    let range = |draw: &mut Rng, t: f64| (t + draw.sign() * draw.uniform(0.03, 0.6), t + 9.0);
+    let range = |rng: &mut Rng, t: f64| (t + rng.sign() * rng.uniform(0.03, 0.6), t + 9.0);
     item(
         "range_min",
         1,
         [
-            "before the start of the ray's range there is no hit",
-            "The range has two ends. Its start need not be 0.",
+            "there is no hit before the start of the ray's range",
+            "The range has two ends, and its start need not be 0.",
         ],
         range_questions("triangle.range_min", seed, range),
     )
 }
 
 pub(super) fn behind_the_ray(seed: Seed) -> Item {
-    let mut draw = seed.rng("triangle.behind_the_ray");
+    let mut rng = seed.rng("triangle.behind_the_ray");
     let mut table = || {
-        let vertices = random_triangle(&mut draw);
+        let vertices = random_triangle(&mut rng);
         let rays = (0..12).map(|i| {
-            let ray = hitting_ray(&mut draw, &vertices, Side::Either);
+            let ray = hitting_ray(&mut rng, &vertices, Side::Either);
             if i % 2 == 0 {
                 ray
             } else {
@@ -139,17 +141,17 @@ pub(super) fn behind_the_ray(seed: Seed) -> Item {
         1,
         [
             "a triangle behind the ray is missed",
-            "There t is negative, and the weights look as if all were well.",
+            "Behind the ray, t is negative, although the weights look like those of a hit.",
         ],
         vec![table(), table()],
     )
 }
 
 pub(super) fn tiny(seed: Seed) -> Item {
-    let mut draw = seed.rng("triangle.tiny");
+    let mut rng = seed.rng("triangle.tiny");
     let mut table = || {
-        // Half of its edges' length is the side of the cube that they are drawn from.
-        let mut vertices = random_triangle(&mut draw);
+        // The corners come from a cube of side 4, so scaled edges are about 1e-3 long.
+        let mut vertices = random_triangle(&mut rng);
         for vertex in &mut vertices {
             vertex.position *= 4e-4;
         }
@@ -157,17 +159,17 @@ pub(super) fn tiny(seed: Seed) -> Item {
         let front = (p1 - p0).cross(p2 - p0).normalize();
         let rays = (0..16).map(|i| {
             let weights = if i % 2 == 0 {
-                weights_inside(&mut draw, 0.1)
+                weights_inside(&mut rng, 0.1)
             } else {
-                weights_beyond_edge(&mut draw, i % 3).map(|w| w * 2.0 - 1.0 / 3.0)
+                weights_beyond_edge(&mut rng, i % 3).map(|w| w * 2.0 - 1.0 / 3.0)
             };
             let target = weights[0] * p0 + weights[1] * p1 + weights[2] * p2;
-            draw.retry(|draw| {
-                let away = draw.direction();
-                let ray = ray(target + draw.uniform(0.1, 0.5) * away, target);
-                let crossing = triangle::intersect_plane(&Ray64::from(&ray), [p0, p1, p2])?;
-                let steep = away.dot(front).abs() > 0.5;
-                (steep && crossing.least_weight().abs() > 0.05).then_some(ray)
+            rng.retry(|rng| {
+                let away = rng.direction();
+                let ray = ray(target + rng.uniform(0.1, 0.5) * away, target);
+                let intersection = triangle::intersect_plane(&Ray64::from(&ray), [p0, p1, p2])?;
+                let is_steep = away.dot(front).abs() > 0.5;
+                (is_steep && intersection.least_weight().abs() > 0.05).then_some(ray)
             })
         });
         let rays = rays.collect();
@@ -177,25 +179,26 @@ pub(super) fn tiny(seed: Seed) -> Item {
         "tiny",
         1,
         [
-            "a triangle of edge 1e-3 is as good as any",
-            "The determinant shrinks with the area: it is small for small triangles, not only for \
-             parallel rays. Compare it with zero, not with a small number.",
+            "a triangle with edges of 1e-3 is hit like any other",
+            "The determinant is small for small triangles too, not only for parallel rays: compare \
+             it with zero, not with a small number.",
         ],
         vec![table(), table()],
     )
 }
 
-/// Small whole numbers, so that every correct formula's determinant is exactly zero.
+/// Returns the item about degenerate triangles. Its coordinates are small integers, so that the
+/// determinant is exactly zero in every correct formula.
 pub(super) fn degenerate(seed: Seed) -> Item {
-    let mut draw = seed.rng("triangle.degenerate");
+    let mut rng = seed.rng("triangle.degenerate");
     let flat = |corners: [Vec3; 3]| {
         let vertices = corners.map(|corner| Vertex::new(corner, Vec3::Z, Vec2::ZERO));
         shape(&vertices, 0)
     };
-    let control = |draw: &mut Rng| {
-        let vertices = random_triangle(draw);
+    let control = |rng: &mut Rng| {
+        let vertices = random_triangle(rng);
         let rays = (0..4)
-            .map(|_| hitting_ray(draw, &vertices, Side::Either))
+            .map(|_| hitting_ray(rng, &vertices, Side::Either))
             .collect();
         shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
     };
@@ -208,7 +211,7 @@ pub(super) fn degenerate(seed: Seed) -> Item {
         vec3(3.0, 1.0, 0.0),
     ]);
     let point = flat([vec3(1.0, 1.0, 0.0); 3]);
-    let edge_of_none = flat([
+    let coinciding_corners = flat([
         vec3(1.0, 2.0, 0.0),
         vec3(1.0, 2.0, 0.0),
         vec3(3.0, 2.0, 0.0),
@@ -218,24 +221,24 @@ pub(super) fn degenerate(seed: Seed) -> Item {
         vec3(4.0, 0.0, 0.0),
         vec3(0.0, 4.0, 0.0),
     ]);
-    let ask = |shape: Shape, rays: Vec<Ray>| shapes_question(&[], vec![shape], rays);
+    let question = |shape: Shape, rays: Vec<Ray>| shapes_question(&[], vec![shape], rays);
     item(
         "degenerate",
         1,
         [
-            "a triangle without area, or parallel to the ray, is missed",
-            "Then the determinant is zero, and 1/0 is no number to go on with: such a triangle can \
-             not be hit.",
+            "a triangle that has no area or is parallel to the ray is missed",
+            "The determinant is then zero, and dividing by it gives no usable number: return a \
+             miss.",
         ],
         vec![
-            ask(line, vec![down(1.0, 1.0), down(2.0, 1.0), down(2.0, 3.0)]),
-            ask(point, vec![down(1.0, 1.0), down(0.0, 0.0)]),
-            ask(edge_of_none, vec![down(2.0, 2.0), down(1.0, 2.0)]),
-            ask(
+            question(line, vec![down(1.0, 1.0), down(2.0, 1.0), down(2.0, 3.0)]),
+            question(point, vec![down(1.0, 1.0), down(0.0, 0.0)]),
+            question(coinciding_corners, vec![down(2.0, 2.0), down(1.0, 2.0)]),
+            question(
                 half_square,
                 vec![along(1.0, 0.0), along(1.0, 2.0), along(-1.0, 0.0)],
             ),
-            control(&mut draw),
+            control(&mut rng),
         ],
     )
 }

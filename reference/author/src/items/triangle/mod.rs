@@ -1,4 +1,4 @@
-//! Task 2, step 1: triangles.
+//! Items of task 2, step 1: triangles.
 
 mod aim;
 mod hits;
@@ -11,7 +11,7 @@ use protocol::Ray;
 
 use crate::seed::Seed;
 
-/// The items of the task `triangle`.
+/// Returns the items of the task `triangle`.
 pub fn items(seed: Seed) -> Vec<Item> {
     let all: [fn(Seed) -> Item; 15] = [
         hits::inside,
@@ -37,20 +37,21 @@ fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<ExamQuestion>) 
     super::item(Task::Triangle, name, points, text, questions)
 }
 
-/// Questions about four triangles: for each, rays that hit it from this side, and some that miss.
-fn table_questions(name: &str, seed: Seed, judged: &[HitCheck], side: Side) -> Vec<ExamQuestion> {
-    let mut draw = seed.rng(name);
+/// Creates one question for each of four triangles, with rays that hit it from this side and some
+/// rays that miss.
+fn table_questions(name: &str, seed: Seed, checks: &[HitCheck], side: Side) -> Vec<ExamQuestion> {
+    let mut rng = seed.rng(name);
     let mut table = || {
-        let vertices = random_triangle(&mut draw);
+        let vertices = random_triangle(&mut rng);
         let mut rays: Vec<Ray> = (0..8)
-            .map(|_| hitting_ray(&mut draw, &vertices, side))
+            .map(|_| hitting_ray(&mut rng, &vertices, side))
             .collect();
         // Beyond each edge in turn.
         rays.extend((0..4).map(|i| {
-            let weights = weights_beyond_edge(&mut draw, i % 3);
-            ray_through(&mut draw, &vertices, weights, side)
+            let weights = weights_beyond_edge(&mut rng, i % 3);
+            ray_through(&mut rng, &vertices, weights, side)
         }));
-        super::shapes_question(judged, vec![shape(&vertices, 0)], draw.shuffled(rays))
+        super::shapes_question(checks, vec![shape(&vertices, 0)], rng.shuffled(rays))
     };
     (0..4).map(|_| table()).collect()
 }

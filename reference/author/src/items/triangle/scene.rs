@@ -1,4 +1,4 @@
-//! A picture of triangles.
+//! The item with a picture of triangles.
 
 use glam::{Vec3, dvec3, vec2, vec3};
 use grader::exam::Item;
@@ -15,19 +15,21 @@ pub(super) fn picture(seed: Seed) -> Item {
         "picture",
         4,
         [
-            "a picture of triangles is right in hit, depth, normal and uv",
-            "A smooth hill, a square of two halves, triangles from behind, and some tiny ones. Look \
-             where it is wrong: along edges, on one side, or in the small ones?",
+            "a picture of triangles is correct in hits, depth, normals and uv",
+            "It shows a smooth hill, a square made of two triangles, triangles seen from behind \
+             and some tiny ones. See where it is wrong: along edges, on one side, or in the tiny \
+             triangles?",
         ],
         vec![picture::picture_question(
-            picture::view_from_origin(64),
+            picture::camera_at_origin(64),
             shapes,
         )],
     )
 }
 
-/// What stands before a camera at the origin that looks down −z at 90 degrees.
-fn picture_shapes(draw: &mut Rng) -> Vec<Shape> {
+/// Returns the triangles in front of a camera at the origin that looks down −z with a field of view
+/// of 90 degrees.
+fn picture_shapes(rng: &mut Rng) -> Vec<Shape> {
     let mut shapes = Vec::new();
     let mut add = |vertices: [Vertex; 3]| shapes.push(shape(&vertices, 0));
 
@@ -46,7 +48,7 @@ fn picture_shapes(draw: &mut Rng) -> Vec<Shape> {
     add([corners[0], corners[2], corners[3]]);
 
     // A smooth hill of 5 × 4 squares.
-    let height = draw.uniform(0.5, 0.8);
+    let height = rng.uniform(0.5, 0.8);
     let hill = |i: usize, j: usize| {
         let (x, y) = (i as f64 / 5.0, j as f64 / 4.0);
         let (u, v) = (2.0 * x - 1.0, 2.0 * y - 1.0);
@@ -71,19 +73,19 @@ fn picture_shapes(draw: &mut Rng) -> Vec<Shape> {
         }
     }
 
-    // Some that are seen from behind, among others that are not, at all distances.
+    // Random triangles, some of them seen from behind.
     for _ in 0..6 {
-        let mut vertices = random_triangle(draw);
-        let middle = dvec3(draw.uniform(0.5, 3.0), draw.uniform(-3.0, -1.0), -4.5);
+        let mut vertices = random_triangle(rng);
+        let middle = dvec3(rng.uniform(0.5, 3.0), rng.uniform(-3.0, -1.0), -4.5);
         for vertex in &mut vertices {
             vertex.position = (0.45 * vertex.position.as_dvec3() + middle).as_vec3();
         }
         add(vertices);
     }
 
-    // Tiny ones, close to the camera.
+    // Tiny triangles, close to the camera.
     for i in 0..6 {
-        let mut vertices = random_triangle(draw);
+        let mut vertices = random_triangle(rng);
         let middle = dvec3(-0.016 + 0.004 * f64::from(i), 0.013, -0.02);
         for vertex in &mut vertices {
             vertex.position = (6e-4 * vertex.position.as_dvec3() + middle).as_vec3();

@@ -1,5 +1,5 @@
-//! The trial of classroom50's folder: its entry point in a student's checkout, with what the runner
-//! sets, as its user.
+//! The trial of the package for classroom50: runs its entry point in a student's checkout, with the
+//! runner's environment variables, as the runner's user.
 
 use std::fs;
 use std::path::Path;
@@ -13,13 +13,14 @@ use crate::package::trial::runner::{CHECKOUT, Runner, StepResult};
 use crate::package::trial::submission::TrialSubmission;
 use crate::package::trial::{TrialError, check_time, io_error};
 
-/// Where it is tried, from the workspace's root.
+/// The folder of the trial, relative to the workspace's root.
 const TRIAL_FOLDER: &str = "target/package/classroom50";
-/// What classroom50 gives a submission.
+/// Classroom50's time limit for a submission.
 const TIME_LIMIT: Duration = Duration::from_secs(15 * 60);
-/// The teacher's folder, on the runner.
+/// The package's folder on the runner.
 const AUTOGRADER_FOLDER: &str = "/home/runner/autograder";
-/// As the runner sets them. What is compiled stays from one submission to the next, to save time here.
+/// The runner's environment variables. `CARGO_TARGET_DIR` is added: compiled files are reused by
+/// the next submission, which saves time here.
 const VARIABLES: [&str; 10] = [
     "CLASSROOM=gfx-f26",
     "ASSIGNMENT=pathtracer",
@@ -33,50 +34,50 @@ const VARIABLES: [&str; 10] = [
     "CARGO_TARGET_DIR=/home/runner/built",
 ];
 
-/// Tries the folder, and tells what is not as it should be.
+/// Tries the package in `folder`, and returns the problems found.
 pub fn check(workspace: &Path, folder: &Path) -> Result<Vec<String>, TrialError> {
-    let mut complaints = package::problems(folder)?;
+    let mut problems = package::problems(folder)?;
     let workspace = &workspace.canonicalize().map_err(io_error(workspace))?;
     let packed = fs::read(folder.join("pathtracing.zip")).map_err(io_error(folder))?;
     let grader = archive::unzip(&packed)?;
     let lock = grader.text("Cargo.lock").unwrap_or_default();
     let Some(runner) = Runner::create(&workspace.join(TRIAL_FOLDER), lock)? else {
-        return Ok(complaints);
+        return Ok(problems);
     };
-    let theirs = runner.host_path(AUTOGRADER_FOLDER);
-    archive::write_files(&autograder_files(folder)?, &theirs).map_err(io_error(&theirs))?;
-    for handed_in in [
+    let target = runner.host_path(AUTOGRADER_FOLDER);
+    archive::write_files(&autograder_files(folder)?, &target).map_err(io_error(&target))?;
+    for submission in [
         TrialSubmission::Reference,
         TrialSubmission::Starter,
         TrialSubmission::Empty,
     ] {
         runner.create_checkout(|checkout| {
-            handed_in.write_to(workspace, &checkout.join("student/src"))
+            submission.write_to(workspace, &checkout.join("student/src"))
         })?;
         let step = runner.run_step(
             &VARIABLES,
             &["python3", "/home/runner/autograder/autograder.py"],
         )?;
         check_time(
-            handed_in.description(),
+            submission.description(),
             &step.job,
             TIME_LIMIT,
-            &mut complaints,
+            &mut problems,
         );
         let checkout = runner.host_path(CHECKOUT);
-        if !is_correct(handed_in, &checkout, &step) {
+        if !is_correct(submission, &checkout, &step) {
             let result = fs::read_to_string(checkout.join("result.json")).unwrap_or_default();
-            complaints.push(format!(
+            problems.push(format!(
                 "{}: {result:.300}\n{}",
-                handed_in.description(),
+                submission.description(),
                 step.job.output
             ));
         }
     }
-    Ok(complaints)
+    Ok(problems)
 }
 
-/// Both files of the folder.
+/// Reads both files of the package.
 fn autograder_files(folder: &Path) -> Result<Bundle, TrialError> {
     let mut bundle = Bundle::default();
     for name in ["autograder.py", "pathtracing.zip"] {
@@ -86,18 +87,19 @@ fn autograder_files(folder: &Path) -> Result<Bundle, TrialError> {
     Ok(bundle)
 }
 
-/// Whether what the runner reads is there; it shows the release's words on the run's page itself.
-/// Where nothing was handed in, there is no result, and the runner publishes that as an error.
-fn is_correct(handed_in: TrialSubmission, checkout: &Path, step: &StepResult) -> bool {
+/// Returns whether the files that the runner reads are correct. The runner itself shows the text of
+/// the release on the run's page. For an empty submission there is no result file, which the runner
+/// reports as an error.
+fn is_correct(submission: TrialSubmission, checkout: &Path, step: &StepResult) -> bool {
     let result = fs::read(checkout.join("result.json")).ok();
     let result: Option<Value> = result.and_then(|text| serde_json::from_slice(&text).ok());
     let Some(result) = result else {
-        let is_told = step.job.output.contains("camera.rs, triangle.rs");
-        return handed_in == TrialSubmission::Empty && step.job.code == Some(2) && is_told;
+        let is_explained = step.job.output.contains("camera.rs, triangle.rs");
+        return submission == TrialSubmission::Empty && step.job.code == Some(2) && is_explained;
     };
-    let is_theirs = result["owner"] == "alice" && result["datetime"] == "2026-11-20T20:09:58Z";
-    let is_right = result["score"] == handed_in.points() && result["max-score"] == 100;
+    let is_identified = result["owner"] == "alice" && result["datetime"] == "2026-11-20T20:09:58Z";
+    let is_score_right = result["score"] == submission.points() && result["max-score"] == 100;
     let body = fs::read_to_string(checkout.join("release-body.md")).unwrap_or_default();
     let is_shown = !body.is_empty() && step.summary.is_empty();
-    step.job.code == Some(0) && is_right && is_theirs && is_shown
+    step.job.code == Some(0) && is_score_right && is_identified && is_shown
 }

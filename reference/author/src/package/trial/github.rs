@@ -1,5 +1,5 @@
-//! The trial of the template repository: what its workflow runs, in a student's checkout, as the
-//! runner's user.
+//! The trial of the template repository for GitHub: runs the commands of its workflow in a
+//! student's checkout, as the runner's user.
 
 use std::fs;
 use std::path::Path;
@@ -12,61 +12,62 @@ use crate::package::trial::runner::{Runner, StepResult};
 use crate::package::trial::submission::TrialSubmission;
 use crate::package::trial::{TrialError, check_time, io_error};
 
-/// Where it is tried, from the workspace's root.
+/// The folder of the trial, relative to the workspace's root.
 const TRIAL_FOLDER: &str = "target/package/github";
+/// The workflow's file in the template.
 const WORKFLOW: &str = ".github/workflows/grade.yml";
-/// What the workflow gives a push.
+/// The workflow's time limit for a push.
 const TIME_LIMIT: Duration = Duration::from_secs(20 * 60);
-/// What is compiled stays from one push to the next, as the workflow's cache keeps it.
+/// Compiled files are reused by the next push, as with the workflow's cache.
 const VARIABLES: [&str; 1] = ["CARGO_TARGET_DIR=/home/runner/built"];
 
-/// Tries the repository, and tells what is not as it should be.
+/// Tries the template repository, and returns the problems found.
 pub fn check(workspace: &Path, template: &Bundle) -> Result<Vec<String>, TrialError> {
-    let mut complaints = Vec::new();
+    let mut problems = Vec::new();
     let workspace = &workspace.canonicalize().map_err(io_error(workspace))?;
     let lock = template.text("Cargo.lock").unwrap_or_default();
     let Some(runner) = Runner::create(&workspace.join(TRIAL_FOLDER), lock)? else {
-        return Ok(complaints);
+        return Ok(problems);
     };
     let commands = grading_commands(template.text(WORKFLOW).unwrap_or_default());
     if commands.is_empty() {
-        complaints.push(format!("{WORKFLOW} grades nothing"));
+        problems.push(format!("{WORKFLOW} has no step that runs a cargo command"));
     }
-    for handed_in in [
+    for submission in [
         TrialSubmission::Reference,
         TrialSubmission::Starter,
         TrialSubmission::Empty,
     ] {
         runner.create_checkout(|checkout| {
             archive::write_files(template, checkout).map_err(io_error(checkout))?;
-            replace_task_files(handed_in, workspace, &checkout.join("student/src"))
+            replace_task_files(submission, workspace, &checkout.join("student/src"))
         })?;
         for command in &commands {
             let words: Vec<&str> = command.split_whitespace().collect();
             let step = runner.run_step(&VARIABLES, &words)?;
             check_time(
-                handed_in.description(),
+                submission.description(),
                 &step.job,
                 TIME_LIMIT,
-                &mut complaints,
+                &mut problems,
             );
-            if !is_correct(handed_in, &step) {
-                let (whose, summary) = (handed_in.description(), &step.summary);
-                complaints.push(format!("{whose}: {summary:.300}\n{}", step.job.output));
+            if !is_correct(submission, &step) {
+                let (name, summary) = (submission.description(), &step.summary);
+                problems.push(format!("{name}: {summary:.300}\n{}", step.job.output));
             }
         }
     }
-    Ok(complaints)
+    Ok(problems)
 }
 
-/// Puts what is handed in over the template's five files.
+/// Replaces the template's task files by those of the submission.
 fn replace_task_files(
-    handed_in: TrialSubmission,
+    submission: TrialSubmission,
     workspace: &Path,
     source: &Path,
 ) -> Result<(), TrialError> {
-    let folder = &source.with_file_name("handed-in");
-    handed_in.write_to(workspace, folder)?;
+    let folder = &source.with_file_name("submission");
+    submission.write_to(workspace, folder)?;
     for file in TASK_FILES {
         let (from, to) = (folder.join(file.name), source.join(file.name));
         fs::remove_file(&to).map_err(io_error(&to))?;
@@ -77,7 +78,7 @@ fn replace_task_files(
     fs::remove_dir_all(folder).map_err(io_error(folder))
 }
 
-/// What the workflow runs of ours: the toolchain is on the machine already.
+/// Returns the workflow's cargo commands. Others install the toolchain, which the machine has.
 fn grading_commands(workflow: &str) -> Vec<String> {
     let runs = workflow
         .lines()
@@ -87,15 +88,18 @@ fn grading_commands(workflow: &str) -> Vec<String> {
         .collect()
 }
 
-/// Whether the run's page shows the points, and each first mistake stands beside its line.
-fn is_correct(handed_in: TrialSubmission, step: &StepResult) -> bool {
-    let says = |text: &str| step.job.output.lines().any(|line| line.starts_with(text));
-    let points = format!("## {} of 100 points", handed_in.points());
+/// Returns whether the run's page shows the points, and each first mistake is annotated on its
+/// line.
+fn is_correct(submission: TrialSubmission, step: &StepResult) -> bool {
+    let has_line = |start: &str| step.job.output.lines().any(|line| line.starts_with(start));
+    let points = format!("## {} of 100 points", submission.points());
     let is_shown = step.summary.starts_with(&points);
-    match handed_in {
-        TrialSubmission::Reference => step.job.code == Some(0) && is_shown && !says("::error"),
+    match submission {
+        TrialSubmission::Reference => step.job.code == Some(0) && is_shown && !has_line("::error"),
         TrialSubmission::Starter => {
-            step.job.code == Some(0) && is_shown && says("::error file=student/src/camera.rs,line=")
+            step.job.code == Some(0)
+                && is_shown
+                && has_line("::error file=student/src/camera.rs,line=")
         }
         TrialSubmission::Empty | TrialSubmission::Thief => {
             step.job.code == Some(2) && step.job.output.contains("camera.rs, triangle.rs")

@@ -1,5 +1,5 @@
-//! The trial of Gradescope's zip: set up and run as the platform does it, as the root of a container,
-//! without a network.
+//! The trial of the package for Gradescope: sets it up and runs it as the platform does, as root in
+//! a container without a network.
 
 use std::fs;
 use std::path::Path;
@@ -14,20 +14,20 @@ use crate::package::trial::submission::TrialSubmission;
 use crate::package::trial::thief::ProtectedData;
 use crate::package::trial::{TrialError, check_time, io_error};
 
-/// Where it is tried, from the workspace's root.
+/// The folder of the trial, relative to the workspace's root.
 const TRIAL_FOLDER: &str = "target/package/gradescope";
-/// What Gradescope gives a submission.
+/// Gradescope's time limit for a submission.
 const TIME_LIMIT: Duration = Duration::from_secs(600);
-/// What Gradescope lays beside a submission; none of it changes a score.
+/// The metadata file that Gradescope provides with a submission. It does not affect the score.
 const METADATA: &str = r#"{"id": 1, "created_at": "2026-11-20T21:09:58.000000-08:00", "users": [
 {"email": "alice@example.edu", "id": 7, "name": "Alice"}], "assignment": {"id": 3, "course_id": 2,
 "title": "Path Tracer", "due_date": "2026-11-21T00:00:00.000000-08:00", "late_due_date": null,
 "release_date": "2026-11-01T00:00:00.000000-08:00", "group_submission": false, "group_size": null,
 "total_points": "100.0"}, "submission_method": "upload", "previous_submissions": []}"#;
-/// What its scripts are kept by, beside a score: for staff.
+/// The score file that the package's script writes for staff.
 const SCORE_FILE: &str = "opt/pathtracing/target/graded/score.json";
 
-/// What is read of `results.json`.
+/// The parts of `results.json` that are checked.
 #[derive(Deserialize)]
 struct Results {
     score: u64,
@@ -49,24 +49,24 @@ struct Test {
     max_score: u64,
 }
 
-/// Tries the zip, and tells what is not as it should be.
+/// Tries the package in the file `zip`, and returns the problems found.
 pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, TrialError> {
-    let mut complaints = package::problems(zip)?;
+    let mut problems = package::problems(zip)?;
     let workspace = &workspace.canonicalize().map_err(io_error(workspace))?;
     let Some(machine) = Machine::create(&workspace.join(TRIAL_FOLDER))? else {
-        return Ok(complaints);
+        return Ok(problems);
     };
     unpack(&machine, zip)?;
     let exam = machine.host_path("autograder/source/pathtracing/exam.json");
     let exam = fs::read_to_string(&exam).map_err(io_error(&exam))?;
-    let set_up = run(
+    let setup = run(
         &machine,
         Limits::None,
         &["bash", "/autograder/source/setup.sh"],
     )?;
-    if set_up.code != Some(0) {
-        complaints.push(format!("setup.sh failed:\n{}", set_up.output));
-        return Ok(complaints);
+    if setup.code != Some(0) {
+        problems.push(format!("setup.sh failed:\n{}", setup.output));
+        return Ok(problems);
     }
     let all = [
         TrialSubmission::Reference,
@@ -74,25 +74,25 @@ pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, TrialError> {
         TrialSubmission::Empty,
         TrialSubmission::Thief,
     ];
-    for handed_in in all {
-        let submission = machine.host_path("autograder/submission");
-        handed_in.write_to(workspace, &submission)?;
+    for submission in all {
+        let folder = machine.host_path("autograder/submission");
+        submission.write_to(workspace, &folder)?;
         clear_results(&machine)?;
-        let ended = run(&machine, Limits::Platform, &["/autograder/run_autograder"])?;
-        check_time(handed_in.description(), &ended, TIME_LIMIT, &mut complaints);
-        complaints.extend(problem(&machine, handed_in, &ended));
-        if handed_in == TrialSubmission::Thief {
-            complaints.extend(theft_problems(
+        let job = run(&machine, Limits::Platform, &["/autograder/run_autograder"])?;
+        check_time(submission.description(), &job, TIME_LIMIT, &mut problems);
+        problems.extend(problem(&machine, submission, &job));
+        if submission == TrialSubmission::Thief {
+            problems.extend(theft_problems(
                 &machine,
                 &ProtectedData::collect(workspace, &exam)?,
-                &ended,
+                &job,
             )?);
         }
     }
-    Ok(complaints)
+    Ok(problems)
 }
 
-/// As when the zip was uploaded.
+/// Unpacks the zip as Gradescope does after an upload.
 fn unpack(machine: &Machine, zip: &Path) -> Result<(), TrialError> {
     let source = machine.host_path("autograder/source");
     fs::create_dir_all(&source).map_err(io_error(&source))?;
@@ -104,13 +104,13 @@ fn unpack(machine: &Machine, zip: &Path) -> Result<(), TrialError> {
     fs::write(&metadata, METADATA).map_err(io_error(&metadata))
 }
 
-fn run(machine: &Machine, limits: Limits, words: &[&str]) -> Result<JobResult, TrialError> {
+fn run(machine: &Machine, limits: Limits, command: &[&str]) -> Result<JobResult, TrialError> {
     machine.run(Job {
         user: User::Container,
         limits,
         folder: "/autograder",
         variables: &[],
-        command: words,
+        command,
     })
 }
 
@@ -124,17 +124,21 @@ fn read(machine: &Machine, path: &str) -> String {
     fs::read_to_string(machine.host_path(path)).unwrap_or_default()
 }
 
-/// What is wrong with the results.
-fn problem(machine: &Machine, handed_in: TrialSubmission, ended: &JobResult) -> Option<String> {
-    let (whose, points) = (handed_in.description(), handed_in.points());
-    let said = &ended.output;
+/// Returns the problem with the results file, if there is one.
+fn problem(machine: &Machine, submission: TrialSubmission, job: &JobResult) -> Option<String> {
+    let (name, points) = (submission.description(), submission.points());
+    let output = &job.output;
     let results = read(machine, "autograder/results/results.json");
     let results: Results = match serde_json::from_str(&results) {
         Ok(results) => results,
-        Err(error) => return Some(format!("{whose} has no results.json ({error}):\n{said}")),
+        Err(error) => {
+            return Some(format!(
+                "{name} has no valid results.json ({error}):\n{output}"
+            ));
+        }
     };
     let all: u64 = results.tests.iter().map(|test| test.max_score).sum();
-    let is_whole = match (&results.extra_data, handed_in) {
+    let is_complete = match (&results.extra_data, submission) {
         (None, TrialSubmission::Empty) => all == 0,
         (Some(extra), _) => {
             println!(
@@ -145,26 +149,26 @@ fn problem(machine: &Machine, handed_in: TrialSubmission, ended: &JobResult) -> 
         }
         (None, _) => false,
     };
-    let is_right = ended.code == Some(0) && is_whole && results.score == points;
-    (!is_right).then(|| {
+    let is_correct = job.code == Some(0) && is_complete && results.score == points;
+    (!is_correct).then(|| {
         format!(
-            "{whose} has {} points of {all} and should have {points}: {}\n{said}",
+            "{name} has {} of {all} points, but should have {points}: {}\n{output}",
             results.score, results.output
         )
     })
 }
 
-/// What the thief got; and whether it would have got something, had nobody kept it from it: else its
-/// failure says nothing.
+/// Returns a problem for everything that the attacking submission could steal. It is also a problem
+/// if the submission steals nothing without isolation, since then its failure would prove nothing.
 fn theft_problems(
     machine: &Machine,
-    loot: &ProtectedData,
-    ended: &JobResult,
+    protected: &ProtectedData,
+    job: &JobResult,
 ) -> Result<Vec<String>, TrialError> {
     let results = read(machine, "autograder/results/results.json");
-    let all = [results, read(machine, SCORE_FILE), ended.output.clone()];
-    let told = all.iter().flat_map(|text| loot.found_in(text));
-    let mut complaints: Vec<String> = told.map(|what| format!("it is stolen: {what}")).collect();
+    let all = [results, read(machine, SCORE_FILE), job.output.clone()];
+    let stolen = all.iter().flat_map(|text| protected.found_in(text));
+    let mut problems: Vec<String> = stolen.map(|what| format!("stolen: {what}")).collect();
 
     let home = "/opt/pathtracing";
     let open = machine.run(Job {
@@ -181,13 +185,14 @@ fn theft_problems(
         ],
     })?;
     let score = read(machine, "opt/pathtracing/target/open/score.json");
-    let told = loot.found_in(&score).len();
-    println!("          {told} lines and keys would be stolen without isolation");
-    if told == 0 {
-        complaints.push(format!(
-            "without isolation it steals nothing either, so it shows nothing: adapt trial/thief.rs\n{}",
+    let count = protected.found_in(&score).len();
+    println!("          {count} lines and keys would be stolen without isolation");
+    if count == 0 {
+        problems.push(format!(
+            "the attacking submission steals nothing even without isolation, so its failure proves \
+             nothing: adapt trial/thief.rs\n{}",
             open.output
         ));
     }
-    Ok(complaints)
+    Ok(problems)
 }

@@ -1,7 +1,7 @@
-//! A machine like a platform's: an empty root with this system's programs, no network, the platform's
-//! user and rights, half of a core and 768 MiB.
+//! Simulates a platform's machine: an empty root directory with this system's programs, no network,
+//! the platform's user and capabilities, half a core and 768 MiB.
 //!
-//! It takes root, which is asked of `sudo` where we are not.
+//! This needs root, directly or with `sudo`.
 
 use std::env;
 use std::fs;
@@ -11,134 +11,136 @@ use std::time::{Duration, Instant};
 
 use crate::package::trial::{TrialError, io_error};
 
-/// How it is entered.
-const ENTER_SCRIPT: &str = include_str!("../own/trial/machine.sh");
-/// What it may use.
-const LIMIT_SCRIPT: &str = include_str!("../own/trial/limits.sh");
-/// What it has for itself.
+/// The script that runs a command on the simulated machine.
+const ENTER_SCRIPT: &str = include_str!("../templates/trial/machine.sh");
+/// The script that runs a command with limited CPU time and memory.
+const LIMIT_SCRIPT: &str = include_str!("../templates/trial/limits.sh");
+/// The arguments of `unshare` for the machine's own namespaces.
 const NAMESPACES: [&str; 5] = ["--mount", "--net", "--pid", "--fork", "--kill-child"];
-/// The exit code of `LIMIT` where nothing can be limited.
+/// The exit code of [`LIMIT_SCRIPT`] if there are no usable control groups.
 const NO_LIMITS_CODE: i32 = 125;
 
-/// Who runs there.
+/// The user that a job runs as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum User {
-    /// Root, with the rights that Docker leaves.
+    /// Root, with the capabilities of a Docker container.
     Container,
     /// The user of GitHub's runners.
     Runner,
 }
 
-/// What it may use.
+/// The resource limits of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limits {
-    /// As much as there is: while an image is made.
+    /// No limits, as when a platform builds an image.
     None,
-    /// Half of a core, and 768 MiB.
+    /// Half a core and 768 MiB.
     Platform,
 }
 
-/// One program, and how it is to run.
+/// A command to run on the machine.
 #[derive(Clone, Copy, Debug)]
 pub struct Job<'a> {
-    /// As whom.
+    /// The user that it runs as.
     pub user: User,
-    /// Within what.
+    /// Its resource limits.
     pub limits: Limits,
-    /// In which folder of the machine.
+    /// Its working directory, as a path on the machine.
     pub folder: &'a str,
-    /// What it sees of the platform: `NAME=value`.
+    /// The platform's environment variables: `NAME=value`.
     pub variables: &'a [&'a str],
     /// The program and its arguments.
     pub command: &'a [&'a str],
 }
 
-/// How it ended.
+/// The result of a job.
 #[derive(Clone, Debug)]
 pub struct JobResult {
-    /// Of the program.
+    /// The exit code, or `None` after a signal.
     pub code: Option<i32>,
-    /// On both outputs.
+    /// Standard output and standard error.
     pub output: String,
-    /// By the clock on the wall.
+    /// The elapsed time.
     pub wall_time: Duration,
-    /// What it has used, where that was limited.
+    /// The resources used, if the job was limited.
     pub usage: Option<ResourceUsage>,
 }
 
-/// What a program and all that it started have used.
+/// The resources that a command and its child processes used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ResourceUsage {
-    /// Of a core that is as fast as this machine's.
+    /// The CPU time.
     pub cpu: Duration,
-    /// At most at a time, in bytes. None where the system does not tell.
+    /// The peak memory, in bytes. `None` if the system does not report it.
     pub peak_memory: Option<u64>,
 }
 
-/// A root directory, and how it is entered.
+/// A simulated machine.
 #[derive(Clone, Debug)]
 pub struct Machine {
-    /// Its root directory, from outside.
+    /// Its root directory, as a path on the host.
     pub root: PathBuf,
     toolchain: PathBuf,
+    /// The words before a command that runs it as root: none, or `sudo -n`.
     root_prefix: Vec<&'static str>,
     is_limited: bool,
 }
 
 impl Machine {
-    /// An empty one at this place. None, and a line that says why, where this system gives us none.
+    /// Creates an empty machine in the folder `root`. Prints the reason and returns `None` if this
+    /// system does not support it.
     pub fn create(root: &Path) -> Result<Option<Self>, TrialError> {
         let cargo = env::var_os("CARGO").ok_or(TrialError::NoCargo)?;
         let toolchain = Path::new(&cargo).parent().and_then(Path::parent);
         let toolchain = toolchain.ok_or(TrialError::NoCargo)?.to_owned();
-        let mut ways = [vec![], vec!["sudo", "-n"]].into_iter();
-        let Some(as_root) = ways.find(|way| can_unshare(way)) else {
-            let missing = "the trial takes root, Linux and namespaces";
+        let mut prefixes = [vec![], vec!["sudo", "-n"]].into_iter();
+        let Some(root_prefix) = prefixes.find(|prefix| can_unshare(prefix)) else {
+            let missing = "the trial needs Linux with namespaces, and root or sudo";
             return skip_or_fail(missing).map(|()| None);
         };
         let mut machine = Machine {
             root: root.to_owned(),
             toolchain,
-            root_prefix: as_root,
+            root_prefix,
             is_limited: true,
         };
         machine.remove(root)?;
         fs::create_dir_all(root).map_err(io_error(root))?;
         machine.is_limited = machine.can_limit()?;
         if !machine.is_limited {
-            skip_or_fail("no control group can be made here: the trial is run without its limits")?;
+            skip_or_fail("control groups cannot be created: the trial runs without limits")?;
         }
         Ok(Some(machine))
     }
 
-    /// Where a path of the machine's lies.
+    /// Returns the host's path of a path on the machine.
     pub fn host_path(&self, path: &str) -> PathBuf {
         self.root.join(path.trim_start_matches('/'))
     }
 
-    /// Takes a folder away, whosever it is.
+    /// Removes a folder of the host, regardless of its owner.
     pub fn remove(&self, folder: &Path) -> Result<(), TrialError> {
         let mut command = self.root_command("rm");
         command.arg("-rf").arg(folder);
         command.status().map_err(io_error(folder)).map(drop)
     }
 
-    /// Runs a job there.
+    /// Runs a job on the machine.
     pub fn run(&self, job: Job) -> Result<JobResult, TrialError> {
-        let used = &self.root.with_extension("used");
+        let usage_file = &self.root.with_extension("used");
         let is_limited = self.is_limited && job.limits == Limits::Platform;
         let mut command = match is_limited {
             true => {
                 let mut command = self.root_command("sh");
                 command
                     .args(["-c", LIMIT_SCRIPT, "sh"])
-                    .arg(used)
+                    .arg(usage_file)
                     .arg("unshare");
                 command
             }
             false => self.root_command("unshare"),
         };
-        let who = match job.user {
+        let user = match job.user {
             User::Container => "container",
             User::Runner => "runner",
         };
@@ -146,24 +148,26 @@ impl Machine {
             .args(NAMESPACES)
             .args(["sh", "-c", ENTER_SCRIPT, "sh"])
             .args([&self.root, &self.toolchain])
-            .args([who, job.folder, "LANG=C.UTF-8"])
+            .args([user, job.folder, "LANG=C.UTF-8"])
             .arg(self.path_variable())
             .args(job.variables)
             .args(job.command);
-        let began = Instant::now();
+        let start = Instant::now();
         let output = command.output().map_err(io_error(Path::new("unshare")))?;
-        let said = [output.stdout, output.stderr].concat();
-        let used = is_limited.then(|| fs::read_to_string(used)).transpose();
-        let used = used.map_err(io_error(&self.root))?;
+        let text = [output.stdout, output.stderr].concat();
+        let usage = is_limited
+            .then(|| fs::read_to_string(usage_file))
+            .transpose();
+        let usage = usage.map_err(io_error(&self.root))?;
         Ok(JobResult {
             code: output.status.code(),
-            output: String::from_utf8_lossy(&said).into_owned(),
-            wall_time: began.elapsed(),
-            usage: used.map(|text| ResourceUsage::read(&text)),
+            output: String::from_utf8_lossy(&text).into_owned(),
+            wall_time: start.elapsed(),
+            usage: usage.map(|text| ResourceUsage::read(&text)),
         })
     }
 
-    /// `env -i` forgets where programs are.
+    /// Returns the setting of `PATH`, which `env -i` would remove.
     fn path_variable(&self) -> String {
         let toolchain = self.toolchain.display();
         format!("PATH={toolchain}/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin")
@@ -184,47 +188,47 @@ impl Machine {
 }
 
 impl ResourceUsage {
-    /// From what `LIMIT` writes.
+    /// Parses the file that [`LIMIT_SCRIPT`] writes.
     fn read(text: &str) -> Self {
-        let mut used = ResourceUsage::default();
+        let mut usage = ResourceUsage::default();
         for line in text.lines() {
             let Some((what, number)) = line.split_once(' ') else {
                 continue;
             };
             let number = number.parse().unwrap_or(0);
             match what {
-                "cpu_us" => used.cpu = Duration::from_micros(number),
-                "cpu_ns" => used.cpu = Duration::from_nanos(number),
-                "memory" => used.peak_memory = Some(number),
+                "cpu_us" => usage.cpu = Duration::from_micros(number),
+                "cpu_ns" => usage.cpu = Duration::from_nanos(number),
+                "memory" => usage.peak_memory = Some(number),
                 _ => {}
             }
         }
-        used
+        usage
     }
 }
 
-/// What the machine lacks is skipped loudly, but where `CI` is set: there it has to be had.
-fn skip_or_fail(what: &str) -> Result<(), TrialError> {
+/// Prints that something is skipped, or returns an error if `CI` is set.
+fn skip_or_fail(reason: &str) -> Result<(), TrialError> {
     match env::var_os("CI") {
-        Some(_) => Err(TrialError::Unsupported(what.to_owned())),
+        Some(_) => Err(TrialError::Unsupported(reason.to_owned())),
         None => {
-            eprintln!("SKIPPED: {what}");
+            eprintln!("SKIPPED: {reason}");
             Ok(())
         }
     }
 }
 
-/// Whether this system gives us a machine of our own in this way.
-fn can_unshare(as_root: &[&'static str]) -> bool {
-    let tried = prefixed_command(as_root, "unshare")
+/// Returns whether namespaces can be created by a command with this prefix.
+fn can_unshare(prefix: &[&'static str]) -> bool {
+    let result = prefixed_command(prefix, "unshare")
         .args(NAMESPACES)
         .arg("true")
         .output();
-    matches!(tried, Ok(output) if output.status.success())
+    matches!(result, Ok(output) if output.status.success())
 }
 
-fn prefixed_command(as_root: &[&'static str], program: &str) -> Command {
-    let mut words = as_root.iter().copied().chain([program]);
+fn prefixed_command(prefix: &[&'static str], program: &str) -> Command {
+    let mut words = prefix.iter().copied().chain([program]);
     let mut command = Command::new(words.next().unwrap_or(program));
     command.args(words);
     command

@@ -1,4 +1,4 @@
-//! The trials of packages: each laid out and run as its platform does it.
+//! Trials of packages: each package is set up and run as its platform does it.
 
 pub mod classroom50;
 pub mod github;
@@ -20,44 +20,44 @@ use crate::bundle::crates::CratesError;
 use crate::bundle::secrets::SecretsError;
 use crate::package::trial::machine::JobResult;
 
-/// A package was not tried: our fault, or the machine's.
+/// A package cannot be tried.
 #[derive(Debug, thiserror::Error)]
 pub enum TrialError {
-    /// Cargo did not start us.
-    #[error("cargo has to say where it is: run `cargo author package … --check`")]
+    /// The environment variable `CARGO` is not set.
+    #[error("CARGO is not set: run `cargo author package … --check`")]
     NoCargo,
-    /// What a trial takes, where it has to be tried.
-    #[error("{0}; where CI is set, a trial is not skipped")]
+    /// The machine cannot run a trial, and `CI` is set.
+    #[error("{0}; trials are not skipped while CI is set")]
     Unsupported(String),
-    /// The starter is not what it was.
-    #[error("{file} has no line `{signature}` to be attacked at: adapt trial/thief.rs")]
+    /// The starter no longer has a method that an attack is inserted into.
+    #[error("{file} has no line `{signature}` to insert an attack after: adapt trial/thief.rs")]
     MissingAttackPoint {
         /// The file.
         file: &'static str,
-        /// What it had.
+        /// The expected first line of the method.
         signature: String,
     },
-    /// It can not be looked at.
+    /// The package cannot be read.
     #[error(transparent)]
     Package(#[from] PackageError),
-    /// What students get can not be collected.
+    /// The students' bundle cannot be collected.
     #[error(transparent)]
     Bundle(#[from] BundleError),
-    /// The crates are not at hand.
+    /// The crates of the lock file cannot be read.
     #[error(transparent)]
     Crates(#[from] CratesError),
-    /// What must not be told can not be read.
+    /// The secrets cannot be read.
     #[error(transparent)]
     Secrets(#[from] SecretsError),
-    /// It can not be unpacked.
-    #[error("the zip: {0}")]
+    /// The package cannot be unpacked.
+    #[error("cannot unpack the package: {0}")]
     Zip(#[from] ZipError),
-    /// The system does not let us.
-    #[error("can not use {}: {source}", path.display())]
+    /// A file operation failed.
+    #[error("cannot use {}: {source}", path.display())]
     Io {
-        /// What.
+        /// The file or folder.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
 }
@@ -67,24 +67,26 @@ fn io_error(path: &Path) -> impl FnOnce(io::Error) -> TrialError {
     move |source| TrialError::Io { path, source }
 }
 
-/// Says on the terminal what a submission took, and complains if that is more than half of what the
-/// platform gives: by CPU time at half of a core, which no other load of this machine changes.
-fn check_time(whose: &str, ended: &JobResult, platform: Duration, complaints: &mut Vec<String>) {
-    let Some(used) = ended.usage else {
-        return println!("{:6.1} s  {whose}", ended.wall_time.as_secs_f64());
+/// Prints the time that a submission took, and adds a problem if it is more than half of the
+/// platform's limit. The time is the CPU time at half a core, which does not depend on other load
+/// of this machine.
+fn check_time(name: &str, job: &JobResult, limit: Duration, problems: &mut Vec<String>) {
+    let Some(usage) = job.usage else {
+        return println!("{:6.1} s  {name}", job.wall_time.as_secs_f64());
     };
-    let slow = 2 * used.cpu;
-    let memory = used.peak_memory.map_or(String::new(), |bytes| {
-        format!(", {} MiB at most", bytes >> 20)
+    let time = 2 * usage.cpu;
+    let memory = usage.peak_memory.map_or(String::new(), |bytes| {
+        format!(", {} MiB peak memory", bytes >> 20)
     });
     println!(
-        "{:6.1} s of half a core ({:.1} s by the clock){memory}: {whose}",
-        slow.as_secs_f64(),
-        ended.wall_time.as_secs_f64()
+        "{:6.1} s at half a core ({:.1} s wall time){memory}: {name}",
+        time.as_secs_f64(),
+        job.wall_time.as_secs_f64()
     );
-    if slow > platform / 2 {
-        complaints.push(format!(
-            "{whose} took {slow:.0?} of half a core, and the platform gives {platform:.0?}: half of it is the most"
+    if time > limit / 2 {
+        problems.push(format!(
+            "{name} took {time:.0?} at half a core, which is more than half of the platform's \
+             limit of {limit:.0?}"
         ));
     }
 }

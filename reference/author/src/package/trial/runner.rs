@@ -1,5 +1,5 @@
-//! A runner of GitHub's, as far as a step of a workflow sees it: its user, home and variables, and the
-//! files that a step writes to.
+//! Simulates a GitHub runner as a workflow step sees it: its user, home directory, environment
+//! variables, and the files that a step writes to.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,9 +10,10 @@ use crate::package::trial::machine::{Job, JobResult, Limits, Machine, User};
 use crate::package::trial::{TrialError, io_error};
 
 const HOME: &str = "/home/runner";
-/// Where GitHub's own runners check out a repository of this name.
+/// The folder in which GitHub's runners check out a repository with this name.
 pub const CHECKOUT: &str = "/home/runner/work/pathtracing/pathtracing";
-/// What every step sees. Nothing is fetched: of crates there are those in the home.
+/// The environment variables of every step. Cargo is offline, and uses the crates in the home
+/// directory.
 const VARIABLES: [&str; 9] = [
     "CI=true",
     "GITHUB_ACTIONS=true",
@@ -25,21 +26,22 @@ const VARIABLES: [&str; 9] = [
     "CARGO_TERM_COLOR=never",
 ];
 
-/// A machine with such a user's home.
+/// A machine with the home directory of a runner's user.
 #[derive(Debug)]
 pub struct Runner(Machine);
 
-/// What a step left.
+/// The result of a step.
 #[derive(Debug)]
 pub struct StepResult {
-    /// How it ended.
+    /// The exit code and output of its command.
     pub job: JobResult,
-    /// What is shown on the run's page.
+    /// The summary that the run's page shows.
     pub summary: String,
 }
 
 impl Runner {
-    /// One with the crates that this lock file names. None where this system gives us no machine.
+    /// Creates a runner with the crates of a lock file. Returns `None` if this system does not
+    /// support simulated machines.
     pub fn create(root: &Path, lock: &str) -> Result<Option<Self>, TrialError> {
         let Some(machine) = Machine::create(root)? else {
             return Ok(None);
@@ -51,12 +53,12 @@ impl Runner {
         Ok(Some(Runner(machine)))
     }
 
-    /// Where a path of its lies.
+    /// Returns the host's path of a path on the runner.
     pub fn host_path(&self, path: &str) -> PathBuf {
         self.0.host_path(path)
     }
 
-    /// A repository with one commit, of what `fill` puts into it.
+    /// Creates a checkout with one commit, which contains the files that `fill` writes.
     pub fn create_checkout(
         &self,
         fill: impl FnOnce(&Path) -> Result<(), TrialError>,
@@ -73,7 +75,7 @@ impl Runner {
         for words in [
             "init --quiet",
             "add .",
-            "commit --quiet --allow-empty --message handed-in",
+            "commit --quiet --allow-empty --message submission",
         ] {
             let mut git = Command::new("git");
             git.args([
@@ -90,12 +92,12 @@ impl Runner {
         Ok(())
     }
 
-    /// Runs a step there.
+    /// Runs a step in the checkout.
     pub fn run_step(&self, variables: &[&str], words: &[&str]) -> Result<StepResult, TrialError> {
         let workspace = format!("GITHUB_WORKSPACE={CHECKOUT}");
         let own = VARIABLES.into_iter().chain([workspace.as_str()]);
         let variables: Vec<&str> = own.chain(variables.iter().copied()).collect();
-        let ended = self.0.run(Job {
+        let job = self.0.run(Job {
             user: User::Runner,
             limits: Limits::Platform,
             folder: CHECKOUT,
@@ -104,7 +106,7 @@ impl Runner {
         })?;
         let summary = self.host_path("/home/runner/step/summary.md");
         Ok(StepResult {
-            job: ended,
+            job,
             summary: fs::read_to_string(summary).unwrap_or_default(),
         })
     }

@@ -1,4 +1,4 @@
-//! What is handed in to a package that is tried, and what has to come of it.
+//! The submissions of a trial, and the points that they must get.
 
 use std::fs;
 use std::path::Path;
@@ -7,31 +7,31 @@ use grader::given_files::TASK_FILES;
 
 use crate::package::trial::{TrialError, io_error, thief};
 
-/// A submission, by what is in it.
+/// A submission of a trial, by its contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrialSubmission {
     /// The solution.
     Reference,
-    /// What students begin with.
+    /// The unchanged starter.
     Starter,
-    /// None of the five files.
+    /// None of the five task files.
     Empty,
-    /// Five files that steal.
+    /// Task files that try to steal solutions and keys: see [`thief`].
     Thief,
 }
 
 impl TrialSubmission {
-    /// Whose it is, for people.
+    /// Returns the name of the submission for messages.
     pub fn description(self) -> &'static str {
         match self {
             TrialSubmission::Reference => "the reference",
             TrialSubmission::Starter => "the starter",
             TrialSubmission::Empty => "an empty submission",
-            TrialSubmission::Thief => "a submission that steals",
+            TrialSubmission::Thief => "an attacking submission",
         }
     }
 
-    /// What it is worth.
+    /// Returns the points that it must get.
     pub fn points(self) -> u64 {
         match self {
             TrialSubmission::Reference => 100,
@@ -39,7 +39,7 @@ impl TrialSubmission {
         }
     }
 
-    /// Puts its files into a new folder, and nothing else.
+    /// Writes its files into a folder, which is emptied first.
     pub fn write_to(self, workspace: &Path, folder: &Path) -> Result<(), TrialError> {
         if folder.exists() {
             fs::remove_dir_all(folder).map_err(io_error(folder))?;

@@ -1,5 +1,5 @@
-//! A submission that knows where everything is: it includes, opens and overwrites what the package
-//! holds. What it must not get is looked for in all that it could have said.
+//! An attacking submission, which knows the paths of the package's files. It includes, opens and
+//! overwrites them, and all of its output is searched for solutions and keys.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -8,7 +8,8 @@ use crate::bundle::Bundle;
 use crate::bundle::secrets::Secrets;
 use crate::package::trial::{TrialError, io_error};
 
-/// What it does, by file: each into the head of this method.
+/// The attacks: a file, the first line of one of its methods, and the code to insert after that
+/// line.
 const ATTACKS: [(&str, &str, &str); 5] = [
     (
         "camera.rs",
@@ -64,10 +65,10 @@ const ATTACKS: [(&str, &str, &str); 5] = [
         }"#,
     ),
 ];
-/// So much of a key is told by no accident.
+/// The length of the compared part of a key: too long to occur by coincidence.
 const KEY_PREFIX_LENGTH: usize = 30;
 
-/// Its five files: the starter's, each with an attack.
+/// Returns the submission's files: those of the starter, each with an attack.
 pub fn files(workspace: &Path) -> Result<Vec<(&'static str, String)>, TrialError> {
     let one = |(file, head, attack): (&'static str, &str, &str)| {
         let path = workspace.join("grader/starter").join(file);
@@ -83,7 +84,7 @@ pub fn files(workspace: &Path) -> Result<Vec<(&'static str, String)>, TrialError
     ATTACKS.into_iter().map(one).collect()
 }
 
-/// What it is after.
+/// The solutions and keys that a submission must not be able to read.
 #[derive(Clone, Debug)]
 pub struct ProtectedData {
     solutions: Secrets,
@@ -91,7 +92,7 @@ pub struct ProtectedData {
 }
 
 impl ProtectedData {
-    /// The reference's lines and the exam's keys.
+    /// Collects the lines of the reference and the keys of the exam.
     pub fn collect(workspace: &Path, exam: &str) -> Result<Self, TrialError> {
         Ok(ProtectedData {
             solutions: Secrets::gather(workspace, &Bundle::collect(workspace, None)?)?,
@@ -99,11 +100,11 @@ impl ProtectedData {
         })
     }
 
-    /// What of it is told in a text, however it is quoted.
+    /// Returns the protected data in a text, even if the text is quoted or escaped.
     pub fn found_in(&self, text: &str) -> Vec<String> {
         let text = text.replace("\\n", "\n").replace('\\', "");
         let mut bundle = Bundle::default();
-        bundle.insert("what was said", text.as_str());
+        bundle.insert("output", text.as_str());
         let lines = self.solutions.search(&bundle).into_iter();
         let lines = lines.map(|leak| leak.to_string());
         let keys = self.keys.iter().filter(|key| text.contains(key.as_str()));
@@ -113,7 +114,7 @@ impl ProtectedData {
     }
 }
 
-/// The beginning of every list of numbers in the exam's keys.
+/// Returns the beginning of every list of numbers in the exam's keys.
 fn keys(exam: &str) -> BTreeSet<String> {
     let is_of_list = |c: char| c.is_ascii_digit() || "[]-.,e".contains(c);
     let keys = exam.split("\"key\":").skip(1);
@@ -145,16 +146,16 @@ mod tests {
     #[test]
     fn finds_leaked_solutions_and_keys_even_when_quoted() {
         let exam = std::fs::read_to_string(workspace().join("grader/exams/practice.json")).unwrap();
-        let loot = ProtectedData::collect(workspace(), &exam).unwrap();
-        assert!(loot.keys.len() > 100, "{}", loot.keys.len());
+        let protected = ProtectedData::collect(workspace(), &exam).unwrap();
+        assert!(protected.keys.len() > 100, "{}", protected.keys.len());
         let solved = std::fs::read_to_string(workspace().join("reference/src/sphere.rs")).unwrap();
         let key = &exam[exam.find("\"key\"").unwrap()..][..1500];
         for (stolen, least) in [(solved.as_str(), 3), (key, 1)] {
             let quoted = format!("{{\"output\": {stolen:?}}}");
-            assert!(loot.found_in(&quoted).len() >= least, "{quoted}");
+            assert!(protected.found_in(&quoted).len() >= least, "{quoted}");
         }
         let starter =
             std::fs::read_to_string(workspace().join("grader/starter/sphere.rs")).unwrap();
-        assert_eq!(loot.found_in(&format!("{starter:?}")), [""; 0]);
+        assert_eq!(protected.found_in(&format!("{starter:?}")), [""; 0]);
     }
 }

@@ -1,25 +1,26 @@
-//! What one solution's answers to one item come to: pure.
+//! The deviations of one solution's answers to one item.
 
 use grader::exam::Item;
 use grader::judge::{Deviation, Measurement, Threshold, measure};
 use grader::probe::Fault;
 use protocol::Answer;
 
-/// An answer to each question of an item, or why there is none.
+/// The answers to the questions of an item, or the reason that there are none.
 pub(super) type Answers = Result<Vec<Answer>, Fault>;
 
-/// How far off a right solution is, by all that it is held against. What a tree costs is not held
-/// against a solution that may lose points for it.
+/// Returns the deviations of a correct solution from every threshold that applies. The cost of a
+/// tree is ignored for a solution that may lose points for it.
 pub(super) fn of_correct(item: &Item, answers: &Answers, may_lose: bool) -> Vec<Deviation> {
-    let held = measure_all(item, answers)
+    let deviations = measure_all(item, answers)
         .into_iter()
         .flat_map(|measured| [Some(measured.deviation), measured.count])
         .flatten();
-    held.filter(|deviation| !(may_lose && deviation.threshold == Some(Threshold::SahCost)))
+    deviations
+        .filter(|deviation| !(may_lose && deviation.threshold == Some(Threshold::SahCost)))
         .collect()
 }
 
-/// What tells a wrong solution, if anything does: the item is as wrong as the worst in it.
+/// Returns the deviation that decides about a wrong solution: the largest one of the item.
 pub(super) fn of_mistake(item: &Item, answers: &Answers) -> Deviation {
     let deciders = measure_all(item, answers)
         .into_iter()
@@ -36,9 +37,9 @@ fn measure_all(item: &Item, answers: &Answers) -> Vec<Measurement> {
     match answers {
         Err(_) => vec![wrong],
         Ok(answers) => {
-            let asked = item.questions.iter().zip(answers);
-            asked
-                .flat_map(|(asked, answer)| measure(asked, answer))
+            let answered = item.questions.iter().zip(answers);
+            answered
+                .flat_map(|(question, answer)| measure(question, answer))
                 .collect()
         }
     }
@@ -54,7 +55,7 @@ mod tests {
 
     use super::*;
 
-    /// Boxes that are entered after 1 and left after 2.
+    /// An item of boxes that the ray enters at 1 and leaves at 2.
     fn item(questions: usize) -> Item {
         let question = Question::BBox {
             min: Vec3::ZERO,
@@ -64,7 +65,7 @@ mod tests {
         let key = Key::Spans {
             spans: vec![Some(Interval::new(1.0, 2.0))],
         };
-        let asked = ExamQuestion::new(question, key);
+        let exam_question = ExamQuestion::new(question, key);
         Item {
             id: "bbox.through".to_owned(),
             title: String::new(),
@@ -73,7 +74,7 @@ mod tests {
             look: String::new(),
             section: None,
             needs: Vec::new(),
-            questions: vec![asked; questions],
+            questions: vec![exam_question; questions],
             signatures: MistakeSignatures::default(),
         }
     }

@@ -1,20 +1,21 @@
-//! How near right answers and mistakes came to each threshold, and whether that is far enough:
-//! pure.
+//! The margins of every threshold: how far the answers of correct solutions and of mistakes are
+//! from it.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
 use grader::judge::{Deviation, Threshold};
 
-/// By this factor at least, every threshold could be stricter or more lenient.
+/// The smallest allowed margin. By this factor at least, every threshold could be made stricter or
+/// more lenient.
 pub const MIN_MARGIN: f64 = 1.5;
 
-/// How far off a solution was, and where.
+/// A deviation of one solution in one item.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DeviationSample {
-    /// How far off.
+    /// The deviation.
     pub deviation: Deviation,
-    /// The variant or the mistake.
+    /// The id of the variant or mistake.
     pub solution: String,
     /// The item's id.
     pub item: String,
@@ -38,44 +39,47 @@ impl fmt::Display for DeviationSample {
     }
 }
 
-/// Both sides of one threshold.
+/// The deviations nearest to one threshold, on both sides.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Margin {
-    /// The right answer that is nearest to it.
+    /// The largest deviation of a correct solution.
     pub worst_correct: Option<DeviationSample>,
-    /// The mistake that is nearest to it, of those that it tells.
+    /// The smallest deviation of a mistake that the threshold catches.
     pub mildest_mistake: Option<DeviationSample>,
 }
 
 impl Margin {
-    /// How much stricter the threshold could be before a right answer is wrong.
+    /// Returns the factor by which the threshold could be made stricter before a correct answer
+    /// counts as wrong.
     pub fn correct_margin(&self) -> f64 {
         let worst = self.worst_correct.as_ref();
         worst.map_or(f64::INFINITY, |worst| 1.0 / worst.deviation.value)
     }
 
-    /// How much more lenient it could be before an item does not tell a mistake.
+    /// Returns the factor by which the threshold could be made more lenient before an item stops
+    /// catching a mistake.
     pub fn mistake_margin(&self) -> f64 {
         let mildest = self.mildest_mistake.as_ref();
         mildest.map_or(f64::INFINITY, |mildest| mildest.deviation.value)
     }
 }
 
-/// A solution and an item.
+/// The ids of a solution and of an item.
 type SolutionAndItem = (String, String);
 
 /// The margins of all thresholds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Margins {
     by_threshold: BTreeMap<Threshold, Margin>,
-    /// Right solutions that are wrong where no threshold decides, each once for an item.
+    /// Correct solutions that count as wrong for a reason without a threshold, one sample per item.
     failed_variants: BTreeMap<SolutionAndItem, DeviationSample>,
-    /// Mistakes that are hardly told by an item that they must fail, or not at all.
+    /// Mistakes that are caught with too small a margin, or not at all, by an item that they must
+    /// fail.
     weak_detections: BTreeMap<SolutionAndItem, DeviationSample>,
 }
 
 impl Margins {
-    /// What is known of one threshold.
+    /// Returns the margin of one threshold.
     pub fn margin(&self, threshold: Threshold) -> Margin {
         self.by_threshold
             .get(&threshold)
@@ -83,39 +87,37 @@ impl Margins {
             .unwrap_or_default()
     }
 
-    /// Takes note of an answer by a right solution.
-    pub fn add_correct(&mut self, sighting: DeviationSample) {
-        match sighting.deviation.threshold {
-            None if sighting.deviation.is_right() => {}
+    /// Adds a deviation of a correct solution.
+    pub fn add_correct(&mut self, sample: DeviationSample) {
+        match sample.deviation.threshold {
+            None if sample.deviation.is_right() => {}
             None => {
-                self.failed_variants
-                    .entry(sighting.key())
-                    .or_insert(sighting);
+                self.failed_variants.entry(sample.key()).or_insert(sample);
             }
             Some(threshold) => {
                 let margin = self.by_threshold.entry(threshold).or_default();
-                replace_if(&mut margin.worst_correct, sighting, |new, old| new > old);
+                replace_if(&mut margin.worst_correct, sample, |new, old| new > old);
             }
         }
     }
 
-    /// Takes note of what decides about a mistake in an item that it must fail.
-    pub fn add_mistake(&mut self, sighting: DeviationSample) {
-        let Deviation { threshold, value } = sighting.deviation;
+    /// Adds the deciding deviation of a mistake in an item that it must fail.
+    pub fn add_mistake(&mut self, sample: DeviationSample) {
+        let Deviation { threshold, value } = sample.deviation;
         if value < MIN_MARGIN {
-            let known = self.weak_detections.entry(sighting.key());
-            let mild = known.or_insert_with(|| sighting.clone());
+            let known = self.weak_detections.entry(sample.key());
+            let mild = known.or_insert_with(|| sample.clone());
             if value < mild.deviation.value {
-                mild.clone_from(&sighting);
+                mild.clone_from(&sample);
             }
         }
         if let Some(threshold) = threshold.filter(|_| value > 1.0 && value.is_finite()) {
             let margin = self.by_threshold.entry(threshold).or_default();
-            replace_if(&mut margin.mildest_mistake, sighting, |new, old| new < old);
+            replace_if(&mut margin.mildest_mistake, sample, |new, old| new < old);
         }
     }
 
-    /// Both together.
+    /// Returns the margins of both sets of samples together.
     pub fn merge(mut self, other: Margins) -> Margins {
         for margin in other.by_threshold.into_values() {
             margin
@@ -138,7 +140,7 @@ impl Margins {
         self
     }
 
-    /// What is not as it must be, a line each.
+    /// Returns the problems found, one line each.
     pub fn problems(&self) -> Vec<String> {
         let near = Threshold::ALL.into_iter().filter_map(|threshold| {
             let margin = self.margin(threshold);
@@ -148,14 +150,14 @@ impl Margins {
         let wrong = self
             .failed_variants
             .values()
-            .map(|sighting| format!("{sighting} is right and fails: see `cargo author prove`"));
+            .map(|sample| format!("{sample} is correct but fails: run `cargo author prove`"));
         near.chain(wrong)
             .chain(self.weak_detections.values().map(too_mild))
             .collect()
     }
 }
 
-/// Keeps the new one if its value is `nearer` than that of the one known.
+/// Replaces the known sample by the new one if its value is `nearer`.
 fn replace_if(
     known: &mut Option<DeviationSample>,
     new: DeviationSample,
@@ -169,8 +171,8 @@ fn replace_if(
 
 fn too_near(threshold: Threshold, worst: &DeviationSample) -> String {
     format!(
-        "{worst} is right and comes to {:.2} of {} ({}), where {:.2} is the most: ask of it what \
-         can be told more exactly, or tolerate more in {}",
+        "{worst} is correct but reaches {:.2} of the threshold for {} ({}); at most {:.2} is \
+         allowed: ask a question with a more precise answer, or tolerate more in {}",
         worst.deviation.value,
         threshold.title(),
         threshold.limit(),
@@ -181,11 +183,15 @@ fn too_near(threshold: Threshold, worst: &DeviationSample) -> String {
 
 fn too_mild(mistake: &DeviationSample) -> String {
     let Deviation { threshold, value } = mistake.deviation;
-    let title = threshold.map_or("any threshold", Threshold::title);
-    let is = if value > 1.0 { "hardly" } else { "not" };
+    let threshold = match threshold {
+        Some(threshold) => format!("the threshold for {}", threshold.title()),
+        None => "any threshold".to_owned(),
+    };
+    let caught = if value > 1.0 { "barely" } else { "not" };
     format!(
-        "{mistake} is {is} told: it comes to {value:.2} of {title}, where {MIN_MARGIN:.2} is the least: \
-         ask what it gets more wrong, or take the item out of its `fails`"
+        "{mistake} is {caught} caught: it reaches {value:.2} of {threshold}, and at least \
+         {MIN_MARGIN:.2} is required: ask a question that the mistake gets more wrong, or remove \
+         the item from its `fails`"
     )
 }
 
@@ -249,22 +255,22 @@ mod tests {
     #[test]
     fn reports_each_small_margin_and_what_to_do() {
         let right = [sample(UV, 0.75, 7), sample(None, f64::INFINITY, 8)];
-        let mut untold = sample(None, 0.0, 10);
-        untold.item = "sphere.uv_radius".to_owned();
-        let wrong = [sample(UV, 1.4, 8), sample(UV, 1.25, 9), untold];
-        let complaints = margins(&right, &wrong).problems();
+        let mut uncaught = sample(None, 0.0, 10);
+        uncaught.item = "sphere.uv_radius".to_owned();
+        let wrong = [sample(UV, 1.4, 8), sample(UV, 1.25, 9), uncaught];
+        let problems = margins(&right, &wrong).problems();
         let expected = [
-            "`sphere.some` in `sphere.uv`, seed 7 is right and comes to 0.75 of uv of a hit \
-             (2e-3), where 0.67 is the most: ask of it what can be told more exactly, or tolerate \
-             more in measure.rs: UV",
-            "`sphere.some` in `sphere.uv`, seed 8 is right and fails: see `cargo author prove`",
-            "`sphere.some` in `sphere.uv`, seed 9 is hardly told: it comes to 1.25 of uv of a hit, \
-             where 1.50 is the least: ask what it gets more wrong, or take the item out of its \
-             `fails`",
-            "`sphere.some` in `sphere.uv_radius`, seed 10 is not told: it comes to 0.00 of any threshold, \
-             where 1.50 is the least: ask what it gets more wrong, or take the item out of its \
-             `fails`",
+            "`sphere.some` in `sphere.uv`, seed 7 is correct but reaches 0.75 of the threshold for \
+             uv of a hit (2e-3); at most 0.67 is allowed: ask a question with a more precise \
+             answer, or tolerate more in measure.rs: UV",
+            "`sphere.some` in `sphere.uv`, seed 8 is correct but fails: run `cargo author prove`",
+            "`sphere.some` in `sphere.uv`, seed 9 is barely caught: it reaches 1.25 of the \
+             threshold for uv of a hit, and at least 1.50 is required: ask a question that the \
+             mistake gets more wrong, or remove the item from its `fails`",
+            "`sphere.some` in `sphere.uv_radius`, seed 10 is not caught: it reaches 0.00 of any \
+             threshold, and at least 1.50 is required: ask a question that the mistake gets more \
+             wrong, or remove the item from its `fails`",
         ];
-        assert_eq!(complaints, expected);
+        assert_eq!(problems, expected);
     }
 }

@@ -1,8 +1,8 @@
-//! How far the exam's thresholds stand from both sides: measured, not believed.
+//! Measures how far the exam's thresholds are from correct and from wrong answers.
 //!
-//! Every variant is right, so all its answers must be well within what is tolerated; every mistake
-//! must be well beyond, in each item that it is said to fail. How far off an answer is, the judge
-//! itself says.
+//! Every variant is correct, so all of its answers must be well within the thresholds. Every
+//! mistake must be well beyond a threshold in each item that it must fail. The deviations are those
+//! that the judge computes for grading.
 
 mod deviations;
 pub mod margins;
@@ -21,36 +21,36 @@ use crate::proof::sources::Sources;
 use crate::proof::workbench::{BuiltSolution, WorkbenchError};
 use crate::seed::Seed;
 
-/// What the table in the repository was measured with.
+/// The default seeds for the table in the repository.
 pub const MANY_SEEDS: Range<u64> = 0..200;
-/// What a check has time for.
+/// The default seeds for a check, which must be fast.
 pub const FEW_SEEDS: Range<u64> = 0..2;
 
-/// What was asked, and how near to the thresholds the answers came.
+/// The margins of all thresholds, and the seeds and solutions that they were measured with.
 #[derive(Clone, Debug)]
 pub struct Calibration {
-    /// The exams that the variants were asked.
+    /// The seeds of the exams that the variants were graded with.
     pub seeds: Range<u64>,
-    /// Those of them that the mistakes were asked as well.
+    /// The seeds of the exams that the mistakes were graded with as well.
     pub mistake_seeds: Range<u64>,
-    /// How many variants there are.
+    /// The number of variants.
     pub variants: usize,
-    /// How many mistakes there are.
+    /// The number of mistakes.
     pub mistakes: usize,
-    /// How near they came.
+    /// The margins.
     pub margins: Margins,
 }
 
 impl Calibration {
-    /// The closing line.
+    /// Returns a one-line summary.
     pub fn summary_line(&self) -> String {
         let margin = |of: fn(&Margin) -> f64| {
             let margins = Threshold::ALL.map(|threshold| of(&self.margins.margin(threshold)));
             margins.into_iter().fold(f64::INFINITY, f64::min)
         };
         format!(
-            "variants {}, seeds {}, mistakes {} ({} seeds), smallest margins {:.2} of right answers, \
-             {:.2} of mistakes",
+            "variants {}, seeds {}, mistakes {} ({} seeds), smallest margins {:.2} for correct \
+             answers, {:.2} for mistakes",
             self.variants,
             self.seeds.end - self.seeds.start,
             self.mistakes,
@@ -61,48 +61,48 @@ impl Calibration {
     }
 }
 
-/// Asks all variants in the exams of these seeds, and all mistakes in the first `with_mistakes` of
-/// them.
+/// Measures the margins with the exams of these seeds. All variants are graded with every exam, and
+/// all mistakes with the first `with_mistakes` of them.
 pub fn calibrate(
-    exhibits: &Solutions,
+    solutions: &Solutions,
     seeds: Range<u64>,
     with_mistakes: u64,
 ) -> Result<Calibration, ProofError> {
-    let asked = BuiltSolutions::build(exhibits)?;
-    let seeds_of_mistakes = seeds.start..seeds.end.min(seeds.start + with_mistakes);
+    let built = BuiltSolutions::build(solutions)?;
+    let mistake_seeds = seeds.start..seeds.end.min(seeds.start + with_mistakes);
     let of_seeds: Result<Vec<Margins>, ProofError> = seeds
         .clone()
         .into_par_iter()
         .progress_with(progress_bar(seeds.end - seeds.start, "seeds"))
-        .map(|seed| asked.margins(seed, seeds_of_mistakes.contains(&seed)))
+        .map(|seed| built.margins(seed, mistake_seeds.contains(&seed)))
         .collect();
     Ok(Calibration {
         seeds,
-        mistake_seeds: seeds_of_mistakes,
-        variants: exhibits.variants.len(),
-        mistakes: exhibits.mistakes.len(),
+        mistake_seeds,
+        variants: solutions.variants.len(),
+        mistakes: solutions.mistakes.len(),
         margins: of_seeds?
             .into_iter()
             .fold(Margins::default(), Margins::merge),
     })
 }
 
-/// All solutions, built.
+/// All solutions and their programs.
 struct BuiltSolutions<'a> {
-    exhibits: &'a Solutions,
-    /// In the order of the exhibits.
+    solutions: &'a Solutions,
+    /// The built variants, in the order of `solutions`.
     variants: Vec<BuiltSolution>,
-    /// In the order of the exhibits.
+    /// The built mistakes, in the order of `solutions`.
     mistakes: Vec<BuiltSolution>,
 }
 
 impl<'a> BuiltSolutions<'a> {
-    fn build(exhibits: &'a Solutions) -> Result<Self, WorkbenchError> {
-        let variants = exhibits.variants.iter();
+    fn build(solutions: &'a Solutions) -> Result<Self, WorkbenchError> {
+        let variants = solutions.variants.iter();
         let variants = variants.map(|(variant, sources)| (&variant.id, sources));
-        let mistakes = exhibits.mistakes.iter();
+        let mistakes = solutions.mistakes.iter();
         let mistakes = mistakes.map(|(mistake, sources)| (&mistake.id, sources));
-        let build = |(id, sources): (&String, &Sources)| exhibits.workbench.build(sources, id);
+        let build = |(id, sources): (&String, &Sources)| solutions.workbench.build(sources, id);
         let all: Vec<_> = variants.chain(mistakes).collect();
         let count = all.len() as u64;
         let built = all
@@ -110,53 +110,53 @@ impl<'a> BuiltSolutions<'a> {
             .progress_with(progress_bar(count, "solutions built"))
             .map(build);
         let mut variants = built.collect::<Result<Vec<BuiltSolution>, WorkbenchError>>()?;
-        let mistakes = variants.split_off(exhibits.variants.len());
+        let mistakes = variants.split_off(solutions.variants.len());
         Ok(BuiltSolutions {
-            exhibits,
+            solutions,
             variants,
             mistakes,
         })
     }
 
-    /// What one seed's exam adds.
+    /// Measures the margins with the exam of one seed.
     fn margins(&self, seed: u64, with_mistakes: bool) -> Result<Margins, ProofError> {
-        let exam = exams::generate("calibration", Seed(seed), &self.exhibits.recorder)?;
-        let sighting = |deviation, of: &str, item: &str| DeviationSample {
+        let exam = exams::generate("calibration", Seed(seed), &self.solutions.recorder)?;
+        let sample = |deviation, solution: &str, item: &str| DeviationSample {
             deviation,
-            solution: of.to_owned(),
+            solution: solution.to_owned(),
             item: item.to_owned(),
             seed,
         };
         let mut margins = Margins::default();
 
-        for ((variant, _), solution) in self.exhibits.variants.iter().zip(&self.variants) {
+        for ((variant, _), solution) in self.solutions.variants.iter().zip(&self.variants) {
             let exam = tasks_and_dependents(&exam, &variant.tasks());
             for item in &exam.items {
                 let answers = solution.answers(item).map_err(WorkbenchError::from)?;
                 let may_lose = variant.may_lose.contains(&item.id);
                 for deviation in deviations::of_correct(item, &answers, may_lose) {
-                    margins.add_correct(sighting(deviation, &variant.id, &item.id));
+                    margins.add_correct(sample(deviation, &variant.id, &item.id));
                 }
             }
         }
 
-        let mistakes = self.exhibits.mistakes.iter().zip(&self.mistakes);
+        let mistakes = self.solutions.mistakes.iter().zip(&self.mistakes);
         for ((mistake, _), solution) in mistakes.filter(|_| with_mistakes) {
             let must_fail = |id: &String| mistake.fails.contains(id);
             let items = exam.items.iter().filter(|item| must_fail(&item.id));
             for item in items {
                 let answers = solution.answers(item).map_err(WorkbenchError::from)?;
                 let deviation = deviations::of_mistake(item, &answers);
-                margins.add_mistake(sighting(deviation, &mistake.id, &item.id));
+                margins.add_mistake(sample(deviation, &mistake.id, &item.id));
             }
         }
         Ok(margins)
     }
 }
 
-fn progress_bar(count: u64, of: &'static str) -> ProgressBar {
+fn progress_bar(count: u64, unit: &'static str) -> ProgressBar {
     let style = ProgressStyle::with_template("{wide_bar} {pos} of {len} {msg}, {eta} left");
     ProgressBar::new(count)
-        .with_style(style.expect("a template that was tried"))
-        .with_message(of)
+        .with_style(style.expect("the template is valid"))
+        .with_message(unit)
 }

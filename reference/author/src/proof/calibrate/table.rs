@@ -1,4 +1,4 @@
-//! The table of all margins, for people.
+//! The table of all margins, `reference/calibration.md`.
 
 use std::fmt::Write;
 use std::ops::Range;
@@ -11,68 +11,72 @@ use crate::proof::calibrate::Calibration;
 use crate::proof::calibrate::margins::{DeviationSample, MIN_MARGIN, Margin};
 use crate::proof::sources::{ReadError, read};
 
-/// Where the table stands.
+/// The table's file.
 pub const PATH: &str = "reference/calibration.md";
 
-/// The table.
+/// Builds the table.
 pub fn generated_file(calibration: &Calibration) -> GeneratedFile {
     let mut text = header(calibration);
     for threshold in Threshold::ALL {
         let margin = calibration.margins.margin(threshold);
-        writeln!(text, "{}{}", row_start(threshold), row(&margin)).expect("text takes text");
+        writeln!(text, "{}{}", row_start(threshold), row(&margin))
+            .expect("writing to a String cannot fail");
     }
     GeneratedFile::new(PATH, text)
 }
 
-/// Why a table does not tell of the thresholds as they are.
+/// The table cannot be read, or is out of date.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
-    /// It can not be read.
+    /// The file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// Thresholds were moved since.
+    /// Thresholds have changed since the table was written.
     #[error(
-        "{PATH} was measured before these were as they are now: {}\nmeasure them with \
-         `cargo author calibrate`",
+        "{PATH} is out of date for these thresholds: {}; run `cargo author calibrate`",
         .0.join(", ")
     )]
     Outdated(Vec<&'static str>),
 }
 
-/// Checks that the table of the workspace at `root` tells of every threshold as it is.
+/// Checks that the table of the workspace at `root` contains the current value of every threshold.
 pub fn check(root: &Path) -> Result<(), TableError> {
     match outdated_thresholds(&read(&root.join(PATH))?) {
-        missing if missing.is_empty() => Ok(()),
-        missing => Err(TableError::Outdated(missing)),
+        outdated if outdated.is_empty() => Ok(()),
+        outdated => Err(TableError::Outdated(outdated)),
     }
 }
 
-/// The thresholds of which this table does not tell, as they are now.
+/// Returns the thresholds that the table does not contain with their current values.
 fn outdated_thresholds(table: &str) -> Vec<&'static str> {
-    let told = |threshold: &Threshold| {
-        let begins = row_start(*threshold);
-        table.lines().any(|line| line.starts_with(&begins))
+    let is_current = |threshold: &Threshold| {
+        let start = row_start(*threshold);
+        table.lines().any(|line| line.starts_with(&start))
     };
-    let missing = Threshold::ALL.into_iter().filter(|it| !told(it));
-    missing.map(Threshold::title).collect()
+    let outdated = Threshold::ALL.into_iter().filter(|it| !is_current(it));
+    outdated.map(Threshold::title).collect()
 }
 
 fn header(calibration: &Calibration) -> String {
     format!(
-        "# How far the thresholds stand from right and wrong\n\n\
-         Written by `cargo author calibrate`: {} right solutions (`reference/variants`) in the exams \
-         of {}, {} known mistakes (`reference/mistakes`) in those of {}.\n\n\
-         Values are multiples of the threshold, as the judge itself tells them: up to 1 is right. A \
-         margin is the factor by which the threshold could be moved: made stricter before the first \
-         right answer is wrong, or more lenient before a mistake is not told by an item that it must \
-         fail. Below {MIN_MARGIN} on either side, `cargo author calibrate --check` fails.\n\n\
-         - Where positions or pixels are counted, as many of the worst as may be wrong are passed \
-         over, and a mistake is held against what tells it less: how far off, or at how many places.\n\
-         - What a tree costs beyond the exact sweep's tree counts: at the same cost it is at 0. Right \
-         trees that are not the surface area heuristic's are not held against it.\n\
-         - Hit or miss, panics and the structure of trees know no threshold. The steps of partial \
-         credit stand between wrong and wrong.\n\n\
-         | threshold | value | stands in | worst right answer | margin | mildest mistake | margin |\n\
+        "# Margins of the thresholds\n\n\
+         Written by `cargo author calibrate`: {} correct solutions (`reference/variants`) were \
+         graded with the exams of {}, and {} known mistakes (`reference/mistakes`) with those of \
+         {}.\n\n\
+         Values are multiples of the threshold, as computed by the judge: a value up to 1 is \
+         correct. A margin is the factor by which a threshold could be changed: made stricter \
+         before the first correct answer counts as wrong, or more lenient before an item stops \
+         catching a mistake that must fail it. `cargo author calibrate --check` fails if a margin \
+         is below {MIN_MARGIN}.\n\n\
+         - If positions or pixels are counted, as many of the worst ones as may be wrong are \
+         ignored. A mistake must exceed two thresholds, the deviation and the number of positions; \
+         the table has the smaller of the two values.\n\
+         - For the cost of a tree, only the excess over the tree of the exact sweep is measured: a \
+         tree with the same cost has the value 0. Correct builders that do not use the surface \
+         area heuristic are not included.\n\
+         - There is no threshold for hit or miss, for panics and for the structure of trees. The \
+         limits of partial credit are not measured, since they only separate wrong answers.\n\n\
+         | threshold | value | defined in | worst correct answer | margin | mildest mistake | margin |\n\
          |---|---|---|---|--:|---|--:|\n",
         calibration.variants,
         seed_range(&calibration.seeds),
@@ -83,13 +87,13 @@ fn header(calibration: &Calibration) -> String {
 
 fn seed_range(seeds: &Range<u64>) -> String {
     match seeds.end - seeds.start {
-        0 => "no seed".to_owned(),
+        0 => "no seeds".to_owned(),
         1 => format!("seed {}", seeds.start),
         count => format!("{count} seeds ({} to {})", seeds.start, seeds.end - 1),
     }
 }
 
-/// What does not depend on what was measured.
+/// Returns the columns of a row that do not depend on the measurement.
 fn row_start(threshold: Threshold) -> String {
     format!(
         "| {} | {} | `{}` |",
@@ -100,21 +104,21 @@ fn row_start(threshold: Threshold) -> String {
 }
 
 fn row(margin: &Margin) -> String {
-    let sighting = |sighting: &Option<DeviationSample>| match sighting {
+    let cell = |sample: &Option<DeviationSample>| match sample {
         None => "none".to_owned(),
-        Some(sighting) if sighting.deviation.value == 0.0 => "0".to_owned(),
-        Some(sighting) => format!("{}: {sighting}", format_number(sighting.deviation.value)),
+        Some(sample) if sample.deviation.value == 0.0 => "0".to_owned(),
+        Some(sample) => format!("{}: {sample}", format_number(sample.deviation.value)),
     };
     format!(
         " {} | {} | {} | {} |",
-        sighting(&margin.worst_correct),
+        cell(&margin.worst_correct),
         format_number(margin.correct_margin()),
-        sighting(&margin.mildest_mistake),
+        cell(&margin.mildest_mistake),
         format_number(margin.mistake_margin()),
     )
 }
 
-/// As exactly as anybody wants to know.
+/// Formats a number with about three significant digits.
 fn format_number(value: f64) -> String {
     match value {
         value if value.is_infinite() => "∞".to_owned(),
@@ -134,7 +138,7 @@ mod tests {
     use crate::proof::calibrate::margins::Margins;
 
     fn calibration() -> Calibration {
-        let sighting = |of: &str, value| DeviationSample {
+        let sample = |of: &str, value| DeviationSample {
             deviation: Deviation {
                 threshold: Some(Threshold::Uv),
                 value,
@@ -144,8 +148,8 @@ mod tests {
             seed: 17,
         };
         let mut margins = Margins::default();
-        margins.add_correct(sighting("sphere.geometric", 0.25));
-        margins.add_mistake(sighting("sphere.u_shifted", 12.3));
+        margins.add_correct(sample("sphere.geometric", 0.25));
+        margins.add_mistake(sample("sphere.u_shifted", 12.3));
         Calibration {
             seeds: 0..200,
             mistake_seeds: 0..3,
@@ -162,7 +166,7 @@ mod tests {
                    | 0.25: `sphere.geometric` in `sphere.uv`, seed 17 | 4.00 \
                    | 12: `sphere.u_shifted` in `sphere.uv`, seed 17 | 12 |\n";
         assert!(table.contains(row), "{table}");
-        assert!(table.contains("78 right solutions"), "{table}");
+        assert!(table.contains("78 correct solutions"), "{table}");
         assert!(table.contains("200 seeds (0 to 199)"), "{table}");
     }
 

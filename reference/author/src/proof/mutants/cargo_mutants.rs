@@ -1,5 +1,5 @@
-//! The program that makes mutants, <https://mutants.rs>, where it is installed. Only its list is
-//! wanted: what becomes of a mutant, the exam says, and no unit test.
+//! Runs `cargo mutants`, <https://mutants.rs>, if it is installed. Only its list of mutants is
+//! used: the exam decides whether a mutant is caught, not unit tests.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -13,29 +13,29 @@ use crate::proof::mutants::list::{self, FileMutants, MutantList, UnnamedMutant};
 use crate::proof::mutants::span::{SourcePosition, SourceSpan};
 use crate::proof::sources::Sources;
 
-/// There is no list, though there is cargo-mutants.
+/// cargo-mutants is installed, but its list cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum CargoMutantsError {
-    /// Cargo can not be started.
-    #[error("can not run cargo: {0}")]
+    /// Cargo cannot be started.
+    #[error("cannot run cargo: {0}")]
     Cargo(#[from] io::Error),
-    /// It did not end well.
+    /// cargo-mutants failed.
     #[error("`cargo mutants --list` failed: {0}")]
     Failed(String),
-    /// Its list has another form than that of 27.1.
+    /// The list has another format than that of version 27.1.
     #[error(
-        "can not read the list of {made_by} ({why}): install the version that {path} names",
+        "cannot read the list of {made_by} ({reason}): install the version that {path} names",
         path = list::PATH
     )]
     UnknownFormat {
         /// The program and its version.
         made_by: String,
-        /// What is strange.
-        why: String,
+        /// The part of the format that is not as expected.
+        reason: String,
     },
 }
 
-/// A mutant, as it is listed.
+/// A mutant in the list of cargo-mutants.
 #[derive(Debug, Deserialize)]
 struct ListedMutant {
     name: String,
@@ -50,7 +50,7 @@ struct ListedSpan {
     end: SourcePosition,
 }
 
-/// The program and its version, if it is installed.
+/// Returns the name and version of cargo-mutants, or `None` if it is not installed.
 pub fn version() -> Option<String> {
     let output = Command::new("cargo")
         .args(["mutants", "--version"])
@@ -60,7 +60,7 @@ pub fn version() -> Option<String> {
     Some(version.trim().to_owned())
 }
 
-/// What it makes of the reference of the workspace at `root`.
+/// Lists the mutants of the reference in the workspace at `root`.
 pub fn list(
     made_by: &str,
     root: &Path,
@@ -68,12 +68,14 @@ pub fn list(
 ) -> Result<MutantList, CargoMutantsError> {
     let output = run(root)?;
     if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stderr);
-        return Err(CargoMutantsError::Failed(said.trim().to_owned()));
+        let message = String::from_utf8_lossy(&output.stderr);
+        return Err(CargoMutantsError::Failed(message.trim().to_owned()));
     }
-    parse_list(made_by, &output.stdout, reference).map_err(|why| CargoMutantsError::UnknownFormat {
-        made_by: made_by.to_owned(),
-        why,
+    parse_list(made_by, &output.stdout, reference).map_err(|reason| {
+        CargoMutantsError::UnknownFormat {
+            made_by: made_by.to_owned(),
+            reason,
+        }
     })
 }
 
@@ -87,7 +89,7 @@ fn run(root: &Path) -> io::Result<Output> {
     cargo.output()
 }
 
-/// As the list calls it.
+/// Returns the path of a file as it is written in the list.
 fn path(file: TaskFile) -> String {
     format!("reference/src/{}", file.name)
 }
@@ -106,7 +108,7 @@ fn parse_list(made_by: &str, json: &[u8], reference: &Sources) -> Result<MutantL
         let text = reference.text(file.name).unwrap_or_default();
         match by_file.remove(&path(file)) {
             Some(unnamed) => Ok(FileMutants::new(file.name, text, unnamed)),
-            None => Err(format!("there is none of {}", file.name)),
+            None => Err(format!("it has no mutants of {}", file.name)),
         }
     });
     Ok(MutantList {
@@ -116,17 +118,17 @@ fn parse_list(made_by: &str, json: &[u8], reference: &Sources) -> Result<MutantL
 }
 
 impl ListedMutant {
-    /// Without the place in its name.
+    /// Removes the position from the name.
     fn into_unnamed(self) -> Result<UnnamedMutant, String> {
         let ListedSpan { start, end } = self.span;
-        let place = format!("{}:{}:{}: ", self.file, start.line, start.column);
-        match self.name.strip_prefix(&place) {
+        let position = format!("{}:{}:{}: ", self.file, start.line, start.column);
+        match self.name.strip_prefix(&position) {
             Some(what) => Ok(UnnamedMutant {
                 what: what.to_owned(),
                 span: SourceSpan { start, end },
                 now: self.replacement,
             }),
-            None => Err(format!("`{}` does not begin with its place", self.name)),
+            None => Err(format!("`{}` does not begin with its position", self.name)),
         }
     }
 }
@@ -140,7 +142,7 @@ mod tests {
             r#"{{"name": "{name}", "file": "reference/src/bvh.rs", "replacement": "-", "genre": "x",
                 "span": {{"start": {{"line": 7, "column": 9}}, "end": {{"line": 7, "column": 10}}}}}}"#
         );
-        serde_json::from_str(&json).expect("it has the form")
+        serde_json::from_str(&json).expect("the format is correct")
     }
 
     #[test]
@@ -156,6 +158,6 @@ mod tests {
     fn rejects_a_name_without_a_position() {
         listed("+ to - at 7:9")
             .into_unnamed()
-            .expect_err("no place in front");
+            .expect_err("the name does not begin with its position");
     }
 }

@@ -1,5 +1,5 @@
-//! Mutants that no answer can tell from the reference, and why: `reference/mutants/equivalent.toml`,
-//! written by hand.
+//! Mutants that are equivalent to the reference, each with the reason:
+//! `reference/mutants/equivalent.toml`, which is written by hand.
 
 use std::path::{Path, PathBuf};
 
@@ -7,39 +7,39 @@ use serde::Deserialize;
 
 use crate::proof::sources::{ReadError, read};
 
-/// Where they stand, from the workspace's root.
+/// The file of the list, relative to the workspace's root.
 pub const PATH: &str = "reference/mutants/equivalent.toml";
 
-/// A mutant that earns all points, as it should.
+/// A mutant that gets full marks, as it should.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EquivalentMutant {
-    /// The mutant's, as in the list of all.
+    /// The mutant's name in the list of all mutants.
     pub name: String,
-    /// Why no answer can differ, or which promise is not made of the answers that do.
+    /// The reason that no answer differs, or that the contract allows the answers that differ.
     pub why: String,
 }
 
-/// They can not be used.
+/// The list cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum EquivalentsError {
-    /// The file can not be read.
+    /// The file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// It is not as it has to be.
+    /// The file is invalid.
     #[error("{}: {source}", path.display())]
     Toml {
         /// The file.
         path: PathBuf,
-        /// Line, column, and what is wrong there.
+        /// The parse error, with its line and column.
         source: toml::de::Error,
     },
-    /// A name stands there without a reason, or twice.
-    #[error("{PATH}: `{0}` has no reason, or stands twice")]
+    /// An entry has no reason, or a name occurs twice.
+    #[error("{PATH}: `{0}` has no reason, or occurs twice")]
     Entry(String),
 }
 
-/// Those of the workspace at `root`.
+/// Reads the list of the workspace at `root`.
 pub fn equivalent_mutants(root: &Path) -> Result<Vec<EquivalentMutant>, EquivalentsError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -53,9 +53,9 @@ pub fn equivalent_mutants(root: &Path) -> Result<Vec<EquivalentMutant>, Equivale
         Ok(file) => file.equivalent,
         Err(source) => return Err(EquivalentsError::Toml { path, source }),
     };
-    for (place, EquivalentMutant { name, why }) in all.iter().enumerate() {
-        let known = all[..place].iter().any(|other| other.name == *name);
-        if known || why.trim().is_empty() {
+    for (index, EquivalentMutant { name, why }) in all.iter().enumerate() {
+        let is_duplicate = all[..index].iter().any(|other| other.name == *name);
+        if is_duplicate || why.trim().is_empty() {
             return Err(EquivalentsError::Entry(name.clone()));
         }
     }

@@ -1,38 +1,38 @@
-//! What became of the mutants, beside what was foretold.
+//! The outcomes of grading the mutants, compared with the expected ones.
 
 use std::collections::BTreeMap;
 
 use crate::proof::mutants::equivalent::{self, EquivalentMutant};
 
-/// What became of one mutant.
+/// The outcome of grading one mutant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MutantOutcome {
-    /// The compiler refuses it: nobody can hand it in.
+    /// It does not compile.
     NotCompiled,
     /// It loses points.
     Caught,
-    /// It earns them all.
+    /// It gets full marks.
     Survived,
-    /// It was left out, in haste.
+    /// It is not in the sample, so it was not graded.
     Skipped,
 }
 
-/// What became of all.
+/// The outcomes of all mutants.
 #[derive(Clone, Debug)]
 pub struct Findings {
-    /// By name.
+    /// The outcomes by the mutants' names.
     pub outcomes: BTreeMap<String, MutantOutcome>,
-    /// Those that should survive, and no others.
+    /// The mutants that are expected to survive.
     pub equivalent: Vec<EquivalentMutant>,
 }
 
 impl Findings {
-    /// The closing line.
+    /// Returns a one-line summary.
     pub fn summary_line(&self) -> String {
-        let count = |fate: MutantOutcome| {
+        let count = |outcome: MutantOutcome| {
             self.outcomes
                 .values()
-                .filter(|found| **found == fate)
+                .filter(|found| **found == outcome)
                 .count()
         };
         let survive = self.unexpected_survivors().count();
@@ -45,11 +45,12 @@ impl Findings {
         )
     }
 
-    /// What is not as it should be, a line each.
+    /// Returns the problems found, one line each.
     pub fn problems(&self) -> Vec<String> {
         let survive = self.unexpected_survivors().map(|name| {
             format!(
-                "`{name}` survives: sharpen the exam; if no answer can differ, say why in {}",
+                "`{name}` survives: add a question to the exam that catches it, or explain in {} \
+                 why no answer can differ",
                 equivalent::PATH
             )
         });
@@ -64,21 +65,22 @@ impl Findings {
                         None => "does not exist",
                     };
                     let path = equivalent::PATH;
-                    Some(format!("`{name}` {found}: take it out of {path}"))
+                    Some(format!("`{name}` {found}: remove it from {path}"))
                 });
         survive.chain(wrongly_listed).collect()
     }
 
-    /// Those that should not.
+    /// Returns the survivors that are not listed as equivalent.
     fn unexpected_survivors(&self) -> impl Iterator<Item = &String> {
         let survive = self
             .outcomes
             .iter()
-            .filter(|(_, fate)| **fate == MutantOutcome::Survived);
-        let unforeseen = |name: &String| !self.equivalent.iter().any(|known| known.name == *name);
+            .filter(|(_, outcome)| **outcome == MutantOutcome::Survived);
+        let is_unexpected =
+            |name: &String| !self.equivalent.iter().any(|known| known.name == *name);
         survive
             .map(|(name, _)| name)
-            .filter(move |name| unforeseen(name))
+            .filter(move |name| is_unexpected(name))
     }
 }
 
@@ -86,17 +88,17 @@ impl Findings {
 mod tests {
     use super::*;
 
-    fn findings(fates: &[(&str, MutantOutcome)], equivalent: &[&str]) -> Findings {
+    fn findings(outcomes: &[(&str, MutantOutcome)], equivalent: &[&str]) -> Findings {
         Findings {
-            outcomes: fates
+            outcomes: outcomes
                 .iter()
-                .map(|(name, fate)| ((*name).to_owned(), *fate))
+                .map(|(name, outcome)| ((*name).to_owned(), *outcome))
                 .collect(),
             equivalent: equivalent
                 .iter()
                 .map(|name| EquivalentMutant {
                     name: (*name).to_owned(),
-                    why: "it is".to_owned(),
+                    why: "the result is the same".to_owned(),
                 })
                 .collect(),
         }
@@ -104,13 +106,13 @@ mod tests {
 
     #[test]
     fn expected_survivors_are_no_problem() {
-        let fates = [
+        let outcomes = [
             ("a", MutantOutcome::Survived),
             ("b", MutantOutcome::Caught),
             ("c", MutantOutcome::NotCompiled),
             ("d", MutantOutcome::Skipped),
         ];
-        let findings = findings(&fates, &["a", "d"]);
+        let findings = findings(&outcomes, &["a", "d"]);
         assert_eq!(
             findings.summary_line(),
             "mutants: 3 made, 1 do not compile, 1 caught, 1 equivalent, 0 survive"
@@ -120,21 +122,21 @@ mod tests {
 
     #[test]
     fn reports_each_survivor_and_each_wrong_entry() {
-        let fates = [
+        let outcomes = [
             ("a", MutantOutcome::Survived),
             ("b", MutantOutcome::Caught),
             ("c", MutantOutcome::NotCompiled),
         ];
-        let findings = findings(&fates, &["b", "c", "d"]);
+        let findings = findings(&outcomes, &["b", "c", "d"]);
         assert!(findings.summary_line().ends_with("0 equivalent, 1 survive"));
         assert_eq!(
             findings.problems(),
             [
-                "`a` survives: sharpen the exam; if no answer can differ, say why in \
-                 reference/mutants/equivalent.toml",
-                "`b` is caught: take it out of reference/mutants/equivalent.toml",
-                "`c` does not compile: take it out of reference/mutants/equivalent.toml",
-                "`d` does not exist: take it out of reference/mutants/equivalent.toml",
+                "`a` survives: add a question to the exam that catches it, or explain in \
+                 reference/mutants/equivalent.toml why no answer can differ",
+                "`b` is caught: remove it from reference/mutants/equivalent.toml",
+                "`c` does not compile: remove it from reference/mutants/equivalent.toml",
+                "`d` does not exist: remove it from reference/mutants/equivalent.toml",
             ]
         );
     }

@@ -1,5 +1,5 @@
-//! The list of all mutants, `reference/mutants/list.json`: as cargo-mutants makes them, and as it is
-//! committed for where that is not installed.
+//! The list of all mutants, `reference/mutants/list.json`. It is committed, so that cargo-mutants
+//! need not be installed to grade the mutants.
 
 use grader::given_files::{TASK_FILES, TaskFile};
 use serde::{Deserialize, Serialize};
@@ -8,31 +8,32 @@ use crate::generated_file::GeneratedFile;
 use crate::proof::mutants::span::SourceSpan;
 use crate::proof::sources::Sources;
 
-/// Where the list stands, from the workspace's root.
+/// The list's file, relative to the workspace's root.
 pub const PATH: &str = "reference/mutants/list.json";
 
-/// One small change to the reference.
+/// A small mechanical change to the reference.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mutant {
-    /// The file, and what is changed in which function. Lines are not part of it: it stays while
-    /// the function does. Where one function has several alike, they are numbered as they stand.
+    /// The file, the change, and the function. It has no line number, so that it stays the same
+    /// while the function does. Identical changes in one function are numbered in order.
     pub name: String,
-    /// What is replaced.
+    /// The span that is replaced.
     pub span: SourceSpan,
-    /// By what.
+    /// The replacement.
     pub now: String,
 }
 
-/// The mutants of one of the five files.
+/// The mutants of one task file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FileMutants {
-    /// Its name.
+    /// The file's name.
     pub file: String,
-    /// The text that the spans are meant for: the first digits of its BLAKE2b hash, as `b2sum` prints it.
+    /// The version of the file that the spans refer to: the first digits of its BLAKE2b hash, as
+    /// printed by `b2sum`.
     pub blake2b: String,
-    /// As they stand in it.
+    /// The mutants, in the order of the file.
     pub mutants: Vec<Mutant>,
 }
 
@@ -40,54 +41,54 @@ pub struct FileMutants {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MutantList {
-    /// The program that made them, and its version.
+    /// The program that generated the mutants, and its version.
     pub made_by: String,
-    /// In lecture order.
+    /// The mutants of each file, in lecture order.
     pub files: Vec<FileMutants>,
 }
 
-/// The list is of another reference than the present one.
+/// The reference has changed since the list was generated.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{PATH} does not fit reference/src/{file}, which has changed since: install cargo-mutants \
+    "{PATH} is out of date, because reference/src/{file} has changed: install cargo-mutants \
      (`cargo install cargo-mutants --locked`) and run `cargo author mutants`"
 )]
 pub struct OutdatedListError {
-    /// The file that the list does not fit.
+    /// The file that has changed.
     pub file: String,
 }
 
-/// A mutant before it has a name that no other has.
+/// A mutant without a unique name.
 #[derive(Clone, Debug)]
 pub struct UnnamedMutant {
-    /// What is changed in which function.
+    /// The change and the function.
     pub what: String,
-    /// What is replaced.
+    /// The span that is replaced.
     pub span: SourceSpan,
-    /// By what.
+    /// The replacement.
     pub now: String,
 }
 
 impl FileMutants {
-    /// The mutants of a file with this text, put in order and named.
+    /// Sorts and names the mutants of a file with this text.
     pub fn new(file: &str, text: &str, mut unnamed: Vec<UnnamedMutant>) -> Self {
         unnamed.sort_by(|a, b| (a.span, &a.what).cmp(&(b.span, &b.what)));
-        let alike = |others: &[UnnamedMutant], what: &str| {
-            let alike = others.iter().filter(|other| other.what == what);
-            alike.count()
+        let count = |others: &[UnnamedMutant], what: &str| {
+            let identical = others.iter().filter(|other| other.what == what);
+            identical.count()
         };
-        let name = |place: usize| {
-            let what = &unnamed[place].what;
-            match alike(&unnamed, what) {
+        let name = |index: usize| {
+            let what = &unnamed[index].what;
+            match count(&unnamed, what) {
                 1 => format!("{file}: {what}"),
                 all => {
-                    let number = 1 + alike(&unnamed[..place], what);
+                    let number = 1 + count(&unnamed[..index], what);
                     format!("{file}: {what}, {number} of {all}")
                 }
             }
         };
-        let mutants = unnamed.iter().enumerate().map(|(place, mutant)| Mutant {
-            name: name(place),
+        let mutants = unnamed.iter().enumerate().map(|(index, mutant)| Mutant {
+            name: name(index),
             span: mutant.span,
             now: mutant.now.clone(),
         });
@@ -104,21 +105,24 @@ fn hash(text: &str) -> String {
 }
 
 impl MutantList {
-    /// Every mutant with the reference that has it, by name.
+    /// Returns every mutant with its sources, sorted by name.
     pub fn solutions(
         &self,
         reference: &Sources,
     ) -> Result<Vec<(&Mutant, Sources)>, OutdatedListError> {
         let mut solutions = Vec::new();
         for TaskFile { name: file, .. } in TASK_FILES {
-            let no_fit = || OutdatedListError {
+            let outdated = || OutdatedListError {
                 file: file.to_owned(),
             };
             let text = reference.text(file).unwrap_or_default();
             let of_file = self.files.iter().find(|of_file| of_file.file == file);
             let of_file = of_file.filter(|of_file| of_file.blake2b == hash(text));
-            for mutant in &of_file.ok_or_else(no_fit)?.mutants {
-                let text = mutant.span.replace(text, &mutant.now).ok_or_else(no_fit)?;
+            for mutant in &of_file.ok_or_else(outdated)?.mutants {
+                let text = mutant
+                    .span
+                    .replace(text, &mutant.now)
+                    .ok_or_else(outdated)?;
                 solutions.push((mutant, reference.clone().with_file(file, text)));
             }
         }
@@ -126,7 +130,7 @@ impl MutantList {
         Ok(solutions)
     }
 
-    /// The file that holds it: a line for each mutant, so that changes are easy to read.
+    /// Returns the list's file. Every mutant is on a separate line, so that diffs are readable.
     pub fn generated_file(&self) -> GeneratedFile {
         let files = self.files.iter().map(|of_file| {
             let mutants: Vec<String> = of_file.mutants.iter().map(to_json).collect();
@@ -148,7 +152,7 @@ impl MutantList {
 }
 
 fn to_json(value: &impl Serialize) -> String {
-    serde_json::to_string(value).expect("texts and numbers can be written")
+    serde_json::to_string(value).expect("strings and numbers can be serialised")
 }
 
 #[cfg(test)]
@@ -159,14 +163,14 @@ mod tests {
 
     fn reference() -> Sources {
         Sources::reference(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."))
-            .expect("the reference is there")
+            .expect("the reference can be read")
     }
 
-    /// One mutant in each file: the first character becomes another.
+    /// Returns a list with one mutant per file, which replaces the first character.
     fn list(reference: &Sources) -> MutantList {
         let of_file = |file: TaskFile| {
             let text = reference.text(file.name).unwrap_or_default();
-            FileMutants::new(file.name, text, vec![unnamed("spoil", "1:1-1:2")])
+            FileMutants::new(file.name, text, vec![unnamed("replace", "1:1-1:2")])
         };
         MutantList {
             made_by: "hand".to_owned(),
@@ -209,14 +213,14 @@ mod tests {
     fn each_mutant_changes_its_own_file_only() {
         let reference = reference();
         let list = list(&reference);
-        for (mutant, sources) in list.solutions(&reference).expect("it fits") {
+        for (mutant, sources) in list.solutions(&reference).expect("the list is up to date") {
             for TaskFile { name, .. } in TASK_FILES {
                 let text = reference.text(name).unwrap_or_default();
-                let wanted = match mutant.name.starts_with(name) {
+                let expected = match mutant.name.starts_with(name) {
                     true => format!("#{}", &text[1..]),
                     false => text.to_owned(),
                 };
-                assert_eq!(sources.text(name), Some(wanted.as_str()));
+                assert_eq!(sources.text(name), Some(expected.as_str()));
             }
         }
     }
@@ -230,24 +234,24 @@ mod tests {
         let later = reference().with_file("sphere.rs", text.unwrap_or_default());
         let error = list.solutions(&later).expect_err("a line was added");
         assert_eq!(error.file, "sphere.rs");
-        let said = error.to_string();
-        assert!(said.contains("install cargo-mutants"), "{said}");
-        assert!(said.contains("run `cargo author mutants`"), "{said}");
+        let message = error.to_string();
+        assert!(message.contains("install cargo-mutants"), "{message}");
+        assert!(message.contains("run `cargo author mutants`"), "{message}");
     }
 
     #[test]
     fn rejects_a_list_without_one_of_the_files() {
         let mut list = list(&reference());
         list.files.remove(1);
-        let error = list.solutions(&reference()).expect_err("it is not whole");
+        let error = list.solutions(&reference()).expect_err("a file is missing");
         assert_eq!(error.file, "triangle.rs");
     }
 
     #[test]
     fn a_written_list_is_read_back() {
         let list = list(&reference());
-        let again: MutantList =
-            serde_json::from_str(&list.generated_file().contents).expect("it is JSON");
-        assert_eq!(again, list);
+        let read: MutantList =
+            serde_json::from_str(&list.generated_file().contents).expect("the list is JSON");
+        assert_eq!(read, list);
     }
 }

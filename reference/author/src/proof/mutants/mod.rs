@@ -1,8 +1,8 @@
-//! That the exam catches what nobody thought of: every small change that cargo-mutants makes of the
-//! reference's five files loses points, but for those that no answer can tell from it.
+//! Checks that the exam catches the mutants that cargo-mutants makes of the reference's task files:
+//! every mutant must lose points, except those that are equivalent to the reference.
 //!
-//! Beside the catalogue of mistakes, which people made, this is the other half: mistakes that a
-//! program made, without knowing what the exam asks.
+//! Mutants complement the catalogue of mistakes. The catalogue lists mistakes that people make;
+//! mutants are generated without any knowledge of the exam.
 
 pub mod cargo_mutants;
 pub mod equivalent;
@@ -26,52 +26,52 @@ use crate::proof::mutants::list::{MutantList, OutdatedListError};
 use crate::proof::sources::{ReadError, Sources, read};
 use crate::proof::workbench::{Workbench, WorkbenchError};
 
-/// In haste, one in so many is asked, in the order of their names.
+/// A sample contains one in this many mutants, in the order of their names.
 const SAMPLE_STEP: usize = 8;
 
-/// The mutants were not asked: our fault, or the machine's.
+/// The mutants cannot be graded.
 #[derive(Debug, thiserror::Error)]
 pub enum MutantsError {
-    /// A file can not be read.
+    /// A file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// Cargo-mutants makes no list.
+    /// The list of cargo-mutants cannot be used.
     #[error(transparent)]
     CargoMutants(#[from] CargoMutantsError),
-    /// The list that is committed is not one.
+    /// The committed list is invalid.
     #[error(
-        "{path}: {0}; run `cargo author mutants` where cargo-mutants is installed",
+        "{path}: {0}; install cargo-mutants and run `cargo author mutants`",
         path = list::PATH
     )]
     CommittedList(#[from] serde_json::Error),
-    /// The list is of another reference.
+    /// The committed list is out of date.
     #[error(transparent)]
     OutdatedList(#[from] OutdatedListError),
-    /// The list of those that survive can not be used.
+    /// The list of equivalent mutants cannot be used.
     #[error(transparent)]
     Equivalents(#[from] EquivalentsError),
-    /// The practice exam can not be used.
+    /// The practice exam cannot be used.
     #[error(transparent)]
     Exam(#[from] ExamError),
-    /// A mutant can not be built or asked.
+    /// A mutant cannot be built or run.
     #[error(transparent)]
     Workbench(#[from] WorkbenchError),
-    /// Then a mutant that loses points says nothing.
-    #[error("the reference itself loses points: see `cargo grade reference`")]
+    /// The reference loses points, so a loss of a mutant would prove nothing.
+    #[error("the reference itself loses points: run `cargo grade reference`")]
     Reference,
 }
 
-/// Which of the mutants are asked.
+/// The mutants to grade.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MutantSelection {
-    /// All.
+    /// All mutants.
     All,
-    /// A part that is the same every time.
+    /// A fixed sample of the mutants.
     Sample,
 }
 
 impl MutantSelection {
-    /// A part if `fast`.
+    /// Selects the sample if `fast`, and otherwise all mutants.
     pub fn new(fast: bool) -> Self {
         if fast {
             MutantSelection::Sample
@@ -80,7 +80,7 @@ impl MutantSelection {
         }
     }
 
-    /// Whether it takes in the mutant of this number.
+    /// Returns whether the selection includes the mutant with this number.
     fn includes(self, number: usize) -> bool {
         match self {
             MutantSelection::All => true,
@@ -88,19 +88,20 @@ impl MutantSelection {
         }
     }
 
-    /// What was asked, for the closing lines.
+    /// Describes the selection for the report.
     pub fn description(self) -> String {
         match self {
-            MutantSelection::All => "asked: all".to_owned(),
+            MutantSelection::All => "selected: all".to_owned(),
             MutantSelection::Sample => {
-                format!("asked: one in {SAMPLE_STEP}, in the order of their names")
+                format!("selected: one in {SAMPLE_STEP}, in the order of their names")
             }
         }
     }
 }
 
-/// All mutants of the reference of the workspace at `root`: from cargo-mutants where it is
-/// installed, else as they are committed. To check what is committed takes the version that made it.
+/// Lists all mutants of the reference in the workspace at `root`: runs cargo-mutants if it is
+/// installed, and otherwise reads the committed list. Checking the committed list needs the version
+/// of cargo-mutants that generated it.
 pub fn list(root: &Path, mode: Mode) -> Result<MutantList, MutantsError> {
     match (cargo_mutants::version(), mode) {
         (None, _) => committed_list(root),
@@ -118,8 +119,8 @@ fn committed_list(root: &Path) -> Result<MutantList, MutantsError> {
     Ok(serde_json::from_str(&read(&root.join(list::PATH))?)?)
 }
 
-/// Builds the mutants and asks each the practice exam.
-pub fn run(list: &MutantList, extent: MutantSelection) -> Result<Findings, MutantsError> {
+/// Builds the selected mutants, and grades each with the practice exam.
+pub fn run(list: &MutantList, selection: MutantSelection) -> Result<Findings, MutantsError> {
     let workbench = Workbench::open()?;
     let root = workbench.root();
     let exam = exams::load_practice(root)?;
@@ -131,27 +132,28 @@ pub fn run(list: &MutantList, extent: MutantSelection) -> Result<Findings, Mutan
     let all = list.solutions(&reference)?;
     let bar = ProgressBar::new(all.len() as u64).with_style(
         ProgressStyle::with_template("{wide_bar} {pos} of {len} mutants, {eta} left")
-            .expect("a template that was tried"),
+            .expect("the template is valid"),
     );
-    let fates: Result<_, WorkbenchError> = all
+    let outcomes: Result<_, WorkbenchError> = all
         .into_par_iter()
         .enumerate()
         .progress_with(bar)
         .map(|(number, (mutant, sources))| {
             let name = &mutant.name;
-            let fate = match extent.includes(number) {
+            let outcome = match selection.includes(number) {
                 true => outcome(&workbench, &sources, name, &exam)?,
                 false => MutantOutcome::Skipped,
             };
-            Ok((name.clone(), fate))
+            Ok((name.clone(), outcome))
         })
         .collect();
     Ok(Findings {
-        outcomes: fates?,
+        outcomes: outcomes?,
         equivalent: equivalent_mutants(root)?,
     })
 }
 
+/// Builds and grades one mutant.
 fn outcome(
     workbench: &Workbench,
     sources: &Sources,

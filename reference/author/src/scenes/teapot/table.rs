@@ -1,20 +1,20 @@
-//! Newell's numbers: x toward the spout, z up.
+//! Newell's table of patches, with x toward the spout and z up.
 
 use glam::{DVec3, dvec3};
 
-/// One Bézier patch of the table.
+/// A Bézier patch of the table.
 pub(super) struct Patch {
-    /// Which mirror images belong to the pot.
+    /// The symmetry that gives the mirror images of this patch.
     pub(super) symmetry: Symmetry,
-    /// Sixteen places in [`POINTS`], row by row.
+    /// The indices of its control points in [`POINTS`], row by row.
     points: [usize; 16],
 }
 
-/// How a patch repeats.
+/// The planes in which a patch is mirrored.
 pub(super) enum Symmetry {
-    /// Mirrored in the plane y = 0: handle and spout.
+    /// The plane y = 0, for the handle and the spout.
     LeftAndRight,
-    /// In the plane x = 0 as well: all that is round.
+    /// The planes y = 0 and x = 0, for everything round.
     AllAround,
 }
 
@@ -33,7 +33,7 @@ impl Patch {
         }
     }
 
-    /// The control points, row by row.
+    /// Returns the control points, row by row.
     pub(super) fn control_points(&self) -> [[DVec3; 4]; 4] {
         let row = |j: usize| [0, 1, 2, 3].map(|i| POINTS[self.points[4 * j + i]]);
         [0, 1, 2, 3].map(row)

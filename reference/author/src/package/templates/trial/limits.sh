@@ -1,5 +1,5 @@
-# Half of a core and 768 MiB, for a command and all that it starts. Arguments: a file for what was
-# used, and the command. Ends with 125 where there is no control group to be had.
+# Runs a command and its child processes with half a core and 768 MiB. Arguments: a file to write
+# the resource usage to, and the command. Exits with 125 if control groups cannot be used.
 set -eu
 used=$1
 shift
@@ -17,7 +17,7 @@ while [ "$1" != -- ]; do
     shift
 done
 shift
-# The one that has such a file: it is another one in each version.
+# Prints the path of a control file. Which group has it depends on the version of control groups.
 file() {
     for group in $all; do
         if [ -e "$group/$1" ]; then
@@ -52,7 +52,7 @@ GROUPS_OF_TRIAL=$all sh -c '
     unset GROUPS_OF_TRIAL
     exec "$@"' sh "$@" || code=$?
 
-# Of each the version that there is: CPU time in microseconds or nanoseconds, the most memory in bytes.
+# Only one version's files exist: CPU time in microseconds or nanoseconds, peak memory in bytes.
 {
     for name in cpu.stat cpuacct.usage memory.peak memory.max_usage_in_bytes; do
         file=$(file "$name")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Gradescope runs this once, as root, when it makes the image: the only time there is a network.
-# Afterwards nothing is fetched any more.
+# Gradescope runs this script once, as root, when it builds the image. Only this script uses the
+# network.
 set -euo pipefail
 umask 022
 home=/opt/pathtracing
@@ -17,7 +17,7 @@ fi
 
 mkdir -p "$home"
 cp -R /autograder/source/pathtracing/. "$home"
-# Here everyone could read it.
+# Submissions could read it there.
 rm -rf /autograder/source/pathtracing
 chown -R root:root "$home"
 chmod 600 "$home/exam.json" "$home/policy.toml"
@@ -25,5 +25,5 @@ chmod -R go= "$home/reference"
 
 cd "$home"
 CARGO_HOME="$home/crates" cargo build --release --locked --offline --package grader
-# All that submissions are built with is made here, and the solution has to have all points.
+# Compiles everything that submissions are built with. The solution must get all points.
 ./grade "$home/reference" --require 100 --out "$home/target/setup"

@@ -1,4 +1,4 @@
-//! Questions and values in words and numbers, for whoever reads a report.
+//! Formats questions and values as text for reports.
 
 pub mod answer;
 
@@ -7,7 +7,7 @@ use std::fmt::Write;
 use glam::{Vec2, Vec3};
 use protocol::{Interval, Question, Ray, Rays, Shape, Trace};
 
-/// Six digits that count, without needless zeros.
+/// Formats a number with six significant digits and no trailing zeros.
 pub fn number(value: f32) -> String {
     if value == 0.0 || !value.is_finite() {
         return match value {
@@ -30,42 +30,42 @@ pub fn number(value: f32) -> String {
     }
 }
 
-/// A point, a vector or a colour.
+/// Formats a point, a vector or a colour.
 pub fn point(value: Vec3) -> String {
     let [x, y, z] = value.to_array().map(number);
     format!("({x}, {y}, {z})")
 }
 
-/// Texture coordinates.
+/// Formats texture coordinates.
 pub fn uv(value: Vec2) -> String {
     format!("({}, {})", number(value.x), number(value.y))
 }
 
-/// A range or times.
+/// Formats an interval of distances along a ray.
 pub fn interval(value: Interval) -> String {
     format!("[{}, {}]", number(value.min), number(value.max))
 }
 
-/// What `BBox::hit` returns.
+/// Formats the result of `BBox::hit`.
 pub fn span(value: Option<Interval>) -> String {
     value.map_or("None".to_owned(), interval)
 }
 
-/// Where a ray hits.
+/// Formats a hit by its distance along the ray.
 pub fn hit_at(distance: f32) -> String {
     format!("a hit at distance {}", number(distance))
 }
 
-/// A ray, and the part of it that counts where that is not all that lies ahead.
+/// Formats a ray, with its range unless that is `[0, ∞)`.
 pub fn ray(ray: &Ray) -> String {
     let mut text = format!("ray from {} toward {}", point(ray.origin), point(ray.dir));
     if ray.range != Interval::AHEAD {
-        write!(text, " within {}", interval(ray.range)).expect("text takes text");
+        write!(text, " within {}", interval(ray.range)).expect("writing to a string cannot fail");
     }
     text
 }
 
-/// All that `Trace` holds, a line each.
+/// Formats every field of a `Trace`, or "no hit".
 pub fn trace(value: Option<&Trace>) -> String {
     value.map_or("no hit".to_owned(), |trace| {
         format!(
@@ -79,17 +79,17 @@ pub fn trace(value: Option<&Trace>) -> String {
     })
 }
 
-/// One element of a question: what was asked.
+/// Describes one element of a question: the ray, sample, box or tree that was tested.
 pub fn element(question: &Question, element: usize) -> String {
     match question {
         Question::Camera { camera, samples } => {
             let samples = samples.to_vec(camera.film);
-            let place = samples.get(element).map_or(String::new(), |sample| {
+            let position = samples.get(element).map_or(String::new(), |sample| {
                 let (pixel, offset) = (sample.pixel, uv(sample.offset));
                 format!(", pixel ({}, {}) + {offset}", pixel.x, pixel.y)
             });
             format!(
-                "camera of {}° and aspect {}, film {}×{}{place}",
+                "camera of {}° and aspect {}, film {}×{}{position}",
                 number(camera.vertical_fov),
                 number(camera.aspect_ratio),
                 camera.film.x,
@@ -99,15 +99,13 @@ pub fn element(question: &Question, element: usize) -> String {
         Question::Shapes { shapes, rays } => {
             format!("{}; {}", nth_ray(rays, element), shapes_text(shapes))
         }
-        Question::BBox {
-            min,
-            max,
-            queries: shots,
-        } => {
-            let shot = shots.get(element).map_or(String::new(), |(shot, times)| {
-                format!("{}, times {}; ", ray(shot), interval(*times))
-            });
-            format!("{shot}box {} to {}", point(*min), point(*max))
+        Question::BBox { min, max, queries } => {
+            let query = queries
+                .get(element)
+                .map_or(String::new(), |(query, times)| {
+                    format!("{}, times {}; ", ray(query), interval(*times))
+                });
+            format!("{query}box {} to {}", point(*min), point(*max))
         }
         Question::Build {
             shapes,
@@ -159,7 +157,7 @@ fn nth_ray(rays: &Rays, element: usize) -> String {
     }
 }
 
-/// Shapes, if they are few; else how many.
+/// Describes a single shape in full, and several by their number.
 fn shapes_text(shapes: &[Shape]) -> String {
     match shapes {
         [one] => shape_text(one),

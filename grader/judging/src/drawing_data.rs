@@ -1,72 +1,76 @@
-//! What an exam tells of the right way beside the right answer, so that a report can draw it.
-//! Nothing is judged by it, and no probe is told: this program knows no way itself.
+//! Data that a report draws beside the correct answer, such as the order in which a correct
+//! traversal visits the nodes.
+//!
+//! It is stored in the exam file because the grader contains no solution to compute it from. It is
+//! neither judged nor sent to the probe.
 
 use glam::Vec3;
 use protocol::{Interval, Question, Rays, packed};
 use serde::{Deserialize, Serialize};
 
-/// The right way to the answers of one question.
+/// The intermediate steps that lead to the correct answers to one question.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum DrawingData {
-    /// Nothing is told.
+    /// No data.
     #[default]
     #[serde(alias = "nothing")]
     None,
-    /// To `BBox`: for each shot, when the ray is between the two planes of each axis, its times and
-    /// its range left aside. Always or never, if it is parallel to them.
+    /// For `BBox`: for each query, the interval in which the ray is between the two planes of each
+    /// axis, ignoring the ranges of query and ray. If the ray is parallel to the planes, the
+    /// interval is unbounded or empty.
     Slabs(#[serde(with = "packed::text")] Vec<[Interval; 3]>),
-    /// To `Traverse` with a list of rays: for each ray, one right walk.
+    /// For `Traverse` with a list of rays: one correct traversal per ray.
     #[serde(alias = "walks")]
     Traversals(#[serde(with = "packed::text")] Vec<Vec<TraversalStep>>),
-    /// To `Build`: the tree of the exact sweep.
+    /// For `Build`: the tree of the exact SAH sweep.
     Sweep(#[serde(with = "packed::text")] Sweep),
 }
 
-/// A node that a walk comes to, in the order of coming there.
+/// One node that a traversal reaches. Steps are listed in order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TraversalStep {
-    /// Its place among the nodes.
+    /// Index of the node in the tree's nodes.
     pub node: u32,
-    /// Whether it is entered: its children are looked at, or its primitives tested.
+    /// Whether the node is entered, so that its children are visited or its primitives tested.
     pub is_entered: bool,
-    /// When the ray, however far it counts, is in the node's box.
+    /// Interval in which the ray is in the node's box, ignoring the ray's range.
     pub span: Option<Interval>,
 }
 
-/// The upper levels of a tree, and its first partition.
+/// The upper levels of a tree, and the split of its root.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sweep {
-    /// Its nodes down to level [`Sweep::LEVELS`] - 1, in any order.
+    /// The nodes down to level [`Sweep::LEVELS`] - 1, in any order.
     pub nodes: Vec<LevelNode>,
-    /// What parts the primitives of the root: the axis, and a place between the centers of both
-    /// sides. None if there is but a leaf, or the primitives are parted by their number alone.
+    /// The plane that splits the root's primitives: its axis, and a coordinate between the centres
+    /// of the two sides. `None` if the root is a leaf, or if no plane separates the centres.
     pub plane: Option<(u8, f32)>,
 }
 
 impl Sweep {
-    /// So many levels are told of, the root's among them.
+    /// Number of levels that are stored, including the root's.
     pub const LEVELS: u32 = 6;
 }
 
-/// A node, seen from its level.
+/// A node and its level in the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LevelNode {
-    /// How far it is from the root, which is on level 0.
+    /// Distance from the root, which is at level 0.
     pub level: u32,
-    /// How many primitives are in nodes to the left of it.
+    /// Number of primitives in the nodes to its left.
     pub start: u32,
-    /// How many primitives are below it.
+    /// Number of primitives below it.
     pub count: u32,
-    /// Whether it is a leaf.
+    /// Whether the node is a leaf.
     pub is_leaf: bool,
-    /// What it adds to the tree's SAH cost: its area divided by the root's; in a leaf, that times
-    /// `count`.
+    /// Its contribution to the tree's SAH cost: its area divided by the root's area, times `count`
+    /// if it is a leaf.
     pub cost: f32,
 }
 
 impl DrawingData {
-    /// Whether nothing is told.
+    /// Returns whether there is no data.
     pub fn is_none(&self) -> bool {
         match self {
             DrawingData::None => true,
@@ -74,37 +78,47 @@ impl DrawingData {
         }
     }
 
-    /// What is wrong with it beside this question, if anything is.
+    /// Returns why the data does not fit `question`, if it does not.
     pub fn problem(&self, question: &Question) -> Option<String> {
         let count = question.count();
         match (self, question) {
             (DrawingData::None, _) => None,
-            (DrawingData::Slabs(slabs), Question::BBox { .. }) => (slabs.len() != count)
-                .then(|| format!("slabs are shown for {} of {count} shots", slabs.len())),
+            (DrawingData::Slabs(slabs), Question::BBox { .. }) => {
+                (slabs.len() != count).then(|| {
+                    format!(
+                        "the drawing data has slabs for {} of {count} queries",
+                        slabs.len()
+                    )
+                })
+            }
             (
-                DrawingData::Traversals(walks),
+                DrawingData::Traversals(traversals),
                 Question::Traverse {
                     nodes,
                     rays: Rays::List(_),
                     ..
                 },
             ) => {
-                let mut steps = walks.iter().flatten();
+                let mut steps = traversals.iter().flatten();
                 match steps.find(|step| step.node as usize >= nodes.len()) {
                     Some(step) => Some(format!(
-                        "a walk is shown through node {} of {}",
+                        "the drawing data visits node {} of {}",
                         step.node,
                         nodes.len()
                     )),
-                    None => (walks.len() != count)
-                        .then(|| format!("walks are shown for {} of {count} rays", walks.len())),
+                    None => (traversals.len() != count).then(|| {
+                        format!(
+                            "the drawing data has traversals for {} of {count} rays",
+                            traversals.len()
+                        )
+                    }),
                 }
             }
             (DrawingData::Sweep(sweep), Question::Build { shapes, .. }) => {
                 sweep.problem(shapes.len())
             }
             (DrawingData::Slabs(_) | DrawingData::Traversals(_) | DrawingData::Sweep(_), _) => {
-                Some("what is shown beside it belongs to another question".to_owned())
+                Some("the drawing data is of another kind than the question".to_owned())
             }
         }
     }
@@ -118,9 +132,9 @@ impl Sweep {
         };
         let axis = self.plane.map_or(0, |(axis, _)| usize::from(axis));
         match self.nodes.iter().find(is_wrong) {
-            Some(node) => Some(format!("the sweep's tree shown has no place for {node:?}")),
+            Some(node) => Some(format!("the drawing data has an invalid node {node:?}")),
             None => (axis >= Vec3::AXES.len())
-                .then(|| format!("the sweep shown parts along axis {axis} of 3")),
+                .then(|| format!("the drawing data splits along axis {axis} of 3")),
         }
     }
 }
@@ -132,11 +146,11 @@ mod tests {
     use super::*;
 
     fn bbox() -> Question {
-        let shot = (Ray::new(Vec3::ZERO, Vec3::X), Interval::AHEAD);
+        let query = (Ray::new(Vec3::ZERO, Vec3::X), Interval::AHEAD);
         Question::BBox {
             min: Vec3::NEG_ONE,
             max: Vec3::ONE,
-            queries: vec![shot],
+            queries: vec![query],
         }
     }
 
@@ -201,27 +215,27 @@ mod tests {
             count: u32::MAX,
             ..LEAF
         };
-        let endless = LevelNode {
+        let not_finite = LevelNode {
             cost: f32::NAN,
             ..LEAF
         };
         let cases = [
-            (DrawingData::Slabs(vec![]), bbox(), "0 of 1 shots"),
+            (DrawingData::Slabs(vec![]), bbox(), "0 of 1 queries"),
             (DrawingData::Traversals(vec![]), traverse(), "0 of 1 rays"),
             (
                 DrawingData::Traversals(vec![vec![step]]),
                 traverse(),
                 "node 7 of 0",
             ),
-            (DrawingData::Traversals(vec![]), bbox(), "another question"),
+            (DrawingData::Traversals(vec![]), bbox(), "another kind"),
             (sweep(high, 0), build(), "level: 6"),
-            (sweep(many, 0), build(), "no place"),
-            (sweep(endless, 0), build(), "NaN"),
+            (sweep(many, 0), build(), "invalid node"),
+            (sweep(not_finite, 0), build(), "NaN"),
             (sweep(LEAF, 3), build(), "axis 3"),
         ];
-        for (shown, question, words) in cases {
+        for (shown, question, text) in cases {
             let problem = shown.problem(&question).unwrap_or_default();
-            assert!(problem.contains(words), "{problem:?} and {words:?}");
+            assert!(problem.contains(text), "{problem:?} and {text:?}");
         }
     }
 }

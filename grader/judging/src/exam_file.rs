@@ -1,5 +1,5 @@
-//! Reading exam files: from disk, from standard input, or the practice exam that this program was
-//! built with. A file that can not be asked is refused before anything is.
+//! Reads exam files from disk or standard input, or the practice exam that is embedded in this
+//! program. An invalid exam is rejected before any question is sent.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -12,36 +12,36 @@ use serde::Serialize;
 
 use crate::exam::{Exam, Item, Key};
 
-/// The version of the format that is read.
+/// Version of the file format that this grader reads.
 const SCHEMA_VERSION: u32 = 1;
-/// The most pixels along one side of a picture; ours have 64.
+/// Maximum number of pixels along one side of a picture. The committed exams use 64.
 const MAX_PICTURE_SIDE: u32 = 4096;
-/// The longest exam file, in bytes; ours have about 3,000,000.
+/// Maximum size of an exam file, in bytes. The committed exams have about 3,000,000.
 const MAX_FILE_BYTES: u64 = 64 << 20;
 
 const PRACTICE: &str = include_str!("../../exams/practice.json");
 
-/// An exam, and the name of its bytes.
+/// An exam and the hash of its file.
 #[derive(Clone, Debug)]
 pub struct ExamFile {
-    /// What is asked.
+    /// The exam.
     pub exam: Exam,
-    /// Of the file's bytes, in hexadecimal.
+    /// BLAKE2b hash of the file's bytes, in hexadecimal.
     pub hash: String,
 }
 
-/// Which exam this is.
+/// Identity of an exam.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ExamName {
-    /// Such as `practice`.
+    /// Name of the exam, such as `practice`.
     pub id: String,
-    /// Of the exam file's bytes.
+    /// Hash of the exam file's bytes.
     pub hash: String,
 }
 
 impl ExamFile {
-    /// What the score says of it.
+    /// Returns the identity that is written to the score.
     pub fn name(&self) -> ExamName {
         ExamName {
             id: self.exam.id.clone(),
@@ -50,39 +50,44 @@ impl ExamFile {
     }
 }
 
-/// Why an exam can not be used.
+/// An exam cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum ExamError {
-    /// The file can not be read.
-    #[error("can not read the exam {path}: {source}")]
+    /// The file cannot be read.
+    #[error("cannot read the exam {path}: {source}")]
     Io {
-        /// Which.
+        /// Path of the exam.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
-    /// The file is longer than any exam.
-    #[error("the exam {0} is longer than 64 MiB")]
+    /// The file is larger than the limit.
+    #[error("the exam {0} is larger than 64 MiB")]
     TooLong(PathBuf),
     /// The file is not JSON, or not an exam.
-    #[error("the exam {path}, {source}; `cargo author exam --seed S` writes a good one")]
+    #[error(
+        "the exam {path} is not valid: {source}; `cargo author exam --seed S` writes a valid one"
+    )]
     Json {
-        /// Which.
+        /// Path of the exam.
         path: PathBuf,
-        /// Line and column, and what is wrong there.
+        /// Line, column and cause.
         source: serde_json::Error,
     },
-    /// The file is an exam that can not be asked.
-    #[error("the exam {path}: {problem}; `cargo author exam --seed S` writes a good one")]
+    /// The file is an exam, but not a valid one.
+    #[error(
+        "the exam {path} is not valid: {problem}; `cargo author exam --seed S` writes a valid one"
+    )]
     Invalid {
-        /// Which.
+        /// Path of the exam.
         path: PathBuf,
-        /// What is wrong.
+        /// The first problem found.
         problem: String,
     },
 }
 
-/// Reads the exam at `path`, from standard input for `-`; without a path, the practice exam.
+/// Reads the exam at `path`, or from standard input if `path` is `-`. Without a path, returns the
+/// practice exam.
 pub fn load(path: Option<&Path>) -> Result<ExamFile, ExamError> {
     match path {
         None => parse(Path::new("practice.json"), PRACTICE.as_bytes()),
@@ -90,7 +95,8 @@ pub fn load(path: Option<&Path>) -> Result<ExamFile, ExamError> {
     }
 }
 
-/// The hash of the exam at `path`, which need not be a good one; without a path, of the practice exam.
+/// Returns the hash of the exam at `path`, which need not be valid. Without a path, returns the
+/// hash of the practice exam.
 pub fn hash(path: Option<&Path>) -> Result<String, ExamError> {
     Ok(match path {
         None => hash_of(PRACTICE.as_bytes()),
@@ -119,7 +125,7 @@ fn read(path: &Path) -> Result<Vec<u8>, ExamError> {
     Ok(bytes)
 }
 
-/// The exam in a file's bytes; `path` is for the error.
+/// Parses and validates the bytes of an exam file. `path` is used in error messages only.
 pub fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, ExamError> {
     let exam: Exam = serde_json::from_slice(bytes).map_err(|source| ExamError::Json {
         path: path.to_owned(),
@@ -137,70 +143,74 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, ExamError> {
     })
 }
 
-/// What is wrong with an exam, if anything is.
+/// Returns the first problem of an exam, if it has one.
 fn problem(exam: &Exam) -> Option<String> {
     if exam.schema != SCHEMA_VERSION {
         return Some(format!(
-            "its format is version {}, and this grader reads version {SCHEMA_VERSION}",
+            "its format is version {}, but this grader reads version {SCHEMA_VERSION}",
             exam.schema
         ));
     }
     if exam.items.is_empty() {
         return Some("it has no items".to_owned());
     }
-    let mut earlier = BTreeSet::new();
+    let mut ids_before = BTreeSet::new();
     for item in &exam.items {
-        let problem = item_problem(item, &earlier);
+        let problem = item_problem(item, &ids_before);
         let problem = problem.or_else(|| signatures_problem(item, exam.mistakes.len()));
         if let Some(problem) = problem {
             return Some(format!("item {}: {problem}", item.id));
         }
-        earlier.insert(item.id.as_str());
+        ids_before.insert(item.id.as_str());
     }
     None
 }
 
-fn item_problem(item: &Item, earlier: &BTreeSet<&str>) -> Option<String> {
+fn item_problem(item: &Item, ids_before: &BTreeSet<&str>) -> Option<String> {
     if !item.id.starts_with(&format!("{}.", item.task)) {
-        return Some(format!("its id does not begin with `{}.`", item.task));
+        return Some(format!("its id does not start with `{}.`", item.task));
     }
-    if earlier.contains(item.id.as_str()) {
-        return Some("there is another of this id".to_owned());
+    if ids_before.contains(item.id.as_str()) {
+        return Some("another item has the same id".to_owned());
     }
-    if let Some(needed) = item.needs.iter().find(|id| !earlier.contains(id.as_str())) {
-        return Some(format!(
-            "it needs `{needed}`, which does not come before it"
-        ));
+    if let Some(needed) = item
+        .needs
+        .iter()
+        .find(|id| !ids_before.contains(id.as_str()))
+    {
+        return Some(format!("it needs `{needed}`, which must come before it"));
     }
     if item.points == 0 || item.questions.is_empty() {
-        return Some("it has no points, or no questions".to_owned());
+        return Some("it has no points or no questions".to_owned());
     }
-    let misfit = |(number, asked): (usize, &crate::exam::ExamQuestion)| {
+    let question_problem = |(number, question): (usize, &crate::exam::ExamQuestion)| {
         if let Some(film) =
-            film(&asked.question).filter(|film| film.max_element() > MAX_PICTURE_SIDE)
+            film(&question.question).filter(|film| film.max_element() > MAX_PICTURE_SIDE)
         {
             let UVec2 { x, y } = film;
             return Some(format!(
-                "question {number} asks for {x} x {y} pixels, and {MAX_PICTURE_SIDE} is the most"
+                "question {number} asks for {x} x {y} pixels; the maximum is {MAX_PICTURE_SIDE} per side"
             ));
         }
-        let (fits, keys) = match_key(&asked.question, &asked.key);
-        let count = asked.question.count();
+        let (fits, keys) = match_key(&question.question, &question.key);
+        let count = question.question.count();
         match (fits, keys == count) {
-            (false, _) => Some(format!("question {number} and its key are of two kinds")),
+            (false, _) => Some(format!(
+                "question {number} and its key are of different kinds"
+            )),
             (true, false) => Some(format!(
-                "question {number} asks {count} times, and its key answers {keys}"
+                "question {number} has {count} elements, but its key has {keys}"
             )),
             (true, true) => {
-                let problem = asked.drawing_data.problem(&asked.question)?;
+                let problem = question.drawing_data.problem(&question.question)?;
                 Some(format!("question {number}: {problem}"))
             }
         }
     };
-    (1..).zip(&item.questions).find_map(misfit)
+    (1..).zip(&item.questions).find_map(question_problem)
 }
 
-/// The pixels that are asked for, where all of a picture is.
+/// Returns the film of a question that asks for a whole picture.
 fn film(question: &Question) -> Option<UVec2> {
     use protocol::{Rays, Samples};
 
@@ -220,32 +230,35 @@ fn film(question: &Question) -> Option<UVec2> {
     }
 }
 
-/// What is wrong with what an item tells of mistakes, if anything is.
+/// Returns why the item's signatures are invalid, if they are.
 fn signatures_problem(item: &Item, mistakes: usize) -> Option<String> {
     let count: usize = item
         .questions
         .iter()
-        .map(|asked| asked.question.count())
+        .map(|question| question.question.count())
         .sum();
-    let tells = &item.signatures;
-    let too_far = tells
+    let signatures = &item.signatures;
+    let has_bad_element = signatures
         .elements
         .iter()
         .any(|element| *element as usize >= count);
-    let of_none = tells.mistake_answers.iter().any(|told| {
-        let answers = told.answers.iter();
-        told.mistakes
+    let has_bad_mistake = signatures.mistake_answers.iter().any(|mistake| {
+        let answers = mistake.answers.iter();
+        mistake
+            .mistakes
             .iter()
-            .any(|mistake| *mistake as usize >= mistakes)
+            .any(|index| *index as usize >= mistakes)
             || answers
-                .map(|(place, _)| *place as usize)
-                .any(|place| place >= tells.elements.len())
+                .map(|(index, _)| *index as usize)
+                .any(|index| index >= signatures.elements.len())
     });
-    (too_far || of_none || tells.correct_answers.len() != tells.elements.len())
-        .then(|| "it tells of mistakes or elements that are not there".to_owned())
+    (has_bad_element
+        || has_bad_mistake
+        || signatures.correct_answers.len() != signatures.elements.len())
+    .then(|| "its signatures refer to mistakes or elements that do not exist".to_owned())
 }
 
-/// Whether a key is one to this question, and how many elements it answers.
+/// Returns whether the key fits the question, and the number of elements in the key.
 fn match_key(question: &Question, key: &Key) -> (bool, usize) {
     use protocol::Rays;
 
@@ -256,15 +269,14 @@ fn match_key(question: &Question, key: &Key) -> (bool, usize) {
             Question::Shapes { .. } | Question::Traverse { .. } | Question::BuildAndTraverse { .. },
         ) => (true, hits.len()),
         (
-            Key::FirstHits {
-                hits,
-                alternatives: also,
-            },
+            Key::FirstHits { hits, alternatives },
             Question::Shapes { rays, .. }
             | Question::Traverse { rays, .. }
             | Question::BuildAndTraverse { rays, .. },
         ) => {
-            let inside = also.iter().all(|(place, _)| (*place as usize) < hits.len());
+            let inside = alternatives
+                .iter()
+                .all(|(index, _)| (*index as usize) < hits.len());
             (matches!(rays, Rays::View(_)) && inside, hits.len())
         }
         (Key::Spans { spans }, Question::BBox { .. }) => (true, spans.len()),

@@ -1,18 +1,18 @@
-//! What is asked, what counts as right, and how an answer is compared with it.
+//! Exams, answer keys, and the comparison of answers with them.
 //!
-//! Nothing here knows of processes, compilers or reports; but for reading an exam's file, all of it is
-//! pure. A package of its own because it is what a grader spends its time in: this is compiled to be
-//! fast, and the rest of the grader to be compiled fast.
+//! Apart from reading exam files, everything here is pure: this crate knows nothing of processes,
+//! compilers or reports. It is a separate package because grading spends most of its time here, so
+//! this package is optimised, and the rest of the grader is built for fast compilation.
 //!
-//! Floors, from the ground up; each imports only from below:
+//! Layers, from top to bottom. A module imports only from layers below its own:
 //!
-//! | floor | modules |
+//! | layer | modules |
 //! |---|---|
-//! | seen in answers | [`picture`], [`recognise`] |
-//! | comparing | [`judge`] |
-//! | in words | [`describe`] |
-//! | reading exams | [`exam_file`] |
-//! | data | [`exam`], [`tells`], [`shown`], [`section`]; [`tame`] |
+//! | analysis of answers | [`picture`], [`recognise`] |
+//! | comparison | [`judge`] |
+//! | text | [`describe`] |
+//! | exam files | [`exam_file`] |
+//! | data | [`exam`], [`signatures`], [`drawing_data`], [`section`]; [`sanitize`] |
 
 pub mod describe;
 pub mod drawing_data;

@@ -1,9 +1,10 @@
-//! From which known mistake a wrong answer comes, if that can be told.
+//! Recognises the known mistake behind a wrong answer.
 //!
-//! A mistake explains an item if it answers all the elements that the key tells of as the
-//! submission did. It is only named if it explains every item of the task that it gets wrong: no
-//! hint is better than a false one. What else is wrong may have another reason. Of several mistakes
-//! the one that explains most items comes first; where two explain the same, both are named.
+//! A mistake *explains* an item if the submission's answers to the item's signature elements equal
+//! those of the mistake. A mistake is named only if it explains every item of the task that it
+//! affects, because a false hint is worse than none. Items that it does not affect may be wrong for
+//! other reasons. Of several candidates, those that explain the most items are named; if they
+//! explain equally many, all of them are.
 
 use std::collections::BTreeMap;
 
@@ -13,49 +14,51 @@ use crate::exam::{Exam, ExamQuestion, ExpectedHit, HitCheck, Item, Key, RayCheck
 use crate::judge::{FailureKind, judge};
 use crate::signatures::{KnownMistake, MistakeAnswers, NoAnswerReason, ObservedAnswer};
 
-/// The most mistakes that are named together. More than that is no hint.
+/// Maximum number of mistakes that are named together. A longer list would be no help.
 const MAX_MISTAKES: usize = 3;
 
-/// What was seen of a submission's answers to the elements that the keys tell of, by item.
+/// A submission's answers to the signature elements of each item, by item id.
 #[derive(Clone, Debug, Default)]
 pub struct Observations(BTreeMap<String, Vec<ObservedAnswer>>);
 
 impl Observations {
-    /// Notes the answers to an item, or why there were none.
+    /// Records the answers to an item, or the reason why there are none.
     pub fn record(&mut self, item: &Item, answers: Result<&[Answer], NoAnswerReason>) {
         if item.signatures.elements.is_empty() {
             return;
         }
-        let seen = match answers {
+        let observed = match answers {
             Ok(answers) => {
                 let all = observe(item, answers);
-                let told = item.signatures.elements.iter();
-                told.map(|&element| {
-                    all.get(element as usize)
-                        .cloned()
-                        .unwrap_or(ObservedAnswer::NoAnswer(NoAnswerReason::Other))
-                })
-                .collect()
+                let elements = item.signatures.elements.iter();
+                elements
+                    .map(|&element| {
+                        all.get(element as usize)
+                            .cloned()
+                            .unwrap_or(ObservedAnswer::NoAnswer(NoAnswerReason::Other))
+                    })
+                    .collect()
             }
             Err(why) => vec![ObservedAnswer::NoAnswer(why); item.signatures.elements.len()],
         };
-        self.0.insert(item.id.clone(), seen);
+        self.0.insert(item.id.clone(), observed);
     }
 
-    /// The known mistakes that explain an item, the likeliest, or several that nothing tells apart.
+    /// Returns the known mistakes that explain an item. There are several if the answers do not
+    /// tell them apart.
     pub fn explain<'a>(&self, exam: &'a Exam, item: &Item) -> Vec<&'a KnownMistake> {
-        let Some(seen) = self.0.get(&item.id) else {
+        let Some(observed) = self.0.get(&item.id) else {
             return Vec::new();
         };
         if self.is_uninformative(exam, item.task) {
             return Vec::new();
         }
-        let told = item
+        let explaining = item
             .signatures
             .mistake_answers
             .iter()
-            .filter(|told| explains(item, told, seen));
-        let candidates = told.flat_map(|told| &told.mistakes);
+            .filter(|answers| explains(item, answers, observed));
+        let candidates = explaining.flat_map(|answers| &answers.mistakes);
         let explained: Vec<(u32, usize)> = candidates
             .filter_map(|&mistake| Some((mistake, self.explained_items(exam, item.task, mistake)?)))
             .collect();
@@ -73,24 +76,25 @@ impl Observations {
         }
     }
 
-    /// Whether there is nothing to go by in a whole task: no right answer, and no wrong one either.
+    /// Returns whether no answer in the whole task, correct or wrong, says anything about the
+    /// cause.
     fn is_uninformative(&self, exam: &Exam, task: Task) -> bool {
         let items = exam.items.iter().filter(|item| item.task == task);
-        let mut seen = items.filter_map(|item| self.0.get(&item.id)).flatten();
-        seen.all(ObservedAnswer::is_uninformative)
+        let mut observed = items.filter_map(|item| self.0.get(&item.id)).flatten();
+        observed.all(ObservedAnswer::is_uninformative)
     }
 
-    /// How many items of a task a mistake explains; none if something speaks against it.
+    /// Returns how many items of a task a mistake explains, or `None` if an item contradicts it.
     fn explained_items(&self, exam: &Exam, task: Task, mistake: u32) -> Option<usize> {
         let items = exam.items.iter().filter(|item| item.task == task);
         let mut count = 0;
         for item in items {
-            let mut told = item.signatures.mistake_answers.iter();
-            let told = told.find(|told| told.mistakes.contains(&mistake));
-            match (told, self.0.get(&item.id)) {
-                (Some(told), Some(seen)) if explains(item, told, seen) => count += 1,
+            let mut all = item.signatures.mistake_answers.iter();
+            let answers = all.find(|answers| answers.mistakes.contains(&mistake));
+            match (answers, self.0.get(&item.id)) {
+                (Some(answers), Some(observed)) if explains(item, answers, observed) => count += 1,
                 (Some(_), Some(_)) => return None,
-                // What else is wrong may have another reason.
+                // The mistake does not affect this item, so a wrong answer here has another cause.
                 (None, _) | (_, None) => {}
             }
         }
@@ -98,39 +102,37 @@ impl Observations {
     }
 }
 
-/// Whether these answers are the submission's, wrong ones and right ones.
-fn explains(item: &Item, told: &MistakeAnswers, seen: &[ObservedAnswer]) -> bool {
-    let mut wrong = told.answers.iter().peekable();
-    seen.iter()
+/// Returns whether the submission's answers equal those of the mistake, including the correct ones.
+fn explains(item: &Item, answers: &MistakeAnswers, observed: &[ObservedAnswer]) -> bool {
+    let mut wrong = answers.answers.iter().peekable();
+    observed
+        .iter()
         .zip(&item.signatures.correct_answers)
         .enumerate()
-        .all(
-            |(place, (seen, right))| match wrong.next_if(|(other, _)| *other as usize == place) {
-                Some((_, answer)) => seen.matches(answer),
-                None => seen.matches(right),
-            },
-        )
+        .all(|(index, (observed, correct))| {
+            match wrong.next_if(|(other, _)| *other as usize == index) {
+                Some((_, answer)) => observed.matches(answer),
+                None => observed.matches(correct),
+            }
+        })
 }
 
-/// What is seen of each element of an item's answers.
+/// Reduces the answers to an item to observations, one for each element.
 pub fn observe(item: &Item, answers: &[Answer]) -> Vec<ObservedAnswer> {
-    let asked = item.questions.iter().zip(answers);
-    asked
-        .flat_map(|(asked, answer)| observe_question(asked, answer))
+    let questions = item.questions.iter().zip(answers);
+    questions
+        .flat_map(|(question, answer)| observe_question(question, answer))
         .collect()
 }
 
-/// What a right answer shows, of each element of an item.
+/// Returns the observations that correct answers would give, one for each element of an item.
 pub fn expected(item: &Item) -> Vec<ObservedAnswer> {
     item.questions.iter().flat_map(expected_elements).collect()
 }
 
-fn expected_elements(asked: &ExamQuestion) -> Vec<ObservedAnswer> {
-    match &asked.key {
-        Key::Rays {
-            checks: judged,
-            directions,
-        } => {
+fn expected_elements(question: &ExamQuestion) -> Vec<ObservedAnswer> {
+    match &question.key {
+        Key::Rays { checks, directions } => {
             let ray = |dir| Ray {
                 origin: glam::Vec3::ZERO,
                 dir,
@@ -138,14 +140,11 @@ fn expected_elements(asked: &ExamQuestion) -> Vec<ObservedAnswer> {
             };
             directions
                 .iter()
-                .map(|&dir| observe_ray(judged, &ray(dir)))
+                .map(|&dir| observe_ray(checks, &ray(dir)))
                 .collect()
         }
-        Key::Hits {
-            checks: judged,
-            hits,
-        } => {
-            let rays = match &asked.question {
+        Key::Hits { checks, hits } => {
+            let rays = match &question.question {
                 protocol::Question::Shapes { rays, .. }
                 | protocol::Question::Traverse { rays, .. }
                 | protocol::Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
@@ -168,7 +167,7 @@ fn expected_elements(asked: &ExamQuestion) -> Vec<ObservedAnswer> {
                 .zip(&rays)
                 .map(|(hit, ray)| hit.as_ref().map(|hit| trace(hit, ray)));
             traces
-                .map(|trace| observe_hit(judged, trace.as_ref()))
+                .map(|trace| observe_hit(checks, trace.as_ref()))
                 .collect()
         }
         Key::Spans { spans } => spans.iter().map(|span| observe_span(*span)).collect(),
@@ -177,20 +176,20 @@ fn expected_elements(asked: &ExamQuestion) -> Vec<ObservedAnswer> {
     }
 }
 
-fn observe_question(asked: &ExamQuestion, answer: &Answer) -> Vec<ObservedAnswer> {
-    match (&asked.key, answer) {
-        (Key::Rays { checks: judged, .. }, Answer::Rays(rays)) => {
-            observe_each(rays, |ray| observe_ray(judged, ray))
+fn observe_question(question: &ExamQuestion, answer: &Answer) -> Vec<ObservedAnswer> {
+    match (&question.key, answer) {
+        (Key::Rays { checks, .. }, Answer::Rays(rays)) => {
+            observe_each(rays, |ray| observe_ray(checks, ray))
         }
-        (Key::Hits { checks: judged, .. }, Answer::Hits(hits)) => {
-            observe_each(hits, |hit| observe_hit(judged, hit.as_ref()))
+        (Key::Hits { checks, .. }, Answer::Hits(hits)) => {
+            observe_each(hits, |hit| observe_hit(checks, hit.as_ref()))
         }
         (Key::Spans { .. }, Answer::Spans(spans)) => {
             observe_each(spans, |span| observe_span(*span))
         }
-        (Key::Tree { .. }, Answer::Tree(tree)) => {
-            observe_each(std::slice::from_ref(tree), |_| observe_tree(asked, answer))
-        }
+        (Key::Tree { .. }, Answer::Tree(tree)) => observe_each(std::slice::from_ref(tree), |_| {
+            observe_tree(question, answer)
+        }),
         (
             Key::Rays { .. }
             | Key::Hits { .. }
@@ -207,24 +206,24 @@ fn observe_each<T>(
     outcomes: &[ElementOutcome<T>],
     see: impl Fn(&T) -> ObservedAnswer,
 ) -> Vec<ObservedAnswer> {
-    let seen = outcomes.iter().map(|outcome| match outcome {
+    let observed = outcomes.iter().map(|outcome| match outcome {
         ElementOutcome::Value(value) => see(value),
         ElementOutcome::Panicked(_) | ElementOutcome::Skipped => ObservedAnswer::Panicked,
     });
-    seen.collect()
+    observed.collect()
 }
 
-fn observe_ray(judged: &[RayCheck], ray: &Ray) -> ObservedAnswer {
+fn observe_ray(checks: &[RayCheck], ray: &Ray) -> ObservedAnswer {
     let part = |part: &RayCheck| match part {
         RayCheck::Origin => ray.origin.to_array().to_vec(),
         RayCheck::Direction => (ray.dir / ray.dir.length()).to_array().to_vec(),
         RayCheck::UnitLength => vec![ray.dir.length()],
         RayCheck::Range => vec![ray.range.min, ray.range.max],
     };
-    ObservedAnswer::Numbers(judged.iter().flat_map(part).collect())
+    ObservedAnswer::Numbers(checks.iter().flat_map(part).collect())
 }
 
-fn observe_hit(judged: &[HitCheck], trace: Option<&Trace>) -> ObservedAnswer {
+fn observe_hit(checks: &[HitCheck], trace: Option<&Trace>) -> ObservedAnswer {
     let Some(trace) = trace else {
         return ObservedAnswer::NoHit;
     };
@@ -237,7 +236,7 @@ fn observe_hit(judged: &[HitCheck], trace: Option<&Trace>) -> ObservedAnswer {
         HitCheck::Origin => trace.origin.to_array().to_vec(),
         HitCheck::Material => vec![trace.material as f32],
     };
-    ObservedAnswer::Numbers(judged.iter().flat_map(part).collect())
+    ObservedAnswer::Numbers(checks.iter().flat_map(part).collect())
 }
 
 fn observe_span(span: Option<Interval>) -> ObservedAnswer {
@@ -246,13 +245,15 @@ fn observe_span(span: Option<Interval>) -> ObservedAnswer {
     })
 }
 
-/// Trees of one mind differ from submission to submission: what is told is what the judge finds.
-fn observe_tree(asked: &ExamQuestion, answer: &Answer) -> ObservedAnswer {
-    let how = judge(asked, answer).failure.map(|failure| failure.kind);
-    match how {
+/// Observes a tree by the defect that the judge finds: correct builders produce different trees, so
+/// the nodes themselves cannot be compared.
+fn observe_tree(question: &ExamQuestion, answer: &Answer) -> ObservedAnswer {
+    let defect = judge(question, answer).failure.map(|failure| failure.kind);
+    match defect {
         None => ObservedAnswer::Tree(None),
         Some(FailureKind::Wrong { what, got, .. }) => {
-            // Where the finding is a number it comes first. The other numbers are places.
+            // If the defect has an amount, it is the first word. Other numbers are indices, which
+            // differ between submissions.
             let amount = got.split(' ').next().and_then(|word| word.parse().ok());
             let is_word = |word: &&str| !word.contains(|c: char| c.is_ascii_digit());
             let words: Vec<&str> = got.split(' ').filter(is_word).collect();

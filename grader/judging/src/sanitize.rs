@@ -1,22 +1,23 @@
-//! Text that others wrote, made harmless: it is going to terminals, files and pages.
+//! Makes text from untrusted sources safe for terminals, files and web pages.
 
-/// The text without control characters but line ends, cut at `longest` characters.
+/// Escapes control characters except line breaks, and truncates the text after `longest`
+/// characters.
 pub fn sanitize(text: &str, longest: usize) -> String {
-    let mut tamed = String::new();
+    let mut sanitized = String::new();
     for (count, character) in text.chars().enumerate() {
         if count == longest {
-            tamed.push('…');
+            sanitized.push('…');
             break;
         }
         match character {
-            '\n' => tamed.push('\n'),
-            '\t' => tamed.push_str("    "),
-            // Also what reorders the characters around it on screen.
-            c if c.is_control() || is_direction_mark(c) => tamed.extend(c.escape_default()),
-            c => tamed.push(c),
+            '\n' => sanitized.push('\n'),
+            '\t' => sanitized.push_str("    "),
+            // Direction marks are escaped too: they reorder the text around them on screen.
+            c if c.is_control() || is_direction_mark(c) => sanitized.extend(c.escape_default()),
+            c => sanitized.push(c),
         }
     }
-    tamed
+    sanitized
 }
 
 fn is_direction_mark(c: char) -> bool {

@@ -1,11 +1,11 @@
-//! Places in the handout, such as `boxes.md#zero-and-minus-zero`: the chapter's file and the
-//! anchor of a heading in it, as GitHub and mdBook both name it.
+//! References to sections of the handout, such as `boxes.md#zero-and-minus-zero`: a chapter's file
+//! and the anchor of a heading, as both GitHub and mdBook generate it.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Where the chapters stand, from the workspace's root.
+/// Folder of the chapters, relative to the workspace root.
 pub const CHAPTERS: &str = "handout/src";
 
 /// A section of the handout.
@@ -15,37 +15,40 @@ pub const CHAPTERS: &str = "handout/src";
 pub struct Section(String);
 
 impl Section {
-    /// The section that `place` names: `boxes.md#zero-and-minus-zero`.
-    pub fn new(place: impl Into<String>) -> Self {
-        Section(place.into())
+    /// Creates a reference from text such as `boxes.md#zero-and-minus-zero`.
+    pub fn new(section: impl Into<String>) -> Self {
+        Section(section.into())
     }
 
-    /// The whole chapter.
+    /// Returns a reference to the whole chapter.
     pub fn whole_chapter(&self) -> Section {
         Section::new(self.chapter())
     }
 
-    /// The chapter's file: `boxes.md`.
+    /// Returns the chapter's file, such as `boxes.md`.
     pub fn chapter(&self) -> &str {
         self.0.split_once('#').map_or(&self.0, |(file, _)| file)
     }
 
-    /// The heading's anchor: `zero-and-minus-zero`. Empty for a whole chapter.
+    /// Returns the heading's anchor, such as `zero-and-minus-zero`. It is empty for a whole
+    /// chapter.
     pub fn anchor(&self) -> &str {
         self.0.split_once('#').map_or("", |(_, anchor)| anchor)
     }
 
-    /// The heading as it reads: `Zero and minus zero`. An anchor has lost punctuation and capitals,
-    /// so only headings of plain words with one capital are sections; a test sees to it.
+    /// Returns the heading's text, such as `Zero and minus zero`. Anchors have lost punctuation and
+    /// capitals, so this works only for headings of plain words with one initial capital. A test
+    /// ensures that only such headings are referenced.
     pub fn heading(&self) -> String {
-        let mut words = self.anchor().replace('-', " ");
-        if let Some(first) = words.get_mut(..1) {
+        let mut heading = self.anchor().replace('-', " ");
+        if let Some(first) = heading.get_mut(..1) {
             first.make_ascii_uppercase();
         }
-        words
+        heading
     }
 
-    /// What to open and what to look for: `handout/src/boxes.md, "Zero and minus zero"`.
+    /// Returns the file to open and the heading to find: `handout/src/boxes.md, "Zero and minus
+    /// zero"`.
     pub fn location(&self) -> String {
         let chapter = self.chapter();
         match self.anchor() {

@@ -1,98 +1,99 @@
-//! What known mistakes would answer: so that a wrong answer can be told from which mistake it comes.
+//! Signatures of known mistakes: the answers that they give, by which they are recognised.
 
 use protocol::packed;
 use serde::{Deserialize, Serialize};
 
 use crate::section::Section;
 
-/// A known mistake, in the words of a report.
+/// A known mistake, with its texts for the report.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KnownMistake {
-    /// Such as `sphere.far_first`.
+    /// Id of the mistake, such as `sphere.far_first`.
     pub id: String,
-    /// A question that leads there.
+    /// A question that leads students to the mistake.
     pub nudge: String,
-    /// What is wrong.
+    /// An explanation of the mistake.
     pub hint: String,
-    /// What teaches it, where that is not what teaches the item.
+    /// The handout section to read, if it is not that of the item.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub section: Option<Section>,
 }
 
-/// What is told of one item: what each known mistake of its task answers to some of its elements.
+/// The answers of each known mistake of a task to some elements of one item.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MistakeSignatures {
-    /// Which elements, counted from 0 over all questions of the item.
+    /// The elements, counted from 0 over all questions of the item.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub elements: Vec<u32>,
-    /// Their right answers.
+    /// The correct answers to these elements.
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "packed::text")]
     #[serde(alias = "right")]
     pub correct_answers: Vec<ObservedAnswer>,
-    /// The wrong ones, and whose they are. A mistake that is not among them answers rightly.
+    /// The wrong answers. A mistake that is not listed answers all elements correctly.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[serde(alias = "wrong")]
     pub mistake_answers: Vec<MistakeAnswers>,
 }
 
 impl MistakeSignatures {
-    /// Whether nothing is told.
+    /// Returns whether there are no signatures.
     pub fn is_empty(&self) -> bool {
         self.elements.is_empty()
     }
 }
 
-/// What some mistakes, all alike, answer to an item's elements.
+/// The answers to an item that one or more mistakes have in common.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MistakeAnswers {
-    /// Their places in the exam's list of mistakes.
+    /// Indices in the exam's list of mistakes.
     #[serde(alias = "by")]
     pub mistakes: Vec<u32>,
-    /// For each element of the tells that they get wrong: its place among those, and the answer.
+    /// The wrong answers, each with its index in [`MistakeSignatures::elements`].
     #[serde(with = "packed::text")]
     pub answers: Vec<(u32, ObservedAnswer)>,
 }
 
-/// As much of an answer's element as tells mistakes apart.
+/// The part of an answer by which mistakes are distinguished.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ObservedAnswer {
-    /// The numbers that are judged, in the order of the key's parts.
+    /// The numbers that are checked, in the order of the key's checks.
     Numbers(Vec<f32>),
-    /// No hit, or no time inside a box.
+    /// No hit, or no interval inside the box.
     #[serde(alias = "Nothing")]
     NoHit,
-    /// What is wrong with a tree, if anything is, and by how much where that is a number.
+    /// The defect of a tree and its amount, which may be 0. `None` for a correct tree.
     Tree(Option<(String, f32)>),
     /// The code panicked.
     Panicked,
-    /// There was no answer to the whole item.
+    /// There is no answer to the whole item.
     NoAnswer(NoAnswerReason),
 }
 
-/// Why there was no answer.
+/// The reason why there is no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum NoAnswerReason {
-    /// It took too long.
+    /// The time limit was exceeded.
     Time,
-    /// It took too much memory.
+    /// The memory limit was exceeded.
     Memory,
     /// The stack overflowed.
     Stack,
-    /// Something else took the process down, or what came was no answer.
+    /// The process ended for another reason, or its output was invalid.
     Other,
 }
 
 impl ObservedAnswer {
-    /// How far two numbers may be apart and still come from the same mistake: other formulas round
-    /// differently. Relative; absolute below 1.
+    /// Maximum difference of two numbers that may come from the same mistake, since equivalent
+    /// formulas round differently. Relative for values above 1, otherwise absolute.
     const TOLERANCE: f32 = 1e-3;
-    /// The same for what a tree costs: builders of the same mind make somewhat different trees.
+    /// The same for the cost of a tree: builders with the same mistake produce somewhat different
+    /// trees.
     const COST_TOLERANCE: f32 = 0.08;
 
-    /// Whether it says nothing of what went on: only that it came to no good end.
+    /// Returns whether the answer says nothing about the cause, only that there is no result.
     pub fn is_uninformative(&self) -> bool {
         match self {
             ObservedAnswer::Panicked | ObservedAnswer::NoAnswer(_) => true,
@@ -100,7 +101,7 @@ impl ObservedAnswer {
         }
     }
 
-    /// Whether both may come from the same mistake.
+    /// Returns whether both answers may come from the same mistake.
     pub fn matches(&self, other: &ObservedAnswer) -> bool {
         match (self, other) {
             (ObservedAnswer::Numbers(a), ObservedAnswer::Numbers(b)) => {
@@ -130,7 +131,7 @@ impl ObservedAnswer {
 
 fn nearly_equal(a: f32, b: f32, tolerance: f32) -> bool {
     let close = (a - b).abs() <= tolerance * a.abs().max(1.0);
-    // Infinities of one sign are equal; what is not a number is like what is not one.
+    // Infinities of the same sign are equal, and NaN matches NaN.
     a == b || (a.is_nan() && b.is_nan()) || (close && a.is_finite() && b.is_finite())
 }
 
@@ -140,13 +141,13 @@ mod tests {
 
     #[test]
     fn numbers_match_up_to_rounding() {
-        let seen = |numbers: &[f32]| ObservedAnswer::Numbers(numbers.to_vec());
-        assert!(seen(&[2.0, f32::NAN]).matches(&seen(&[2.001, f32::NAN])));
-        assert!(seen(&[f32::INFINITY]).matches(&seen(&[f32::INFINITY])));
-        assert!(!seen(&[2.0]).matches(&seen(&[2.01])));
-        assert!(!seen(&[f32::INFINITY]).matches(&seen(&[f32::NEG_INFINITY])));
-        assert!(!seen(&[1.0]).matches(&seen(&[1.0, 1.0])));
-        assert!(!seen(&[0.0]).matches(&ObservedAnswer::NoHit));
+        let numbers = |numbers: &[f32]| ObservedAnswer::Numbers(numbers.to_vec());
+        assert!(numbers(&[2.0, f32::NAN]).matches(&numbers(&[2.001, f32::NAN])));
+        assert!(numbers(&[f32::INFINITY]).matches(&numbers(&[f32::INFINITY])));
+        assert!(!numbers(&[2.0]).matches(&numbers(&[2.01])));
+        assert!(!numbers(&[f32::INFINITY]).matches(&numbers(&[f32::NEG_INFINITY])));
+        assert!(!numbers(&[1.0]).matches(&numbers(&[1.0, 1.0])));
+        assert!(!numbers(&[0.0]).matches(&ObservedAnswer::NoHit));
     }
 
     #[test]

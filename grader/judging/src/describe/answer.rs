@@ -1,4 +1,4 @@
-//! All of one answer, and all of what is right, in words.
+//! Formats one element of an answer, and of the expected answer, in full.
 
 use protocol::{Answer, ElementOutcome, Tree};
 
@@ -6,10 +6,10 @@ use crate::describe::{number, point, ray, span, trace, uv};
 use crate::exam::{ExamQuestion, ExpectedHit, Key, Surface};
 use crate::sanitize::sanitize;
 
-/// The most characters of a panic's words.
+/// Maximum length of a panic message, in characters.
 const MAX_PANIC_CHARS: usize = 2_000;
 
-/// What a submission answered to one element of a question.
+/// Formats a submission's answer to one element of a question.
 pub fn got(answer: &Answer, element: usize) -> String {
     match answer {
         Answer::Rays(rays) => outcome(rays.get(element), ray),
@@ -24,9 +24,9 @@ pub fn got(answer: &Answer, element: usize) -> String {
     }
 }
 
-/// What is right for one element of a question; several, where each of them is.
-pub fn wanted(asked: &ExamQuestion, element: usize) -> Vec<String> {
-    match &asked.key {
+/// Formats the correct answer to one element of a question, or all of them if there are several.
+pub fn wanted(question: &ExamQuestion, element: usize) -> Vec<String> {
+    match &question.key {
         Key::Rays { directions, .. } => {
             let toward = point(directions[element]);
             vec![format!("ray from (0, 0, 0) toward {toward}")]
@@ -34,21 +34,17 @@ pub fn wanted(asked: &ExamQuestion, element: usize) -> Vec<String> {
         Key::Hits { hits, .. } => {
             vec![hits[element].as_ref().map_or("no hit".to_owned(), hit)]
         }
-        Key::FirstHits {
-            hits,
-            alternatives: also,
-        } => {
-            let also = also.iter().filter(|(place, _)| *place as usize == element);
-            let all = std::iter::once(&hits[element]).chain(also.map(|(_, answer)| answer));
+        Key::FirstHits { hits, alternatives } => {
+            let alternatives = alternatives
+                .iter()
+                .filter(|(position, _)| *position as usize == element);
+            let all = std::iter::once(&hits[element]).chain(alternatives.map(|(_, answer)| answer));
             all.map(|answer| answer.as_ref().map_or("no hit".to_owned(), surface))
                 .collect()
         }
         Key::Spans { spans } => vec![span(spans[element])],
-        Key::Tree {
-            checks: judged,
-            sweep_cost,
-        } => vec![format!(
-            "a tree of which these hold: {judged:?}{}",
+        Key::Tree { checks, sweep_cost } => vec![format!(
+            "a tree that passes these checks: {checks:?}{}",
             sweep_cost.map_or(String::new(), |cost| format!("; SAH cost about {cost:.2}"))
         )],
         Key::Radiance { pixels, .. } => vec![point(pixels[element])],
@@ -67,13 +63,13 @@ fn outcome<T>(outcome: Option<&ElementOutcome<T>>, show: impl Fn(&T) -> String) 
 }
 
 fn tree(tree: &Tree) -> String {
-    let nodes = tree.nodes.iter().enumerate().map(|(place, node)| {
+    let nodes = tree.nodes.iter().enumerate().map(|(index, node)| {
         let (min, max) = (point(node.min), point(node.max));
         let below = match node.is_leaf() {
             true => format!("leaf of {} from {}", node.size, node.start),
             false => format!("children {} and {}", node.l, node.r),
         };
-        format!("\n  {place}: {min} to {max}, {below}")
+        format!("\n  {index}: {min} to {max}, {below}")
     });
     format!("root {}{}", tree.root, nodes.collect::<String>())
 }

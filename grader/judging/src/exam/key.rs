@@ -1,115 +1,118 @@
-//! What counts as right: data, compared by `judge`.
+//! Answer keys: the data that [`judge`](mod@crate::judge) compares answers with.
 
 use glam::Vec3;
 use protocol::{Interval, packed};
 use serde::{Deserialize, Serialize};
 
-/// What counts as right for one question.
+/// The correct answers to one question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Key {
-    /// To `Camera`: a ray for each sample.
+    /// For `Camera`: one ray per sample.
     Rays {
-        /// What is compared.
+        /// Parts of each ray that are compared.
         #[serde(alias = "judged")]
         checks: Vec<RayCheck>,
-        /// The direction of each; every ray starts at the origin, with range `[0, ∞)`.
+        /// The expected directions. Every ray starts at the origin, with range `[0, ∞)`.
         #[serde(with = "packed")]
         directions: Vec<Vec3>,
     },
-    /// To `Shapes`, `Traverse`, `BuildAndTraverse` with a list of rays: all must be right.
+    /// For `Shapes`, `Traverse` and `BuildAndTraverse` with a list of rays. Every answer must be
+    /// correct.
     Hits {
-        /// What is compared, beside whether there is a hit at all.
+        /// Parts of each hit that are compared, in addition to whether there is a hit.
         #[serde(alias = "judged")]
         checks: Vec<HitCheck>,
-        /// For each ray.
+        /// The expected hit of each ray.
         #[serde(with = "packed")]
         hits: Vec<Option<ExpectedHit>>,
     },
-    /// To `BBox`: the times inside, for each shot.
+    /// For `BBox`: the interval of each query in which the ray is inside the box.
     Spans {
-        /// For each shot.
+        /// The expected interval of each query.
         #[serde(with = "packed")]
         spans: Vec<Option<Interval>>,
     },
-    /// To `Build`: the tree's structure, and its cost if one is given.
+    /// For `Build`: properties of the tree, and optionally its cost.
     Tree {
-        /// What is compared, beside that the nodes form a tree at all.
+        /// Properties that are checked, in addition to the nodes forming a tree.
         #[serde(alias = "judged")]
         checks: Vec<TreeCheck>,
-        /// Of the best partition at every node, by an exact sweep that stops at the same leaf
-        /// size: C_trav = C_isect = 1, areas divided by the root's.
+        /// SAH cost of the tree with the best split at every node, found by an exact sweep that
+        /// stops at the same leaf size. C_trav = C_isect = 1, and areas are divided by the root's
+        /// area.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         sweep_cost: Option<f64>,
     },
-    /// To `Shapes`, `Traverse`, `BuildAndTraverse` with a view: partial credit by counting.
+    /// For `Shapes`, `Traverse` and `BuildAndTraverse` with a view. Partial credit depends on the
+    /// number of correct positions.
     FirstHits {
-        /// What is right for each position.
+        /// The expected first hit at each position.
         #[serde(with = "packed")]
         hits: Vec<Option<Surface>>,
-        /// What is right as well, at positions where a neighbour less than 1/1000 of a pixel away
-        /// sees something else.
+        /// Other correct answers, at positions where a ray less than 1/1000 of a pixel away hits a
+        /// different surface.
         #[serde(with = "packed")]
         #[serde(alias = "also")]
         alternatives: Vec<(u32, Option<Surface>)>,
     },
-    /// To `Radiance`.
+    /// For `Radiance`.
     Radiance {
         /// Linear red, green and blue, row by row from the bottom.
         #[serde(with = "packed")]
         pixels: Vec<Vec3>,
-        /// The most pixels that may be off by more than 1 %.
+        /// Maximum number of pixels that may differ by more than 1 %.
         #[serde(alias = "allowed")]
         max_wrong_pixels: u32,
     },
 }
 
-/// What can be compared of a camera's ray.
+/// A check on a camera ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RayCheck {
-    /// It starts at (0, 0, 0).
+    /// The ray starts at (0, 0, 0).
     Origin,
-    /// It goes the right way, whatever its length.
+    /// The direction is correct, regardless of its length.
     Direction,
-    /// Its direction has length one.
+    /// The direction has length one.
     UnitLength,
-    /// It counts from 0 to ∞.
+    /// The range is `[0, ∞)`.
     Range,
 }
 
-/// What can be compared of a hit.
+/// A check on a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum HitCheck {
-    /// `Trace::distance`
+    /// `Trace::distance` is correct.
     Distance,
-    /// `Trace::position`
+    /// `Trace::position` is correct.
     Position,
-    /// `Trace::normal`, after normalising.
+    /// `Trace::normal` is correct after normalisation.
     Normal,
-    /// That `Trace::normal` has length one.
+    /// `Trace::normal` has length one.
     UnitNormal,
-    /// `Trace::uv`, u modulo 1.
+    /// `Trace::uv` is correct, with u modulo 1.
     Uv,
-    /// `Trace::origin`
+    /// `Trace::origin` is correct.
     Origin,
-    /// `Trace::material`
+    /// `Trace::material` is correct.
     Material,
 }
 
-/// What can be asked of a tree. Each part is judged by itself, on boxes that the judge computes
-/// where it needs right ones, so that one mistake costs once.
+/// A check on a tree. Each one is independent of the others: where a check needs correct boxes, the
+/// judge computes them itself, so that one mistake costs points once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TreeCheck {
     /// Every primitive is in exactly one leaf.
     Partition,
-    /// Every box holds all primitives below its node.
+    /// Every box contains all primitives below its node.
     Contains,
-    /// No box exceeds the union of the primitives below by more than 1e-4 of its diagonal.
+    /// No box exceeds the union of the primitives below it by more than 1e-4 of its diagonal.
     Tight,
-    /// The primitives were split at all: no leaf holds half of them or more.
+    /// The primitives were split: no leaf holds half of them or more.
     Split,
     /// No leaf holds more than `max_leaf_size` primitives.
     LeafSize,
@@ -117,29 +120,29 @@ pub enum TreeCheck {
     Stops,
 }
 
-/// The true answer to one ray of a table.
+/// The correct hit of one ray of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedHit {
-    /// Along the ray.
+    /// Distance along the ray.
     pub distance: f32,
-    /// The point there.
+    /// Position of the hit.
     pub position: Vec3,
-    /// The surface normal there, of length one.
+    /// Unit surface normal at the hit.
     pub normal: Vec3,
-    /// The texture coordinates there.
+    /// Texture coordinates at the hit.
     pub uv: glam::Vec2,
-    /// The material of what was hit.
+    /// Material of the primitive that was hit.
     pub material: u32,
 }
 
-/// The true answer at one position of a picture: depth, normal, texture coordinates.
+/// The correct hit at one position of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Surface {
-    /// Along the ray.
+    /// Distance along the ray.
     pub depth: f32,
-    /// The surface normal there, of length one.
+    /// Unit surface normal at the hit.
     pub normal: Vec3,
-    /// The texture coordinates there.
+    /// Texture coordinates at the hit.
     pub uv: glam::Vec2,
 }

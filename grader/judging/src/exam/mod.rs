@@ -1,6 +1,7 @@
-//! What is asked and what counts as right: one self-contained file.
+//! The exam: questions and their answer keys, in one self-contained file.
 //!
-//! Pure data. Who asks is the grader, who compares is `judge`.
+//! This module is pure data. The grader sends the questions, and [`judge`](mod@crate::judge)
+//! compares the answers.
 
 mod key;
 
@@ -15,7 +16,7 @@ use crate::signatures::{KnownMistake, MistakeSignatures};
 
 pub use key::{ExpectedHit, HitCheck, Key, RayCheck, Surface, TreeCheck};
 
-/// The six things to write, in lecture order.
+/// One of the six tasks of the assignment, in lecture order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -46,7 +47,7 @@ impl Task {
         Task::Traverse,
     ];
 
-    /// What the command line and files call it.
+    /// Returns the id that the command line and files use.
     pub fn id(self) -> &'static str {
         match self {
             Task::Camera => "camera",
@@ -58,7 +59,7 @@ impl Task {
         }
     }
 
-    /// What people read.
+    /// Returns a human-readable title.
     pub fn title(self) -> &'static str {
         match self {
             Task::Camera => "Task 1: camera rays",
@@ -66,11 +67,11 @@ impl Task {
             Task::Sphere => "Task 2: spheres",
             Task::BBox => "Task 3: boxes",
             Task::Build => "Task 3: building a BVH",
-            Task::Traverse => "Task 3: walking a BVH",
+            Task::Traverse => "Task 3: traversing a BVH",
         }
     }
 
-    /// The file of a submission that holds it.
+    /// Returns the submission's file that contains the task.
     pub fn file(self) -> &'static str {
         match self {
             Task::Camera => "camera.rs",
@@ -81,7 +82,7 @@ impl Task {
         }
     }
 
-    /// The method to write.
+    /// Returns the name of the method to write.
     pub fn method(self) -> &'static str {
         match self {
             Task::Camera => "sample_ray",
@@ -90,7 +91,7 @@ impl Task {
         }
     }
 
-    /// The points that all its items add up to.
+    /// Returns the total points of the task's items.
     pub fn points(self) -> u32 {
         match self {
             Task::Camera | Task::Sphere => 15,
@@ -106,30 +107,30 @@ impl fmt::Display for Task {
     }
 }
 
-/// A whole exam: 100 points.
+/// An exam, worth 100 points in total.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Exam {
-    /// The version of this format.
+    /// Version of the file format.
     pub schema: u32,
-    /// Such as `practice`.
+    /// Name of the exam, such as `practice`.
     pub id: String,
-    /// The mistakes that the items' tells speak of.
+    /// The known mistakes. The items' signatures refer to them by index.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mistakes: Vec<KnownMistake>,
-    /// What is asked, in the order of asking: an item comes after those that it needs.
+    /// The items in the order in which they are graded. An item comes after those that it needs.
     pub items: Vec<Item>,
 }
 
 impl Exam {
-    /// Some of its items, and those that they rest on.
+    /// Returns an exam of the items that `wanted` selects and the items that they need.
     pub fn with_needed_items(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
-        let needing = self.items.iter().filter(|item| wanted(item));
-        let needed: Vec<&String> = needing.flat_map(|item| &item.needs).collect();
+        let dependents = self.items.iter().filter(|item| wanted(item));
+        let needed: Vec<&String> = dependents.flat_map(|item| &item.needs).collect();
         self.filter_items(|item| wanted(item) || needed.contains(&&item.id))
     }
 
-    /// Some of its items.
+    /// Returns an exam of the items that `wanted` selects.
     pub fn filter_items(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
         let items = self.items.iter().filter(|item| wanted(item));
         Exam {
@@ -141,57 +142,62 @@ impl Exam {
     }
 }
 
-/// One idea, asked in several ways.
+/// One idea, tested by one or more questions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Item {
-    /// The task's id, a dot, and a name: `sphere.from_inside`.
+    /// The task's id, a dot, and a name, such as `sphere.from_inside`.
     pub id: String,
-    /// What must hold, in words: the feedback.
+    /// One sentence that says what must hold. It is the feedback that students read.
     pub title: String,
-    /// Whose points it counts for.
+    /// The task to which the points belong.
     pub task: Task,
-    /// What it is worth.
+    /// Points of the item.
     pub points: u32,
-    /// Where to look if it is wrong; one or two sentences for students.
+    /// One or two sentences that tell a student where to look if the item fails.
     pub look: String,
-    /// What teaches it.
+    /// The handout section that teaches the item.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub section: Option<Section>,
-    /// Items of other tasks without which this one says nothing of its own task.
+    /// Ids of items of other tasks that must work before this item can test its own task.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub needs: Vec<String>,
-    /// What is asked. Every one must be right: the item's points are those of the worst.
+    /// The questions. The item's credit is that of its worst question.
     pub questions: Vec<ExamQuestion>,
-    /// What known mistakes answer.
+    /// The answers of known mistakes, from which a wrong answer is recognised.
     #[serde(default, skip_serializing_if = "MistakeSignatures::is_empty")]
     #[serde(alias = "tells")]
     pub signatures: MistakeSignatures,
 }
 
 impl Item {
-    /// How many elements its questions have together.
+    /// Returns the number of elements in all questions of the item.
     pub fn count(&self) -> usize {
-        let counts = self.questions.iter().map(|asked| asked.question.count());
+        let counts = self
+            .questions
+            .iter()
+            .map(|question| question.question.count());
         counts.sum()
     }
 
-    /// What people call an element of a question: counted from 1 over all questions. A picture
-    /// that is asked for as a whole has one number for all of its pixels.
+    /// Returns the number by which people refer to an element. Elements are counted from 1 over all
+    /// questions of the item. A path-traced picture is one element, so all of its pixels share a
+    /// number.
     pub fn number(&self, question: usize, element: usize) -> usize {
         let before = self.questions[..question].iter();
-        let before: usize = before.map(|asked| asked.question.count()).sum();
+        let before: usize = before.map(|question| question.question.count()).sum();
         let last = self.questions[question].question.count().saturating_sub(1);
         before + element.min(last) + 1
     }
 
-    /// The question, and the element of it, that have this number.
+    /// Returns the question index and the element index of a number, or `None` if it is out of
+    /// range.
     pub fn element(&self, number: usize) -> Option<(usize, usize)> {
         let mut left = number.checked_sub(1)?;
-        for (question, asked) in self.questions.iter().enumerate() {
-            let count = asked.question.count();
+        for (index, question) in self.questions.iter().enumerate() {
+            let count = question.question.count();
             if left < count {
-                return Some((question, left));
+                return Some((index, left));
             }
             left -= count;
         }
@@ -199,22 +205,22 @@ impl Item {
     }
 }
 
-/// A question and its key.
+/// A question and its answer key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExamQuestion {
-    /// What the probe is told.
+    /// The question, which is sent to the probe.
     pub question: Question,
-    /// What it is never told.
+    /// The answer key, which never leaves the grader.
     pub key: Key,
-    /// The right way there, for a drawing; neither told nor judged by.
+    /// Data for drawing the correct answer. It is neither sent to the probe nor judged.
     #[serde(default, skip_serializing_if = "DrawingData::is_none")]
     #[serde(alias = "shown")]
     pub drawing_data: DrawingData,
 }
 
 impl ExamQuestion {
-    /// Of which nothing is shown beside its key.
+    /// Creates a question without drawing data.
     pub fn new(question: Question, key: Key) -> Self {
         ExamQuestion {
             question,

@@ -1,27 +1,30 @@
-//! How much of an item's points an answer earns, in ten-thousandths: no rounding but the last.
+//! The fraction of an item's points that an answer earns, in ten-thousandths. Only the final points
+//! are rounded.
 
-/// So many wrong positions cost nothing, of however few: honest formulas differ in the last bits.
+/// Minimum number of wrong positions that cost nothing: correct formulas may differ in the last
+/// bits.
 pub(super) const TOLERATED_POSITIONS: usize = 2;
 
-/// A part of the whole.
+/// A fraction of an item's points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Credit(u32);
 
 impl Credit {
-    /// Everything is right.
+    /// All points.
     pub const FULL: Credit = Credit(10_000);
-    /// Half of it.
+    /// Half of the points.
     pub const HALF: Credit = Credit(5_000);
-    /// Nothing counts.
+    /// No points.
     pub const NONE: Credit = Credit(0);
 
-    /// How many of so many positions may be wrong for nothing.
+    /// Returns how many of `of` positions may be wrong at no cost.
     pub(super) fn tolerated(of: usize) -> usize {
         TOLERATED_POSITIONS.max(of / 10_000)
     }
 
-    /// What so many wrong positions of so many leave, by steps: none but stragglers, cracks,
-    /// edges, large parts. Never by a similarity score, which small edits move for nothing.
+    /// Returns the credit for `wrong` of `of` positions being wrong. The steps distinguish
+    /// rounding, cracks, wrong edges and large wrong areas. This is a count and not a similarity
+    /// score, which small changes can raise without fixing anything.
     pub fn by_count(wrong: usize, of: usize) -> Self {
         if of == 0 {
             Credit::NONE
@@ -38,13 +41,13 @@ impl Credit {
         }
     }
 
-    /// The sum of parts, each with its weight in hundredths, which add up to 100.
+    /// Returns the sum of credits with weights in hundredths. The weights must add up to 100.
     pub fn weighted(parts: impl IntoIterator<Item = (u32, Credit)>) -> Self {
-        let sum = parts.into_iter().map(|(weight, share)| weight * share.0);
+        let sum = parts.into_iter().map(|(weight, credit)| weight * credit.0);
         Credit(sum.sum::<u32>() / 100)
     }
 
-    /// The points out of `points`, rounded down.
+    /// Returns this fraction of `points`, rounded down.
     pub fn apply(self, points: u32) -> u32 {
         points * self.0 / 10_000
     }
@@ -64,9 +67,10 @@ mod tests {
 
     #[test]
     fn points_are_rounded_down_once() {
-        let share = Credit::weighted([(40, Credit::FULL), (30, Credit(7_500)), (30, Credit::FULL)]);
-        assert_eq!(share, Credit(9_250));
-        assert_eq!(share.apply(4), 3);
+        let credit =
+            Credit::weighted([(40, Credit::FULL), (30, Credit(7_500)), (30, Credit::FULL)]);
+        assert_eq!(credit, Credit(9_250));
+        assert_eq!(credit.apply(4), 3);
         assert_eq!(Credit::FULL.apply(4), 4);
     }
 }

@@ -1,4 +1,4 @@
-//! How far an answer is from being right, in units of the threshold that it is held against.
+//! The error of an answer, as a multiple of its tolerance.
 
 use std::collections::BTreeMap;
 
@@ -7,29 +7,30 @@ use protocol::ElementOutcome;
 use super::Threshold;
 use super::measure::in_units_of;
 
-/// How far something is from being right.
+/// The error of one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// What it is held against. None where nothing lies between right and wrong: hit or miss, a
-    /// panic, nodes that are no tree.
+    /// The tolerance to which the error is compared. `None` for errors of yes or no: hit or miss, a
+    /// panic, or nodes that do not form a tree.
     pub threshold: Option<Threshold>,
-    /// In units of the threshold: right up to 1. Never NaN; without a threshold 0 or infinite.
+    /// The error as a multiple of the tolerance, correct up to 1. Never NaN. Without a threshold it
+    /// is 0 or infinite.
     pub value: f64,
 }
 
 impl Deviation {
-    /// Right, with nothing between that and wrong.
+    /// Correct, with no tolerance involved.
     pub const RIGHT: Deviation = Deviation {
         threshold: None,
         value: 0.0,
     };
-    /// Wrong, with nothing between that and right.
+    /// Wrong, with no tolerance involved.
     pub const WRONG: Deviation = Deviation {
         threshold: None,
         value: f64::INFINITY,
     };
 
-    /// Right or wrong, and nothing between.
+    /// Returns [`Deviation::RIGHT`] or [`Deviation::WRONG`].
     pub(super) fn binary(right: bool) -> Self {
         if right { Self::RIGHT } else { Self::WRONG }
     }
@@ -41,25 +42,25 @@ impl Deviation {
         }
     }
 
-    /// Whether it is tolerated.
+    /// Returns whether the error is within the tolerance.
     pub fn is_right(self) -> bool {
         self.value <= 1.0
     }
 }
 
-/// One thing that is asked of an answer.
+/// The measured error of one check on an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
-    /// How far off it is. Where places are counted, and some may be off, those are passed over: it
-    /// is the worst of the others.
+    /// The error. If some wrong positions are tolerated, the worst ones are skipped, and this is
+    /// the largest error of the rest.
     pub deviation: Deviation,
-    /// Where places are counted: how many are off.
+    /// The number of wrong positions, if they are counted.
     pub count: Option<Deviation>,
 }
 
 impl Measurement {
-    /// What decides about it. Something is wrong only if it is too far off, and that at too many
-    /// places: the milder of the two decides.
+    /// Returns the deviation that decides the verdict. A check fails only if errors are too large
+    /// and occur at too many positions, so the smaller of the two deviations decides.
     pub fn deciding_deviation(self) -> Deviation {
         match self.count {
             Some(count) if count.value < self.deviation.value => count,
@@ -67,26 +68,30 @@ impl Measurement {
         }
     }
 
-    /// Places of which so many may be off.
+    /// Measures positions of which `allowed` may be wrong.
     pub(super) fn of_positions(
-        mut places: Vec<Deviation>,
+        mut positions: Vec<Deviation>,
         allowed: usize,
         count: Threshold,
     ) -> Self {
-        let off = places.iter().filter(|place| !place.is_right()).count();
-        places.sort_by(|a, b| b.value.total_cmp(&a.value));
-        let next = places.get(allowed).copied();
+        let wrong = positions
+            .iter()
+            .filter(|position| !position.is_right())
+            .count();
+        positions.sort_by(|a, b| b.value.total_cmp(&a.value));
+        let next = positions.get(allowed).copied();
         Measurement {
             deviation: next.unwrap_or(Deviation::RIGHT),
             count: Some(Deviation::new(
                 count,
-                in_units_of(allowed as f64, off as f64),
+                in_units_of(allowed as f64, wrong as f64),
             )),
         }
     }
 }
 
-/// What a table comes to, of which every element must be right: the worst by each threshold.
+/// Returns the largest deviation for each threshold, for a table in which every element must be
+/// correct.
 pub(super) fn worst_by_threshold(
     deviations: impl IntoIterator<Item = Deviation>,
 ) -> Vec<Measurement> {
@@ -102,7 +107,7 @@ pub(super) fn worst_by_threshold(
     worst.into_iter().map(measured).collect()
 }
 
-/// The deviations of one element: of its value, or that there is none.
+/// Returns the deviations of one element. An element without a value is wrong.
 pub(super) fn outcome_deviations<T>(
     outcome: &ElementOutcome<T>,
     of_value: impl FnOnce(&T) -> Vec<Deviation>,
@@ -127,7 +132,7 @@ mod tests {
         let length = |value| Deviation::new(Threshold::UnitLength, value);
         let mut all = depths(&[0.2, 0.7]);
         all.extend([length(0.1), length(f64::INFINITY), Deviation::RIGHT]);
-        let off: Vec<Deviation> = worst_by_threshold(all)
+        let worst: Vec<Deviation> = worst_by_threshold(all)
             .into_iter()
             .map(|measured| measured.deviation)
             .collect();
@@ -136,7 +141,7 @@ mod tests {
             length(f64::INFINITY),
             Deviation::new(Threshold::PictureDepth, 0.7),
         ];
-        assert_eq!(off, expected);
+        assert_eq!(worst, expected);
     }
 
     #[test]
@@ -149,7 +154,8 @@ mod tests {
         assert_eq!(fine.count.map(|count| count.value), Some(1.0));
         assert!(fine.deciding_deviation().is_right());
 
-        // Three places are off, by at least 1.2: that is nearer than three of two.
+        // Three positions are wrong where two may be. The smallest of their errors is 1.2, which is
+        // less than the ratio of the counts, 1.5.
         let wrong = measured(&[0.1, 9.0, 1.2, f64::INFINITY]);
         assert_eq!(
             wrong.deciding_deviation(),

@@ -1,4 +1,4 @@
-//! Tables of hits.
+//! Compares tables of hits.
 
 use protocol::{ElementOutcome, Ray, Trace};
 
@@ -12,7 +12,7 @@ use crate::judge::{
     measure_table,
 };
 
-/// Hits, of which every one must be right.
+/// A table of hits. Every one must be correct.
 pub(super) struct Hits<'a> {
     pub(super) checks: &'a [HitCheck],
     pub(super) rays: Vec<Ray>,
@@ -37,8 +37,8 @@ impl Comparison for Hits<'_> {
                 }),
                 (Some(trace), Some(hit)) => {
                     let ray = &self.rays[element];
-                    let mut judged = self.checks.iter();
-                    judged.find_map(|part| failed_check(*part, ray, trace, hit))
+                    let mut checks = self.checks.iter();
+                    checks.find_map(|part| failed_check(*part, ray, trace, hit))
                 }
             }
         })
@@ -51,8 +51,8 @@ impl Comparison for Hits<'_> {
                 (Some(_), None) | (None, Some(_)) => vec![Deviation::WRONG],
                 (Some(trace), Some(hit)) => {
                     let ray = &self.rays[element];
-                    let judged = self.checks.iter();
-                    judged
+                    let checks = self.checks.iter();
+                    checks
                         .map(|part| deviation(*part, ray, trace, hit))
                         .collect()
                 }
@@ -61,7 +61,7 @@ impl Comparison for Hits<'_> {
     }
 }
 
-/// How far off one part of a hit is.
+/// Returns the deviation of one part of a hit.
 fn deviation(part: HitCheck, ray: &Ray, trace: &Trace, hit: &ExpectedHit) -> Deviation {
     let (threshold, error) = match part {
         HitCheck::Distance => (
@@ -84,7 +84,7 @@ fn deviation(part: HitCheck, ray: &Ray, trace: &Trace, hit: &ExpectedHit) -> Dev
     Deviation::new(threshold, error)
 }
 
-/// What is wrong with one part of a hit, if anything is.
+/// Returns how one part of a hit is wrong, if it is.
 fn failed_check(
     part: HitCheck,
     ray: &Ray,

@@ -1,19 +1,20 @@
-//! How far apart two numbers are, in multiples of what is tolerated: up to 1 they are the same.
+//! Errors of numbers, as multiples of their tolerance. A value is accepted up to 1.
 //!
-//! Never NaN: what can not be compared is infinitely far off.
+//! No result is NaN: the error of values that cannot be compared is infinite.
 
 use glam::{Vec2, Vec3};
 
-/// Of lengths: distances, positions, times. Relative; absolute below 1.
+/// Tolerance of lengths: distances, positions and times. Relative for values above 1, otherwise
+/// absolute.
 pub(super) const LENGTH: f32 = 1e-4;
-/// Of unit vectors, as the length of their difference.
+/// Tolerance of unit vectors, as the length of their difference.
 pub(super) const DIRECTION: f32 = 1e-3;
-/// Of texture coordinates.
+/// Tolerance of texture coordinates.
 pub(super) const UV: f32 = 2e-3;
 
-/// An error in multiples of its limit.
+/// Returns an error as a multiple of its limit.
 pub(super) fn in_units_of(limit: f64, error: f64) -> f64 {
-    // No error is none, also where the limit is 0.
+    // Zero error is accepted even if the limit is 0.
     if error <= 0.0 {
         return 0.0;
     }
@@ -25,36 +26,36 @@ pub(super) fn in_units_of(limit: f64, error: f64) -> f64 {
     }
 }
 
-/// How far apart two lengths are.
+/// Returns the error of a length.
 pub(super) fn length_error(got: f32, wanted: f32, tolerance: f32) -> f64 {
-    // ∞ − ∞ is NaN, which is infinitely far off as well.
+    // ∞ − ∞ is NaN, which counts as infinitely far off.
     let limit = tolerance * wanted.abs().max(1.0);
     in_units_of(limit.into(), (got - wanted).abs().into())
 }
 
-/// How far apart two points are.
+/// Returns the distance of two points.
 pub(super) fn point_error(got: Vec3, wanted: Vec3) -> f64 {
     let limit = LENGTH * wanted.length().max(1.0);
     in_units_of(limit.into(), got.distance(wanted).into())
 }
 
-/// How far apart two directions are, whatever the length of the first.
+/// Returns the error of a direction, regardless of its length.
 pub(super) fn direction_error(got: Vec3, wanted: Vec3, tolerance: f32) -> f64 {
-    // In f64, so that no finite vector over- or underflows.
+    // f64 prevents overflow and underflow for all finite f32 vectors.
     let got = got.as_dvec3();
     let unit = got / got.length();
     in_units_of(tolerance.into(), (unit - wanted.as_dvec3()).length())
 }
 
-/// How far the length of a vector is from one.
+/// Returns the error of a length that should be one.
 pub(super) fn unit_error(got: Vec3) -> f64 {
     in_units_of(DIRECTION.into(), (got.length() - 1.0).abs().into())
 }
 
-/// How far apart two texture coordinates are; u goes around.
+/// Returns the error of texture coordinates, where u wraps around.
 pub(super) fn uv_error(got: Vec2, wanted: Vec2) -> f64 {
     let u = (got.x - wanted.x).abs();
-    // Once around is no difference; twice is not what a `uv` returns.
+    // One turn is no error. More than one is, since `uv` returns values from 0 to 1.
     let u = u.min((1.0 - u).abs());
     let v = (got.y - wanted.y).abs();
     let error = |error: f32| in_units_of(UV.into(), error.into());

@@ -1,38 +1,38 @@
-//! What is wrong where in a picture: for whoever draws a mask, never for points.
+//! Wrong positions of a picture, for drawing a mask. They do not affect points.
 
-/// What is wrong first at one position of a picture.
+/// The first error at one position of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mismatch {
-    /// What of it.
+    /// The wrong aspect.
     pub aspect: Aspect,
-    /// How far off it is, in units of what is tolerated: above 1, infinite where nothing lies
-    /// between right and wrong. Never NaN.
+    /// The error as a multiple of its tolerance: above 1, or infinite if there is no tolerance.
+    /// Never NaN.
     pub deviation: f64,
 }
 
 impl Mismatch {
-    /// Where there is no answer to be wrong.
+    /// There is no answer at the position.
     pub(super) const NO_ANSWER: Mismatch = Mismatch {
         aspect: Aspect::NoAnswer,
         deviation: f64::INFINITY,
     };
 }
 
-/// What can be wrong at a position, the gravest first.
+/// Kinds of errors at a position, the most serious first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Aspect {
-    /// The code panicked there, or was not asked any more.
+    /// The code panicked there, or the position was skipped after earlier panics.
     NoAnswer,
-    /// A hit that is none, or the other way round.
+    /// A hit instead of a miss, or a miss instead of a hit.
     HitOrMiss,
-    /// How far along the ray the hit is.
+    /// Distance of the hit along the ray.
     Depth,
     /// The surface normal.
     Normal,
     /// The texture coordinates.
     Uv,
-    /// Where the camera's ray goes.
+    /// Direction of the camera ray.
     Direction,
-    /// How bright the pixel is.
+    /// Brightness of the pixel.
     Radiance,
 }

@@ -1,4 +1,4 @@
-//! Comparing answers with keys: pure, and the only way to points.
+//! Compares answers with keys. This is pure, and the only way to earn points.
 
 mod credit;
 mod deviation;
@@ -28,41 +28,41 @@ pub use deviation::{Deviation, Measurement};
 pub use mismatch::{Aspect, Mismatch};
 pub use threshold::Threshold;
 
-/// What became of one question.
+/// The result of one question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
-    /// How much of the item's points it allows.
+    /// Fraction of the item's points that the answer earns.
     pub credit: Credit,
-    /// What is wrong first, if anything is.
+    /// The first error, if there is one.
     pub failure: Option<Failure>,
 }
 
-/// The first element of a question that went wrong.
+/// The first wrong element of a question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// Which element of the question, counted from 0.
+    /// Index of the element in the question.
     pub element: usize,
-    /// How.
+    /// The kind of error.
     pub kind: FailureKind,
-    /// How many elements are wrong, and of how many, where they were counted.
+    /// The number of wrong elements and the number of all elements, if they were counted.
     pub count: Option<(usize, usize)>,
 }
 
-/// How an element went wrong.
+/// The kind of error of an element.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FailureKind {
-    /// The answer is not right.
+    /// The answer is wrong.
     Wrong {
-        /// What of it: `distance`, `normal`, ...
+        /// The wrong quantity, such as `distance` or `normal`.
         what: String,
-        /// As it came.
+        /// The submission's value.
         got: String,
-        /// As it should have come.
+        /// The expected value.
         wanted: String,
     },
     /// The submission's code panicked.
     Panicked(Panic),
-    /// The bytes are well formed, but no answer to this question.
+    /// The bytes are well formed, but they are not an answer to this question.
     Protocol(String),
 }
 
@@ -88,99 +88,85 @@ impl Judgement {
     }
 }
 
-/// An answer beside its key.
+/// An answer and its key.
 trait Comparison {
-    /// What it earns, and what is wrong first.
+    /// Returns the credit of the answer and its first error.
     fn judge(&self) -> Judgement;
 
-    /// How far off it is, in all that it is judged by. All of it is right if and only if the
-    /// judgement is that everything counts.
+    /// Returns the deviations of all checks on the answer. All of them are correct if and only if
+    /// [`judge`](Comparison::judge) gives full credit.
     fn measure(&self) -> Vec<Measurement>;
 
-    /// What is wrong at each position, if this is a picture: something at a position that costs,
-    /// nothing at one that does not.
+    /// For a picture, returns the error at each position, or `None` where it costs no points.
     fn mismatches(&self) -> Option<Vec<Option<Mismatch>>> {
         None
     }
 }
 
 /// Judges the answer to one question.
-pub fn judge(asked: &ExamQuestion, answer: &Answer) -> Judgement {
-    match comparison(asked, answer) {
+pub fn judge(question: &ExamQuestion, answer: &Answer) -> Judgement {
+    match comparison(question, answer) {
         Some(comparison) => comparison.judge(),
-        None => Judgement::protocol("an answer of another kind"),
+        None => Judgement::protocol("an answer of the wrong kind"),
     }
 }
 
-/// How far off the answer to one question is: by the same numbers that decide in [`judge`].
-pub fn measure(asked: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
-    match comparison(asked, answer) {
+/// Returns the deviations of the answer to one question. They are the numbers that decide in
+/// [`judge`].
+pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
+    match comparison(question, answer) {
         Some(comparison) => comparison.measure(),
         None => deviation::worst_by_threshold([Deviation::WRONG]),
     }
 }
 
-/// What is wrong at each position of a picture, in the order of asking, by the same numbers that
-/// decide in [`judge`]. None where no picture was asked for, or none of its size came.
-pub fn mismatches(asked: &ExamQuestion, answer: &Answer) -> Option<Vec<Option<Mismatch>>> {
-    comparison(asked, answer)?.mismatches()
+/// Returns the error at each position of a picture, in the order of the question's elements. They
+/// are the numbers that decide in [`judge`]. `None` if the question does not ask for a picture, or
+/// if the answer has another size.
+pub fn mismatches(question: &ExamQuestion, answer: &Answer) -> Option<Vec<Option<Mismatch>>> {
+    comparison(question, answer)?.mismatches()
 }
 
-fn comparison<'a>(asked: &'a ExamQuestion, answer: &'a Answer) -> Option<Box<dyn Comparison + 'a>> {
+fn comparison<'a>(
+    question: &'a ExamQuestion,
+    answer: &'a Answer,
+) -> Option<Box<dyn Comparison + 'a>> {
     use protocol::Question as Q;
 
-    Some(match (&asked.key, answer, &asked.question) {
-        (
-            Key::Rays {
-                checks: judged,
+    Some(match (&question.key, answer, &question.question) {
+        (Key::Rays { checks, directions }, Answer::Rays(rays), Q::Camera { samples, .. }) => {
+            Box::new(CameraRays {
+                checks,
                 directions,
-            },
-            Answer::Rays(rays),
-            Q::Camera { samples, .. },
-        ) => Box::new(CameraRays {
-            checks: judged,
-            directions,
-            rays,
-            is_picture: matches!(samples, Samples::EveryPixel),
-        }),
+                rays,
+                is_picture: matches!(samples, Samples::EveryPixel),
+            })
+        }
         (
-            Key::Hits {
-                checks: judged,
-                hits,
-            },
+            Key::Hits { checks, hits },
             Answer::Hits(answers),
             Q::Shapes { rays, .. } | Q::Traverse { rays, .. } | Q::BuildAndTraverse { rays, .. },
         ) => Box::new(Hits {
-            checks: judged,
+            checks,
             rays: rays.to_vec(),
             hits,
             answers,
         }),
-        (
-            Key::FirstHits {
-                hits,
-                alternatives: also,
-            },
-            Answer::Hits(answers),
-            _,
-        ) => Box::new(FirstHits {
+        (Key::FirstHits { hits, alternatives }, Answer::Hits(answers), _) => Box::new(FirstHits {
             hits,
-            alternatives: also,
+            alternatives,
             answers,
         }),
         (Key::Spans { spans }, Answer::Spans(answers), _) => Box::new(Spans { spans, answers }),
         (
-            Key::Tree {
-                checks: judged,
-                sweep_cost,
-            },
+            Key::Tree { checks, sweep_cost },
             Answer::Tree(answer),
             Q::Build {
                 shapes,
                 max_leaf_size,
             },
         ) => Box::new(TreeAnswer {
-            checks: judged,
+            checks,
             sweep_cost: *sweep_cost,
             shapes,
             max_leaf_size: *max_leaf_size,
@@ -198,7 +184,7 @@ fn comparison<'a>(asked: &'a ExamQuestion, answer: &'a Answer) -> Option<Box<dyn
             max_wrong_pixels: *allowed,
             answer,
         }),
-        // An exam whose key does not fit its question is refused when it is loaded.
+        // An exam whose key does not fit its question is rejected when it is loaded.
         (
             Key::Rays { .. }
             | Key::Hits { .. }
@@ -212,39 +198,39 @@ fn comparison<'a>(asked: &'a ExamQuestion, answer: &'a Answer) -> Option<Box<dyn
     })
 }
 
-/// Judges a table: every element must be right. `wrong` tells what is wrong with a value, given
-/// its place in the table.
+/// Judges a table in which every element must be correct. `wrong` gets an element's index and its
+/// value, and returns the error if there is one.
 fn judge_table<T>(
     outcomes: &[ElementOutcome<T>],
     wanted: usize,
     wrong: impl Fn(usize, &T) -> Option<FailureKind>,
 ) -> Judgement {
     if outcomes.len() != wanted {
-        return Judgement::protocol("another number of answers than of questions");
+        return Judgement::protocol("the number of answers differs from the number of questions");
     }
     let mut failures = outcomes
         .iter()
         .enumerate()
         .filter_map(|(element, outcome)| {
-            let how = match outcome {
+            let kind = match outcome {
                 ElementOutcome::Value(value) => wrong(element, value),
                 ElementOutcome::Panicked(panic) => Some(FailureKind::Panicked(panic.clone())),
-                // Given up only after panics, which come first.
-                ElementOutcome::Skipped => Some(FailureKind::Protocol("given up".to_owned())),
+                // Elements are skipped only after panics, so this is never the first failure.
+                ElementOutcome::Skipped => Some(FailureKind::Protocol("skipped".to_owned())),
             };
-            Some((element, how?))
+            Some((element, kind?))
         });
     match failures.next() {
         None => Judgement::RIGHT,
-        Some((element, how)) => Judgement::wrong(Failure {
+        Some((element, kind)) => Judgement::wrong(Failure {
             element,
-            kind: how,
+            kind,
             count: Some((1 + failures.count(), wanted)),
         }),
     }
 }
 
-/// Measures a table: `of_value` tells how far off a value is, given its place in the table.
+/// Measures a table. `of_value` gets an element's index and its value, and returns the deviations.
 fn measure_table<T>(
     outcomes: &[ElementOutcome<T>],
     wanted: usize,

@@ -1,5 +1,5 @@
-//! The path-traced picture, paired: the framework drew every random number from the same stream
-//! as when the key was recorded, so no noise has to be forgiven.
+//! Compares path-traced pictures with common random numbers: the framework draws every random
+//! number from the same stream as when the key was recorded, so there is no noise to tolerate.
 
 use glam::Vec3;
 use protocol::ElementOutcome;
@@ -11,12 +11,13 @@ use crate::judge::{
     Threshold, deviation,
 };
 
-/// A pixel is off if a channel differs by more than this part of its brightest channel.
+/// A pixel is wrong if a channel differs by more than this fraction of the expected brightest
+/// channel.
 pub(super) const RELATIVE_TOLERANCE: f32 = 0.01;
-/// What is darker than this is compared as if it were this bright.
+/// Darker pixels use the tolerance of this brightness.
 const MIN_BRIGHTNESS: f32 = 0.01;
 
-/// A path-traced picture.
+/// A path-traced picture and its key.
 pub(super) struct Radiance<'a> {
     pub(super) pixels: &'a [Vec3],
     pub(super) max_wrong_pixels: u32,
@@ -32,12 +33,12 @@ impl Comparison for Radiance<'_> {
         match self.answer {
             ElementOutcome::Value(got) if got.len() == self.pixels.len() => {
                 let pixels = got.iter().zip(self.pixels);
-                let places = pixels
+                let positions = pixels
                     .map(|(got, wanted)| pixel_deviation(*got, *wanted))
                     .collect();
                 let allowed = self.max_wrong_pixels as usize;
                 vec![Measurement::of_positions(
-                    places,
+                    positions,
                     allowed,
                     Threshold::RadiancePixels,
                 )]
@@ -53,7 +54,7 @@ impl Comparison for Radiance<'_> {
             ElementOutcome::Value(got) => got,
             ElementOutcome::Panicked(_) | ElementOutcome::Skipped => return None,
         };
-        let blemish = |(got, wanted): (&Vec3, &Vec3)| {
+        let mismatch = |(got, wanted): (&Vec3, &Vec3)| {
             let off = pixel_deviation(*got, *wanted);
             (!off.is_right()).then_some(Mismatch {
                 aspect: Aspect::Radiance,
@@ -61,15 +62,15 @@ impl Comparison for Radiance<'_> {
             })
         };
         let is_whole = got.len() == self.pixels.len();
-        is_whole.then(|| got.iter().zip(self.pixels).map(blemish).collect())
+        is_whole.then(|| got.iter().zip(self.pixels).map(mismatch).collect())
     }
 }
 
 fn judge(pixels: &[Vec3], allowed: u32, answer: &ElementOutcome<Vec<Vec3>>) -> Judgement {
-    let fail = |element, how, count| {
+    let fail = |element, kind, count| {
         Judgement::wrong(Failure {
             element,
-            kind: how,
+            kind,
             count,
         })
     };
@@ -78,10 +79,10 @@ fn judge(pixels: &[Vec3], allowed: u32, answer: &ElementOutcome<Vec<Vec3>>) -> J
         ElementOutcome::Panicked(panic) => {
             return fail(0, FailureKind::Panicked(panic.clone()), None);
         }
-        ElementOutcome::Skipped => return Judgement::protocol("given up"),
+        ElementOutcome::Skipped => return Judgement::protocol("skipped"),
     };
     if got.len() != pixels.len() {
-        return Judgement::protocol("another number of pixels than asked for");
+        return Judgement::protocol("the number of pixels differs from the question's");
     }
     let off: Vec<usize> = (0..pixels.len())
         .filter(|&i| !pixel_deviation(got[i], pixels[i]).is_right())
@@ -89,12 +90,12 @@ fn judge(pixels: &[Vec3], allowed: u32, answer: &ElementOutcome<Vec<Vec3>>) -> J
     if off.len() <= allowed as usize {
         return Judgement::RIGHT;
     }
-    let how = FailureKind::Wrong {
+    let kind = FailureKind::Wrong {
         what: "radiance".to_owned(),
         got: describe::point(got[off[0]]),
         wanted: describe::point(pixels[off[0]]),
     };
-    let judgement = fail(off[0], how, Some((off.len(), pixels.len())));
+    let judgement = fail(off[0], kind, Some((off.len(), pixels.len())));
     Judgement {
         credit: if off.len() * 20 <= pixels.len() {
             Credit::HALF
@@ -107,7 +108,7 @@ fn judge(pixels: &[Vec3], allowed: u32, answer: &ElementOutcome<Vec<Vec3>>) -> J
 
 fn pixel_deviation(got: Vec3, wanted: Vec3) -> Deviation {
     let limit = RELATIVE_TOLERANCE * wanted.max_element().max(MIN_BRIGHTNESS);
-    // Each by itself: the largest of numbers with a NaN among them may be a number.
+    // Taken one by one: the maximum of numbers that include NaN may be a number.
     let errors = (got - wanted).abs().to_array();
     let errors = errors.map(|error| in_units_of(limit.into(), error.into()));
     Deviation::new(Threshold::Radiance, errors.into_iter().fold(0.0, f64::max))
@@ -126,18 +127,18 @@ mod tests {
     #[test]
     fn few_wrong_pixels_are_free_and_more_cost_half() {
         let key = vec![Vec3::ONE; 100];
-        let share = |n| judge(&key, 2, &picture_with(n, Vec3::ZERO)).credit;
-        assert_eq!(share(2), Credit::FULL);
-        assert_eq!(share(3), Credit::HALF);
-        assert_eq!(share(6), Credit::NONE);
+        let credit = |n| judge(&key, 2, &picture_with(n, Vec3::ZERO)).credit;
+        assert_eq!(credit(2), Credit::FULL);
+        assert_eq!(credit(3), Credit::HALF);
+        assert_eq!(credit(6), Credit::NONE);
     }
 
     #[test]
     fn one_percent_is_tolerated_and_nan_is_not() {
         let key = vec![Vec3::ONE; 100];
-        let share = |wrong| judge(&key, 2, &picture_with(100, wrong)).credit;
-        assert_eq!(share(Vec3::splat(1.009)), Credit::FULL);
-        assert_eq!(share(Vec3::new(1.0, 1.0, f32::NAN)), Credit::NONE);
-        assert_eq!(share(Vec3::splat(f32::INFINITY)), Credit::NONE);
+        let credit = |wrong| judge(&key, 2, &picture_with(100, wrong)).credit;
+        assert_eq!(credit(Vec3::splat(1.009)), Credit::FULL);
+        assert_eq!(credit(Vec3::new(1.0, 1.0, f32::NAN)), Credit::NONE);
+        assert_eq!(credit(Vec3::splat(f32::INFINITY)), Credit::NONE);
     }
 }

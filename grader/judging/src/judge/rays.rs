@@ -1,4 +1,4 @@
-//! Rays from the camera.
+//! Compares camera rays.
 
 use glam::Vec3;
 use protocol::{ElementOutcome, Interval, Ray};
@@ -14,12 +14,13 @@ use crate::judge::{
     Threshold, judge_table, measure_table,
 };
 
-/// The camera's rays.
+/// Camera rays and their key.
 pub(super) struct CameraRays<'a> {
     pub(super) checks: &'a [RayCheck],
     pub(super) directions: &'a [Vec3],
     pub(super) rays: &'a [ElementOutcome<Ray>],
-    /// A picture: partial credit by counting. Otherwise every ray must be right.
+    /// Whether these are all rays of a picture, which earn partial credit by count. Otherwise,
+    /// every ray must be correct.
     pub(super) is_picture: bool,
 }
 
@@ -49,7 +50,7 @@ impl Comparison for CameraRays<'_> {
     }
 
     fn mismatches(&self) -> Option<Vec<Option<Mismatch>>> {
-        let blemish = |(outcome, worst): (&ElementOutcome<Ray>, Deviation)| match outcome {
+        let mismatch = |(outcome, worst): (&ElementOutcome<Ray>, Deviation)| match outcome {
             ElementOutcome::Panicked(_) | ElementOutcome::Skipped => Some(Mismatch::NO_ANSWER),
             ElementOutcome::Value(_) => (!worst.is_right()).then_some(Mismatch {
                 aspect: Aspect::Direction,
@@ -61,7 +62,7 @@ impl Comparison for CameraRays<'_> {
             self.rays
                 .iter()
                 .zip(self.worst_deviations())
-                .map(blemish)
+                .map(mismatch)
                 .collect()
         })
     }
@@ -71,8 +72,8 @@ impl CameraRays<'_> {
     fn judge_table(&self) -> Judgement {
         judge_table(self.rays, self.directions.len(), |element, ray| {
             let wanted = self.directions[element];
-            let mut judged = self.checks.iter();
-            let part = judged.find(|part| !deviation(**part, ray, wanted).is_right())?;
+            let mut checks = self.checks.iter();
+            let part = checks.find(|part| !deviation(**part, ray, wanted).is_right())?;
             Some(match part {
                 RayCheck::Origin => FailureKind::Wrong {
                     what: "origin".to_owned(),
@@ -98,7 +99,7 @@ impl CameraRays<'_> {
         })
     }
 
-    /// Of each ray, the part that is farthest off.
+    /// Returns the largest deviation of each ray.
     fn worst_deviations(&self) -> Vec<Deviation> {
         let rays = self.rays.iter().enumerate();
         let worst = |(element, outcome)| {
@@ -111,12 +112,12 @@ impl CameraRays<'_> {
 
     fn deviations(&self, element: usize, ray: &Ray) -> Vec<Deviation> {
         let wanted = self.directions[element];
-        let judged = self.checks.iter();
-        judged.map(|part| deviation(*part, ray, wanted)).collect()
+        let checks = self.checks.iter();
+        checks.map(|part| deviation(*part, ray, wanted)).collect()
     }
 }
 
-/// The judgement of a picture, from that of a table.
+/// Turns the judgement of a table into that of a picture.
 fn with_partial_credit(mut judgement: Judgement) -> Judgement {
     if let Some((wrong, of)) = judgement.failure.as_ref().and_then(|failure| failure.count) {
         judgement.credit = Credit::by_count(wrong, of);

@@ -1,4 +1,4 @@
-//! Times inside a box.
+//! Compares the intervals in which rays are inside a box.
 
 use protocol::{ElementOutcome, Interval};
 
@@ -9,7 +9,7 @@ use crate::judge::{
     measure_table,
 };
 
-/// The times of each shot, of which every one must be right.
+/// The interval of each query. Every one must be correct.
 pub(super) struct Spans<'a> {
     pub(super) spans: &'a [Option<Interval>],
     pub(super) answers: &'a [ElementOutcome<Option<Interval>>],
@@ -23,7 +23,7 @@ impl Comparison for Spans<'_> {
                 return None;
             }
             let what = match (got, wanted) {
-                (Some(_), Some(_)) => "times inside the box",
+                (Some(_), Some(_)) => "interval inside the box",
                 (Some(_), None) | (None, Some(_)) | (None, None) => "hit or miss",
             };
             Some(FailureKind::Wrong {

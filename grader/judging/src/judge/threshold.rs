@@ -1,4 +1,4 @@
-//! Every number of the exam that stands between right and wrong.
+//! All thresholds between correct and wrong answers.
 
 use super::credit::TOLERATED_POSITIONS;
 use super::first_hits::{DEPTH, NORMAL};
@@ -6,48 +6,48 @@ use super::measure::{DIRECTION, LENGTH, UV};
 use super::radiance::RELATIVE_TOLERANCE;
 use super::tree::{CONTAIN_TOLERANCE, FULL_MARKS_RATIO, TIGHT_TOLERANCE};
 
-/// What an answer is held against. The steps of partial credit are not among them: they stand
-/// between wrong and wrong.
+/// A threshold between correct and wrong. The steps of partial credit are not among them, because
+/// they are between one wrong answer and another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Threshold {
-    /// How far along its ray a hit of a table is.
+    /// Distance of a hit along its ray, in a table.
     Distance,
-    /// Where a hit of a table is.
+    /// Position of a hit in a table.
     Position,
-    /// When a ray is in a box, or begins to count.
+    /// Interval in which a ray is in a box, or start of a ray's range.
     Times,
-    /// Where a ray starts.
+    /// Origin of a ray.
     Origin,
-    /// Where a camera's ray goes.
+    /// Direction of a camera ray.
     Direction,
-    /// Where the normal of a hit of a table points.
+    /// Normal of a hit in a table.
     Normal,
-    /// How long a direction or a normal is.
+    /// Length of a unit direction or normal.
     UnitLength,
-    /// The texture coordinates of a hit of a table.
+    /// Texture coordinates of a hit in a table.
     Uv,
-    /// The depth at one position of a picture.
+    /// Depth at one position of a picture.
     PictureDepth,
-    /// The normal there.
+    /// Normal at one position of a picture.
     PictureNormal,
-    /// The texture coordinates there.
+    /// Texture coordinates at one position of a picture.
     PictureUv,
-    /// How many positions of a picture are wrong.
+    /// Number of wrong positions of a picture.
     PicturePositions,
-    /// How bright one pixel of the path-traced picture is.
+    /// Brightness of one pixel of a path-traced picture.
     Radiance,
-    /// How many of its pixels are not.
+    /// Number of wrong pixels of a path-traced picture.
     RadiancePixels,
-    /// What a tree costs.
+    /// SAH cost of a tree.
     SahCost,
-    /// How far a box exceeds what it holds.
+    /// Excess of a box over its contents.
     BoxTooLarge,
-    /// How far a primitive sticks out of its box.
+    /// Part of a primitive outside its box.
     BoxTooSmall,
 }
 
 impl Threshold {
-    /// All of them, from tables over pictures to trees.
+    /// All thresholds: those of tables, then of pictures, then of trees.
     pub const ALL: [Threshold; 17] = [
         Threshold::Distance,
         Threshold::Position,
@@ -68,30 +68,30 @@ impl Threshold {
         Threshold::BoxTooSmall,
     ];
 
-    /// What people read.
+    /// Returns a human-readable title.
     pub fn title(self) -> &'static str {
         match self {
             Threshold::Distance => "distance of a hit",
             Threshold::Position => "position of a hit",
-            Threshold::Times => "times in a box, start of a range",
+            Threshold::Times => "interval in a box, start of a range",
             Threshold::Origin => "origin of a ray",
-            Threshold::Direction => "direction of a camera's ray",
+            Threshold::Direction => "direction of a camera ray",
             Threshold::Normal => "normal of a hit",
-            Threshold::UnitLength => "length of what should have length one",
+            Threshold::UnitLength => "length of a unit vector",
             Threshold::Uv => "uv of a hit",
             Threshold::PictureDepth => "depth in a picture",
             Threshold::PictureNormal => "normal in a picture",
             Threshold::PictureUv => "uv in a picture",
             Threshold::PicturePositions => "wrong positions of a picture",
             Threshold::Radiance => "radiance of a pixel",
-            Threshold::RadiancePixels => "pixels of wrong radiance",
+            Threshold::RadiancePixels => "wrong pixels of a path-traced picture",
             Threshold::SahCost => "SAH cost of a tree",
-            Threshold::BoxTooLarge => "how far a box exceeds what it holds",
-            Threshold::BoxTooSmall => "how far a primitive sticks out of its box",
+            Threshold::BoxTooLarge => "excess of a box over its contents",
+            Threshold::BoxTooSmall => "part of a primitive outside its box",
         }
     }
 
-    /// Its value: what 1 is a multiple of.
+    /// Returns the value of the threshold, which is a deviation of 1.
     pub fn limit(self) -> String {
         match self {
             Threshold::Distance | Threshold::Position | Threshold::Times | Threshold::Origin => {
@@ -105,14 +105,15 @@ impl Threshold {
             Threshold::PictureNormal => format!("{NORMAL:e}"),
             Threshold::PicturePositions => format!("{TOLERATED_POSITIONS}, or 1e-4 of all"),
             Threshold::Radiance => format!("{RELATIVE_TOLERANCE}, relative"),
-            Threshold::RadiancePixels => "as the key allows".to_owned(),
+            Threshold::RadiancePixels => "set by the key".to_owned(),
             Threshold::SahCost => format!("{FULL_MARKS_RATIO} times the exact sweep's"),
             Threshold::BoxTooLarge => format!("{TIGHT_TOLERANCE:e} diagonals"),
             Threshold::BoxTooSmall => format!("{CONTAIN_TOLERANCE:e} diagonals"),
         }
     }
 
-    /// Where it can be changed, below `grader/judging/src/judge`, or in an exam.
+    /// Returns the file and constant that define the threshold, relative to
+    /// `grader/judging/src/judge`, or the field of an exam's key.
     pub fn location(self) -> &'static str {
         match self {
             Threshold::Distance | Threshold::Position | Threshold::Times | Threshold::Origin => {
@@ -124,12 +125,12 @@ impl Threshold {
             Threshold::Uv | Threshold::PictureUv => "measure.rs: UV",
             Threshold::PictureDepth => "first_hits/mod.rs: DEPTH",
             Threshold::PictureNormal => "first_hits/mod.rs: NORMAL",
-            Threshold::PicturePositions => "share.rs: STRAGGLERS",
-            Threshold::Radiance => "radiance.rs: RELATIVE",
-            Threshold::RadiancePixels => "the exam's key: allowed",
-            Threshold::SahCost => "tree/mod.rs: FULL",
-            Threshold::BoxTooLarge => "tree/mod.rs: LOOSE",
-            Threshold::BoxTooSmall => "tree/mod.rs: ROUNDING",
+            Threshold::PicturePositions => "credit.rs: TOLERATED_POSITIONS",
+            Threshold::Radiance => "radiance.rs: RELATIVE_TOLERANCE",
+            Threshold::RadiancePixels => "the exam's key: max_wrong_pixels",
+            Threshold::SahCost => "tree/mod.rs: FULL_MARKS_RATIO",
+            Threshold::BoxTooLarge => "tree/mod.rs: TIGHT_TOLERANCE",
+            Threshold::BoxTooSmall => "tree/mod.rs: CONTAIN_TOLERANCE",
         }
     }
 }

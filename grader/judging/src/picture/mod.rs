@@ -1,7 +1,7 @@
-//! A picture that was asked for: what is right, what came, and what is wrong where. Pure, and of
-//! no influence on points: it shows what the judge has found.
+//! Compares a submitted picture with the expected one for display. This shows the judge's findings
+//! and does not affect points.
 //!
-//! Pixels are listed as they are asked: row by row from the bottom.
+//! Pixels are listed in the order of the question's elements: row by row from the bottom.
 
 mod paint;
 mod worst_pixels;
@@ -17,94 +17,95 @@ use crate::judge::{Aspect, Mismatch, mismatches};
 pub use paint::{Colour, Layer, LayerComparison};
 pub use worst_pixels::WorstPixel;
 
-/// A picture beside the right one.
+/// A submitted picture compared with the expected one.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// The number of pixels, across and up.
+    /// Number of pixels, horizontally and vertically.
     pub film: UVec2,
-    /// The quantities that can be looked at, the one with most to see first.
+    /// The quantities that can be displayed. The one that shows the most serious error comes first.
     pub layers: Vec<LayerComparison>,
-    /// What is wrong in each pixel.
+    /// The error in each pixel.
     pub mask: Vec<MaskPixel>,
-    /// How many positions are judged. A pixel of first hits has five.
+    /// Number of positions that are judged. A pixel of first hits has five.
     pub positions: usize,
-    /// At how many of them each aspect is wrong, the gravest aspect first.
+    /// Number of positions at which each aspect is wrong, the most serious aspect first.
     pub wrong_counts: Vec<(Aspect, usize)>,
     /// The worst pixels.
     pub worst_pixels: Vec<WorstPixel>,
 }
 
-/// A picture alone.
+/// A submitted picture without a comparison.
 #[derive(Clone, Debug)]
 pub struct SubmittedPicture {
-    /// The number of pixels, across and up.
+    /// Number of pixels, horizontally and vertically.
     pub film: UVec2,
-    /// The quantities that can be looked at.
+    /// The quantities that can be displayed.
     pub layers: Vec<Layer>,
 }
 
-/// What a mask shows of one pixel.
+/// One pixel of a mask.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaskPixel {
-    /// All is right, and there is nothing to be seen.
+    /// The pixel is correct and shows no surface.
     Empty,
-    /// All is right, and there is something.
+    /// The pixel is correct and shows a surface.
     Right,
-    /// This is the gravest that is wrong at one of its positions.
+    /// The most serious error at one of the pixel's positions.
     Wrong(Aspect),
 }
 
-/// Whether a picture is asked for, rather than single rays.
-pub fn asks_for_picture(asked: &ExamQuestion) -> bool {
-    grid(&asked.question).is_some()
+/// Returns whether the question asks for a picture, and not for single rays.
+pub fn asks_for_picture(question: &ExamQuestion) -> bool {
+    grid(&question.question).is_some()
 }
 
-/// The picture that was answered. None where none was asked for, or what came is none of its size.
-pub fn compare(asked: &ExamQuestion, answer: &Answer) -> Option<Picture> {
-    let (film, per_pixel) = grid(&asked.question)?;
-    let blemishes = mismatches(asked, answer)?;
-    let views = paint::compare_layers(asked, answer, &blemishes, per_pixel)?;
+/// Compares a submitted picture with the expected one. `None` if the question does not ask for a
+/// picture, or if the answer has another size.
+pub fn compare(question: &ExamQuestion, answer: &Answer) -> Option<Picture> {
+    let (film, per_pixel) = grid(&question.question)?;
+    let all_mismatches = mismatches(question, answer)?;
+    let layers = paint::compare_layers(question, answer, &all_mismatches, per_pixel)?;
     let mut wrong: BTreeMap<Aspect, usize> = BTreeMap::new();
-    for blemish in blemishes.iter().flatten() {
-        *wrong.entry(blemish.aspect).or_default() += 1;
+    for mismatch in all_mismatches.iter().flatten() {
+        *wrong.entry(mismatch.aspect).or_default() += 1;
     }
-    let is_something = paint::has_surface(asked);
-    let cells = blemishes
+    let has_surface = paint::has_surface(question);
+    let pixels = all_mismatches
         .chunks(per_pixel)
-        .zip(is_something.chunks(per_pixel));
+        .zip(has_surface.chunks(per_pixel));
     Some(Picture {
         film,
-        mask: cells
-            .map(|(found, something)| mask_pixel(found, something))
+        mask: pixels
+            .map(|(found, surfaces)| mask_pixel(found, surfaces))
             .collect(),
-        positions: blemishes.len(),
+        positions: all_mismatches.len(),
         wrong_counts: wrong.into_iter().collect(),
-        worst_pixels: worst_pixels::pick(film, per_pixel, &blemishes),
-        layers: views,
+        worst_pixels: worst_pixels::pick(film, per_pixel, &all_mismatches),
+        layers,
     })
 }
 
-/// What came of a picture that is right: the same as [`of`] has, for a tenth of the work, since most
-/// pictures are right.
-pub fn submitted_picture(asked: &ExamQuestion, answer: &Answer) -> Option<SubmittedPicture> {
-    let (film, per_pixel) = grid(&asked.question)?;
-    let plates = paint::submitted_layers(asked, answer, per_pixel)?;
-    Some(SubmittedPicture {
-        film,
-        layers: plates,
-    })
+/// Returns the layers of a correct picture. They equal the submitted side of [`compare`] at a tenth
+/// of the cost. Most pictures are correct.
+pub fn submitted_picture(question: &ExamQuestion, answer: &Answer) -> Option<SubmittedPicture> {
+    let (film, per_pixel) = grid(&question.question)?;
+    let layers = paint::submitted_layers(question, answer, per_pixel)?;
+    Some(SubmittedPicture { film, layers })
 }
 
-fn mask_pixel(blemishes: &[Option<Mismatch>], something: &[bool]) -> MaskPixel {
-    let aspects = blemishes.iter().flatten().map(|blemish| blemish.aspect);
+fn mask_pixel(all_mismatches: &[Option<Mismatch>], surfaces: &[bool]) -> MaskPixel {
+    let aspects = all_mismatches
+        .iter()
+        .flatten()
+        .map(|mismatch| mismatch.aspect);
     match aspects.min() {
         Some(aspect) => MaskPixel::Wrong(aspect),
-        None if something.contains(&true) => MaskPixel::Right,
+        None if surfaces.contains(&true) => MaskPixel::Right,
         None => MaskPixel::Empty,
     }
 }
 
-/// The film, and how many positions each of its pixels has.
+/// Returns the film, and the number of positions per pixel.
 fn grid(question: &Question) -> Option<(UVec2, usize)> {
     match question {
         Question::Camera { camera, samples } => match samples {

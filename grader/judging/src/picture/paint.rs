@@ -1,4 +1,4 @@
-//! Colours for what can not be seen by itself: depths, normals, texture coordinates, directions.
+//! Displays depths, normals, texture coordinates and directions as colours.
 
 use glam::{Vec2, Vec3};
 use protocol::{Answer, ElementOutcome, Ray, Trace};
@@ -6,35 +6,35 @@ use protocol::{Answer, ElementOutcome, Ray, Trace};
 use crate::exam::{ExamQuestion, Key, Surface};
 use crate::judge::{Aspect, Mismatch};
 
-/// Red, green and blue, ready for a screen.
+/// An sRGB colour.
 pub type Colour = [u8; 3];
 
-/// Where nothing is hit.
+/// Colour of a ray that hits nothing.
 const MISS_COLOUR: Vec3 = Vec3::new(0.13, 0.13, 0.16);
-/// Where there is no answer, or none of numbers. No quantity has this colour.
+/// Colour of a missing answer, or of NaN and infinity. No valid value has this colour.
 const INVALID_COLOUR: Vec3 = Vec3::new(1.0, 0.0, 1.0);
-/// So much stronger than it is, a difference is painted.
+/// Factor by which differences are amplified.
 pub(super) const DIFFERENCE_GAIN: f32 = 4.0;
 
-/// One quantity, a colour for each pixel: the mean over its positions.
+/// One quantity of two pictures. The colour of a pixel is the mean over its positions.
 #[derive(Clone, Debug)]
 pub struct LayerComparison {
-    /// What people call it.
+    /// Human-readable name.
     pub name: &'static str,
-    /// What is right.
+    /// The expected picture.
     pub wanted: Vec<Colour>,
-    /// What came.
+    /// The submitted picture.
     pub got: Vec<Colour>,
-    /// How far apart the two are, four times as strong; black where the judge found nothing wrong.
+    /// The difference of both, amplified four times. It is black where the judge found no error.
     pub difference: Vec<Colour>,
 }
 
-/// One quantity of what came alone.
+/// One quantity of a submitted picture.
 #[derive(Clone, Debug)]
 pub struct Layer {
-    /// What people call it.
+    /// Human-readable name.
     pub name: &'static str,
-    /// A colour for each pixel, the mean over its positions.
+    /// The colour of each pixel, which is the mean over its positions.
     pub pixels: Vec<Colour>,
 }
 
@@ -44,21 +44,21 @@ impl Layer {
     }
 }
 
-/// One quantity, a colour for each position.
+/// One quantity of two pictures, with a colour for each position.
 struct LayerSamples {
     name: &'static str,
     wanted: Vec<Vec3>,
     got: Vec<Vec3>,
 }
 
-/// All views of a picture, the one that shows the gravest fault first.
+/// Returns all layers of a picture. The one that shows the most serious error comes first.
 pub(super) fn compare_layers(
-    asked: &ExamQuestion,
+    question: &ExamQuestion,
     answer: &Answer,
-    blemishes: &[Option<Mismatch>],
+    mismatches: &[Option<Mismatch>],
     per_pixel: usize,
 ) -> Option<Vec<LayerComparison>> {
-    let mut layers = match (&asked.key, answer) {
+    let mut layers = match (&question.key, answer) {
         (Key::FirstHits { hits, .. }, Answer::Hits(got)) => first_hits(hits, got),
         (Key::Rays { directions, .. }, Answer::Rays(rays)) => vec![LayerSamples {
             name: "direction",
@@ -85,24 +85,24 @@ pub(super) fn compare_layers(
             _,
         ) => return None,
     };
-    let gravest = blemishes
+    let most_serious = mismatches
         .iter()
         .flatten()
-        .map(|blemish| blemish.aspect)
+        .map(|mismatch| mismatch.aspect)
         .min();
-    let shown = gravest.map_or("normal", layer_showing);
+    let shown = most_serious.map_or("normal", layer_showing);
     layers.sort_by_key(|layer| layer.name != shown);
-    let view = |layer: &LayerSamples| compare_layer(layer, blemishes, per_pixel);
+    let view = |layer: &LayerSamples| compare_layer(layer, mismatches, per_pixel);
     Some(layers.iter().map(view).collect())
 }
 
-/// What came, quantity by quantity, as [`views`] paints it where nothing is wrong.
+/// Returns the submitted layers, painted as [`compare_layers`] paints them without errors.
 pub(super) fn submitted_layers(
-    asked: &ExamQuestion,
+    question: &ExamQuestion,
     answer: &Answer,
     per_pixel: usize,
 ) -> Option<Vec<Layer>> {
-    Some(match (&asked.key, answer) {
+    Some(match (&question.key, answer) {
         (Key::FirstHits { hits, .. }, Answer::Hits(got)) => {
             let grey = depth_greys(hits);
             let paint = |colour: &dyn Fn(&Trace) -> Vec3| {
@@ -138,9 +138,9 @@ pub(super) fn submitted_layers(
     })
 }
 
-/// Whether there is something to be seen at each position of the right picture.
-pub(super) fn has_surface(asked: &ExamQuestion) -> Vec<bool> {
-    match &asked.key {
+/// Returns whether a surface is visible at each position of the expected picture.
+pub(super) fn has_surface(question: &ExamQuestion) -> Vec<bool> {
+    match &question.key {
         Key::FirstHits { hits, .. } => hits.iter().map(Option::is_some).collect(),
         Key::Rays { directions, .. } => vec![true; directions.len()],
         Key::Radiance { pixels, .. } => vec![true; pixels.len()],
@@ -148,7 +148,7 @@ pub(super) fn has_surface(asked: &ExamQuestion) -> Vec<bool> {
     }
 }
 
-/// The name of the view in which such a fault is seen.
+/// Returns the name of the layer that shows errors of this aspect.
 fn layer_showing(aspect: Aspect) -> &'static str {
     match aspect {
         Aspect::NoAnswer | Aspect::HitOrMiss | Aspect::Normal => "normal",
@@ -187,7 +187,7 @@ fn first_hits(
     ]
 }
 
-/// Depths, the nearest white.
+/// Returns a function from depth to grey, where the nearest depth is white.
 fn depth_greys(hits: &[Option<Surface>]) -> impl Fn(f32) -> Vec3 {
     let depths = hits.iter().flatten().map(|surface| surface.depth);
     let (near, far) = depths.fold((f32::INFINITY, 0.0), |(near, far), depth| {
@@ -207,7 +207,7 @@ fn paint_outcome<T>(outcome: &ElementOutcome<T>, paint: impl Fn(&T) -> Vec3) -> 
     }
 }
 
-/// Components from -1 to 1.
+/// Returns a colour for components from -1 to 1.
 fn signed_colour(vector: Vec3) -> Vec3 {
     valid_colour(vector * 0.5 + 0.5)
 }
@@ -216,7 +216,7 @@ fn uv_colour(uv: Vec2) -> Vec3 {
     valid_colour(Vec3::new(uv.x, uv.y, 0.35))
 }
 
-/// Light, as screens want it: IEC 61966-2-1.
+/// Converts linear light to sRGB (IEC 61966-2-1).
 fn srgb(light: Vec3) -> Vec3 {
     let channel = |light: f32| match light {
         _ if light <= 0.003_130_8 => 12.92 * light,
@@ -234,13 +234,13 @@ fn valid_colour(colour: Vec3) -> Vec3 {
 
 fn compare_layer(
     layer: &LayerSamples,
-    blemishes: &[Option<Mismatch>],
+    mismatches: &[Option<Mismatch>],
     per_pixel: usize,
 ) -> LayerComparison {
-    let apart = layer.wanted.iter().zip(&layer.got).zip(blemishes);
-    let apart: Vec<Vec3> = apart
-        .map(|((wanted, got), blemish)| match blemish {
-            // Where an edge runs through a position, what differs may be right as well.
+    let differences = layer.wanted.iter().zip(&layer.got).zip(mismatches);
+    let differences: Vec<Vec3> = differences
+        .map(|((wanted, got), mismatch)| match mismatch {
+            // On an edge, a different answer may be correct as well.
             None => Vec3::ZERO,
             Some(_) => ((*got - *wanted).abs() * DIFFERENCE_GAIN).min(Vec3::ONE),
         })
@@ -249,7 +249,7 @@ fn compare_layer(
         name: layer.name,
         wanted: pixels(&layer.wanted, per_pixel),
         got: pixels(&layer.got, per_pixel),
-        difference: pixels(&apart, per_pixel),
+        difference: pixels(&differences, per_pixel),
     }
 }
 
@@ -257,7 +257,7 @@ fn pixels(positions: &[Vec3], per_pixel: usize) -> Vec<Colour> {
     means(positions, per_pixel, |colour| *colour)
 }
 
-/// Each pixel's mean over its positions.
+/// Returns each pixel's mean over its positions.
 fn means<T>(positions: &[T], per_pixel: usize, paint: impl Fn(&T) -> Vec3) -> Vec<Colour> {
     let mean = |pixel: &[T]| pixel.iter().map(&paint).sum::<Vec3>() / per_pixel as f32;
     let bytes = |colour: Vec3| {

@@ -5,7 +5,7 @@ use super::{MaskPixel, Picture, compare};
 use crate::exam::{ExamQuestion, Key};
 use crate::judge::{Aspect, judge};
 
-/// A path-traced picture of 10 × 10 grey pixels.
+/// Returns a question for a path-traced picture of 10 × 10 grey pixels.
 fn question() -> ExamQuestion {
     let question = Question::Radiance {
         scene: String::new(),
@@ -23,8 +23,8 @@ fn question() -> ExamQuestion {
 
 fn picture_with_errors_at(wrong: &[usize]) -> Option<Picture> {
     let mut pixels = vec![Vec3::splat(0.5); 100];
-    for (count, place) in wrong.iter().enumerate() {
-        pixels[*place] += 0.1 * (count + 1) as f32;
+    for (count, index) in wrong.iter().enumerate() {
+        pixels[*index] += 0.1 * (count + 1) as f32;
     }
     compare(&question(), &Answer::Picture(ElementOutcome::Value(pixels)))
 }
@@ -32,25 +32,29 @@ fn picture_with_errors_at(wrong: &[usize]) -> Option<Picture> {
 #[test]
 fn mask_marks_exactly_the_wrong_pixels() {
     let picture = picture_with_errors_at(&[3, 57]).unwrap();
-    let wrong = |place: usize| picture.mask[place] == MaskPixel::Wrong(Aspect::Radiance);
+    let wrong = |index: usize| picture.mask[index] == MaskPixel::Wrong(Aspect::Radiance);
     assert_eq!(
-        (0..100).filter(|place| wrong(*place)).collect::<Vec<_>>(),
+        (0..100).filter(|index| wrong(*index)).collect::<Vec<_>>(),
         [3, 57]
     );
     assert_eq!(picture.wrong_counts, [(Aspect::Radiance, 2)]);
-    let seen = picture.layers[0]
+    let different = picture.layers[0]
         .difference
         .iter()
         .filter(|colour| **colour != [0; 3]);
-    assert_eq!(seen.count(), 2);
+    assert_eq!(different.count(), 2);
     assert!(picture_with_errors_at(&[]).unwrap().worst_pixels.is_empty());
 }
 
 #[test]
 fn worst_pixels_are_sorted_and_spread_out() {
-    // All but the last are neighbours; the later, the farther off.
+    // All but the last are neighbours. The error grows from one to the next.
     let picture = picture_with_errors_at(&[0, 1, 2, 99]).unwrap();
-    let pixels: Vec<UVec2> = picture.worst_pixels.iter().map(|spot| spot.pixel).collect();
+    let pixels: Vec<UVec2> = picture
+        .worst_pixels
+        .iter()
+        .map(|wrong| wrong.pixel)
+        .collect();
     assert_eq!(pixels[0], UVec2::new(9, 9));
     assert_eq!(pixels[1], UVec2::new(2, 0));
     assert!(!pixels.contains(&UVec2::new(1, 0)));

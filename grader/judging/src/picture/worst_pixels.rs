@@ -1,4 +1,4 @@
-//! The pixels that say most about what is wrong.
+//! Picks the pixels that show most about what is wrong.
 
 use std::cmp::Ordering;
 
@@ -6,70 +6,71 @@ use glam::UVec2;
 
 use crate::judge::{Aspect, Mismatch};
 
-/// How many are picked.
+/// Maximum number of pixels that are picked.
 const MAX_PIXELS: usize = 5;
-/// No two of them are nearer than this part of the film: five neighbours say no more than one.
+/// Minimum distance of two picked pixels, relative to the film's larger side. Neighbours rarely
+/// show different errors.
 const MIN_SEPARATION: f32 = 1.0 / 9.0;
 
-/// One bad pixel.
+/// A wrong pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorstPixel {
-    /// (0, 0) is at the bottom left.
+    /// Coordinates of the pixel. (0, 0) is at the bottom left.
     pub pixel: UVec2,
-    /// Its worst position, as an element of the question.
+    /// Its worst position, as the index of an element of the question.
     pub element: usize,
-    /// What is wrong there.
+    /// The error there.
     pub aspect: Aspect,
 }
 
-/// The worst pixels, the worst first: by the gravest aspect, then by how far off it is.
+/// Picks the worst pixels, sorted by the most serious aspect and then by the size of the error.
 pub(super) fn pick(
     film: UVec2,
     per_pixel: usize,
-    blemishes: &[Option<Mismatch>],
+    mismatches: &[Option<Mismatch>],
 ) -> Vec<WorstPixel> {
-    let spot = |(pixel, positions): (usize, &[Option<Mismatch>])| {
+    let candidate = |(pixel, positions): (usize, &[Option<Mismatch>])| {
         let found = positions.iter().enumerate();
-        let found = found.filter_map(|(i, blemish)| Some((i, (*blemish)?)));
-        let (position, blemish) = found.min_by(|(_, a), (_, b)| by_severity(a, b))?;
+        let found = found.filter_map(|(i, mismatch)| Some((i, (*mismatch)?)));
+        let (position, mismatch) = found.min_by(|(_, a), (_, b)| by_severity(a, b))?;
         let pixel = pixel as u32;
-        let spot = WorstPixel {
+        let candidate = WorstPixel {
             pixel: UVec2::new(pixel % film.x, pixel / film.x),
             element: pixel as usize * per_pixel + position,
-            aspect: blemish.aspect,
+            aspect: mismatch.aspect,
         };
-        Some((spot, blemish))
+        Some((candidate, mismatch))
     };
-    let all: Vec<(WorstPixel, Mismatch)> = blemishes
+    let all: Vec<(WorstPixel, Mismatch)> = mismatches
         .chunks(per_pixel)
         .enumerate()
-        .filter_map(spot)
+        .filter_map(candidate)
         .collect();
 
-    let apart = film.max_element() as f32 * MIN_SEPARATION;
+    let min_distance = film.max_element() as f32 * MIN_SEPARATION;
     let mut picked: Vec<WorstPixel> = Vec::new();
     while picked.len() < MAX_PIXELS {
-        let far = all
-            .iter()
-            .map(|(spot, blemish)| (spot, blemish, distance_to_nearest(&picked, spot)));
-        let far = far.filter(|(_, _, away)| *away >= apart);
-        // Where nothing else tells two apart, the farther from those that are picked.
+        let far = all.iter().map(|(candidate, mismatch)| {
+            (candidate, mismatch, distance_to_nearest(&picked, candidate))
+        });
+        let far = far.filter(|(_, _, distance)| *distance >= min_distance);
+        // Among equals, pick the pixel that is farthest from those already picked.
         let next =
             far.min_by(|(_, a, near), (_, b, far)| by_severity(a, b).then(far.total_cmp(near)));
         match next {
-            Some((spot, _, _)) => picked.push(*spot),
+            Some((candidate, _, _)) => picked.push(*candidate),
             None => break,
         }
     }
     picked
 }
 
-/// How far a pixel is from the nearest of these, in pixels.
-fn distance_to_nearest(picked: &[WorstPixel], spot: &WorstPixel) -> f32 {
-    let place = spot.pixel.as_vec2();
+/// Returns the distance to the nearest of the picked pixels, in pixels.
+fn distance_to_nearest(picked: &[WorstPixel], candidate: &WorstPixel) -> f32 {
+    let position = candidate.pixel.as_vec2();
     let distances = picked
         .iter()
-        .map(|other| other.pixel.as_vec2().distance(place));
+        .map(|other| other.pixel.as_vec2().distance(position));
     distances.fold(f32::INFINITY, f32::min)
 }
 

@@ -1,8 +1,8 @@
-//! Pictures of first hits, against a key that is a *set* at every position.
+//! Compares pictures of first hits with a key that is a *set* of answers at every position.
 //!
-//! Near an edge a last bit decides what a ray sees, and every answer that a neighbour within
-//! ±5e-4 of a pixel would get is right. Leaving such positions out instead would hide cracks,
-//! which are to be found nowhere else.
+//! Near an edge, rounding decides which surface a ray hits, so every answer that a ray within
+//! ±5e-4 of a pixel would get is correct. Skipping these positions instead would hide cracks between
+//! triangles, which appear nowhere else.
 
 use std::iter;
 
@@ -20,7 +20,8 @@ use crate::judge::{
 pub(super) const DEPTH: f32 = 2e-4;
 pub(super) const NORMAL: f32 = 5e-3;
 
-/// What is compared, each only where the ones before it are right, with its weight in hundredths.
+/// The compared quantities with their weights in hundredths. Each is judged only where all before
+/// it are correct.
 const QUANTITIES: [(&str, u32); 4] = [
     ("hit or miss", 40),
     ("depth", 30),
@@ -28,20 +29,20 @@ const QUANTITIES: [(&str, u32); 4] = [
     ("uv", 10),
 ];
 
-/// The same, for a mask.
+/// The aspects of the same quantities, for a mask.
 const ASPECTS: [Aspect; 4] = [Aspect::HitOrMiss, Aspect::Depth, Aspect::Normal, Aspect::Uv];
 
-/// How far off each quantity is at one position, up to the first that is wrong.
+/// The deviations of the quantities at one position, up to the first wrong one.
 type Deviations = ArrayVec<Deviation, { QUANTITIES.len() }>;
 
-/// A picture.
+/// A picture and its key.
 pub(super) struct FirstHits<'a> {
     pub(super) hits: &'a [Option<Surface>],
     pub(super) alternatives: &'a [(u32, Option<Surface>)],
     pub(super) answers: &'a [ElementOutcome<Option<Trace>>],
 }
 
-/// One quantity, wherever it is judged.
+/// Results for one quantity over all positions where it is judged.
 #[derive(Clone, Copy, Default)]
 struct Tally {
     judged: usize,
@@ -52,18 +53,18 @@ struct Tally {
 impl Comparison for FirstHits<'_> {
     fn judge(&self) -> Judgement {
         if self.answers.len() != self.hits.len() {
-            return Judgement::protocol("another number of answers than of rays");
+            return Judgement::protocol("the number of answers differs from the number of rays");
         }
         let tallies = self.tallies();
-        let shares = tallies.map(|tally| match self.has_enough_judged(tally.judged) {
+        let credits = tallies.map(|tally| match self.has_enough_judged(tally.judged) {
             true => Credit::by_count(tally.wrong, tally.judged),
             false => Credit::NONE,
         });
-        let weighted = QUANTITIES.iter().zip(shares);
-        let share = Credit::weighted(weighted.map(|((_, weight), share)| (*weight, share)));
-        let worst = (0..QUANTITIES.len()).find(|&quantity| shares[quantity] < Credit::FULL);
+        let weighted = QUANTITIES.iter().zip(credits);
+        let credit = Credit::weighted(weighted.map(|((_, weight), credit)| (*weight, credit)));
+        let worst = (0..QUANTITIES.len()).find(|&quantity| credits[quantity] < Credit::FULL);
         Judgement {
-            credit: share,
+            credit,
             failure: worst.map(|quantity| {
                 let tally = tallies[quantity];
                 let element = tally.first_wrong.unwrap_or(0);
@@ -87,22 +88,24 @@ impl Comparison for FirstHits<'_> {
         let mut of_each: [Vec<Deviation>; QUANTITIES.len()] = Default::default();
         for deviations in self.deviations_by_position() {
             let quantities = of_each.iter_mut().zip(deviations);
-            quantities.for_each(|(places, deviation)| places.push(deviation));
+            quantities.for_each(|(positions, deviation)| positions.push(deviation));
         }
-        let measured = |places: Vec<Deviation>| {
-            let is_enough = self.has_enough_judged(places.len());
-            let allowed = Credit::tolerated(places.len());
-            let counted = Measurement::of_positions(places, allowed, Threshold::PicturePositions);
-            // What is not judged often enough fails by what comes before it.
+        let measured = |positions: Vec<Deviation>| {
+            let is_enough = self.has_enough_judged(positions.len());
+            let allowed = Credit::tolerated(positions.len());
+            let counted =
+                Measurement::of_positions(positions, allowed, Threshold::PicturePositions);
+            // A quantity that is judged at too few positions has already failed by an earlier
+            // quantity.
             is_enough.then_some(counted)
         };
         of_each.into_iter().filter_map(measured).collect()
     }
 
     fn mismatches(&self) -> Option<Vec<Option<Mismatch>>> {
-        let blemish = |(outcome, deviations): (&ElementOutcome<_>, Deviations)| match outcome {
+        let mismatch = |(outcome, deviations): (&ElementOutcome<_>, Deviations)| match outcome {
             ElementOutcome::Panicked(_) | ElementOutcome::Skipped => Some(Mismatch::NO_ANSWER),
-            // The last one judged is the first that is wrong.
+            // Judging stops at the first wrong quantity.
             ElementOutcome::Value(_) => {
                 let wrong = deviations.iter().zip(ASPECTS);
                 let mut wrong = wrong.filter(|(deviation, _)| !deviation.is_right());
@@ -115,19 +118,20 @@ impl Comparison for FirstHits<'_> {
         let is_whole = self.answers.len() == self.hits.len();
         is_whole.then(|| {
             let positions = self.answers.iter().zip(self.deviations_by_position());
-            positions.map(blemish).collect()
+            positions.map(mismatch).collect()
         })
     }
 }
 
 impl FirstHits<'_> {
-    /// How far off each quantity is that is judged there, for each position.
+    /// Returns, for each position, the deviations of the quantities that are judged there.
     fn deviations_by_position(&self) -> impl Iterator<Item = Deviations> {
         let mut others: Vec<_> = self.alternatives.iter().collect();
         others.sort_by_key(|(position, _)| *position);
         let mut others = others.into_iter().peekable();
         let answers = self.answers.iter().enumerate();
-        // There are tens of thousands of positions: what one needs, the next one takes over.
+        // Reused for every position: there are tens of thousands, and an allocation for each is
+        // slow.
         let mut alike = Vec::new();
         answers.map(move |(position, outcome)| {
             let here = || others.next_if(|(other, _)| *other as usize == position);
@@ -136,7 +140,8 @@ impl FirstHits<'_> {
             match outcome {
                 ElementOutcome::Value(got) => position_deviations(got.as_ref(), right, &mut alike),
                 ElementOutcome::Panicked(_) | ElementOutcome::Skipped => {
-                    // The next position's come next.
+                    // Consume the alternatives of this position, so that those of the next one come
+                    // first.
                     right.for_each(drop);
                     Deviations::from_iter([Deviation::WRONG])
                 }
@@ -158,17 +163,19 @@ impl FirstHits<'_> {
         tallies
     }
 
-    /// Whoever hits nothing has no wrong normals: half of what there is to hit must be judged. Hit
-    /// or miss is, everywhere.
+    /// Returns whether a quantity was judged at half of the positions with a hit or more. An answer
+    /// without hits has no wrong normals, and must not earn points for them. Hit or miss is judged
+    /// everywhere.
     fn has_enough_judged(&self, judged: usize) -> bool {
         let to_hit = self.hits.iter().flatten().count();
         judged * 2 >= to_hit
     }
 }
 
-/// How far off each quantity is at one position, from the nearest of the `right` answers in which
-/// all before it agree; up to the first that is wrong. A true miss has but the first. What was in
-/// `alike` is forgotten.
+/// Returns the deviations at one position, up to the first wrong quantity. For each quantity, they
+/// are those of the closest answer in `right` among the answers that agree in all earlier
+/// quantities. A correct miss has only the first quantity. `alike` is a buffer whose contents are
+/// overwritten.
 fn position_deviations<'a>(
     got: Option<&Trace>,
     right: impl Iterator<Item = &'a Option<Surface>>,
@@ -197,7 +204,7 @@ fn position_deviations<'a>(
     nearest
 }
 
-/// How far off a hit is in depth, normal and uv.
+/// Returns the deviations of a hit in depth, normal and uv.
 fn deviations(got: &Trace, wanted: &Surface) -> [Deviation; QUANTITIES.len() - 1] {
     let depth = length_error(got.distance, wanted.depth, DEPTH);
     let normal = direction_error(got.normal, wanted.normal, NORMAL);
@@ -216,22 +223,22 @@ fn failure_kind(
     let got = match answer {
         ElementOutcome::Value(got) => got.as_ref(),
         ElementOutcome::Panicked(panic) => return FailureKind::Panicked(panic.clone()),
-        ElementOutcome::Skipped => return FailureKind::Protocol("given up".to_owned()),
+        ElementOutcome::Skipped => return FailureKind::Protocol("skipped".to_owned()),
     };
-    let tell = |tell: fn(&Trace) -> String| got.map_or("no hit".to_owned(), tell);
-    let want = |want: fn(&Surface) -> String| wanted.map_or("no hit".to_owned(), want);
+    let got_text = |format: fn(&Trace) -> String| got.map_or("no hit".to_owned(), format);
+    let wanted_text = |format: fn(&Surface) -> String| wanted.map_or("no hit".to_owned(), format);
     let (got, wanted) = match QUANTITIES[quantity].0 {
         "normal" => (
-            tell(|trace| describe::point(trace.normal)),
-            want(|surface| describe::point(surface.normal)),
+            got_text(|trace| describe::point(trace.normal)),
+            wanted_text(|surface| describe::point(surface.normal)),
         ),
         "uv" => (
-            tell(|trace| describe::uv(trace.uv)),
-            want(|surface| describe::uv(surface.uv)),
+            got_text(|trace| describe::uv(trace.uv)),
+            wanted_text(|surface| describe::uv(surface.uv)),
         ),
         _ => (
-            tell(|trace| describe::hit_at(trace.distance)),
-            want(|surface| describe::hit_at(surface.depth)),
+            got_text(|trace| describe::hit_at(trace.distance)),
+            wanted_text(|surface| describe::hit_at(surface.depth)),
         ),
     };
     FailureKind::Wrong {

@@ -4,20 +4,22 @@ use super::*;
 
 fn judge(
     hits: &[Option<Surface>],
-    also: &[(u32, Option<Surface>)],
+    alternatives: &[(u32, Option<Surface>)],
     answers: &[ElementOutcome<Option<Trace>>],
 ) -> Judgement {
     let picture = FirstHits {
         hits,
-        alternatives: also,
+        alternatives,
         answers,
     };
     let judgement = picture.judge();
-    // A mask shows what is counted, neither more nor less.
-    let blemishes = picture.mismatches().expect("as many answers as rays");
+    // A mask shows exactly the positions that are counted.
+    let mismatches = picture
+        .mismatches()
+        .expect("there are as many answers as rays");
     let tallies = picture.tallies();
     for (aspect, tally) in ASPECTS.iter().zip(&tallies) {
-        let found = blemishes.iter().flatten();
+        let found = mismatches.iter().flatten();
         assert_eq!(
             found.filter(|found| found.aspect == *aspect).count(),
             tally.wrong
@@ -46,7 +48,7 @@ fn answer_of(surface: Surface) -> ElementOutcome<Option<Trace>> {
     }))
 }
 
-/// A hundred positions, of which the first half is a wall.
+/// Returns a key of a hundred positions, of which the first half show a wall.
 fn key() -> Vec<Option<Surface>> {
     (0..100).map(|i| (i < 50).then_some(WALL)).collect()
 }
@@ -77,7 +79,7 @@ fn wrong_normals_cost_the_normal_and_uv_credit() {
     };
     let judgement = judge(&key(), &[], &answers(answer_of(flipped)));
     assert_eq!(judgement.credit.apply(10), 7);
-    let failure = judgement.failure.expect("it is wrong");
+    let failure = judgement.failure.expect("the normals are wrong");
     assert!(matches!(failure.kind, FailureKind::Wrong { what, .. } if what == "normal"));
     assert_eq!(failure.count, Some((50, 50)));
 }
@@ -99,8 +101,8 @@ fn either_answer_is_correct_at_an_edge() {
         *answer = ElementOutcome::Value(None);
     }
     assert!(judge(&key(), &[], &got).credit < Credit::FULL);
-    let also = [(0, None), (1, None), (2, None)];
-    assert_eq!(judge(&key(), &also, &got).credit, Credit::FULL);
+    let alternatives = [(0, None), (1, None), (2, None)];
+    assert_eq!(judge(&key(), &alternatives, &got).credit, Credit::FULL);
 }
 
 #[test]

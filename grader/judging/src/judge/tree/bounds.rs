@@ -1,25 +1,25 @@
-//! Boxes, as the judge computes them.
+//! Bounding boxes, as the judge computes them.
 
 use glam::DVec3;
 use protocol::{Shape, TreeNode};
 
-/// A box in f64, so that the judge's own rounding does not matter.
+/// A bounding box in f64, so that the judge adds no rounding of its own.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
-    /// The corner with the least coordinates.
+    /// The corner with the smallest coordinates.
     pub min: DVec3,
-    /// The corner with the greatest.
+    /// The corner with the largest coordinates.
     pub max: DVec3,
 }
 
 impl Bounds {
-    /// Holds nothing; enclosing anything makes it that thing's box.
+    /// The empty box, which contains nothing. Enclosing another box gives that box.
     pub const EMPTY: Bounds = Bounds {
         min: DVec3::INFINITY,
         max: DVec3::NEG_INFINITY,
     };
 
-    /// The box that stands in a node.
+    /// Returns the box that is stored in a node.
     pub fn of_node(node: &TreeNode) -> Self {
         Bounds {
             min: node.min.as_dvec3(),
@@ -27,7 +27,7 @@ impl Bounds {
         }
     }
 
-    /// The tightest box around a shape.
+    /// Returns the tightest box around a shape.
     pub fn of_shape(shape: &Shape) -> Self {
         let corners = |corners: [glam::Vec3; 3]| {
             let [a, b, c] = corners.map(|corner| corner.as_dvec3());
@@ -48,30 +48,30 @@ impl Bounds {
         }
     }
 
-    /// Grows until it holds `other` as well.
+    /// Extends the box to contain `other`.
     pub fn enclose(&mut self, other: Bounds) {
         self.min = self.min.min(other.min);
         self.max = self.max.max(other.max);
     }
 
-    /// The length of its diagonal.
+    /// Returns the length of the diagonal.
     pub fn diagonal(self) -> f64 {
         (self.max - self.min).length()
     }
 
-    /// The area of its surface.
+    /// Returns the surface area.
     pub fn area(self) -> f64 {
         let size = self.max - self.min;
         2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
     }
 
-    /// How far this box sticks out of `outer`, beyond the last bits of an f32. Never NaN: a box
-    /// with one sticks out infinitely.
+    /// Returns how far this box extends beyond `outer`, apart from rounding in f32. A box with a
+    /// NaN extends infinitely far, so the result is never NaN.
     pub fn excess_over(self, outer: Bounds) -> f64 {
         let last_bits = self.min.abs().max(self.max.abs()) * 2.0 * f64::from(f32::EPSILON);
         let below = (outer.min - self.min - last_bits).to_array();
         let above = (self.max - outer.max - last_bits).to_array();
-        // Each by itself: the largest of numbers with a NaN among them may be a number.
+        // Taken one by one: the maximum of numbers that include NaN may be a number.
         let out = below.into_iter().chain(above);
         out.map(|out| if out.is_nan() { f64::INFINITY } else { out })
             .fold(0.0, f64::max)

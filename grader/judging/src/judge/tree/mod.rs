@@ -1,5 +1,5 @@
-//! Trees, judged by what must hold of every one of them and by their cost: there is no one right
-//! tree.
+//! Judges trees by properties that every correct tree has, and by their cost: there is no single
+//! correct tree.
 
 pub mod bounds;
 pub mod reached_nodes;
@@ -16,16 +16,17 @@ use crate::judge::{
 use bounds::Bounds;
 use reached_nodes::{ReachedNode, TreeDefect, reached_nodes};
 
-/// Full marks up to so many times the cost of the exact sweep.
+/// Maximum cost for full marks, relative to the exact sweep.
 pub const FULL_MARKS_RATIO: f64 = 1.12;
-/// Half marks.
+/// Maximum cost for half marks, relative to the exact sweep.
 const HALF_MARKS_RATIO: f64 = 1.25;
-/// How far a box may exceed what it holds, in diagonals.
+/// Maximum excess of a box over its contents, relative to the diagonal of the contents.
 pub(super) const TIGHT_TOLERANCE: f64 = 1e-4;
-/// How far a primitive may stick out of its box, in diagonals: what rounding explains.
+/// Maximum part of a primitive outside its box, relative to the diagonal of the contents. This
+/// allows for rounding only.
 pub(super) const CONTAIN_TOLERANCE: f64 = 1e-5;
 
-/// A tree, and what must hold of it.
+/// A tree and the checks on it.
 pub(super) struct TreeAnswer<'a> {
     pub(super) checks: &'a [TreeCheck],
     pub(super) sweep_cost: Option<f64>,
@@ -47,50 +48,50 @@ impl Comparison for TreeAnswer<'_> {
             }
             ElementOutcome::Skipped => return Judgement::protocol("given up"),
         };
-        let cells = match reached_nodes(self.shapes, tree) {
-            Ok(cells) => cells,
-            Err(mistake) => return wrong_tree(mistake),
+        let nodes = match reached_nodes(self.shapes, tree) {
+            Ok(nodes) => nodes,
+            Err(defect) => return wrong_tree(defect),
         };
-        let mut judged = self.checks.iter();
-        let mistake = judged.find_map(|part| self.check_defect(*part, &cells));
-        match (mistake, self.sweep_cost) {
-            (Some(mistake), _) => wrong_tree(mistake),
+        let mut checks = self.checks.iter();
+        let defect = checks.find_map(|part| self.check_defect(*part, &nodes));
+        match (defect, self.sweep_cost) {
+            (Some(defect), _) => wrong_tree(defect),
             (None, None) => Judgement::RIGHT,
-            // A cost is only that of this tree if the tree holds every primitive once.
-            (None, Some(sweep)) => match partition_defect(&cells, self.shapes.len()) {
-                Some(mistake) => wrong_tree(mistake),
-                None => judge_cost(cost(&cells) / sweep),
+            // The cost is meaningful only if the tree holds every primitive exactly once.
+            (None, Some(sweep)) => match partition_defect(&nodes, self.shapes.len()) {
+                Some(defect) => wrong_tree(defect),
+                None => judge_cost(cost(&nodes) / sweep),
             },
         }
     }
 
     fn measure(&self) -> Vec<Measurement> {
-        let cells = match self.answer {
+        let nodes = match self.answer {
             ElementOutcome::Value(tree) => reached_nodes(self.shapes, tree).ok(),
             ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
         };
-        let Some(cells) = cells else {
+        let Some(nodes) = nodes else {
             return deviation::worst_by_threshold([Deviation::WRONG]);
         };
         let parts = self.checks.iter();
-        let parts = parts.flat_map(|part| self.check_deviations(*part, &cells));
+        let parts = parts.flat_map(|part| self.check_deviations(*part, &nodes));
         let cost = self
             .sweep_cost
-            .map(|sweep| match partition_defect(&cells, self.shapes.len()) {
+            .map(|sweep| match partition_defect(&nodes, self.shapes.len()) {
                 Some(_) => Deviation::WRONG,
-                None => cost_deviation(cost(&cells) / sweep),
+                None => cost_deviation(cost(&nodes) / sweep),
             });
         deviation::worst_by_threshold(parts.chain(cost))
     }
 }
 
-fn wrong_tree(mistake: TreeDefect) -> Judgement {
+fn wrong_tree(defect: TreeDefect) -> Judgement {
     Judgement::wrong(Failure {
         element: 0,
         kind: FailureKind::Wrong {
-            what: mistake.what.to_owned(),
-            got: mistake.got,
-            wanted: mistake.wanted,
+            what: defect.what.to_owned(),
+            got: defect.got,
+            wanted: defect.wanted,
         },
         count: None,
     })
@@ -117,7 +118,7 @@ fn judge_cost(ratio: f64) -> Judgement {
     }
 }
 
-/// How much more a tree costs than the sweep's, to which it is so many times as dear.
+/// Returns the deviation of a cost from its ratio to the exact sweep's cost.
 fn cost_deviation(ratio: f64) -> Deviation {
     Deviation::new(
         Threshold::SahCost,
@@ -126,23 +127,23 @@ fn cost_deviation(ratio: f64) -> Deviation {
 }
 
 impl TreeAnswer<'_> {
-    fn check_defect(&self, part: TreeCheck, cells: &[ReachedNode]) -> Option<TreeDefect> {
+    fn check_defect(&self, part: TreeCheck, nodes: &[ReachedNode]) -> Option<TreeDefect> {
         let most = self.max_leaf_size as usize;
         match part {
-            TreeCheck::Partition => partition_defect(cells, self.shapes.len()),
-            TreeCheck::Contains => cells
+            TreeCheck::Partition => partition_defect(nodes, self.shapes.len()),
+            TreeCheck::Contains => nodes
                 .iter()
-                .find(|cell| !containment_deviation(cell).is_right())
-                .map(|cell| cell.box_defect("box too small")),
-            TreeCheck::Tight => cells
+                .find(|node| !containment_deviation(node).is_right())
+                .map(|node| node.box_defect("box too small")),
+            TreeCheck::Tight => nodes
                 .iter()
-                .find(|cell| !tightness_deviation(cell).is_right())
-                .map(|cell| cell.box_defect("box too large")),
+                .find(|node| !tightness_deviation(node).is_right())
+                .map(|node| node.box_defect("box too large")),
             TreeCheck::Split => {
                 let all = self.shapes.len();
                 let is_half =
-                    |cell: &&ReachedNode| cell.leaf_primitives.is_some() && 2 * cell.count >= all;
-                let leaf = cells.iter().filter(|_| all > 1).find(is_half)?;
+                    |node: &&ReachedNode| node.leaf_primitives.is_some() && 2 * node.count >= all;
+                let leaf = nodes.iter().filter(|_| all > 1).find(is_half)?;
                 Some(TreeDefect {
                     what: "splits",
                     got: format!(
@@ -153,9 +154,9 @@ impl TreeAnswer<'_> {
                 })
             }
             TreeCheck::LeafSize => {
-                let leaf = cells
+                let leaf = nodes
                     .iter()
-                    .find(|cell| cell.leaf_primitives.is_some() && cell.count > most)?;
+                    .find(|node| node.leaf_primitives.is_some() && node.count > most)?;
                 Some(TreeDefect {
                     what: "leaf size",
                     got: format!("leaf {} holds {} primitives", leaf.index, leaf.count),
@@ -163,57 +164,58 @@ impl TreeAnswer<'_> {
                 })
             }
             TreeCheck::Stops => {
-                let node = cells
+                let node = nodes
                     .iter()
-                    .find(|cell| cell.leaf_primitives.is_none() && cell.count <= most)?;
+                    .find(|node| node.leaf_primitives.is_none() && node.count <= most)?;
                 Some(TreeDefect {
                     what: "splits",
                     got: format!(
                         "node {} was split over {} primitives",
                         node.index, node.count
                     ),
-                    wanted: format!("a leaf, as soon as there are at most {most}"),
+                    wanted: format!("a leaf for at most {most} primitives"),
                 })
             }
         }
     }
 
-    fn check_deviations(&self, part: TreeCheck, cells: &[ReachedNode]) -> Vec<Deviation> {
+    fn check_deviations(&self, part: TreeCheck, nodes: &[ReachedNode]) -> Vec<Deviation> {
         match part {
-            TreeCheck::Contains => cells.iter().map(containment_deviation).collect(),
-            TreeCheck::Tight => cells.iter().map(tightness_deviation).collect(),
+            TreeCheck::Contains => nodes.iter().map(containment_deviation).collect(),
+            TreeCheck::Tight => nodes.iter().map(tightness_deviation).collect(),
             TreeCheck::Partition | TreeCheck::Split | TreeCheck::LeafSize | TreeCheck::Stops => {
-                vec![Deviation::binary(self.check_defect(part, cells).is_none())]
+                vec![Deviation::binary(self.check_defect(part, nodes).is_none())]
             }
         }
     }
 }
 
-/// How far a node's primitives stick out of its box. The box of a node without any is not read.
-pub fn containment_deviation(cell: &ReachedNode) -> Deviation {
-    let out = match cell.count {
+/// Returns how far a node's primitives stick out of its box. The box of a node without primitives
+/// is ignored.
+pub fn containment_deviation(node: &ReachedNode) -> Deviation {
+    let out = match node.count {
         0 => 0.0,
-        _ => cell.tight_bounds.excess_over(Bounds::of_node(cell.node)),
+        _ => node.tight_bounds.excess_over(Bounds::of_node(node.node)),
     };
-    let limit = CONTAIN_TOLERANCE * cell.tight_bounds.diagonal();
+    let limit = CONTAIN_TOLERANCE * node.tight_bounds.diagonal();
     Deviation::new(Threshold::BoxTooSmall, in_units_of(limit, out))
 }
 
-/// How far a node's box exceeds what its primitives need.
-pub fn tightness_deviation(cell: &ReachedNode) -> Deviation {
-    let out = match cell.count {
+/// Returns how far a node's box exceeds the tightest box around its primitives.
+pub fn tightness_deviation(node: &ReachedNode) -> Deviation {
+    let out = match node.count {
         0 => 0.0,
-        _ => Bounds::of_node(cell.node).excess_over(cell.tight_bounds),
+        _ => Bounds::of_node(node.node).excess_over(node.tight_bounds),
     };
-    let limit = TIGHT_TOLERANCE * cell.tight_bounds.diagonal();
+    let limit = TIGHT_TOLERANCE * node.tight_bounds.diagonal();
     Deviation::new(Threshold::BoxTooLarge, in_units_of(limit, out))
 }
 
-fn partition_defect(cells: &[ReachedNode], primitives: usize) -> Option<TreeDefect> {
+fn partition_defect(nodes: &[ReachedNode], primitives: usize) -> Option<TreeDefect> {
     let mut leaves_of = vec![0; primitives];
-    for &primitive in cells
+    for &primitive in nodes
         .iter()
-        .filter_map(|cell| cell.leaf_primitives.as_ref())
+        .filter_map(|node| node.leaf_primitives.as_ref())
         .flatten()
     {
         leaves_of[primitive] += 1;
@@ -229,19 +231,19 @@ fn partition_defect(cells: &[ReachedNode], primitives: usize) -> Option<TreeDefe
     })
 }
 
-/// Σ S/S_root over interior nodes + Σ n · S/S_root over leaves (C_trav = C_isect = 1), with the
-/// boxes that the primitives need: MacDonald and Booth, "Heuristics for ray tracing using space
-/// subdivision", The Visual Computer 6, 1990, section 3.
-pub fn cost<'a>(cells: impl IntoIterator<Item = &'a ReachedNode<'a>>) -> f64 {
-    let mut cells = cells.into_iter().peekable();
-    let Some(root) = cells.peek().map(|root| root.tight_bounds.area()) else {
+/// Returns the SAH cost of a tree: Σ S/S_root over interior nodes + Σ n · S/S_root over leaves
+/// (C_trav = C_isect = 1), with the tightest boxes around the primitives. See MacDonald and Booth,
+/// "Heuristics for ray tracing using space subdivision", The Visual Computer 6, 1990, section 3.
+pub fn cost<'a>(nodes: impl IntoIterator<Item = &'a ReachedNode<'a>>) -> f64 {
+    let mut nodes = nodes.into_iter().peekable();
+    let Some(root) = nodes.peek().map(|root| root.tight_bounds.area()) else {
         return 0.0;
     };
-    let cost = |cell: &ReachedNode| match &cell.leaf_primitives {
-        None => cell.tight_bounds.area(),
-        Some(leaf) => cell.tight_bounds.area() * leaf.len() as f64,
+    let cost = |node: &ReachedNode| match &node.leaf_primitives {
+        None => node.tight_bounds.area(),
+        Some(leaf) => node.tight_bounds.area() * leaf.len() as f64,
     };
-    cells.map(cost).sum::<f64>() / root
+    nodes.map(cost).sum::<f64>() / root
 }
 
 #[cfg(test)]

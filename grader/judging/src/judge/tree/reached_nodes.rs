@@ -1,4 +1,5 @@
-//! A tree, walked from its root: what each node holds, and whether it is a tree at all.
+//! Traverses a tree from its root, collects the primitives below each node, and checks that it is a
+//! tree at all.
 
 use std::collections::BTreeMap;
 
@@ -7,34 +8,37 @@ use protocol::{Shape, Tree, TreeNode};
 use super::bounds::Bounds;
 use crate::describe;
 
-/// A tree whose leaves name every primitive so often, on average, is looked at no further.
+/// Counting stops once the leaves list the primitives this many times on average.
 const MAX_LISTINGS_PER_PRIMITIVE: usize = 64;
 
-/// What is wrong with a tree, in the words of a report.
+/// A defect of a tree, as text for the report.
+///
+/// `what` and `got` are also part of the signatures of known mistakes in exam files, so changing
+/// their texts makes existing exams recognise fewer mistakes.
 pub struct TreeDefect {
-    /// What of it.
+    /// The wrong part or property.
     pub what: &'static str,
-    /// As it came.
+    /// The value in the submission's tree.
     pub got: String,
-    /// As it should have come.
+    /// The expected value.
     pub wanted: String,
 }
 
-/// A node that is reached from the root.
+/// A node that can be reached from the root.
 pub struct ReachedNode<'a> {
-    /// Where it stands among the tree's nodes.
+    /// Index of the node in the tree's nodes.
     pub index: u32,
-    /// As it came.
+    /// The node in the answer.
     pub node: &'a TreeNode,
-    /// The places of the primitives below, as the submission ordered them; only of a leaf.
+    /// For a leaf, the indices of its primitives in the submission's order.
     pub leaf_primitives: Option<Vec<usize>>,
-    /// How many primitives are below.
+    /// Number of primitives below the node.
     pub count: usize,
-    /// The tightest box around them.
+    /// Tightest box around these primitives.
     pub tight_bounds: Bounds,
 }
 
-/// All nodes that are reached from the root, parents before children.
+/// Returns all nodes that can be reached from the root, parents before children.
 pub fn reached_nodes<'a>(
     shapes: &[Shape],
     tree: &'a Tree,
@@ -49,40 +53,41 @@ pub fn reached_nodes<'a>(
             wanted: format!("a tree over {} primitives", shapes.len()),
         });
     }
-    // A primitive is known by its material. One that nobody gave us is in no place.
-    let places: BTreeMap<u32, usize> = shapes.iter().map(Shape::material).zip(0..).collect();
+    // Each primitive has its own material, by which it is identified. Unknown materials have no
+    // index.
+    let index_of: BTreeMap<u32, usize> = shapes.iter().map(Shape::material).zip(0..).collect();
     let order: Vec<Option<usize>> = tree
         .order
         .iter()
-        .map(|material| places.get(material).copied())
+        .map(|material| index_of.get(material).copied())
         .collect();
 
-    // Each of many leaves may name them all: that would be more than there is memory for.
+    // Many leaves may each list all primitives, which would need too much memory.
     let most = MAX_LISTINGS_PER_PRIMITIVE * shapes.len().max(64);
-    let mut named = 0;
+    let mut listed = 0;
     let mut reached = vec![false; tree.nodes.len()];
-    let mut cells = Vec::new();
+    let mut nodes = Vec::new();
     let mut children = Vec::new();
     let mut open = vec![(tree.root, "root")];
-    while let Some((place, whose)) = open.pop() {
-        let node = tree.nodes.get(place as usize).ok_or_else(|| TreeDefect {
-            what: whose,
-            got: format!("node {place} of {}", tree.nodes.len()),
-            wanted: "the place of a node".to_owned(),
+    while let Some((index, what)) = open.pop() {
+        let node = tree.nodes.get(index as usize).ok_or_else(|| TreeDefect {
+            what,
+            got: format!("node {index} of {}", tree.nodes.len()),
+            wanted: "the index of a node".to_owned(),
         })?;
-        if std::mem::replace(&mut reached[place as usize], true) {
+        if std::mem::replace(&mut reached[index as usize], true) {
             return Err(TreeDefect {
                 what: "nodes",
-                got: format!("node {place} is reached twice"),
-                wanted: "a tree: one way to each node".to_owned(),
+                got: format!("node {index} is reached twice"),
+                wanted: "a tree, with one path to each node".to_owned(),
             });
         }
         let leaf = node
             .is_leaf()
-            .then(|| leaf_primitives(node, place, &order))
+            .then(|| leaf_primitives(node, index, &order))
             .transpose()?;
-        named += leaf.as_ref().map_or(0, Vec::len);
-        if named > most {
+        listed += leaf.as_ref().map_or(0, Vec::len);
+        if listed > most {
             return Err(TreeDefect {
                 what: "leaves",
                 got: format!("leaves that hold more than {most} primitives in all"),
@@ -90,40 +95,41 @@ pub fn reached_nodes<'a>(
             });
         }
         if leaf.is_none() {
-            children.push((cells.len(), [node.l, node.r]));
+            children.push((nodes.len(), [node.l, node.r]));
             open.extend([(node.l, "child l"), (node.r, "child r")]);
         }
-        let mut needs = Bounds::EMPTY;
+        let mut bounds = Bounds::EMPTY;
         for &primitive in leaf.iter().flatten() {
-            needs.enclose(Bounds::of_shape(&shapes[primitive]));
+            bounds.enclose(Bounds::of_shape(&shapes[primitive]));
         }
-        cells.push(ReachedNode {
-            index: place,
+        nodes.push(ReachedNode {
+            index,
             node,
             count: leaf.as_ref().map_or(0, Vec::len),
             leaf_primitives: leaf,
-            tight_bounds: needs,
+            tight_bounds: bounds,
         });
     }
 
-    // Children come after their parents: from the last to the first, each is complete.
-    let mut by_place = vec![usize::MAX; tree.nodes.len()];
-    for (index, cell) in cells.iter().enumerate() {
-        by_place[cell.index as usize] = index;
+    // Children come after their parents, so in reverse order each child is complete before its
+    // parent.
+    let mut by_index = vec![usize::MAX; tree.nodes.len()];
+    for (index, node) in nodes.iter().enumerate() {
+        by_index[node.index as usize] = index;
     }
     for (parent, pair) in children.into_iter().rev() {
-        for child in pair.map(|place| by_place[place as usize]) {
-            let (count, needs) = (cells[child].count, cells[child].tight_bounds);
-            cells[parent].count += count;
-            cells[parent].tight_bounds.enclose(needs);
+        for child in pair.map(|index| by_index[index as usize]) {
+            let (count, bounds) = (nodes[child].count, nodes[child].tight_bounds);
+            nodes[parent].count += count;
+            nodes[parent].tight_bounds.enclose(bounds);
         }
     }
-    Ok(cells)
+    Ok(nodes)
 }
 
 fn leaf_primitives(
     node: &TreeNode,
-    place: u32,
+    index: u32,
     order: &[Option<usize>],
 ) -> Result<Vec<usize>, TreeDefect> {
     let start = node.start as usize;
@@ -132,7 +138,7 @@ fn leaf_primitives(
     listed.ok_or_else(|| TreeDefect {
         what: "leaves",
         got: format!(
-            "leaf {place} holds primitives {start} to {} of {}",
+            "leaf {index} holds primitives {start} to {} of {}",
             start as u64 + u64::from(node.size),
             order.len()
         ),
@@ -141,7 +147,7 @@ fn leaf_primitives(
 }
 
 impl ReachedNode<'_> {
-    /// What is wrong with its box, called `what`: the one that came, and the one that it needs.
+    /// Returns a defect of the node's box, called `what`, with the actual and the tightest box.
     pub fn box_defect(&self, what: &'static str) -> TreeDefect {
         let corners = |min, max| format!("{} to {}", describe::point(min), describe::point(max));
         TreeDefect {

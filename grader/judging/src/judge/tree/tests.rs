@@ -3,7 +3,7 @@ use protocol::TreeNode;
 
 use super::*;
 
-/// Unit spheres in a row, two apart.
+/// Returns spheres of diameter 1 in a row, with centres two apart.
 fn row(count: u32) -> Vec<Shape> {
     let ball = |i| Shape::Sphere {
         center: vec3(2.0 * i as f32, 0.0, 0.0),
@@ -24,7 +24,7 @@ fn node(first: u32, last: u32, size: u32, l: u32, r: u32) -> TreeNode {
     }
 }
 
-/// Four spheres, two in each leaf, the root in the middle.
+/// Returns a tree over four spheres with two in each leaf, and the root in the middle of the nodes.
 fn valid_tree() -> Tree {
     Tree {
         nodes: vec![
@@ -38,14 +38,14 @@ fn valid_tree() -> Tree {
 }
 
 fn judge(
-    judged: &[TreeCheck],
+    checks: &[TreeCheck],
     sweep_cost: Option<f64>,
     shapes: &[Shape],
     max_leaf_size: u32,
     answer: &ElementOutcome<Tree>,
 ) -> Judgement {
     let built = TreeAnswer {
-        checks: judged,
+        checks,
         sweep_cost,
         shapes,
         max_leaf_size,
@@ -71,14 +71,16 @@ fn defect_of(tree: Tree) -> String {
         None => "right".to_owned(),
         Some(failure) => match failure.kind {
             FailureKind::Wrong { what, .. } => what,
-            FailureKind::Panicked(_) | FailureKind::Protocol(_) => unreachable!("it is a tree"),
+            FailureKind::Panicked(_) | FailureKind::Protocol(_) => {
+                unreachable!("the answer is a tree")
+            }
         },
     }
 }
 
-fn defect_after(spoil: impl FnOnce(&mut Tree)) -> String {
+fn defect_after(change: impl FnOnce(&mut Tree)) -> String {
     let mut tree = valid_tree();
-    spoil(&mut tree);
+    change(&mut tree);
     defect_of(tree)
 }
 
@@ -119,7 +121,7 @@ fn each_check_finds_its_defect() {
 
 #[test]
 fn counting_stops_when_leaves_list_too_many_primitives() {
-    // A chain of nodes with a leaf at each, and all of a long order in every leaf.
+    // A chain of nodes, each with a leaf that lists the whole of a long order.
     let (links, listed) = (2_000, 200_000);
     let link = |i: u32| {
         [
@@ -134,17 +136,17 @@ fn counting_stops_when_leaves_list_too_many_primitives() {
         root: 0,
         order: vec![0; listed as usize],
     };
-    let judged = judge(&ALL_CHECKS, None, &row(4), 2, &ElementOutcome::Value(tree));
-    let failure = judged.failure.expect("it is wrong");
+    let judgement = judge(&ALL_CHECKS, None, &row(4), 2, &ElementOutcome::Value(tree));
+    let failure = judgement.failure.expect("the tree is wrong");
     let FailureKind::Wrong { got, .. } = failure.kind else {
-        panic!("it is a tree");
+        panic!("the answer is a tree");
     };
     assert_eq!(got, "leaves that hold more than 4096 primitives in all");
 }
 
 #[test]
 fn a_leaf_with_half_of_the_primitives_is_not_split() {
-    let share = |count: u32, nodes: Vec<TreeNode>| {
+    let credit = |count: u32, nodes: Vec<TreeNode>| {
         let tree = Tree {
             nodes,
             root: 0,
@@ -159,12 +161,12 @@ fn a_leaf_with_half_of_the_primitives_is_not_split() {
         )
         .credit
     };
-    assert_eq!(share(1, vec![node(0, 0, 1, 0, 0)]), Credit::FULL);
-    assert_eq!(share(4, vec![node(0, 3, 4, 0, 0)]), Credit::NONE);
+    assert_eq!(credit(1, vec![node(0, 0, 1, 0, 0)]), Credit::FULL);
+    assert_eq!(credit(4, vec![node(0, 3, 4, 0, 0)]), Credit::NONE);
     let fork = node(0, 4, 0, 1, 2);
     let half = vec![fork, node(0, 1, 2, 0, 0), node(2, 3, 2, 0, 0)];
-    assert_eq!(share(4, half), Credit::NONE);
-    // Larger leaves than one, and of each less than half.
+    assert_eq!(credit(4, half), Credit::NONE);
+    // Leaves with more than one primitive, but each with less than half of all.
     let thirds = vec![
         fork,
         node(0, 1, 2, 0, 0),
@@ -172,7 +174,7 @@ fn a_leaf_with_half_of_the_primitives_is_not_split() {
         node(2, 3, 2, 0, 0),
         node(4, 4, 1, 0, 0),
     ];
-    assert_eq!(share(5, thirds), Credit::FULL);
+    assert_eq!(credit(5, thirds), Credit::FULL);
 }
 
 #[test]
@@ -184,13 +186,15 @@ fn reports_a_node_that_should_be_a_leaf() {
 
 #[test]
 fn cost_matches_a_hand_calculation() {
-    // Boxes of 1×1×7 (area 30) and twice 1×1×3 (area 14): 1 + 2 · 2 · 14/30.
+    // One box of 7×1×1 (area 30) and two of 3×1×1 (area 14): 1 + 2 · 2 · 14/30.
     let tree = valid_tree();
-    let cells = reached_nodes(&row(4), &tree).ok().expect("it is a tree");
+    let nodes = reached_nodes(&row(4), &tree)
+        .ok()
+        .expect("the tree is valid");
     let by_hand = 1.0 + 4.0 * 14.0 / 30.0;
-    assert!((cost(&cells) - by_hand).abs() < 1e-12);
+    assert!((cost(&nodes) - by_hand).abs() < 1e-12);
 
-    let share = |ratio: f64| {
+    let credit = |ratio: f64| {
         let sweep = Some(by_hand / ratio);
         judge(
             &ALL_CHECKS,
@@ -201,9 +205,9 @@ fn cost_matches_a_hand_calculation() {
         )
         .credit
     };
-    assert_eq!(share(1.11), Credit::FULL);
-    assert_eq!(share(1.13), Credit::HALF);
-    assert_eq!(share(1.26), Credit::NONE);
+    assert_eq!(credit(1.11), Credit::FULL);
+    assert_eq!(credit(1.13), Credit::HALF);
+    assert_eq!(credit(1.26), Credit::NONE);
 }
 
 #[test]
@@ -244,7 +248,7 @@ fn measures_box_excess_and_cost() {
     let value = |measured: &[Measurement], threshold| {
         let mut offs = measured.iter().map(|measured| measured.deviation);
         let found = offs.find(|off| off.threshold == Some(threshold));
-        found.expect("it is measured").value
+        found.expect("the quantity is measured").value
     };
 
     let mut loose = valid_tree();

@@ -1,16 +1,16 @@
-//! What a submission costs in a class, kept apart at the best level that there is, beside the floor: one
-//! bare `rustc` call for the same five files (`grader/benches/README.md`).
+//! The CPU time per submission in a class, at the best isolation level of the machine, compared
+//! with the baseline F: one bare `rustc` call for the same five files (`grader/benches/README.md`).
 //!
-//! In each round all submissions are changed, and nothing of an earlier round can be used again.
+//! All submissions change in each round, so that nothing cached in an earlier round can be reused.
 
 #[path = "../../benches/warm_grade/bare.rs"]
 #[allow(
     dead_code,
-    reason = "of the compiler's calls the floor alone is made here"
+    reason = "only the baseline call of the compiler is used here"
 )]
 mod bare;
 #[path = "../../benches/warm_grade/changed.rs"]
-#[allow(dead_code, reason = "a class is a folder of folders")]
+#[allow(dead_code, reason = "not all of the helpers are used for a class")]
 mod changed;
 #[path = "../../benches/warm_grade/cost.rs"]
 mod cost;
@@ -32,63 +32,63 @@ use median::median;
 const ROUNDS: usize = 5;
 const STUDENTS: usize = 60;
 
-/// How often the floor is measured before the class is graded, and after it again: a call takes a third
-/// of a second, in which a shared machine may be slow or fast.
-const FLOORS: usize = 5;
+/// The number of measurements of the baseline before the class is graded, and again after it. One
+/// call takes only a third of a second, during which a shared machine may be slow or fast.
+const BASELINE_CALLS: usize = 5;
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let alone = baseline(&root);
-    let class = TempDir::new().expect("there is room for a folder");
+    let class = TempDir::new().expect("a temporary folder can be created");
     let students = (0..STUDENTS).map(|number| class.path().join(format!("student-{number}")));
     let students: Vec<PathBuf> = students.collect();
     for student in &students {
-        fs::create_dir(student).expect("there is room for a folder");
+        fs::create_dir(student).expect("a temporary folder can be created");
         copy(&root, student);
     }
-    // What all are built with is made before anything is measured.
+    // Compiles the shared dependencies before anything is measured.
     grade(class.path());
-    let workspace = Workspace::find().expect("it is around us");
+    let workspace = Workspace::find().expect("the benchmark runs in the workspace");
     let bare = BareRustc::prepare(&workspace.output_folder().join("dependencies"));
-    let floors = || {
+    let measure_baseline = || {
         let compile = || Cost::of_program(&mut bare.compile(alone.path()));
-        iter::repeat_with(compile).take(FLOORS)
+        iter::repeat_with(compile).take(BASELINE_CALLS)
     };
 
     let cores = thread::available_parallelism().map_or(1, usize::from);
     println!("{STUDENTS} submissions on {cores} cores, {ROUNDS} rounds");
     println!("  F, CPU ms   each, CPU ms   of F   by the clock, of cores / F");
-    let (mut of_floor, mut of_most) = (Vec::new(), Vec::new());
+    let (mut of_baseline, mut of_most) = (Vec::new(), Vec::new());
     for round in 0..ROUNDS {
         for (number, student) in students.iter().enumerate() {
             change(&root, student, round * STUDENTS + number);
         }
         change(&root, alone.path(), round);
-        let before: Vec<Cost> = floors().collect();
+        let before: Vec<Cost> = measure_baseline().collect();
         let Cost { wall, cpu } = grade(class.path());
-        let floors = before.into_iter().chain(floors());
-        let floor = median(floors.map(|cost| cost.cpu.as_secs_f64()));
+        let baselines = before.into_iter().chain(measure_baseline());
+        let baseline = median(baselines.map(|cost| cost.cpu.as_secs_f64()));
 
         let each = cpu.as_secs_f64() / STUDENTS as f64;
         let throughput = STUDENTS as f64 / wall.as_secs_f64();
-        let most = cores as f64 / floor;
-        of_floor.push(each / floor);
+        let most = cores as f64 / baseline;
+        of_baseline.push(each / baseline);
         of_most.push(throughput / most);
         println!(
             "{:11.0} {:14.0} {:6.2} {:28.2}",
-            1e3 * floor,
+            1e3 * baseline,
             1e3 * each,
-            each / floor,
+            each / baseline,
             throughput / most
         );
     }
-    let [of_floor, of_most] = [of_floor, of_most].map(median);
-    println!("median {of_floor:26.2} {of_most:28.2}");
+    let [of_baseline, of_most] = [of_baseline, of_most].map(median);
+    println!("median {of_baseline:26.2} {of_most:28.2}");
 }
 
-/// All of them, once more.
+/// Grades the class into a new folder, and returns the cost.
 fn grade(class: &Path) -> Cost {
-    let out = TempDir::new().expect("there is room for a folder");
+    let out = TempDir::new().expect("a temporary folder can be created");
     let mut command = Command::new(env!("CARGO_BIN_EXE_class"));
     command.arg(class).arg("--out").arg(out.path());
     command.stderr(Stdio::null());

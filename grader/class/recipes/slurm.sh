@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# A class on a Slurm cluster: an array with a part of it in each task, then all parts merged.
+# Grades a class on a Slurm cluster: each task of an array grades a part, then all parts are merged.
 #
 #   INPUT=export.zip OUT=/shared/graded SHARDS=16 bash slurm.sh
 #
-# INPUT and OUT must be on a disk that all nodes see. Whatever fails: the same command again grades
-# only what is missing. OPTIONS go to every `cargo class`, such as "--exam final.json --policy p.toml",
-# and LISTS to the merge, such as "--roster people.csv --canvas export.csv".
+# INPUT and OUT must be on a disk that all nodes share. If something fails, run the command again:
+# it grades only what is missing. OPTIONS are for every `cargo class`, such as "--exam final.json
+# --policy p.toml", and LISTS for the merge, such as "--roster people.csv --canvas export.csv".
 set -euo pipefail
 
 : "${INPUT:?the export or folder}" "${OUT:?the folder for the results}"
 : "${SHARDS:=8}" "${CLASS:=cargo class}" "${OPTIONS:=}" "${LISTS:=}"
 export INPUT OUT SHARDS CLASS OPTIONS LISTS
 
-# shellcheck disable=SC2086 # these are several words each
+# shellcheck disable=SC2086 # each of these may be several words
 case "${STEP:-submit}" in
 submit)
     export STEP=shard

@@ -1,4 +1,4 @@
-//! The command line, as data.
+//! The command line of `cargo class`.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -8,11 +8,11 @@ use grader::sandbox::Isolation;
 
 use crate::shard::Shard;
 
-/// Grades a class: what a learning platform exports, a folder of folders, or of archives.
+/// Grades a class: a learning platform's export, or a folder with a folder or archive per student.
 ///
-/// Killed at any moment and started again, it grades only what is missing. Exit codes: 0 all were
-/// graded or had nothing to grade; 2 the command line, the input or a list is at fault; 3 some
-/// could not be graded for reasons of ours or the machine's: start it again.
+/// It can be killed at any time; run again, it grades only what is missing. Exit codes: 0 every
+/// submission was graded or had nothing to grade; 2 the command line, the input or a list is wrong;
+/// 3 some submissions could not be graded because of the grader or the machine: run it again.
 #[derive(Clone, Debug, Parser)]
 #[command(
     name = "cargo class",
@@ -22,148 +22,149 @@ use crate::shard::Shard;
     args_conflicts_with_subcommands = true
 )]
 pub struct Cli {
-    /// Something else than grading.
+    /// The subcommand; without one, a class is graded.
     #[command(subcommand)]
     pub command: Option<Command>,
-    /// Grading.
+    /// The arguments for grading.
     #[command(flatten)]
     pub class: ClassArguments,
 }
 
-/// What can be done beside grading.
+/// The subcommands.
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
-    /// Make one class of the shards that several machines have graded
+    /// Merge the shards that several machines have graded into one class
     Merge(MergeArguments),
 }
 
-/// What to grade, and how.
+/// The arguments for grading a class.
 #[derive(Clone, Debug, Args)]
 pub struct ClassArguments {
-    /// The export, its archive, or the folder with a folder or archive for each student
+    /// The platform's export (a folder or archive), or a folder with a folder or archive per
+    /// student
     #[arg(required = true)]
     pub input: Option<PathBuf>,
 
-    /// Where results go, and where a run that was stopped goes on
+    /// Output folder; a run that was stopped is resumed from it
     #[arg(long, value_name = "FOLDER", required_unless_present = "dry_run")]
     pub out: Option<PathBuf>,
 
-    /// Say who would be graded from what, and do nothing else
+    /// List who would be graded from which files, without grading
     #[arg(long)]
     pub dry_run: bool,
 
-    /// Grade all again, keep the old scores, and say whose points changed and why
+    /// Grade everything again, keep the old scores, and list whose points changed and why
     #[arg(long, conflicts_with = "dry_run")]
     pub regrade: bool,
 
-    /// Grade the Kth part of N, such as 2/8; `cargo class merge` joins the parts
+    /// Grade only part K of N, such as 2/8; `cargo class merge` merges the parts
     #[arg(long, value_name = "K/N", conflicts_with = "regrade")]
     pub shard: Option<Shard>,
 
-    /// How many at a time; default: one for each core
+    /// Number of submissions to grade at a time; default: one per core
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=512))]
     pub jobs: Option<u16>,
 
-    /// How each submission is graded.
+    /// The options for grading each submission.
     #[command(flatten)]
     pub grading: GradingOptions,
 
-    /// Which lists there are.
+    /// The roster and the gradebooks.
     #[command(flatten)]
     pub lists: Lists,
 }
 
-/// How each submission is graded: as `cargo grade` does it.
+/// Options for grading each submission, with the meaning that they have in `cargo grade`.
 #[derive(Clone, Debug, Args)]
 pub struct GradingOptions {
-    /// The exam to ask; default: the practice exam
+    /// Exam file; default: the practice exam
     #[arg(long, value_name = "FILE")]
     pub exam: Option<PathBuf>,
 
-    /// What counts: points, late days, caps; `cargo grade --policy-default` prints one
+    /// Policy file: points, late days, caps; `cargo grade --policy-default` prints the default
     #[arg(long, value_name = "FILE")]
     pub policy: Option<PathBuf>,
 
-    /// CPU time that an item may use, in seconds
+    /// CPU time limit per item, in seconds
     #[arg(long, value_name = "SECONDS")]
     pub cpu_limit: Option<u64>,
 
-    /// Keep submissions apart from this machine at this level; default: the best of full and
-    /// no-namespaces that it has, and nothing is graded if it has neither
+    /// Level of isolation of submissions from this machine; default: full if the machine supports
+    /// it, else no-namespaces; if it supports neither, nothing is graded
     #[arg(long, value_name = "LEVEL")]
     pub isolation: Option<Isolation>,
 
-    /// Block what rests on a failed task, and do not ask it again with the reference's part
+    /// Block items that depend on a failed task instead of grading them with the reference's parts
     #[arg(long)]
     pub no_reference: bool,
 }
 
-/// Lists of the class, and of its grades.
+/// The roster and the gradebooks of a class, as CSV files.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Lists {
-    /// Who is in the class: a CSV with columns such as name, email, sid, username; with group,
-    /// what one hands in is for all of a group; with datetime, when it came
+    /// Roster, with columns such as name, email, sid, username; optional columns are group (one
+    /// submission counts for the whole group) and datetime (the submission time)
     #[arg(long, value_name = "CSV")]
     pub roster: Option<PathBuf>,
 
-    /// Canvas's exported gradebook, whose copy gets the points
+    /// Gradebook exported from Canvas; the points are written to a copy
     #[arg(long, value_name = "CSV")]
     pub canvas: Option<PathBuf>,
 
-    /// The gradebook's column: its title, or the assignment's number
+    /// Column of the Canvas gradebook: its title, or the assignment's number
     #[arg(long, value_name = "TITLE", requires = "canvas")]
     pub column: Option<String>,
 
-    /// Moodle's grading worksheet, whose copy gets the points
+    /// Grading worksheet from Moodle; the points are written to a copy
     #[arg(long, value_name = "CSV")]
     pub moodle: Option<PathBuf>,
 
-    /// Gradescope's downloaded grades, whose copy gets the points
+    /// Grades downloaded from Gradescope; the points are written to a copy
     #[arg(long, value_name = "CSV")]
     pub gradescope: Option<PathBuf>,
 }
 
-/// What to join.
+/// The arguments of `cargo class merge`.
 #[derive(Clone, Debug, Args)]
 pub struct MergeArguments {
-    /// The shards' output folders
+    /// Output folders of the shards
     #[arg(required = true)]
     pub shards: Vec<PathBuf>,
 
-    /// Where the class goes
+    /// Output folder for the merged class
     #[arg(long, value_name = "FOLDER")]
     pub out: PathBuf,
 
-    /// What counts, as when the shards were graded
+    /// Policy file; default: the one that the shards were graded with
     #[arg(long, value_name = "FILE")]
     pub policy: Option<PathBuf>,
 
-    /// Which lists there are.
+    /// The roster and the gradebooks.
     #[command(flatten)]
     pub lists: Lists,
 }
 
 impl GradingOptions {
-    /// The same as a command line of `cargo grade`, so that no default can be another one.
+    /// Returns the equivalent command line of `cargo grade`, so that its defaults apply here too.
     pub fn to_arguments(&self) -> Vec<OsString> {
-        let mut words: Vec<OsString> = vec!["cargo grade".into()];
+        let mut arguments: Vec<OsString> = vec!["cargo grade".into()];
         let files = [("--exam", &self.exam), ("--policy", &self.policy)];
         for (option, file) in files {
             if let Some(file) = file {
-                words.extend([option.into(), file.into()]);
+                arguments.extend([option.into(), file.into()]);
             }
         }
         if let Some(limit) = self.cpu_limit {
-            words.extend(["--cpu-limit".into(), limit.to_string().into()]);
+            arguments.extend(["--cpu-limit".into(), limit.to_string().into()]);
         }
         match self.isolation {
-            Some(level) => words.extend(["--isolation".into(), level.name().into()]),
-            None => words.push("--untrusted".into()),
+            Some(level) => arguments.extend(["--isolation".into(), level.name().into()]),
+            None => arguments.push("--untrusted".into()),
         }
         if self.no_reference {
-            words.push("--no-reference".into());
+            arguments.push("--no-reference".into());
         }
-        words
+        arguments
     }
 }
 

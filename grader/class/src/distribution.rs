@@ -1,38 +1,38 @@
-//! How points spread over a class: pure.
+//! The distribution of points over a class.
 
 use serde::Serialize;
 
-/// How many bars a distribution has.
+/// The number of bins in a distribution.
 pub const BINS: usize = 10;
 
-/// How numbers spread.
+/// The distribution of points.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Distribution {
-    /// The most that could be had.
+    /// The maximum points of the exam or task.
     pub of: u32,
-    /// The least.
+    /// The lowest points.
     pub least: u32,
-    /// A quarter has no more.
+    /// The lower quartile.
     pub lower_quartile: u32,
-    /// Half have no more.
+    /// The median.
     pub median: u32,
-    /// A quarter has no less.
+    /// The upper quartile.
     pub upper_quartile: u32,
-    /// The most.
+    /// The highest points.
     pub most: u32,
-    /// Rounded to tenths.
+    /// The mean, rounded to tenths.
     pub mean: f64,
-    /// How many are in each tenth of what could be had; the last holds those with all.
+    /// The number of submissions in each tenth of `of`; full points are in the last one.
     pub bins: [usize; BINS],
 }
 
 impl Distribution {
-    /// Of these points. None where there are none.
+    /// Returns the distribution of `points` out of `of`; `None` if there are none.
     pub fn new(mut points: Vec<u32>, of: u32) -> Option<Self> {
         points.sort_unstable();
         let (&least, &most) = (points.first()?, points.last()?);
         let count = points.len();
-        // The nearest rank, which is somebody's.
+        // The nearest-rank method: a quartile is always the points of some submission.
         let at = |quarter: usize| points[(quarter * count).div_ceil(4).max(1) - 1];
         let mut bins = [0; BINS];
         for &points in &points {

@@ -1,36 +1,36 @@
-//! What a regrade has changed: whose points, in which items, and why. Pure.
+//! Score changes of a regrade: whose points changed, in which items, and why.
 
 use serde::Serialize;
 
 use crate::outcome::{ItemScore, ScoreSummary};
 
-/// Whose score changed.
+/// A score that a regrade changed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Drift {
     /// The entry's id.
     pub id: String,
-    /// What it had.
+    /// The points before.
     pub was: u32,
-    /// What it has. None if it has no score any more.
+    /// The points now; `None` if the entry no longer has a score.
     pub now: Option<u32>,
-    /// Where that comes from.
+    /// The items whose points changed.
     pub items: Vec<ItemChange>,
 }
 
-/// An item that earns something else.
+/// A change in the points of an item.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ItemChange {
-    /// Which.
+    /// The item's id.
     pub item: String,
-    /// What it had earned. None if it was not asked.
+    /// The points before; `None` if the item was not in the exam.
     pub was: Option<u32>,
-    /// What it earns. None if it is not asked any more.
+    /// The points now; `None` if the item is no longer in the exam.
     pub now: Option<u32>,
-    /// What is said of it now, else what was.
+    /// The verdict and message now; for a gain also those before.
     pub why: String,
 }
 
-/// What changed for one entry. None if nothing did.
+/// Compares the scores of an entry; returns `None` if nothing changed.
 pub fn compare_scores(id: &str, was: &ScoreSummary, now: Option<&ScoreSummary>) -> Option<Drift> {
     let items = match now {
         Some(now) => item_changes(was, now),
@@ -46,7 +46,7 @@ pub fn compare_scores(id: &str, was: &ScoreSummary, now: Option<&ScoreSummary>) 
 }
 
 fn item_changes(was: &ScoreSummary, now: &ScoreSummary) -> Vec<ItemChange> {
-    let find = |told: &ScoreSummary, id: &str| told.items().find(|item| item.id == id).cloned();
+    let find = |score: &ScoreSummary, id: &str| score.items().find(|item| item.id == id).cloned();
     let changed = now.items().filter_map(|item| {
         let old = find(was, &item.id);
         let same = old.as_ref().is_some_and(|old| old.points == item.points);
@@ -59,17 +59,17 @@ fn item_changes(was: &ScoreSummary, now: &ScoreSummary) -> Vec<ItemChange> {
 }
 
 fn item_change(was: Option<&ItemScore>, now: Option<&ItemScore>) -> ItemChange {
-    let told = |item: &ItemScore| match item.message.as_str() {
+    let explain = |item: &ItemScore| match item.message.as_str() {
         "" => item.verdict.clone(),
         message => format!("{}: {message}", item.verdict),
     };
     let why = match (was, now) {
-        // What it lost its points for is over.
+        // The message now does not say what the points had been lost for.
         (Some(was), Some(now)) if now.points > was.points => {
-            format!("{}; it was {}", told(now), told(was))
+            format!("{}; it was {}", explain(now), explain(was))
         }
-        (_, Some(now)) => told(now),
-        (_, None) => "not asked any more".to_owned(),
+        (_, Some(now)) => explain(now),
+        (_, None) => "no longer in the exam".to_owned(),
     };
     let item = now.or(was).map(|item| item.id.clone());
     ItemChange {
@@ -115,7 +115,7 @@ mod tests {
         let was = score(&[("a", 2, "pass"), ("b", 0, "wrong"), ("c", 1, "partial")]);
         let now = score(&[("a", 0, "timed_out"), ("b", 2, "pass"), ("d", 1, "partial")]);
         let drift = compare_scores("x", &was, Some(&now)).unwrap();
-        let lines: Vec<_> = drift
+        let changes: Vec<_> = drift
             .items
             .iter()
             .map(|c| (c.item.as_str(), c.was, c.now))
@@ -126,7 +126,7 @@ mod tests {
             ("d", None, Some(1)),
             ("c", Some(1), None),
         ];
-        assert_eq!(lines, wanted);
+        assert_eq!(changes, wanted);
         assert_eq!(drift.items[1].why, "pass; it was wrong");
     }
 

@@ -1,67 +1,68 @@
-//! Who handed in what: what every layout is read into.
+//! The entries of a class, which are the same for every layout.
 
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-/// One submission of a class, before it is looked at.
+/// One submission of a class, before its files are read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// Unique in the class, and the name of the folder with its results.
+    /// The id: unique in the class, and the name of the folder with the results.
     pub id: String,
-    /// Whose it is, as far as is known.
+    /// The people, and what else is known about the submission.
     pub info: EntryInfo,
-    /// Where its files are.
+    /// The location of its files.
     pub source: Source,
 }
 
-/// What results say of an entry.
+/// Information about a submission that is kept with its result.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct EntryInfo {
-    /// Those who get the points. At least one.
+    /// The people who get the points; at least one.
     pub people: Vec<Person>,
-    /// What the platform says of when it came.
+    /// Whether the platform marks the submission as late.
     pub late: bool,
-    /// When it came, in the platform's own words.
+    /// The submission time, as the platform writes it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submitted: Option<String>,
-    /// Where it was found, relative to the input.
+    /// The file or folder that it was read from, relative to the input.
     pub from: String,
 }
 
-/// One student, as far as the platform tells. Text as it stands there.
+/// One student, as described by the platform: text is copied unchanged, and unknown fields are
+/// empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Person {
-    /// As people write it.
+    /// The full name.
     pub name: String,
-    /// The address.
+    /// The email address.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub email: String,
-    /// The university's number.
+    /// The university's student id.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub sid: String,
-    /// The account, such as at GitHub.
+    /// The account name, such as on GitHub.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub login: String,
-    /// The platform's own number: Canvas's user, Moodle's participant.
+    /// The platform's own number: the user in Canvas, the participant in Moodle.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub number: String,
 }
 
-/// Where an entry's files are.
+/// The location of an entry's files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
     /// A folder or an archive.
     Path(PathBuf),
-    /// Single files, each with the name that it was handed in by.
+    /// Single files, each with the name under which it was handed in.
     Files(Vec<(String, PathBuf)>),
-    /// There are none, and why.
+    /// There are no files, for this reason.
     Missing(String),
 }
 
 impl Person {
-    /// With a name and nothing else.
+    /// Returns a person of whom only the name is known.
     pub fn named(name: impl Into<String>) -> Self {
         Person {
             name: name.into(),
@@ -69,14 +70,14 @@ impl Person {
         }
     }
 
-    /// What people read: the name, else whatever is known.
+    /// Returns the name, or another field if it is unknown.
     pub fn display_name(&self) -> &str {
         let known = [&self.name, &self.login, &self.email, &self.sid];
-        let words = known.into_iter().find(|text| !text.is_empty());
-        words.unwrap_or(&self.number)
+        let name = known.into_iter().find(|text| !text.is_empty());
+        name.unwrap_or(&self.number)
     }
 
-    /// Takes over what another list knows of the same person.
+    /// Fills in unknown fields from another record of the same person.
     pub fn fill_missing_from(&mut self, other: &Person) {
         let pairs = [
             (&mut self.name, &other.name),
@@ -92,7 +93,8 @@ impl Person {
         }
     }
 
-    /// Whether both lists mean the same person: by what is one person's alone, never by name.
+    /// Returns whether both records are of the same person. Only unique identifiers are compared,
+    /// never names, since two people may share one.
     pub fn matches(&self, other: &Person) -> bool {
         let pairs = [
             (&self.email, &other.email),
@@ -108,20 +110,20 @@ impl Person {
 }
 
 impl EntryInfo {
-    /// All names, for people.
+    /// Returns the names of all people.
     pub fn display_names(&self) -> String {
         let names: Vec<&str> = self.people.iter().map(Person::display_name).collect();
         names.join(" + ")
     }
 }
 
-/// Why nobody is graded from several archives.
+/// Returns the message for a submission with several archives, which is not graded.
 pub fn several_archives_message(count: usize) -> String {
     format!("{count} archives were handed in: keep the one that counts")
 }
 
-/// A name for a folder that any system takes, and that links can hold: letters and digits of any
-/// language, and a few signs.
+/// Returns a folder name that is valid on every system and in links: letters and digits of any
+/// language, `-`, `_` and `.`.
 pub fn folder_name(text: &str) -> String {
     let plain = |c: char| match c {
         c if c.is_alphanumeric() || "-_.".contains(c) => c,

@@ -1,4 +1,4 @@
-//! Grading one entry: whatever happens, it is this entry's matter alone.
+//! Grades one entry. A failure affects this entry only.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -19,39 +19,39 @@ use crate::progress::Progress;
 use crate::run::Run;
 use crate::store::{Store, StoreError};
 
-/// How often an entry is tried before its fault counts as one.
+/// The number of attempts to grade an entry before a fault is final.
 const ATTEMPTS: usize = 3;
-/// The most characters that are kept of a fault's words.
+/// The maximum number of characters of a fault's message.
 const MAX_FAULT_CHARS: usize = 2_000;
 
-/// What grades entries.
+/// Grades entries and stores their results.
 pub struct EntryGrader<'a> {
-    /// Builds, asks, judges.
+    /// The grader.
     pub grader: &'a Grader<'a>,
-    /// Where results go.
+    /// The output folder.
     pub store: &'a Store,
-    /// What scores follow from.
+    /// The run, with the settings that scores depend on.
     pub run: &'a Run,
-    /// Who is told.
+    /// The progress display.
     pub progress: &'a Progress,
 }
 
 impl EntryGrader<'_> {
-    /// What becomes of the entry: as it is kept from an earlier time, or graded now.
+    /// Returns the result of an entry: the stored one if it is still valid, otherwise a new one.
     pub fn grade(&self, slot: usize, entry: &Entry) -> Result<EntryResult, StoreError> {
-        let (row, is_new) = match collect_submission(entry) {
+        let (result, is_new) = match collect_submission(entry) {
             Err(why) => {
                 let is_new = !self
                     .store
                     .has_state(&entry.id, &EntryState::NothingToGrade(why.clone()));
-                let row = self.finish(entry, EntryOutcome::NothingToGrade(why), "")?;
-                (row, is_new)
+                let result = self.finish(entry, EntryOutcome::NothingToGrade(why), "")?;
+                (result, is_new)
             }
             Ok(submission) => {
                 let key = cache_key(self.run, self.grader.policy(), &submission);
                 match self.store.cached_result(entry, &key) {
-                    // The list may have learnt something of whose it is.
-                    Some(row) => (self.save(row, &key)?, false),
+                    // The lists may have changed, and with them what is known about the people.
+                    Some(result) => (self.save(result, &key)?, false),
                     None => (
                         self.grade_with_retries(slot, entry, &submission, &key)?,
                         true,
@@ -59,8 +59,8 @@ impl EntryGrader<'_> {
                 }
             }
         };
-        self.progress.finish_entry(slot, &row, is_new);
-        Ok(row)
+        self.progress.finish_entry(slot, &result, is_new);
+        Ok(result)
     }
 
     fn grade_with_retries(
@@ -73,16 +73,16 @@ impl EntryGrader<'_> {
         self.store.remove_stamp(&entry.id)?;
         let mut fault = String::new();
         for _ in 0..ATTEMPTS {
-            // A mistake in the grader that one submission brings about is not the others' matter.
+            // A bug in the grader that one submission triggers must not affect the others.
             let graded = catch_unwind(AssertUnwindSafe(|| {
                 self.grade_once(slot, entry, submission)
             }));
             match graded {
-                Ok(Ok(told)) => {
-                    return self.finish(entry, EntryOutcome::Graded(Box::new(told)), key);
+                Ok(Ok(score)) => {
+                    return self.finish(entry, EntryOutcome::Graded(Box::new(score)), key);
                 }
                 Ok(Err(why)) => fault = why,
-                Err(_) => fault = "the grader panicked; its words are above".to_owned(),
+                Err(_) => fault = "the grader panicked, with the message above".to_owned(),
             }
         }
         self.finish(
@@ -92,39 +92,39 @@ impl EntryGrader<'_> {
         )
     }
 
-    /// Grades, and writes score and page when they are complete.
+    /// Grades an entry, and writes its score and pages when they are complete.
     fn grade_once(
         &self,
         slot: usize,
         entry: &Entry,
         submission: &Submission,
     ) -> Result<ScoreSummary, String> {
-        let said = |error: Error| error.to_string();
+        let message = |error: Error| error.to_string();
         self.progress.set_status(slot, &entry.id, "compiling");
-        let built = self.grader.build(submission).map_err(said)?;
+        let built = self.grader.build(submission).map_err(message)?;
         let exam = self.grader.exam();
         let count = exam.items.len();
         let mut files = ReportFiles::new(&self.store.entry_folder(&entry.id), Reload::Never);
         let mut score = self.grader.pending_score(submission, &built);
-        let mut asked = 0;
-        let examined = self
+        let mut done = 0;
+        let run = self
             .grader
-            .run_exam(exam, &built, &mut score, |score, exhibits| {
-                asked += 1;
+            .run_exam(exam, &built, &mut score, |score, answers| {
+                done += 1;
                 match score.complete {
-                    true => files.write(score, exam, exhibits),
+                    true => files.write(score, exam, answers),
                     false => {
-                        let words = format!("{asked} of {count}");
-                        self.progress.set_status(slot, &entry.id, &words);
+                        let status = format!("{done} of {count}");
+                        self.progress.set_status(slot, &entry.id, &status);
                         Ok(())
                     }
                 }
             });
-        examined.map_err(said)?;
-        let seen = self.grader.student_view(&score);
-        if let Some(page) = Format::Html.render(&seen, &FormatContext::default()) {
-            let kept = self.store.save_feedback(&entry.id, &page);
-            kept.map_err(|error| error.to_string())?;
+        run.map_err(message)?;
+        let student_view = self.grader.student_view(&score);
+        if let Some(page) = Format::Html.render(&student_view, &FormatContext::default()) {
+            let saved = self.store.save_feedback(&entry.id, &page);
+            saved.map_err(|error| error.to_string())?;
         }
         ScoreSummary::parse(&json::to_string(&score)).map_err(|error| error.to_string())
     }
@@ -135,29 +135,30 @@ impl EntryGrader<'_> {
         outcome: EntryOutcome,
         key: &str,
     ) -> Result<EntryResult, StoreError> {
-        let row = EntryResult {
+        let result = EntryResult {
             id: entry.id.clone(),
             info: entry.info.clone(),
             outcome,
         };
-        self.save(row, key)
+        self.save(result, key)
     }
 
-    fn save(&self, row: EntryResult, key: &str) -> Result<EntryResult, StoreError> {
-        self.store.save_result(&row, key)?;
-        Ok(row)
+    fn save(&self, result: EntryResult, key: &str) -> Result<EntryResult, StoreError> {
+        self.store.save_result(&result, key)?;
+        Ok(result)
     }
 }
 
-/// The name of all that an entry's files follow from. Of the policy that is what students see: what
-/// points count for changes no score, and no file of an entry.
+/// Returns the cache key: a hash of everything that an entry's files depend on. Of the policy, that
+/// is only what students may see: the other rules change neither a score nor another file of an
+/// entry.
 fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
     let mut hasher = blake2b_simd::State::new();
     let mut part = |bytes: &[u8]| {
         hasher.update(&(bytes.len() as u64).to_le_bytes());
         hasher.update(bytes);
     };
-    let settings = serde_json::to_vec(&run.settings).expect("settings are text");
+    let settings = serde_json::to_vec(&run.settings).expect("settings can be serialised");
     part(&settings);
     part(&run.round.to_le_bytes());
     part(format!("{:?}", policy.visibility).as_bytes());

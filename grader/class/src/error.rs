@@ -1,4 +1,4 @@
-//! What can go wrong with a class as a whole, and whose fault it is.
+//! Errors that stop the grading of a class, and their exit codes.
 
 use std::path::PathBuf;
 
@@ -11,94 +11,97 @@ use crate::shard::Shard;
 use crate::store::StoreError;
 use crate::table::TableError;
 
-/// Why there is no class.
+/// An error that stops the grading of a class.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The input.
+    /// The input cannot be used.
     #[error(transparent)]
     Input(#[from] ClassInputError),
-    /// A list of the class.
+    /// The roster or a gradebook cannot be used.
     #[error(transparent)]
     List(#[from] TableError),
-    /// The output folder.
+    /// The output folder cannot be used.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// Submissions can not be kept apart from the machine.
-    #[error("{0}; for code that you would run anyway, say --isolation none")]
+    /// Submissions cannot be isolated from the machine.
+    #[error("{0}; if you trust the submissions, use --isolation none")]
     Isolation(IsolationError),
-    /// The exam, the compiler, or what it needs.
+    /// The grader cannot be set up: the exam, the compiler or its dependencies.
     #[error(transparent)]
     Grader(GraderError),
-    /// The policy.
+    /// The policy cannot be used.
     #[error(transparent)]
     Policy(#[from] PolicyError),
-    /// The command line that `cargo grade` would have.
+    /// The options for `cargo grade` are invalid.
     #[error("{0}")]
     Arguments(clap::Error),
-    /// The results of another run.
+    /// The output folder has scores that depend on other settings.
     #[error(
-        "{} holds scores that are not comparable: {} changed; --regrade grades all again and says \
-         what changes, or name a new folder",
+        "{} has scores that cannot be compared with new ones: {} changed; use --regrade to grade \
+        everything again and list the changes, or name a new folder",
         out.display(), differences.join(", ")
     )]
     SettingsChanged {
         /// The output folder.
         out: PathBuf,
-        /// What is not the same.
+        /// The settings that differ.
         differences: Vec<&'static str>,
     },
-    /// There is nothing to regrade.
+    /// There are no scores to regrade.
     #[error("{} holds no scores yet: leave out --regrade", .0.display())]
     NothingToRegrade(PathBuf),
-    /// A folder that is no shard.
-    #[error("{} holds no results of `cargo class --shard`", .0.display())]
+    /// A folder is not the output folder of a shard.
+    #[error("{} contains no results of `cargo class --shard`", .0.display())]
     NotAShard(PathBuf),
-    /// A shard that was not graded to its end.
+    /// A shard was not graded completely.
     #[error("{} is not finished: run its `cargo class --shard` again", .0.display())]
     UnfinishedShard(PathBuf),
-    /// Shards that were graded differently.
+    /// Two shards were graded with different settings.
     #[error(
-        "{} and {} do not belong together: {} differ", one.display(), other.display(), differences.join(", ")
+        "{} and {} cannot be merged: they differ in {}",
+        one.display(), other.display(), differences.join(", ")
     )]
     IncompatibleShards {
-        /// A shard.
+        /// The folder of a shard.
         one: PathBuf,
-        /// Another.
+        /// The folder of the other shard.
         other: PathBuf,
-        /// What is not the same.
+        /// The settings that differ.
         differences: Vec<&'static str>,
     },
-    /// Some shards were not named.
+    /// Some shards were not named on the command line.
     #[error(
-        "part {} is not among them, and who is in it would be lost: name all folders",
+        "no folder has part {}, so its submissions would be missing: name the folders of all parts",
         join_shards(.0)
     )]
     MissingShards(Vec<Shard>),
-    /// Shards whose points count for different things.
+    /// Two shards were graded with different policies.
     #[error(
-        "{} and {} were graded with different policies: say with --policy which one counts",
+        "{} and {} were graded with different policies: choose one with --policy",
         one.display(), other.display()
     )]
     DifferentPolicies {
-        /// A shard.
+        /// The folder of a shard.
         one: PathBuf,
-        /// Another.
+        /// The folder of the other shard.
         other: PathBuf,
     },
-    /// The same entry in two shards.
-    #[error("{id} is in {} and in {}: were both given the same --shard?", one.display(), other.display())]
+    /// Two shards contain the same entry.
+    #[error(
+        "{id} is in {} and in {}: were both given the same --shard?", one.display(), other.display()
+    )]
     DuplicateEntry {
         /// The entry's id.
         id: String,
-        /// A shard.
+        /// The folder of a shard.
         one: PathBuf,
-        /// Another.
+        /// The folder of the other shard.
         other: PathBuf,
     },
 }
 
 impl Error {
-    /// 2 where whoever typed the command can mend it, 3 where it is our fault or the machine's.
+    /// Returns 2 if the user can fix the error, and 3 if the grader or the machine is at fault.
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Input(_)
@@ -120,8 +123,8 @@ impl Error {
 }
 
 fn join_shards(shards: &[Shard]) -> String {
-    let words: Vec<String> = shards.iter().map(Shard::to_string).collect();
-    words.join(", ")
+    let names: Vec<String> = shards.iter().map(Shard::to_string).collect();
+    names.join(", ")
 }
 
 impl From<GraderError> for Error {

@@ -1,4 +1,4 @@
-//! The main job: from what a platform gave out to a class's scores.
+//! Grades a class, from a learning platform's export to the files with its scores.
 
 use std::env;
 use std::fs;
@@ -32,45 +32,43 @@ use crate::run::{Run, Settings};
 use crate::shard::Shard;
 use crate::store::Store;
 
-/// Whether all of a class has been graded.
+/// Whether every submission of a class was graded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Completion {
-    /// All that could be.
+    /// Every submission was graded or had nothing to grade.
     Complete,
-    /// Not all, for reasons of ours or the machine's.
+    /// Some were not graded because of a fault in the grader or the machine.
     Incomplete,
 }
 
-/// Finds out who handed in what, grades what is missing, writes what the class is told by.
+/// Reads the input, grades the submissions without a valid result, and writes the class's files.
 pub fn grade_class(arguments: &ClassArguments) -> Result<Completion, Error> {
     check_lists(&arguments.lists)?;
     let workspace = Workspace::find().map_err(GraderError::from)?;
-    let named = arguments.input.as_deref().unwrap_or(Path::new("."));
-    let input = Input::open(named, &workspace.output_folder().join("classes"))?;
-    let mut found = input.class.clone();
-    let people = found.entries.iter_mut();
+    let path = arguments.input.as_deref().unwrap_or(Path::new("."));
+    let input = Input::open(path, &workspace.output_folder().join("classes"))?;
+    let mut recognised = input.class.clone();
+    let people = recognised.entries.iter_mut();
     let mut people: Vec<&mut Person> = people.flat_map(|entry| &mut entry.info.people).collect();
     let lists = resolve_lists(&input, &arguments.lists);
     let mut missing = roster::join(&lists, &mut people)?;
-    let entries = found.entries.iter_mut();
-    let mut abouts: Vec<&mut EntryInfo> = entries.map(|entry| &mut entry.info).collect();
-    groups::add_group_members(&lists, &mut abouts, &mut missing)?;
-    roster::set_submission_times(&lists, &mut abouts)?;
+    let entries = recognised.entries.iter_mut();
+    let mut infos: Vec<&mut EntryInfo> = entries.map(|entry| &mut entry.info).collect();
+    groups::add_group_members(&lists, &mut infos, &mut missing)?;
+    roster::set_submission_times(&lists, &mut infos)?;
     let (Some(out), false) = (&arguments.out, arguments.dry_run) else {
-        anstream::print!("{}", render_preview(&found, &missing));
+        anstream::print!("{}", render_preview(&recognised, &missing));
         return Ok(Completion::Complete);
     };
 
-    let words = arguments.grading.to_arguments();
-    let words = Arguments::try_parse_from(words).map_err(Error::Arguments)?;
-    let grader = Grader::for_many(&words)?;
+    let grade_arguments = arguments.grading.to_arguments();
+    let grade_arguments = Arguments::try_parse_from(grade_arguments).map_err(Error::Arguments)?;
+    let grader = Grader::for_many(&grade_arguments)?;
     let store = Store::new(out);
     let settings = settings(&grader, &arguments.grading)?;
     let policy = policy_text(&arguments.grading)?;
     if store.read_run()?.is_some_and(|run| run.policy != policy) {
-        anstream::eprintln!(
-            "the policy is not that of the last run: points count for other things"
-        );
+        anstream::eprintln!("the policy differs from the last run's, so final points may change");
     }
     let run = Run {
         shard: arguments.shard,
@@ -79,9 +77,12 @@ pub fn grade_class(arguments: &ClassArguments) -> Result<Completion, Error> {
     };
     store.remove_temporary_files()?;
     store.write_run(&run)?;
-    let doubts = render_warnings(&found);
-    let entries = arguments.shard.unwrap_or(Shard::ALL).select(found.entries);
-    let rows = grade_entries(&grader, &store, &run, &entries, slot_count(arguments.jobs))?;
+    let warnings = render_warnings(&recognised);
+    let entries = arguments
+        .shard
+        .unwrap_or(Shard::ALL)
+        .select(recognised.entries);
+    let results = grade_entries(&grader, &store, &run, &entries, slot_count(arguments.jobs))?;
     let run = Run {
         finished: true,
         was_finished: true,
@@ -89,42 +90,43 @@ pub fn grade_class(arguments: &ClassArguments) -> Result<Completion, Error> {
     };
     store.write_run(&run)?;
 
-    let regraded = find_regrade_changes(&store, &run, &rows);
-    let lines = rows
+    let changes = find_regrade_changes(&store, &run, &results);
+    let rows = results
         .into_iter()
-        .map(|row| ClassRow::new(row, grader.policy()));
+        .map(|result| ClassRow::new(result, grader.policy()));
     let class = GradedClass {
         exam: run.settings.exam.clone(),
         exam_hash: run.settings.exam_hash.clone(),
         isolation: run.settings.isolation.clone(),
-        rows: lines.collect(),
+        rows: rows.collect(),
         missing,
     };
-    anstream::print!("{doubts}");
-    write_results(&class, &store, &arguments.lists, regraded.as_ref())?;
+    anstream::print!("{warnings}");
+    write_results(&class, &store, &arguments.lists, changes.as_ref())?;
     Ok(match class.fault_count() {
         0 => Completion::Complete,
         _ => Completion::Incomplete,
     })
 }
 
-/// Those that are named; where no roster is, classroom50's own, which lies beside its clones.
-fn resolve_lists(input: &Input, named: &Lists) -> Lists {
+/// Returns the lists named on the command line. Without a roster, the one that classroom50 writes
+/// beside its clones is used.
+fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
     let own = match input.class.layout {
         Layout::GitHub => input.root.find(CLASSROOM50_SCORES),
         Layout::Gradescope | Layout::Canvas | Layout::Moodle | Layout::Plain => None,
     };
-    let roster = named.roster.clone().or(own.map(|node| node.path.clone()));
+    let roster = lists.roster.clone().or(own.map(|node| node.path.clone()));
     Lists {
         roster,
-        ..named.clone()
+        ..lists.clone()
     }
 }
 
-/// What all scores follow from, beside the submissions.
+/// Returns everything that scores depend on, apart from the submissions.
 fn settings(grader: &Grader, grading: &GradingOptions) -> Result<Settings, Error> {
     let exam = grader.exam_name();
-    // The very program: whatever is changed in it, even by a compiler, may change a score.
+    // The executable itself is hashed: any change to it, even another compiler, may change a score.
     let program = env::current_exe().and_then(fs::read);
     let program = program.map_err(GraderError::Probe)?;
     Ok(Settings {
@@ -140,7 +142,7 @@ fn settings(grader: &Grader, grading: &GradingOptions) -> Result<Settings, Error
     })
 }
 
-/// As it stands in its file, which has been read and understood.
+/// Returns the text of the policy file, which has been parsed before.
 fn policy_text(grading: &GradingOptions) -> Result<Option<String>, PolicyError> {
     let read = |path: &PathBuf| {
         fs::read_to_string(path).map_err(|source| PolicyError::Io {
@@ -151,19 +153,20 @@ fn policy_text(grading: &GradingOptions) -> Result<Option<String>, PolicyError> 
     grading.policy.as_ref().map(read).transpose()
 }
 
-/// The run that this one goes on with, or begins. Scores that follow from something else are never
-/// mixed with those there are, and never thrown away unasked.
+/// Returns the run to resume or to start. Scores that depend on other settings are never mixed with
+/// the existing ones, and existing scores are only replaced with `--regrade`.
 fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<Run, Error> {
     let run = match (store.read_run()?, regrade) {
         (None, true) => return Err(Error::NothingToRegrade(store.folder().to_owned())),
         (None, false) => Run::first_round(settings),
-        // A regrade that was stopped goes on, whichever way it is called.
+        // A stopped regrade is resumed, with or without `--regrade`.
         (Some(run), _) if run.settings == settings && (!regrade || !run.finished) => Run {
             finished: false,
             ..run
         },
         (Some(run), true) => {
-            // Of a regrade that was given up, some scores are here: the old ones are those that count.
+            // After an abandoned regrade, some scores are already new ones: the saved scores from
+            // before it are the ones to compare with.
             if !run.is_unfinished_regrade() {
                 store.save_previous_scores()?;
             }
@@ -187,16 +190,18 @@ fn grade_entries(
     slots: usize,
 ) -> Result<Vec<EntryResult>, Error> {
     let progress = Progress::new(entries.len(), slots);
-    let work = EntryGrader {
+    let entry_grader = EntryGrader {
         grader,
         store,
         run,
         progress: &progress,
     };
-    let rows = queue::run(entries, slots, |slot, entry| work.grade(slot, entry));
+    let results = queue::run(entries, slots, |slot, entry| {
+        entry_grader.grade(slot, entry)
+    });
     progress.finish();
-    let rows: Result<Vec<EntryResult>, _> = rows.into_iter().collect();
-    Ok(rows?)
+    let results: Result<Vec<EntryResult>, _> = results.into_iter().collect();
+    Ok(results?)
 }
 
 fn slot_count(jobs: Option<u16>) -> usize {
@@ -204,15 +209,19 @@ fn slot_count(jobs: Option<u16>) -> usize {
     jobs.map_or_else(cores, usize::from)
 }
 
-/// What a regrade has changed. None in a folder's first round.
-fn find_regrade_changes(store: &Store, run: &Run, rows: &[EntryResult]) -> Option<RegradeChanges> {
+/// Returns the changes of a regrade; `None` in a folder's first round.
+fn find_regrade_changes(
+    store: &Store,
+    run: &Run,
+    results: &[EntryResult],
+) -> Option<RegradeChanges> {
     let before = run.before.as_ref()?;
-    let drift = |row: &EntryResult| -> Option<Drift> {
-        let was = store.previous_score(&row.id)?;
-        compare_scores(&row.id, &was, row.score())
+    let drift = |result: &EntryResult| -> Option<Drift> {
+        let was = store.previous_score(&result.id)?;
+        compare_scores(&result.id, &was, result.score())
     };
     Some(RegradeChanges {
-        drifts: rows.iter().filter_map(drift).collect(),
+        drifts: results.iter().filter_map(drift).collect(),
         causes: before.differences(&run.settings),
     })
 }

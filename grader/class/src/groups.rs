@@ -1,5 +1,5 @@
-//! Groups, of which a platform gives out one member's files for all (Canvas does): the roster's column
-//! of groups says who the others are.
+//! Groups. A platform such as Canvas exports a group's submission under one member's name; the
+//! roster's group column lists the other members.
 
 use std::collections::BTreeSet;
 
@@ -8,8 +8,8 @@ use crate::entry::{EntryInfo, Person};
 use crate::roster::{self, Member};
 use crate::table::TableError;
 
-/// Puts the others of a group beside the one who handed in, unless they handed in by themselves.
-/// Takes them off those who are `missing`.
+/// Adds the other members of a group to the entry of the one who handed in, unless they handed in
+/// something themselves. Removes them from `missing`.
 pub fn add_group_members(
     lists: &Lists,
     entries: &mut [&mut EntryInfo],
@@ -19,13 +19,13 @@ pub fn add_group_members(
         return Ok(());
     };
     let members = roster::read_members(path)?;
-    let people = entries.iter().flat_map(|about| about.people.clone());
+    let people = entries.iter().flat_map(|info| info.people.clone());
     let people: Vec<Person> = people.collect();
     let is_there = |member: &Member| people.iter().any(|person| member.matches(person));
-    for about in entries {
+    for info in entries {
         let theirs = members
             .iter()
-            .filter(|member| about.people.iter().any(|person| member.matches(person)));
+            .filter(|member| info.people.iter().any(|person| member.matches(person)));
         let groups: BTreeSet<&str> = theirs.map(|member| member.group.as_str()).collect();
         let others = members.iter().filter(|member| {
             let is_in_group = !member.group.is_empty() && groups.contains(member.group.as_str());
@@ -33,7 +33,7 @@ pub fn add_group_members(
         });
         let others: Vec<Person> = others.map(|member| member.person.clone()).collect();
         missing.retain(|person| !others.contains(person));
-        about.people.extend(others);
+        info.people.extend(others);
     }
     Ok(())
 }
@@ -65,10 +65,10 @@ mod tests {
         let mut entries = ["ann", "carl", "dora"].map(submitted_by);
         let mut entries: Vec<&mut EntryInfo> = entries.iter_mut().collect();
         let members = roster::read_members(lists.roster.as_deref().unwrap()).unwrap();
-        let mut missing: Vec<Person> = [1, 4].map(|place| members[place].person.clone()).into();
+        let mut missing: Vec<Person> = [1, 4].map(|index| members[index].person.clone()).into();
         add_group_members(&lists, &mut entries, &mut missing).unwrap();
-        let names: Vec<String> = entries.iter().map(|about| about.display_names()).collect();
-        // Both of a group that handed in twice have Bob: the preview says that he is there twice.
+        let names: Vec<String> = entries.iter().map(|info| info.display_names()).collect();
+        // Two members of a group handed in, so both entries have Bob; the preview reports that.
         assert_eq!(names, ["ann + Bob", "carl + Bob", "dora"]);
         let missing: Vec<&str> = missing.iter().map(Person::display_name).collect();
         assert_eq!(missing, ["Eve"]);

@@ -1,4 +1,4 @@
-//! The input, wherever it lies: a folder as it stands, an archive unpacked where it vanishes.
+//! The input: a folder, or an archive, which is unpacked into a temporary folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,35 +13,35 @@ use crate::layout::{self, METADATA, RecognisedClass};
 use crate::listing::{Node, list_folder};
 use crate::unpack::{CLASS_FOLDER, unpack};
 
-/// The class as it was found, and where its files are for as long as this lives.
+/// The entries of a class. If their files were unpacked, dropping this deletes them.
 #[derive(Debug)]
 pub struct Input {
-    /// Who handed in what.
+    /// The entries found in the input.
     pub class: RecognisedClass,
-    /// The folder of the class: where lists lie beside the submissions.
+    /// The class's folder, which may contain lists as well as submissions.
     pub root: Node,
     _unpacked: Option<BuildDir>,
 }
 
 impl Input {
-    /// Looks at the folder or archive at `path`. An archive is unpacked below `rooms`, for as long as
-    /// this lives.
-    pub fn open(path: &Path, rooms: &Path) -> Result<Self, ClassInputError> {
-        remove_abandoned(rooms);
+    /// Opens the folder or archive at `path`. An archive is unpacked into a temporary folder in
+    /// `parent`.
+    pub fn open(path: &Path, parent: &Path) -> Result<Self, ClassInputError> {
+        remove_abandoned(parent);
         let at = |source| ClassInputError::Io {
             path: path.to_owned(),
             source,
         };
-        let (unpacked, passed_over) = match fs::metadata(path) {
+        let (unpacked, not_unpacked) = match fs::metadata(path) {
             Err(_) => return Err(ClassInputError::NotFound(path.to_owned())),
             Ok(kind) if kind.is_dir() => (None, Vec::new()),
             Ok(_) => {
-                let (room, passed_over) = unpack(path, rooms)?;
-                (Some(room), passed_over)
+                let (build_dir, not_unpacked) = unpack(path, parent)?;
+                (Some(build_dir), not_unpacked)
             }
         };
         let folder = match &unpacked {
-            Some(room) => room.path().join(CLASS_FOLDER),
+            Some(build_dir) => build_dir.path().join(CLASS_FOLDER),
             None => path.canonicalize().map_err(at)?,
         };
         let listed = list_folder(&folder).map_err(at)?;
@@ -49,12 +49,12 @@ impl Input {
         let metadata = root.find(METADATA).map(|node| fs::read(&node.path));
         let metadata = metadata.transpose().map_err(at)?;
         let metadata = metadata.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-        let mut found = layout::recognise(&root, metadata.as_deref())?;
-        found.unmatched.extend(passed_over);
-        match found.entries.is_empty() {
+        let mut class = layout::recognise(&root, metadata.as_deref())?;
+        class.unmatched.extend(not_unpacked);
+        match class.entries.is_empty() {
             true => Err(ClassInputError::NoSubmissions(path.to_owned())),
             false => Ok(Input {
-                class: found,
+                class,
                 root,
                 _unpacked: unpacked,
             }),
@@ -62,7 +62,8 @@ impl Input {
     }
 }
 
-/// The five files of an entry, or why there are none: which is its own matter.
+/// Reads the task files of an entry. The error is the reason why this entry cannot be graded, and
+/// does not affect others.
 pub fn collect_submission(entry: &Entry) -> Result<Submission, String> {
     let mut submission = match &entry.source {
         Source::Path(path) => collect_path(path)?,
@@ -88,7 +89,7 @@ fn collect_path(path: &Path) -> Result<Submission, String> {
     }
 }
 
-/// What platforms put into a folder of its own is often one archive.
+/// Reads a folder that contains one archive: platforms often make a folder for each submission.
 fn collect_single_archive(folder: &Path) -> Result<Submission, String> {
     let listed = list_folder(folder).map_err(|error| error.to_string())?;
     let archives: Vec<&Node> = listed
@@ -106,8 +107,8 @@ fn collect_single_archive(folder: &Path) -> Result<Submission, String> {
     }
 }
 
-/// Without the place, which is another one tomorrow.
-fn error_message(error: &SubmissionError, place: &Path) -> String {
+/// Returns the error's message without the path, which may be different in the next run.
+fn error_message(error: &SubmissionError, input: &Path) -> String {
     let name = |path: &Path| {
         path.file_name()
             .unwrap_or_default()
@@ -116,14 +117,14 @@ fn error_message(error: &SubmissionError, place: &Path) -> String {
     };
     match error {
         SubmissionError::NotFound(_) | SubmissionError::NotFileOrFolder(_) => {
-            "it is not there any more".to_owned()
+            "it no longer exists".to_owned()
         }
         SubmissionError::NoTaskFiles(_) => "none of the five files was handed in".to_owned(),
         SubmissionError::Ambiguous { folders, .. } => {
             let folders = sanitize(&folders.join(", "), 200);
-            format!("several submissions in one, in {folders}: keep the one that counts")
+            format!("it contains several submissions, in {folders}: keep the one that counts")
         }
-        SubmissionError::Archive { path, why } if path == place => why.to_string(),
+        SubmissionError::Archive { path, why } if path == input => why.to_string(),
         SubmissionError::Archive { path, why } => format!("{}: {why}", sanitize(&name(path), 200)),
     }
 }

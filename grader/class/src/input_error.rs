@@ -1,4 +1,4 @@
-//! Why there is no class to be graded.
+//! Errors in the input folder or archive.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,34 +7,35 @@ use grader::submission::ArchiveError;
 
 use crate::layout::MetadataError;
 
-/// There is no class to be found.
+/// The input cannot be read as a class.
 #[derive(Debug, thiserror::Error)]
 pub enum ClassInputError {
-    /// There is nothing at this place.
-    #[error("there is no {0}: name the folder or archive that the platform gave you")]
+    /// The path does not exist.
+    #[error("{0} does not exist: name the folder or archive that you downloaded from the platform")]
     NotFound(PathBuf),
-    /// The system does not let us.
-    #[error("can not read {path}: {source}")]
+    /// A file or folder cannot be read.
+    #[error("cannot read {path}: {source}")]
     Io {
-        /// What.
+        /// The path.
         path: PathBuf,
-        /// The system's words.
+        /// The operating system's error.
         source: io::Error,
     },
-    /// The archive is not one that is read.
+    /// The archive cannot be read.
     #[error("{path}: {why}; or unpack it yourself, and name the folder")]
     Archive {
-        /// Which.
+        /// The archive's path.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The reason.
         why: ArchiveError,
     },
-    /// Gradescope's list is not as it should be.
+    /// Gradescope's metadata file is invalid.
     #[error(transparent)]
     Metadata(#[from] MetadataError),
-    /// Nobody is in it.
+    /// The input has no submissions.
     #[error(
-        "{0} holds no submissions: name the folder of a class; one alone is graded by `cargo grade`"
+        "{0} contains no submissions: name the folder of a class; to grade a single submission, \
+         use `cargo grade`"
     )]
     NoSubmissions(PathBuf),
 }

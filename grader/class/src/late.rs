@@ -1,4 +1,4 @@
-//! How late something came, from what the platform says and the policy.
+//! The lateness of submissions, by the platform's information and the policy.
 
 use grader::policy::{CountedPoints, Lateness, Policy};
 use jiff::Timestamp;
@@ -6,17 +6,18 @@ use jiff::Timestamp;
 use crate::entry::EntryInfo;
 use crate::outcome::ScoreSummary;
 
-/// What a score counts for.
-pub fn apply_policy(policy: &Policy, about: &EntryInfo, score: &ScoreSummary) -> CountedPoints {
-    policy.counted_points(score.points, score.max_points, lateness(policy, about))
+/// Returns the points that a score counts for under the policy.
+pub fn apply_policy(policy: &Policy, info: &EntryInfo, score: &ScoreSummary) -> CountedPoints {
+    policy.counted_points(score.points, score.max_points, lateness(policy, info))
 }
 
-/// By the moment, where it is known and there is a due time; else by what the platform calls late.
-fn lateness(policy: &Policy, about: &EntryInfo) -> Lateness {
-    let moment = about.submitted.as_deref().and_then(parse_timestamp);
-    let exact = moment.and_then(|moment| policy.lateness(moment));
-    exact.unwrap_or(match about.late {
-        // Nobody knows by how much: by the least that there is.
+/// Returns how late a submission is: by its time, if that is known and the policy has a due time,
+/// otherwise by the platform's late flag.
+fn lateness(policy: &Policy, info: &EntryInfo) -> Lateness {
+    let time = info.submitted.as_deref().and_then(parse_timestamp);
+    let exact = time.and_then(|time| policy.lateness(time));
+    exact.unwrap_or(match info.late {
+        // The time is unknown, so the submission counts as just past the grace period.
         true => Lateness {
             seconds: u64::from(policy.late.grace_minutes) * 60 + 1,
         },
@@ -24,23 +25,24 @@ fn lateness(policy: &Policy, about: &EntryInfo) -> Lateness {
     })
 }
 
-/// Whether nobody knows if it was late, though that would cost something: it counts as in time.
-pub fn is_undated(policy: &Policy, about: &EntryInfo) -> bool {
-    let is_dated = about
+/// Returns whether the policy has a due time, but the submission has neither a time nor a late
+/// flag. It counts as on time.
+pub fn is_undated(policy: &Policy, info: &EntryInfo) -> bool {
+    let is_dated = info
         .submitted
         .as_deref()
         .and_then(parse_timestamp)
         .is_some();
-    policy.late.due.is_some() && !about.late && !is_dated
+    policy.late.due.is_some() && !info.late && !is_dated
 }
 
-/// Seconds since 1970, of `2026-11-20 22:01:05.000000000 Z` and its likes.
+/// Parses a time such as `2026-11-20 22:01:05.000000000 Z`, and returns the seconds since 1970.
 fn parse_timestamp(text: &str) -> Option<i64> {
-    // Gradescope's file has a space before the zone.
+    // Gradescope's file has a space before the time zone.
     let text = text.trim().replacen(" Z", "Z", 1).replacen(" +", "+", 1);
     let text = text.replacen(" UTC", "Z", 1);
-    let moment: Timestamp = text.parse().ok()?;
-    Some(moment.as_second())
+    let time: Timestamp = text.parse().ok()?;
+    Some(time.as_second())
 }
 
 #[cfg(test)]

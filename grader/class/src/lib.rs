@@ -1,18 +1,17 @@
-//! Grades a class: what people have from their learning platform, in one command that may be
-//! killed at any time.
+//! Grades a class from a learning platform's export, in one command that can be killed at any time.
 //!
-//! Each submission is graded as `cargo grade` does it, in this process; its student's code runs in
-//! processes of its own. One student's disaster is one line of the class.
+//! Each submission is graded in this process, as by `cargo grade`; student code runs in separate
+//! processes. A submission that fails affects only its own result.
 //!
-//! Floors, from the ground up; each imports only from below:
+//! Layers, from top to bottom; a module imports only from its own layer or those below:
 //!
-//! | floor | modules |
+//! | layer | modules |
 //! |---|---|
-//! | the job | [`class`], [`merge`]; [`written`] |
-//! | what is told | [`report`], [`gradebook`], [`summary`], [`spread`], [`drift`]: pure |
-//! | the work | [`work`], [`queue`], [`progress`] |
-//! | what is kept | [`store`], [`run`], [`outcome`], [`model`], [`late`] |
-//! | who handed in what | [`input`], [`no_class`], [`unpack`], [`layout`], [`listing`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`] |
+//! | commands | [`grade`], [`merge`]; [`output`] |
+//! | reports | [`report`], [`gradebook`], [`summary`], [`distribution`], [`drift`] |
+//! | grading of entries | [`entry_grader`], [`queue`], [`progress`] |
+//! | results | [`store`], [`run`], [`outcome`], [`model`], [`late`] |
+//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`] |
 
 pub mod cli;
 pub mod distribution;

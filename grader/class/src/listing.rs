@@ -1,55 +1,55 @@
-//! What lies in a folder, as far down as layouts look.
+//! Folder listings, as deep as the layouts need them.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// How far down.
+/// The number of levels of subfolders that are listed.
 const MAX_DEPTH: usize = 3;
-/// Where nothing was handed in, however much lies there.
+/// Folders that are skipped: they contain nothing that a student has written.
 const SKIPPED: [&str; 3] = ["__MACOSX", "target", "node_modules"];
 
 /// A file or a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Node {
-    /// Its own name.
+    /// The file name.
     pub name: String,
-    /// Where it is.
+    /// The path.
     pub path: PathBuf,
-    /// What is in it, in the order of names, if it is a folder.
+    /// The contents of a folder, in the order of names; `None` for a file.
     pub children: Option<Vec<Node>>,
 }
 
 impl Node {
-    /// Whether it is a folder.
+    /// Returns whether this is a folder.
     pub fn is_folder(&self) -> bool {
         self.children.is_some()
     }
 
-    /// What is in it; nothing in a file.
+    /// Returns the contents of a folder; none for a file.
     pub fn children(&self) -> &[Node] {
         self.children.as_deref().unwrap_or_default()
     }
 
-    /// The one in it of this name.
+    /// Returns the file or folder with this name in the folder.
     pub fn find(&self, name: &str) -> Option<&Node> {
         self.children().iter().find(|node| node.name == name)
     }
 
-    /// Whether its name is that of an archive, readable or not.
+    /// Returns whether this is an archive by its name, even if the format is not supported.
     pub fn is_archive(&self) -> bool {
         !self.is_folder() && is_archive_name(&self.name)
     }
 }
 
-/// Whether that is an archive's name, readable or not.
+/// Returns whether this is the name of an archive, even if the format is not supported.
 pub fn is_archive_name(name: &str) -> bool {
     let lower = name.to_lowercase();
     let ends = [".zip", ".tar", ".tar.gz", ".tgz", ".rar", ".7z"];
     ends.iter().any(|end| lower.ends_with(end))
 }
 
-/// The listing of a folder. Hidden files and links are left out; names are text.
+/// Lists a folder. Hidden files and links are left out, and invalid Unicode in names is replaced.
 pub fn list_folder(folder: &Path) -> io::Result<Node> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     Ok(Node {

@@ -1,4 +1,4 @@
-//! `cargo class`: a class, one command, killed at any time.
+//! `cargo class`: grades a class in one command that can be killed at any time.
 
 use std::process::ExitCode;
 

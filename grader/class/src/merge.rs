@@ -1,4 +1,4 @@
-//! `cargo class merge`: one class of the parts that several machines have graded.
+//! `cargo class merge`: merges the parts of a class that several machines have graded.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -19,7 +19,7 @@ use crate::run::Run;
 use crate::shard::Shard;
 use crate::store::{Store, StoreError};
 
-/// Copies the shards' results together, and writes what the class is told by.
+/// Copies the shards' results into one folder, and writes the class's files.
 pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     let shards: Result<Vec<(&PathBuf, Run)>, Error> = arguments
         .shards
@@ -39,11 +39,11 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     let policy = choose_policy(arguments, &shards)?;
 
     let out = Store::new(&arguments.out);
-    let mut taken: BTreeMap<String, &Path> = BTreeMap::new();
+    let mut sources: BTreeMap<String, &Path> = BTreeMap::new();
     for (path, _) in &shards {
         let shard = Store::new(path);
         for id in shard.ids()? {
-            if let Some(other) = taken.insert(id.clone(), path) {
+            if let Some(other) = sources.insert(id.clone(), path) {
                 return Err(Error::DuplicateEntry {
                     id,
                     one: other.to_owned(),
@@ -60,12 +60,12 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     out.write_run(run)?;
 
     let rows: Vec<EntryResult> = out.results()?;
-    let rows = rows.into_iter().filter(|row| taken.contains_key(&row.id));
+    let rows = rows.into_iter().filter(|row| sources.contains_key(&row.id));
     let mut rows: Vec<EntryResult> = rows.collect();
     let people = rows.iter_mut().flat_map(|row| &mut row.info.people);
     let mut missing = roster::join(&arguments.lists, &mut people.collect::<Vec<_>>())?;
-    let mut abouts: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
-    groups::add_group_members(&arguments.lists, &mut abouts, &mut missing)?;
+    let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
+    groups::add_group_members(&arguments.lists, &mut infos, &mut missing)?;
     let class = GradedClass {
         exam: run.settings.exam.clone(),
         exam_hash: run.settings.exam_hash.clone(),
@@ -83,7 +83,7 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     })
 }
 
-/// The one that is named, else the one that all shards were graded with.
+/// Returns the policy that the arguments name, else the one that all shards were graded with.
 fn choose_policy(arguments: &MergeArguments, shards: &[(&PathBuf, Run)]) -> Result<Policy, Error> {
     let (first, run) = &shards[0];
     if let Some(path) = &arguments.policy {
@@ -110,8 +110,8 @@ fn read_finished_run(path: &Path) -> Result<Run, Error> {
     }
 }
 
-/// Scores are compared, so they must follow from the same exam, asked in the same way. Programs and
-/// compilers are each machine's own.
+/// Checks that the scores of two shards can be compared: the exam, the isolation and the options
+/// must be the same. The grader's executable and the compiler may differ between machines.
 fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<(), Error> {
     let local = [
         "the grader",
@@ -137,8 +137,8 @@ fn copy_entry(from: &Path, to: &Path) -> Result<(), StoreError> {
     fs::create_dir_all(to).map_err(at(to))?;
     for entry in fs::read_dir(from).map_err(at(from))? {
         let entry = entry.map_err(at(from))?;
-        let place = to.join(entry.file_name());
-        fs::copy(entry.path(), &place).map_err(at(&place))?;
+        let target = to.join(entry.file_name());
+        fs::copy(entry.path(), &target).map_err(at(&target))?;
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! A graded class: what all of its files are made of.
+//! A graded class, from which all of its files are written.
 
 use grader::policy::{CountedPoints, Policy};
 
@@ -11,56 +11,56 @@ use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary};
 pub struct GradedClass {
     /// The exam's name.
     pub exam: String,
-    /// Of its bytes.
+    /// The hash of the exam file.
     pub exam_hash: String,
-    /// How submissions were kept apart from the machine.
+    /// The isolation level of the submissions.
     pub isolation: String,
-    /// One for each submission, in the order of their ids.
+    /// The submissions, in the order of their ids.
     pub rows: Vec<ClassRow>,
-    /// Those of the lists who have handed in nothing.
+    /// The people in the lists who have handed in nothing.
     pub missing: Vec<Person>,
 }
 
-/// A submission, and what it counts for.
+/// A submission's result, and the points that it counts for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClassRow {
-    /// What became of it.
+    /// The result.
     pub result: EntryResult,
-    /// What it counts for; none without a score.
+    /// The points that it counts for; `None` without a score.
     pub counted: Option<CountedPoints>,
-    /// Whether it counts as in time because nobody knows when it came.
+    /// Whether it counts as on time because its submission time is unknown.
     pub is_undated: bool,
 }
 
 impl GradedClass {
-    /// The scores.
+    /// Returns the results that have a score.
     pub fn scores(&self) -> impl Iterator<Item = (&EntryResult, &ScoreSummary)> {
-        let rows = self.rows.iter().map(|line| &line.result);
-        rows.filter_map(|row| Some((row, row.score()?)))
+        let results = self.rows.iter().map(|row| &row.result);
+        results.filter_map(|result| Some((result, result.score()?)))
     }
 
-    /// Those that have to be graded again.
+    /// Returns the number of submissions that could not be graded and have to be tried again.
     pub fn fault_count(&self) -> usize {
-        let is_fault = |line: &&ClassRow| matches!(line.result.outcome, EntryOutcome::Fault(_));
+        let is_fault = |row: &&ClassRow| matches!(row.result.outcome, EntryOutcome::Fault(_));
         self.rows.iter().filter(is_fault).count()
     }
 }
 
 impl ClassRow {
-    /// What the policy makes of it.
-    pub fn new(row: EntryResult, policy: &Policy) -> Self {
-        let counted = row
+    /// Applies the policy to a result.
+    pub fn new(result: EntryResult, policy: &Policy) -> Self {
+        let counted = result
             .score()
-            .map(|score| apply_policy(policy, &row.info, score));
-        let is_undated = counted.is_some() && is_undated(policy, &row.info);
+            .map(|score| apply_policy(policy, &result.info, score));
+        let is_undated = counted.is_some() && is_undated(policy, &result.info);
         ClassRow {
-            result: row,
+            result,
             counted,
             is_undated,
         }
     }
 
-    /// In a word, for tables.
+    /// Returns the status for tables.
     pub fn status(&self) -> &'static str {
         match &self.result.outcome {
             EntryOutcome::Graded(_) => "graded",
@@ -69,7 +69,7 @@ impl ClassRow {
         }
     }
 
-    /// Why there is no score. Empty if there is one.
+    /// Returns the reason why there is no score; empty if there is one.
     pub fn why(&self) -> &str {
         match &self.result.outcome {
             EntryOutcome::Graded(_) => "",

@@ -1,121 +1,123 @@
-//! What became of each entry, as it is kept and as it is told.
+//! The results of entries, in memory and as they are stored.
 
 use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use crate::entry::EntryInfo;
 
-/// One line of the class.
+/// The result of an entry.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EntryResult {
     /// The entry's id.
     pub id: String,
-    /// Whose it is.
+    /// The people, and what else is known about the submission.
     pub info: EntryInfo,
-    /// What became of it.
+    /// The outcome.
     pub outcome: EntryOutcome,
 }
 
-/// What became of an entry. Only the first is a score.
+/// The outcome of grading an entry.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum EntryOutcome {
-    /// It was graded.
+    /// The entry was graded.
     Graded(Box<ScoreSummary>),
-    /// There was nothing that could be graded: the student's matter, and for a person to decide.
+    /// There was nothing to grade, for this reason. The teacher decides what that counts for.
     NothingToGrade(String),
-    /// It was not graded, and the fault is ours or the machine's: for another try.
+    /// The grader or the machine failed, for this reason. The next run tries again.
     Fault(String),
 }
 
-/// What the class's files need of a score file.
+/// The parts of `score.json` that the class's files need.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 pub struct ScoreSummary {
-    /// Of all tasks.
+    /// The points of all tasks.
     pub points: u32,
-    /// The most that could be had.
+    /// The maximum points.
     pub max_points: u32,
-    /// In lecture order.
+    /// The tasks, in lecture order.
     pub tasks: Vec<TaskScore>,
 }
 
-/// One task of a score file.
+/// The score of a task.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 pub struct TaskScore {
-    /// Such as `sphere`.
+    /// The task's id, such as `sphere`.
     pub id: String,
-    /// What people read.
+    /// The title for people.
     pub title: String,
-    /// Of its items.
+    /// The points of its items.
     pub points: u32,
-    /// The most that could be had.
+    /// The maximum points.
     pub max_points: u32,
-    /// In the order of asking.
+    /// The items, in the order of the exam.
     pub items: Vec<ItemScore>,
 }
 
-/// One item of a score file.
+/// The score of an item.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 pub struct ItemScore {
-    /// Such as `sphere.from_inside`.
+    /// The item's id, such as `sphere.from_inside`.
     pub id: String,
-    /// What must hold.
+    /// The title: a sentence that says what is correct.
     pub title: String,
-    /// What it earned.
+    /// The points.
     pub points: u32,
-    /// What it is worth.
+    /// The maximum points.
     pub max_points: u32,
-    /// What became of it.
+    /// The verdict.
     pub verdict: String,
-    /// What happened, in a sentence.
+    /// The explanation of the verdict, in a sentence.
     pub message: String,
-    /// The known mistakes that answer the same.
+    /// The known mistakes that give the same answers, the most likely first.
     pub hints: Vec<Hint>,
 }
 
 /// A known mistake.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 pub struct Hint {
-    /// What is wrong.
+    /// The text of the hint.
     pub hint: String,
 }
 
-/// What is kept beside a score: that it is complete, what it follows from, and whose it is.
+/// The contents of `entry.json`. It is written last, so its presence says that the entry is
+/// complete.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stamp {
-    /// Of the submission, and of all that its score follows from. Empty if there is no score.
+    /// The cache key: a hash of the submission and everything else that its score depends on. Empty
+    /// if there is no score.
     pub key: String,
-    /// Whose it is.
+    /// The people, and what else is known about the submission.
     #[serde(rename = "about")]
     pub info: EntryInfo,
-    /// What became of it.
+    /// The outcome.
     #[serde(flatten)]
     pub state: EntryState,
 }
 
-/// An outcome without its score, which has a file of its own.
+/// An outcome without the score, which is in `score.json`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "state", content = "why", rename_all = "snake_case")]
 pub enum EntryState {
-    /// There is a score.
+    /// The entry was graded.
     Graded,
-    /// There was nothing that could be graded.
+    /// There was nothing to grade.
     #[serde(rename = "no_submission")]
     NothingToGrade(String),
-    /// Our fault, or the machine's.
+    /// The grader or the machine failed.
     Fault(String),
 }
 
 impl ScoreSummary {
-    /// Reads a score file. It may come from another machine: points that no exam has are no points.
+    /// Parses a score file. It may come from another machine, so impossible points are an error.
     pub fn parse(text: &str) -> Result<Self, serde_json::Error> {
-        /// More than any exam has, and few enough that a class's sum is a number.
+        /// More than any exam has, and few enough that the sum over a class does not overflow.
         const MAX_POINTS: u32 = 100_000;
-        let told: ScoreSummary = serde_json::from_str(text)?;
-        match told.all_points().max() {
-            Some(points) if points > MAX_POINTS => {
-                Err(serde_json::Error::custom(format!("{points} are no points")))
-            }
-            Some(_) | None => Ok(told),
+        let score: ScoreSummary = serde_json::from_str(text)?;
+        match score.all_points().max() {
+            Some(points) if points > MAX_POINTS => Err(serde_json::Error::custom(format!(
+                "{points} points are more than an exam can have"
+            ))),
+            Some(_) | None => Ok(score),
         }
     }
 
@@ -126,14 +128,14 @@ impl ScoreSummary {
         tasks.chain(items).chain([self.points, self.max_points])
     }
 
-    /// All items.
+    /// Returns the items of all tasks.
     pub fn items(&self) -> impl Iterator<Item = &ItemScore> {
         self.tasks.iter().flat_map(|task| &task.items)
     }
 }
 
 impl EntryResult {
-    /// The score, if there is one.
+    /// Returns the score, if there is one.
     pub fn score(&self) -> Option<&ScoreSummary> {
         match &self.outcome {
             EntryOutcome::Graded(score) => Some(score),

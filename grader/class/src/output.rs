@@ -1,4 +1,4 @@
-//! What is written of a class, and said on the terminal.
+//! Writes the files of a graded class, and prints the summary.
 
 use crate::cli::Lists;
 use crate::drift::Drift;
@@ -10,21 +10,21 @@ use crate::store::{Store, json};
 use crate::summary::ClassSummary;
 use crate::table::TableError;
 
-/// What a regrade has changed.
+/// The changes of a regrade.
 #[derive(Clone, Debug)]
 pub struct RegradeChanges {
-    /// Whose points changed.
+    /// The scores that changed.
     pub drifts: Vec<Drift>,
-    /// What is not as it was.
+    /// The settings that changed.
     pub causes: Vec<&'static str>,
 }
 
-/// Writes the files of the class, and says what is in them.
+/// Writes the files of the class, and prints a summary.
 pub fn write_results(
     class: &GradedClass,
     store: &Store,
     lists: &Lists,
-    regraded: Option<&RegradeChanges>,
+    changes: Option<&RegradeChanges>,
 ) -> Result<(), Error> {
     let summary = ClassSummary::new(class);
     store.write("class.json", &json(&summary))?;
@@ -32,15 +32,13 @@ pub fn write_results(
     store.write("grades.csv", &grades::grades_table(class).to_csv())?;
     anstream::print!("{}", text::render_summary(&summary));
 
-    if let Some(regraded) = regraded {
-        store.write("drift.json", &json(&regraded.drifts))?;
-        anstream::print!(
-            "{}",
-            text::render_drifts(&regraded.drifts, &regraded.causes)
-        );
+    if let Some(changes) = changes {
+        store.write("drift.json", &json(&changes.drifts))?;
+        anstream::print!("{}", text::render_drifts(&changes.drifts, &changes.causes));
     }
     for (name, filled) in fill_gradebooks(class, lists)? {
-        // What would change is read before anything can be loaded up.
+        // Printed before the file is written, so that the changes are read before they are
+        // uploaded.
         anstream::print!("{}", text::render_gradebook(&filled));
         store.write(name, &filled.table.to_csv())?;
         anstream::println!("  {}", store.folder().join(name).display());
@@ -53,12 +51,12 @@ pub fn write_results(
     Ok(())
 }
 
-/// Whether the lists can be filled: to be known before a class is graded, and not after.
+/// Checks that the gradebooks can be filled in, before the class is graded.
 pub fn check_lists(lists: &Lists) -> Result<(), TableError> {
     fill_gradebooks(&GradedClass::default(), lists).map(drop)
 }
 
-/// The copies of the teacher's lists. What the teacher has given out is never changed itself.
+/// Returns the filled-in copies of the teacher's gradebooks. The originals are never changed.
 fn fill_gradebooks(
     class: &GradedClass,
     lists: &Lists,

@@ -1,5 +1,5 @@
-//! How far along: on a terminal a bar and a line for each submission at work, else a plain line
-//! for each that is done. All of it goes to the standard error.
+//! Progress, on standard error: on a terminal a bar and a line for each submission being graded,
+//! otherwise a plain line for each one that is done.
 
 use std::io::{self, IsTerminal};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -8,7 +8,7 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use crate::outcome::{EntryOutcome, EntryResult};
 
-/// Who is told.
+/// The display of a run's progress.
 #[derive(Debug)]
 pub struct Progress {
     count: usize,
@@ -21,12 +21,12 @@ pub struct Progress {
 struct Bars {
     all: ProgressBar,
     slots: Vec<ProgressBar>,
-    // Draws as long as it lives.
+    // Dropping it stops the drawing.
     _drawing: MultiProgress,
 }
 
 impl Progress {
-    /// Of `count` entries in so many slots.
+    /// Creates the display for `count` entries, of which `slots` are graded at a time.
     pub fn new(count: usize, slots: usize) -> Self {
         Progress {
             count,
@@ -36,21 +36,21 @@ impl Progress {
         }
     }
 
-    /// What a slot is at.
-    pub fn set_status(&self, slot: usize, id: &str, words: &str) {
+    /// Shows the status of the entry that is graded in a slot.
+    pub fn set_status(&self, slot: usize, id: &str, status: &str) {
         if let Some(bar) = self.bars.as_ref().and_then(|bars| bars.slots.get(slot)) {
-            bar.set_message(format!("{id}: {words}"));
+            bar.set_message(format!("{id}: {status}"));
         }
     }
 
-    /// An entry is done, now or kept from an earlier time.
-    pub fn finish_entry(&self, slot: usize, row: &EntryResult, is_new: bool) {
+    /// Shows the result of an entry. `is_new` is false if the result is from an earlier run.
+    pub fn finish_entry(&self, slot: usize, result: &EntryResult, is_new: bool) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        let is_failed = row.score().is_none();
+        let is_failed = result.score().is_none();
         let failed = self
             .failed
             .fetch_add(usize::from(is_failed), Ordering::Relaxed);
-        let words = result_line(row);
+        let line = result_line(result);
         match &self.bars {
             Some(bars) => {
                 bars.slots
@@ -62,15 +62,15 @@ impl Progress {
                 bars.all.set_message(format!("{failed} without a score"));
                 bars.all.inc(1);
                 if is_failed {
-                    bars.all.println(words);
+                    bars.all.println(line);
                 }
             }
-            None if is_new => eprintln!("[{done}/{}] {words}", self.count),
+            None if is_new => eprintln!("[{done}/{}] {line}", self.count),
             None => {}
         }
     }
 
-    /// Nothing more will come.
+    /// Removes the display.
     pub fn finish(self) {
         if let Some(bars) = self.bars {
             bars.slots.iter().for_each(ProgressBar::finish_and_clear);
@@ -79,9 +79,9 @@ impl Progress {
     }
 }
 
-fn result_line(row: &EntryResult) -> String {
-    let id = &row.id;
-    match &row.outcome {
+fn result_line(result: &EntryResult) -> String {
+    let id = &result.id;
+    match &result.outcome {
         EntryOutcome::Graded(score) => format!("{id}: {} of {}", score.points, score.max_points),
         EntryOutcome::NothingToGrade(why) => format!("{id}: nothing to grade: {why}"),
         EntryOutcome::Fault(why) => format!("{id}: not graded, and not the student's fault: {why}"),
@@ -89,7 +89,8 @@ fn result_line(row: &EntryResult) -> String {
 }
 
 fn make_bars(count: usize, slots: usize) -> Bars {
-    let style = |template: &str| ProgressStyle::with_template(template).expect("it is constant");
+    let style =
+        |template: &str| ProgressStyle::with_template(template).expect("the template is valid");
     let drawing = MultiProgress::new();
     let line = || {
         let bar = drawing.add(ProgressBar::new_spinner());

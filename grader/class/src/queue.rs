@@ -1,10 +1,11 @@
-//! Many jobs on a few threads: each takes the next one when it is done with its own.
+//! A queue of jobs for a few threads. Each thread takes the next job when it has finished one.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// What `work` makes of each job, in the order of the jobs. It is told the slot that it works in.
+/// Runs `work` for each job, and returns the results in the order of the jobs. The first argument
+/// of `work` is the index of the thread, from 0 to `slots` - 1.
 pub fn run<J: Sync, R: Send>(
     jobs: &[J],
     slots: usize,
@@ -17,20 +18,24 @@ pub fn run<J: Sync, R: Send>(
             let (next, results, work) = (&next, &results, &work);
             scope.spawn(move || {
                 loop {
-                    let place = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(job) = jobs.get(place) else { break };
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(job) = jobs.get(index) else { break };
                     let result = work(slot, job);
-                    *results[place]
+                    *results[index]
                         .lock()
-                        .expect("nobody panics while holding it") = Some(result);
+                        .expect("no thread panics while holding the lock") = Some(result);
                 }
             });
         }
     });
     let done = results.into_iter();
-    done.map(|result| result.into_inner().expect("nobody panics while holding it"))
-        .map(|result| result.expect("every job was taken"))
-        .collect()
+    done.map(|result| {
+        result
+            .into_inner()
+            .expect("no thread panics while holding the lock")
+    })
+    .map(|result| result.expect("every job was run"))
+    .collect()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Who is in the class, from whatever list there is: its columns are recognised by their names.
+//! The people of a class, read from a roster or gradebook. Columns are recognised by their names.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
 use crate::table::{Table, TableError};
 
-/// What platforms and people call a column, for each thing that we know of a person.
+/// Column names that platforms and people use, for each field of a person.
 const NAME: [&str; 4] = ["name", "full name", "student", "student name"];
 const FIRST: [&str; 3] = ["first name", "first_name", "given name"];
 const LAST: [&str; 4] = ["last name", "last_name", "surname", "family name"];
@@ -29,36 +29,37 @@ const LOGIN: [&str; 7] = [
     "sis login id",
     "login_id",
 ];
-/// When it was handed in: classroom50's and GitHub Classroom's.
+/// The column of submission times, in classroom50 and GitHub Classroom.
 const SUBMISSION_TIME: [&str; 2] = ["datetime", "submission_timestamp"];
 const GROUP: [&str; 4] = ["group", "group name", "group_name", "team"];
 
-/// What Canvas writes into its gradebook that is nobody.
+/// Rows of Canvas's gradebook that are not people.
 const PLACEHOLDER_NAMES: [&str; 2] = ["Points Possible", "Student, Test"];
 
-/// One line of a list.
+/// A row of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
-    /// Who.
+    /// The person.
     pub person: Person,
-    /// In which group. Empty where the list says nothing of it.
+    /// The group; empty if the list has none.
     pub group: String,
-    /// When it was handed in, in the list's own words. Empty where it says nothing of it.
+    /// The submission time, as the list writes it; empty if it has none.
     pub submitted: String,
-    /// Whether the list calls that late.
+    /// Whether the list marks the submission as late.
     pub late: bool,
-    /// Whether the list has another of this name, which then tells neither.
+    /// Whether the list has another person of this name, which then identifies neither.
     has_namesake: bool,
 }
 
 impl Member {
-    /// Whether that is this person.
+    /// Returns whether this row is the person's.
     pub fn matches(&self, person: &Person) -> bool {
         person.matches(&self.person) || self.matches_by_name(person)
     }
 
-    /// A person who has nothing but a name, which is all that a folder tells, is known by that; but
-    /// not where both have the platform's number, and it differs.
+    /// Returns whether the name is enough to match the person: only if nothing else is known, as
+    /// for a folder that is named after its student. Two platform numbers decide instead of the
+    /// name.
     fn matches_by_name(&self, person: &Person) -> bool {
         let known = &self.person;
         let is_bare = [&person.email, &person.sid, &person.login]
@@ -78,7 +79,7 @@ impl Member {
     }
 }
 
-/// Tells entries when they were handed in, where the roster says so and the platform's files do not.
+/// Sets the submission times that the platform's files do not have, from the roster.
 pub fn set_submission_times(
     lists: &Lists,
     entries: &mut [&mut EntryInfo],
@@ -87,15 +88,15 @@ pub fn set_submission_times(
         return Ok(());
     };
     let members = read_members(path)?;
-    for about in entries.iter_mut().filter(|about| about.submitted.is_none()) {
+    for info in entries.iter_mut().filter(|info| info.submitted.is_none()) {
         let theirs = members.iter().filter(|member| {
-            let mut people = about.people.iter();
+            let mut people = info.people.iter();
             !member.submitted.is_empty() && people.any(|person| member.matches(person))
         });
-        // Of several the last is the one that was cloned. ISO 8601 is in order as it stands.
+        // Of several submissions the last was cloned. Texts in ISO 8601 are ordered by time.
         if let Some(last) = theirs.max_by_key(|member| &member.submitted) {
-            about.submitted = Some(last.submitted.clone());
-            about.late = last.late;
+            info.submitted = Some(last.submitted.clone());
+            info.late = last.late;
         }
     }
     Ok(())
@@ -105,12 +106,12 @@ fn equals_ignoring_case(one: &str, other: &str) -> bool {
     one.to_lowercase() == other.to_lowercase()
 }
 
-/// The people in a list: a roster, or what a platform gives out to keep grades in.
+/// Reads the people in a roster or in a platform's gradebook.
 pub fn read_members(path: &Path) -> Result<Vec<Member>, TableError> {
     parse_members(&Table::read(path)?).ok_or_else(|| TableError::MissingColumn {
         path: path.to_owned(),
-        column: "that tells who is who".to_owned(),
-        remedy: "name its columns name, email, sid, username".to_owned(),
+        column: "that identifies people".to_owned(),
+        remedy: "its columns must be called name, email, sid or username".to_owned(),
     })
 }
 
@@ -119,10 +120,10 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
     let [name, first, last] = [column(&NAME), column(&FIRST), column(&LAST)];
     let [email, sid, login] = [column(&EMAIL), column(&SID), column(&LOGIN)];
     let group = column(&GROUP);
-    let [moment, late] = [column(&SUBMISSION_TIME), table.column("late")];
-    // Nothing else joins it with submissions.
+    let [submitted, late] = [column(&SUBMISSION_TIME), table.column("late")];
+    // Only these columns can match rows with submissions.
     email.or(sid).or(login).or(name)?;
-    // The platforms' own numbers, in the lists that can be told to be theirs.
+    // The platform's own numbers, if the list is recognised as Canvas's or Moodle's.
     let number = match table.column("Student") {
         Some(_) => table.column("ID"),
         None => table
@@ -143,7 +144,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
             email: cell(email),
             sid: cell(sid),
             login: cell(login),
-            // Moodle's stands behind a word of the site's language.
+            // Moodle writes a word in the site's language before the number.
             number: cell(number)
                 .rsplit(' ')
                 .next()
@@ -153,16 +154,16 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
         Member {
             person,
             group: cell(group),
-            submitted: cell(moment),
+            submitted: cell(submitted),
             late: cell(late).eq_ignore_ascii_case("true"),
             has_namesake: false,
         }
     };
     let members = table.rows.iter().map(member);
-    let is_somebody = |Member { person, .. }: &Member| {
+    let is_person = |Member { person, .. }: &Member| {
         !person.display_name().is_empty() && !PLACEHOLDER_NAMES.contains(&person.name.as_str())
     };
-    let mut members: Vec<Member> = members.filter(is_somebody).collect();
+    let mut members: Vec<Member> = members.filter(is_person).collect();
     let namesakes: Vec<bool> = members
         .iter()
         .map(|one| members.iter().any(|other| one.is_namesake_of(other)))
@@ -173,7 +174,8 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
     Some(members)
 }
 
-/// Tells people what the lists know of them; returns those of the lists who are not among them.
+/// Fills in what the lists know about the people. Returns the people in the lists who have no
+/// match.
 pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, TableError> {
     let files = [
         &lists.roster,
@@ -213,10 +215,10 @@ mod tests {
         let list = parse_roster("name,email\nAnn Lee,a@x.edu\nann lee,b@x.edu\nBob,c@x.edu\n");
         assert!(!list[0].matches(&ann) && !list[1].matches(&ann));
         assert!(list[2].matches(&Person::named("bob")));
-        // The same person in two sections is one.
+        // A person may be listed in two sections.
         let list = parse_roster("name,email\nAnn Lee,a@x.edu\nAnn Lee,A@x.edu\n");
         assert!(list[0].matches(&ann));
-        // An account is one person's, whatever the name.
+        // An account belongs to one person, even if names are equal.
         let list = parse_roster("name,username\nAnn Lee,ann1\nAnn Lee,ann2\n");
         let named = |name| {
             list.iter()

@@ -1,56 +1,57 @@
-//! What all scores of a folder follow from, so that no two kinds are ever mixed.
+//! The settings that all scores in an output folder depend on, so that scores from different
+//! settings are never mixed.
 
 use serde::{Deserialize, Serialize};
 
 use crate::shard::Shard;
 
-/// What is kept of a run beside its entries.
+/// The contents of `run.json`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Run {
-    /// The version of this file.
+    /// The format version of `run.json`.
     pub schema: u32,
-    /// Counted from 1; `--regrade` begins the next.
+    /// The round, counted from 1; `--regrade` starts the next one.
     pub round: u32,
-    /// Whether every entry of the round was looked at.
+    /// Whether every entry of the round is done.
     pub finished: bool,
-    /// Whether that held once, even if somebody was killed while looking again.
+    /// Whether the round was finished once, even if a later run of it was killed.
     #[serde(default)]
     pub was_finished: bool,
-    /// Which part of the class it is. None if it is all of it.
+    /// The part of the class; `None` for the whole class.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
-    /// The text of the policy. None if it is the default.
+    /// The text of the policy; `None` for the default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub policy: Option<String>,
-    /// What its scores follow from.
+    /// The settings that the scores depend on.
     pub settings: Settings,
-    /// What those of the round before followed from.
+    /// The settings of the last finished round before this one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub before: Option<Settings>,
 }
 
-/// What scores follow from, beside the submissions.
+/// Everything that scores depend on, apart from the submissions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// The exam's name.
     pub exam: String,
-    /// Of the exam file's bytes.
+    /// The hash of the exam file.
     pub exam_hash: String,
-    /// Of this program's bytes.
+    /// The hash of this executable.
     pub grader: String,
-    /// Of the compiler, the dependencies and the reference.
+    /// The hash of the compiler, the dependencies and the reference.
     pub built_with: String,
-    /// How submissions were kept apart from the machine.
+    /// The isolation level of the submissions.
     pub isolation: String,
     /// The options that change a score.
     pub options: String,
 }
 
-/// The version of the file.
+/// The format version of `run.json`.
 pub const SCHEMA: u32 = 1;
 
 impl Run {
-    /// The first of a folder.
+    /// Returns the first round in a new folder.
     pub fn first_round(settings: Settings) -> Self {
         Run {
             schema: SCHEMA,
@@ -64,8 +65,8 @@ impl Run {
         }
     }
 
-    /// The next, of which nothing is graded yet. One that was never finished is no round to compare
-    /// with.
+    /// Returns the next round, with nothing graded yet. It will be compared with the last round
+    /// that was finished.
     pub fn next_round(&self, settings: Settings) -> Self {
         let before = match self.is_unfinished_regrade() {
             true => self.before.clone(),
@@ -83,14 +84,15 @@ impl Run {
         }
     }
 
-    /// Whether the scores before it are kept already, and its own are not complete.
+    /// Returns whether this is a regrade that was never finished. The scores before it are saved
+    /// already.
     pub fn is_unfinished_regrade(&self) -> bool {
         !self.was_finished && self.before.is_some()
     }
 }
 
 impl Settings {
-    /// In words, what is not the same in both.
+    /// Returns the names of the settings that differ.
     pub fn differences(&self, other: &Settings) -> Vec<&'static str> {
         let pairs = [
             ("the exam", &self.exam_hash, &other.exam_hash),
@@ -104,6 +106,6 @@ impl Settings {
             ("the options", &self.options, &other.options),
         ];
         let differ = pairs.into_iter().filter(|(_, mine, theirs)| mine != theirs);
-        differ.map(|(words, _, _)| words).collect()
+        differ.map(|(name, _, _)| name).collect()
     }
 }

@@ -1,11 +1,11 @@
-//! A part of a class, for one of several machines.
+//! Shards: parts of a class, each graded on its own machine.
 
 use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// The `part`th of `of` parts, counted from 1.
+/// Part number `part` of `of` parts; the first part is number 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
     part: usize,
@@ -16,13 +16,15 @@ impl Shard {
     /// The whole class.
     pub const ALL: Shard = Shard { part: 1, of: 1 };
 
-    /// Those of `all` that are its own: every `of`th, so that parts are of one size.
+    /// Selects the elements of this part: every `of`th one, so that all parts have about the same
+    /// size.
     pub fn select<T>(self, all: Vec<T>) -> Vec<T> {
-        let own = |(place, one): (usize, T)| (place % self.of == self.part - 1).then_some(one);
+        let own =
+            |(index, element): (usize, T)| (index % self.of == self.part - 1).then_some(element);
         all.into_iter().enumerate().filter_map(own).collect()
     }
 
-    /// Those without which these are not a whole class. None where nothing is a part of one.
+    /// Returns the parts of the class that are not among `these`.
     pub fn missing(these: &[Shard]) -> Vec<Shard> {
         let of = these.iter().map(|shard| shard.of).max().unwrap_or(0);
         let parts = (1..=of).map(|part| Shard { part, of });
@@ -40,7 +42,7 @@ impl FromStr for Shard {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        const EXPECTED: &str = "K/N is meant, K from 1 to N, such as 2/8";
+        const EXPECTED: &str = "expected K/N with K from 1 to N, such as 2/8";
         let (part, of) = text.split_once('/').ok_or(EXPECTED)?;
         let number = |text: &str| text.parse::<usize>().map_err(|_| EXPECTED);
         let (part, of) = (number(part)?, number(of)?);

@@ -1,5 +1,5 @@
-//! The output folder. Each file appears in one step, and an entry's stamp last: whoever is killed
-//! leaves whole entries and none that only looks like one.
+//! The output folder. Files are written atomically, and an entry's stamp last, so a killed run
+//! never leaves an incomplete entry that looks complete.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -18,50 +18,50 @@ const FEEDBACK: &str = "feedback.html";
 const STAMP: &str = "entry.json";
 const PREVIOUS: &str = "previous.json";
 const RUN: &str = "run.json";
-/// What the names of files begin with that are being written.
+/// The prefix of temporary files, which are renamed once they are complete.
 const TEMPORARY_PREFIX: &str = ".tmp";
 
-/// A folder of results.
+/// An output folder.
 #[derive(Clone, Debug)]
 pub struct Store {
     folder: PathBuf,
 }
 
-/// The output folder can not be used.
+/// The output folder cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
-    /// The system does not let us.
-    #[error("can not use {path}: {source}")]
+    /// A file or folder cannot be read or written.
+    #[error("cannot use {path}: {source}")]
     Io {
-        /// What.
+        /// The path.
         path: PathBuf,
-        /// The system's words.
+        /// The operating system's error.
         source: io::Error,
     },
-    /// A file of ours is not as we write it.
-    #[error("{path} is not as it was written ({why}): take it away, and grade again")]
+    /// A file has invalid contents.
+    #[error("{path} is damaged ({why}): delete it and grade again")]
     Damaged {
-        /// Which.
+        /// The file's path.
         path: PathBuf,
-        /// What is wrong.
+        /// The parser's message.
         why: String,
     },
 }
 
 impl Store {
-    /// The results in this folder, or those that will be.
+    /// Returns the store in a folder, which need not exist yet.
     pub fn new(folder: &Path) -> Self {
         Store {
             folder: folder.to_owned(),
         }
     }
 
-    /// The folder itself.
+    /// Returns the path of the output folder.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// Takes away what was being written when somebody was killed.
+    /// Removes the temporary files of a killed run.
     pub fn remove_temporary_files(&self) -> Result<(), StoreError> {
         let entries = self.ids()?.into_iter().map(|id| self.entry_folder(&id));
         for folder in entries.chain([self.folder.clone()]) {
@@ -73,12 +73,12 @@ impl Store {
         Ok(())
     }
 
-    /// Where one entry's files are.
+    /// Returns the folder of an entry's files.
     pub fn entry_folder(&self, id: &str) -> PathBuf {
         self.folder.join("students").join(id)
     }
 
-    /// What is kept of the last run. None in a new folder.
+    /// Reads `run.json`; returns `None` in a new folder.
     pub fn read_run(&self) -> Result<Option<Run>, StoreError> {
         let path = self.folder.join(RUN);
         let text = match fs::read_to_string(&path) {
@@ -92,7 +92,7 @@ impl Store {
         })
     }
 
-    /// Keeps what the run is of.
+    /// Writes `run.json`.
     pub fn write_run(&self, run: &Run) -> Result<(), StoreError> {
         self.write(RUN, &json(run))
     }
@@ -103,7 +103,7 @@ impl Store {
         atomic_write::write(text, &path).map_err(|source| io_error(&path, source))
     }
 
-    /// The entry's row, if it was graded and its score follows from this key.
+    /// Returns the stored result of an entry that was graded with this cache key.
     pub fn cached_result(&self, entry: &Entry, key: &str) -> Option<EntryResult> {
         let stamp = self.read_stamp(&entry.id).ok()??;
         let score = (stamp.key == key && stamp.state == EntryState::Graded)
@@ -115,54 +115,51 @@ impl Store {
         })
     }
 
-    /// Whether the same became of the entry before.
+    /// Returns whether this is the stored state of the entry.
     pub fn has_state(&self, id: &str, state: &EntryState) -> bool {
         let stamp = self.read_stamp(id).ok().flatten();
         stamp.is_some_and(|stamp| stamp.state == *state)
     }
 
-    /// Keeps what became of an entry whose score, if it has one, is written already.
-    pub fn save_result(&self, row: &EntryResult, key: &str) -> Result<(), StoreError> {
-        let folder = self.entry_folder(&row.id);
-        let state = match &row.outcome {
+    /// Writes the stamp of an entry. Its score, if it has one, is written before.
+    pub fn save_result(&self, result: &EntryResult, key: &str) -> Result<(), StoreError> {
+        let folder = self.entry_folder(&result.id);
+        let state = match &result.outcome {
             EntryOutcome::Graded(_) => EntryState::Graded,
             EntryOutcome::NothingToGrade(why) => EntryState::NothingToGrade(why.clone()),
             EntryOutcome::Fault(why) => EntryState::Fault(why.clone()),
         };
         if state != EntryState::Graded {
-            // Whatever lies here is of another time, and nobody shall take it for this one's.
+            // Files of an earlier run must not be taken for this one's.
             for file in [SCORE, REPORT, FEEDBACK] {
                 remove(&folder.join(file))?;
             }
         }
         let stamp = Stamp {
             key: key.to_owned(),
-            info: row.info.clone(),
+            info: result.info.clone(),
             state,
         };
         let path = folder.join(STAMP);
         atomic_write::write(&json(&stamp), &path).map_err(|source| io_error(&path, source))
     }
 
-    /// Keeps what the entry's student may see.
+    /// Writes the page that the student may see.
     pub fn save_feedback(&self, id: &str, page: &str) -> Result<(), StoreError> {
         let path = self.entry_folder(id).join(FEEDBACK);
         atomic_write::write(page, &path).map_err(|source| io_error(&path, source))
     }
 
-    /// Takes the stamp away, before anything under it changes.
+    /// Removes the stamp of an entry, before its other files change.
     pub fn remove_stamp(&self, id: &str) -> Result<(), StoreError> {
         remove(&self.entry_folder(id).join(STAMP))
     }
 
-    /// All rows that there are, in the order of their ids.
+    /// Returns all results, in the order of their ids.
     pub fn results(&self) -> Result<Vec<EntryResult>, StoreError> {
-        let mut rows = Vec::new();
+        let mut results = Vec::new();
         for id in self.ids()? {
-            let Some(Stamp {
-                info: about, state, ..
-            }) = self.read_stamp(&id)?
-            else {
+            let Some(Stamp { info, state, .. }) = self.read_stamp(&id)? else {
                 continue;
             };
             let outcome = match state {
@@ -170,16 +167,12 @@ impl Store {
                 EntryState::NothingToGrade(why) => EntryOutcome::NothingToGrade(why),
                 EntryState::Fault(why) => EntryOutcome::Fault(why),
             };
-            rows.push(EntryResult {
-                id,
-                info: about,
-                outcome,
-            });
+            results.push(EntryResult { id, info, outcome });
         }
-        Ok(rows)
+        Ok(results)
     }
 
-    /// Keeps every score as the one before. Who has none has none before, either.
+    /// Saves every score as the previous one. Without a score, the previous one is removed as well.
     pub fn save_previous_scores(&self) -> Result<(), StoreError> {
         for id in self.ids()? {
             let folder = self.entry_folder(&id);
@@ -197,13 +190,13 @@ impl Store {
         Ok(())
     }
 
-    /// The score before, if there is one.
+    /// Returns the previous score of an entry, if there is one.
     pub fn previous_score(&self, id: &str) -> Option<ScoreSummary> {
         let text = fs::read_to_string(self.entry_folder(id).join(PREVIOUS)).ok()?;
         ScoreSummary::parse(&text).ok()
     }
 
-    /// The names of all entries, sorted.
+    /// Returns the ids of all entries, sorted.
     pub fn ids(&self) -> Result<Vec<String>, StoreError> {
         let folder = self.folder.join("students");
         let entries = match fs::read_dir(&folder) {
@@ -246,9 +239,9 @@ fn is_temporary(name: &OsStr) -> bool {
     name.to_string_lossy().starts_with(TEMPORARY_PREFIX)
 }
 
-/// Pretty, with a line end.
+/// Returns the value as indented JSON that ends in a newline.
 pub fn json(value: &impl serde::Serialize) -> String {
-    let mut text = serde_json::to_string_pretty(value).expect("it has no maps of odd keys");
+    let mut text = serde_json::to_string_pretty(value).expect("all map keys are strings");
     text.push('\n');
     text
 }

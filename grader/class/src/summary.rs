@@ -1,4 +1,4 @@
-//! What a class did, in numbers: pure.
+//! The summary of a class in numbers: `class.json`.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -9,87 +9,87 @@ use crate::distribution::Distribution;
 use crate::model::{ClassRow, GradedClass};
 use crate::outcome::ScoreSummary;
 
-/// The version of `class.json`.
+/// The format version of `class.json`.
 const SCHEMA: u32 = 1;
-/// Of the longest lists, so many lines.
+/// The maximum number of entries in a list.
 const MAX_ENTRIES: usize = 10;
 
-/// What a class did.
+/// The contents of `class.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ClassSummary {
-    /// The version of this format.
+    /// The format version.
     pub schema: u32,
     /// The exam's name.
     pub exam: String,
-    /// Of its bytes.
+    /// The hash of the exam file.
     pub exam_hash: String,
-    /// How submissions were kept apart from the machine.
+    /// The isolation level of the submissions.
     pub isolation: String,
-    /// How many were graded.
+    /// The number of submissions that were graded.
     pub graded: usize,
-    /// How many had nothing that could be graded.
+    /// The number of submissions with nothing that could be graded.
     pub nothing_to_grade: usize,
-    /// How many were not graded for reasons of ours or the machine's.
+    /// The number of submissions that were not graded because of the grader or the machine.
     pub not_graded: usize,
-    /// How many of the lists handed in nothing.
+    /// The number of people in the lists who handed in nothing.
     pub missing: usize,
-    /// How many count as in time because nobody knows when they came.
+    /// The number of submissions that count as on time because their time is unknown.
     pub undated: usize,
-    /// All points. None without a score.
+    /// The distribution of all points; `None` if there are no scores.
     pub points: Option<Distribution>,
-    /// In lecture order.
+    /// The distribution of each task's points, in lecture order.
     pub tasks: Vec<TaskDistribution>,
-    /// The items that most have failed, the worst first.
+    /// The items that most submissions failed, in descending order.
     pub failed_most: Vec<FailedItem>,
-    /// The known mistakes that most have made, the commonest first.
+    /// The most common known mistakes, in descending order.
     pub mistakes: Vec<MistakeCount>,
-    /// Whom a person should look at, and why.
+    /// The submissions that need attention.
     pub outliers: Vec<Outlier>,
 }
 
-/// One task's points.
+/// The distribution of a task's points.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TaskDistribution {
-    /// Such as `sphere`.
+    /// The task's id, such as `sphere`.
     pub id: String,
-    /// What people read.
+    /// The title for people.
     pub title: String,
-    /// How its points spread.
+    /// The distribution.
     #[serde(flatten)]
     pub points: Distribution,
 }
 
-/// An item that was failed.
+/// An item without full points in some submissions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FailedItem {
-    /// Such as `sphere.from_inside`.
+    /// The item's id, such as `sphere.from_inside`.
     pub item: String,
-    /// What must hold.
+    /// The title: a sentence that says what is correct.
     pub title: String,
-    /// How many lack points.
+    /// The number of submissions without full points.
     pub count: usize,
 }
 
-/// A mistake that was recognised.
+/// A known mistake that was recognised.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MistakeCount {
-    /// What is wrong.
+    /// The text of its hint.
     pub hint: String,
-    /// In how many submissions.
+    /// The number of submissions with it.
     pub count: usize,
 }
 
-/// A submission that stands apart.
+/// A submission that needs attention.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Outlier {
     /// The entry's id.
     pub id: String,
-    /// Why.
+    /// The reason.
     pub why: String,
 }
 
 impl ClassSummary {
-    /// Of a class.
+    /// Summarises a class.
     pub fn new(class: &GradedClass) -> Self {
         let scores: Vec<&ScoreSummary> = class.scores().map(|(_, score)| score).collect();
         let max_points = scores.first().map_or(0, |score| score.max_points);
@@ -105,7 +105,7 @@ impl ClassSummary {
             nothing_to_grade: class.rows.len() - scores.len() - not_graded,
             not_graded,
             missing: class.missing.len(),
-            undated: class.rows.iter().filter(|line| line.is_undated).count(),
+            undated: class.rows.iter().filter(|row| row.is_undated).count(),
             tasks: tasks(&scores),
             failed_most: failed_most(&scores),
             mistakes: mistakes(&scores),
@@ -119,9 +119,9 @@ fn tasks(scores: &[&ScoreSummary]) -> Vec<TaskDistribution> {
     let Some(first) = scores.first() else {
         return Vec::new();
     };
-    let spread = |place: usize| {
-        let task = &first.tasks[place];
-        let points = scores.iter().filter_map(|score| score.tasks.get(place));
+    let task_distribution = |index: usize| {
+        let task = &first.tasks[index];
+        let points = scores.iter().filter_map(|score| score.tasks.get(index));
         let points = points.map(|task| task.points).collect();
         Some(TaskDistribution {
             id: task.id.clone(),
@@ -129,11 +129,13 @@ fn tasks(scores: &[&ScoreSummary]) -> Vec<TaskDistribution> {
             points: Distribution::new(points, task.max_points)?,
         })
     };
-    (0..first.tasks.len()).filter_map(spread).collect()
+    (0..first.tasks.len())
+        .filter_map(task_distribution)
+        .collect()
 }
 
 fn failed_most(scores: &[&ScoreSummary]) -> Vec<FailedItem> {
-    // In the order of asking, which settles ties.
+    // In the order of the exam, which the stable sort below keeps for equal counts.
     let mut failed: Vec<FailedItem> = Vec::new();
     for item in scores.iter().flat_map(|score| score.items()) {
         let count = usize::from(item.points < item.max_points);
@@ -155,7 +157,7 @@ fn failed_most(scores: &[&ScoreSummary]) -> Vec<FailedItem> {
 fn mistakes(scores: &[&ScoreSummary]) -> Vec<MistakeCount> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for score in scores {
-        // The likeliest of each item; once, however many items show it.
+        // The most likely hint of each item; each hint counts once per submission.
         let hints = score.items().filter_map(|item| item.hints.first());
         let mut hints: Vec<&str> = hints.map(|hint| hint.hint.as_str()).collect();
         hints.sort_unstable();
@@ -174,15 +176,16 @@ fn mistakes(scores: &[&ScoreSummary]) -> Vec<MistakeCount> {
     mistakes
 }
 
-/// Those without a score, those with nothing, and those far below the others (Tukey's fence).
+/// Returns the submissions without a score, without points, or far below the others (Tukey's
+/// fence).
 fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> {
     let fence = points.map_or(0.0, |points| {
         let (lower, upper) = (points.lower_quartile.into(), points.upper_quartile.into());
         let (lower, upper): (f64, f64) = (lower, upper);
         lower - 1.5 * (upper - lower)
     });
-    let why = |line: &ClassRow| match line.result.score() {
-        None => Some(format!("{}: {}", line.status(), line.why())),
+    let why = |row: &ClassRow| match row.result.score() {
+        None => Some(format!("{}: {}", row.status(), row.why())),
         Some(score) if score.items().all(|item| item.verdict == "not_compiled") => {
             Some("0 points: nothing compiles".to_owned())
         }
@@ -195,10 +198,10 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
         }
         Some(_) => None,
     };
-    let outlier = |line: &ClassRow| {
+    let outlier = |row: &ClassRow| {
         Some(Outlier {
-            id: line.result.id.clone(),
-            why: why(line)?,
+            id: row.result.id.clone(),
+            why: why(row)?,
         })
     };
     class.rows.iter().filter_map(outlier).collect()

@@ -1,47 +1,48 @@
-//! Tables as platforms export them: with commas or semicolons, with or without a byte order mark.
+//! CSV tables as platforms export them: separated by commas or semicolons, with or without a byte
+//! order mark.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A table, each cell as it stands there.
+/// A table; cells are unchanged text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Table {
     /// The first row.
     pub header: Vec<String>,
-    /// The others.
+    /// The other rows.
     pub rows: Vec<Vec<String>>,
     delimiter: u8,
     has_byte_order_mark: bool,
 }
 
-/// A table can not be read.
+/// A table cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
-    /// The system does not let us.
-    #[error("can not read {path}: {source}")]
+    /// The file cannot be read.
+    #[error("cannot read {path}: {source}")]
     Io {
-        /// Which.
+        /// The file's path.
         path: PathBuf,
-        /// The system's words.
+        /// The operating system's error.
         source: io::Error,
     },
-    /// It is no table.
+    /// The file is not valid CSV.
     #[error("{path}: {why}; export it again, as CSV in UTF-8")]
     Csv {
-        /// Which.
+        /// The file's path.
         path: PathBuf,
-        /// Where, and what is wrong there.
+        /// The position and the problem.
         why: String,
     },
-    /// It is another table.
+    /// A column is missing.
     #[error("{path} has no column {column}: {remedy}")]
     MissingColumn {
-        /// Which.
+        /// The file's path.
         path: PathBuf,
-        /// What is missing.
+        /// The column's name or description.
         column: String,
-        /// What to do.
+        /// Advice for the user.
         remedy: String,
     },
 }
@@ -49,7 +50,7 @@ pub enum TableError {
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 impl Table {
-    /// Reads a file.
+    /// Reads a CSV file.
     pub fn read(path: &Path) -> Result<Self, TableError> {
         let bytes = fs::read(path).map_err(|source| TableError::Io {
             path: path.to_owned(),
@@ -61,7 +62,7 @@ impl Table {
         })
     }
 
-    /// Reads bytes.
+    /// Parses the bytes of a CSV file.
     pub fn parse(bytes: &[u8]) -> Result<Self, String> {
         let has_mark = bytes.starts_with(BYTE_ORDER_MARK);
         let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
@@ -85,7 +86,7 @@ impl Table {
             rows.push(record.iter().map(str::to_owned).collect::<Vec<String>>());
         }
         if rows.is_empty() {
-            return Err("it is empty".to_owned());
+            return Err("the file is empty".to_owned());
         }
         let header = rows.remove(0);
         for row in &mut rows {
@@ -99,7 +100,7 @@ impl Table {
         })
     }
 
-    /// A table of our own.
+    /// Returns a table without rows.
     pub fn new(header: &[&str]) -> Self {
         Table {
             header: header.iter().map(|name| (*name).to_owned()).collect(),
@@ -109,13 +110,13 @@ impl Table {
         }
     }
 
-    /// The place of a column, whatever its case.
+    /// Returns the index of a column; case does not matter.
     pub fn column(&self, name: &str) -> Option<usize> {
         let same = |column: &String| column.trim().eq_ignore_ascii_case(name);
         self.header.iter().position(same)
     }
 
-    /// The same table with these columns alone, in this order.
+    /// Returns the table with only these columns, in this order.
     pub fn select_columns(&self, columns: &[usize]) -> Self {
         let pick = |row: &Vec<String>| {
             let cell = |column: &usize| row.get(*column).cloned().unwrap_or_default();
@@ -128,17 +129,19 @@ impl Table {
         }
     }
 
-    /// As a file, in the manner in which it was read.
+    /// Returns the table as CSV, with the delimiter and the byte order mark that it was read with.
     pub fn to_csv(&self) -> String {
         let mut writer = csv::WriterBuilder::new()
             .delimiter(self.delimiter)
             .flexible(true)
             .from_writer(Vec::new());
         for row in [&self.header].into_iter().chain(&self.rows) {
-            writer.write_record(row).expect("memory takes bytes");
+            writer
+                .write_record(row)
+                .expect("writing to memory succeeds");
         }
-        let bytes = writer.into_inner().expect("memory takes bytes");
-        let text = String::from_utf8(bytes).expect("cells are text");
+        let bytes = writer.into_inner().expect("writing to memory succeeds");
+        let text = String::from_utf8(bytes).expect("cells are UTF-8");
         match self.has_byte_order_mark {
             true => format!("\u{feff}{text}"),
             false => text,
@@ -146,8 +149,8 @@ impl Table {
     }
 }
 
-/// A cell of our own that a spreadsheet shows and does not calculate: a name can be a formula that
-/// runs where the teacher opens the file (OWASP, "CSV Injection").
+/// Escapes text that a spreadsheet would take for a formula: a student's name could otherwise run a
+/// formula on the teacher's machine (OWASP, "CSV Injection").
 pub fn escape_formula(text: &str) -> String {
     match text.chars().next() {
         Some('=' | '+' | '-' | '@' | '\t' | '\r') => format!("'{text}"),

@@ -1,6 +1,6 @@
-//! An export's archive, into a folder that vanishes: only what is looked at later, so that what one
-//! student handed in besides fills nobody's disk. What can not be taken out is told, and the others
-//! are not its matter.
+//! Unpacks an export's archive into a temporary folder. Only files that are needed later are
+//! unpacked, so that other files that a student has packed do not fill the disk. A file that cannot
+//! be unpacked is reported, and does not affect the others.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,26 +14,30 @@ use crate::input_error::ClassInputError;
 use crate::layout::{CLASSROOM50_SCORES, METADATA, UnmatchedPath};
 use crate::listing::is_archive_name;
 
-/// The longest archive, or list of a platform's, that is taken out, in bytes.
+/// The maximum size of an archive, or of a list from the platform, in bytes.
 const MAX_FILE_BYTES: u64 = 256 << 20;
-/// The longest text; what is longer is seen to be.
+/// The maximum size of a source file, in bytes. One more byte is unpacked of a longer one, so that
+/// it is recognised as too long.
 const MAX_TEXT_BYTES: u64 = 1 << 20;
-/// How much may come out of it, in bytes, beside so many times its own length: students' archives are
-/// packed already, and their texts short.
+/// The maximum size of all unpacked files is this many bytes plus [`MAX_EXPANSION`] times the size
+/// of the archive. That is enough, since students' archives are compressed already and their texts
+/// are short.
 const MAX_TOTAL_BYTES: u64 = 1 << 30;
+/// See [`MAX_TOTAL_BYTES`].
 const MAX_EXPANSION: u64 = 4;
-/// Folders that nobody is graded by.
+/// Folders that contain nothing to grade.
 const SKIPPED: [&str; 4] = [".git", "target", "node_modules", "__MACOSX"];
 
-/// Where in a room they are: there is a lock beside them.
+/// The folder of the files within the temporary folder, which also contains a lock file.
 pub const CLASS_FOLDER: &str = "class";
 
-/// The archive's files and folders, in a room below `rooms`, and what was passed over.
+/// Unpacks an archive into a temporary folder in `parent`. Also returns the paths that were not
+/// unpacked.
 pub fn unpack(
     path: &Path,
-    rooms: &Path,
+    parent: &Path,
 ) -> Result<(BuildDir, Vec<UnmatchedPath>), ClassInputError> {
-    let refused = |why| ClassInputError::Archive {
+    let archive_error = |why| ClassInputError::Archive {
         path: path.to_owned(),
         why,
     };
@@ -41,72 +45,75 @@ pub fn unpack(
         path: path.to_owned(),
         source,
     };
-    let most = MAX_TOTAL_BYTES + MAX_EXPANSION * fs::metadata(path).map_err(at)?.len();
-    let mut archive = Archive::open(path).map_err(refused)?;
-    let listing = archive.listing().map_err(refused)?;
-    let room = BuildDir::new_in(rooms).map_err(at)?;
-    let folder = &room.path().join(CLASS_FOLDER);
+    let max_total = MAX_TOTAL_BYTES + MAX_EXPANSION * fs::metadata(path).map_err(at)?.len();
+    let mut archive = Archive::open(path).map_err(archive_error)?;
+    let listing = archive.listing().map_err(archive_error)?;
+    let build_dir = BuildDir::new_in(parent).map_err(at)?;
+    let folder = &build_dir.path().join(CLASS_FOLDER);
     fs::create_dir(folder).map_err(at)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let passed_over = |why: String| UnmatchedPath {
+    let unmatched = |why: String| UnmatchedPath {
         name: name.clone().into_owned(),
         why,
     };
     let mut others: Vec<UnmatchedPath> = listing
         .errors
         .iter()
-        .map(|why| passed_over(why.to_string()))
+        .map(|why| unmatched(why.to_string()))
         .collect();
 
     let wanted_folders = listing.folders.iter().filter(|path| is_wanted(path));
     for path in wanted_folders {
-        let put = extract_to(folder, path, |place| fs::create_dir_all(place));
-        others.extend(put.map_err(at)?.map(passed_over));
+        let put = extract_to(folder, path, |target| fs::create_dir_all(target));
+        others.extend(put.map_err(at)?.map(unmatched));
     }
-    // A tar is gone through for each length, and not for each file.
-    let mut by_length: BTreeMap<u64, Vec<&Member>> = BTreeMap::new();
+    // Grouped by the maximum size, so that a tar archive is read once per group and not once per
+    // file.
+    let mut by_max_bytes: BTreeMap<u64, Vec<&Member>> = BTreeMap::new();
     for member in listing.members.iter().filter(|m| is_wanted(&m.path)) {
-        by_length
+        by_max_bytes
             .entry(max_bytes(&member.path))
             .or_default()
             .push(member);
     }
     let mut total = 0;
-    for (longest, members) in by_length {
+    for (max_bytes, members) in by_max_bytes {
         // A few at a time, so that a big export needs little memory.
         for some in members.chunks(archive.batch_size()) {
-            let contents = match longest {
+            let contents = match max_bytes {
                 0 => vec![Vec::new(); some.len()],
-                longest => archive.read(some, longest).map_err(refused)?,
+                max_bytes => archive.read(some, max_bytes).map_err(archive_error)?,
             };
             for (member, bytes) in some.iter().zip(contents) {
                 total += bytes.len() as u64;
-                if total > most {
-                    return Err(refused(ArchiveError::TooLarge(most)));
+                if total > max_total {
+                    return Err(archive_error(ArchiveError::TooLarge(max_total)));
                 }
-                if longest == MAX_FILE_BYTES && bytes.len() as u64 > MAX_FILE_BYTES {
+                if max_bytes == MAX_FILE_BYTES && bytes.len() as u64 > MAX_FILE_BYTES {
                     let mib = MAX_FILE_BYTES >> 20;
                     let path = &member.path;
-                    others.push(passed_over(format!(
-                        "{path} in it is longer than {mib} MiB, and cut: unpack all yourself, and name the folder"
+                    others.push(unmatched(format!(
+                        "{path} in it is longer than {mib} MiB and was cut off: unpack the archive \
+                         yourself, and name the folder"
                     )));
                 }
-                let put = extract_to(folder, &member.path, |place| {
-                    fs::create_dir_all(place.parent().unwrap_or(place))?;
-                    fs::write(place, &bytes)
+                let put = extract_to(folder, &member.path, |target| {
+                    fs::create_dir_all(target.parent().unwrap_or(target))?;
+                    fs::write(target, &bytes)
                 });
-                others.extend(put.map_err(at)?.map(passed_over));
+                others.extend(put.map_err(at)?.map(unmatched));
             }
         }
     }
-    Ok((room, others))
+    Ok((build_dir, others))
 }
 
 fn is_wanted(path: &str) -> bool {
     !path.split('/').any(|part| SKIPPED.contains(&part))
 }
 
-/// How much of a file is looked at later. Of most it is only that they are there.
+/// Returns how many bytes of a file are needed later: none of most files, of which only the name
+/// matters.
 fn max_bytes(path: &str) -> u64 {
     let name = path.rsplit('/').next().unwrap_or(path);
     match name {
@@ -117,7 +124,7 @@ fn max_bytes(path: &str) -> u64 {
     }
 }
 
-/// Puts something where `path` says, if a system can have such a path: if not, says so.
+/// Calls `put` with the path in `folder`. Returns a message if the system cannot have such a path.
 fn extract_to(
     folder: &Path,
     path: &str,
@@ -125,17 +132,17 @@ fn extract_to(
 ) -> io::Result<Option<String>> {
     let mut parts = Path::new(path).components();
     if !parts.all(|part| matches!(part, Component::Normal(_))) {
-        return Ok(Some(format!("{path} in it is no path")));
+        return Ok(Some(format!("{path} in it is not a valid path")));
     }
     match put(&folder.join(path)) {
         Ok(()) => Ok(None),
-        // A name that is too long, or a file where a folder is meant: whoever packed that did it.
+        // A name that is too long, or a file that should be a folder: the archive is at fault.
         Err(error) if !is_machine_fault(error.kind()) => Ok(Some(format!("{path} in it: {error}"))),
         Err(error) => Err(error),
     }
 }
 
-/// Whether that would befall any other file as well.
+/// Returns whether any other file would have the same error.
 fn is_machine_fault(kind: ErrorKind) -> bool {
     matches!(
         kind,

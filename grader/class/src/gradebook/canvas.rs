@@ -1,6 +1,6 @@
-//! Canvas's gradebook. Its importer takes whatever stands in a column, creates assignments whose
-//! title it does not know, and drops some columns in silence: so the teacher's own export is the
-//! template, and of it only one column and those that tell people apart go back.
+//! Canvas's gradebook. Its importer accepts any content, creates an assignment for each unknown
+//! title, and silently ignores some columns. So the teacher's own export is the template, and only
+//! the assignment's column and those that identify people are written back.
 
 use std::path::Path;
 
@@ -13,11 +13,11 @@ use crate::model::GradedClass;
 use crate::table::{Table, TableError};
 
 const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and name that file";
-/// The last of the columns that are about people.
+/// The last of the columns that identify people.
 const SECTION: &str = "Section";
-/// In whose row the maximum stands.
+/// The name in the row with the maximum points.
 const POINTS_POSSIBLE: &str = "Points Possible";
-/// Titles with these are dropped by Canvas without a word.
+/// Canvas silently ignores columns whose title contains one of these.
 const IGNORED_TITLES: [&str; 9] = [
     "Current Score",
     "Current Points",
@@ -30,17 +30,18 @@ const IGNORED_TITLES: [&str; 9] = [
     "Override Status",
 ];
 
-/// The gradebook at `path`, with the class's points in the column that is meant.
+/// Reads the gradebook at `path` and fills in the class's points. `column` is the title or number
+/// of the assignment's column.
 pub fn fill_canvas(
     path: &Path,
-    meant: Option<&str>,
+    column: Option<&str>,
     class: &GradedClass,
 ) -> Result<FilledGradebook, TableError> {
     let table = Table::read(path)?;
     let student = require_column(&table, path, "Student", REMEDY)?;
     let id = require_column(&table, path, "ID", REMEDY)?;
     let section = require_column(&table, path, SECTION, REMEDY)?;
-    let target = find_target(&table, section, path, meant)?;
+    let target = find_target(&table, section, path, column)?;
     let title = table.header[target].clone();
     let columns: Vec<usize> = (0..=section).chain([target]).collect();
     let table = table.select_columns(&columns);
@@ -65,7 +66,7 @@ pub fn fill_canvas(
             table,
             target,
             keys,
-            // Rows such as the maximum's have no number.
+            // Rows that are not people's, such as the one with the maximum, have no id.
             is_person: &|row| !row[id].trim().is_empty() && row[student].trim() != POINTS_POSSIBLE,
             is_locked: &|_| false,
             name: &|row| row[student].clone(),
@@ -76,52 +77,55 @@ pub fn fill_canvas(
     Ok(filled)
 }
 
-/// The column that is meant; the only one there can be, if none is named.
+/// Returns the index of the column with this title or number; without one, of the only assignment.
 fn find_target(
     table: &Table,
     section: usize,
     path: &Path,
-    meant: Option<&str>,
+    column: Option<&str>,
 ) -> Result<usize, TableError> {
     let names = table.header.iter().enumerate().skip(section + 1);
-    let names: Vec<(usize, &str)> = names.map(|(place, name)| (place, name.trim())).collect();
-    let is_dropped = |name: &str| IGNORED_TITLES.iter().any(|dropped| name.contains(dropped));
-    let is_meant = |name: &str| match meant {
-        Some(meant) => {
-            name == meant
-                || without_assignment_number(name) == meant
-                || assignment_number(name) == meant
+    let names: Vec<(usize, &str)> = names.map(|(index, name)| (index, name.trim())).collect();
+    let is_ignored = |name: &str| IGNORED_TITLES.iter().any(|title| name.contains(title));
+    let is_wanted = |name: &str| match column {
+        Some(column) => {
+            name == column
+                || without_assignment_number(name) == column
+                || assignment_number(name) == column
         }
         None => !assignment_number(name).is_empty(),
     };
     let found: Vec<(usize, &str)> = names
         .into_iter()
-        .filter(|(_, name)| is_meant(name))
+        .filter(|(_, name)| is_wanted(name))
         .collect();
-    let lacks = |remedy: String| TableError::MissingColumn {
+    let missing = |remedy: String| TableError::MissingColumn {
         path: path.to_owned(),
-        column: meant.unwrap_or("that must be the assignment's").to_owned(),
+        column: column
+            .unwrap_or("that is clearly the assignment's")
+            .to_owned(),
         remedy,
     };
     match found.as_slice() {
-        [(_, name)] if is_dropped(name) => Err(lacks(format!(
-            "Canvas ignores columns that are called like {name:?}: rename the assignment"
+        [(_, name)] if is_ignored(name) => Err(missing(format!(
+            "Canvas ignores columns with a title like {name:?}: rename the assignment"
         ))),
-        [(place, _)] => Ok(*place),
-        [] => Err(lacks(
-            "name one of its titles with --column, or the number behind it".to_owned(),
+        [(index, _)] => Ok(*index),
+        [] => Err(missing(
+            "with --column, give the title of one of its columns or the number at its end"
+                .to_owned(),
         )),
         several => {
             let names: Vec<&str> = several.iter().map(|(_, name)| *name).collect();
-            Err(lacks(format!(
-                "name it with --column: {}",
+            Err(missing(format!(
+                "choose one with --column: {}",
                 names.join("; ")
             )))
         }
     }
 }
 
-/// `123456` of `Path Tracer (123456)`; nothing of other titles.
+/// Returns `123456` for `Path Tracer (123456)`, and an empty text for other titles.
 fn assignment_number(title: &str) -> &str {
     let inner = title
         .strip_suffix(')')
@@ -133,7 +137,7 @@ fn assignment_number(title: &str) -> &str {
     }
 }
 
-/// `Path Tracer` of `Path Tracer (123456)`.
+/// Returns `Path Tracer` for `Path Tracer (123456)`.
 fn without_assignment_number(title: &str) -> &str {
     match assignment_number(title) {
         "" => title,
@@ -147,7 +151,7 @@ fn logins(person: &Person) -> Vec<String> {
     logins
 }
 
-/// `Jane Doe` of `Doe, Jane`.
+/// Returns `Jane Doe` for `Doe, Jane`.
 fn given_name_first(name: &str) -> String {
     match name.split_once(',') {
         Some((last, first)) => format!("{} {}", first.trim(), last.trim()),

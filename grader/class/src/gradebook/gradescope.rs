@@ -1,5 +1,5 @@
-//! Gradescope's downloaded grades: a list of the class with the address and number of each, which
-//! courses load into whatever they keep grades in.
+//! Grades downloaded from Gradescope: a list of the class with email addresses and student ids,
+//! which courses import into their own gradebook.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use crate::table::{Table, TableError};
 const REMEDY: &str =
     "download the grades from the assignment's page (Review Grades, Download Grades)";
 
-/// The grades at `path`, with the class's points in the place of the total.
+/// Reads the grades at `path` and fills in the class's points as the total score.
 pub fn fill_gradescope(path: &Path, class: &GradedClass) -> Result<FilledGradebook, TableError> {
     let table = Table::read(path)?;
     let target = require_column(&table, path, "Total Score", REMEDY)?;

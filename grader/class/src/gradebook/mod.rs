@@ -1,7 +1,7 @@
-//! Filling one column of a list that a platform has given out. Pure.
+//! Fills in one column in a copy of a gradebook that a platform has exported.
 //!
-//! Whoever can not be matched for certain is told and left as it stands: a wrong grade in a
-//! gradebook is found weeks later, if ever.
+//! A person who cannot be matched for certain is reported, and the row is left unchanged: a wrong
+//! grade in a gradebook is found weeks later, if ever.
 
 mod canvas;
 mod gradescope;
@@ -18,67 +18,67 @@ pub use canvas::fill_canvas;
 pub use gradescope::fill_gradescope;
 pub use moodle::fill_moodle;
 
-/// A list with points in it.
+/// A copy of a gradebook with the points filled in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FilledGradebook {
-    /// What people call it.
+    /// The gradebook's name for messages.
     pub title: String,
-    /// The list's copy.
+    /// The copy.
     pub table: Table,
-    /// What is not as it was.
+    /// The cells that changed.
     pub changes: Vec<CellChange>,
-    /// What a person has to see to.
+    /// Problems that the teacher has to resolve.
     pub warnings: Vec<String>,
 }
 
-/// A cell that changes.
+/// A changed cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CellChange {
-    /// Whose.
+    /// The student's name.
     pub who: String,
-    /// What stood there.
+    /// The old content.
     pub was: String,
-    /// What stands there now.
+    /// The new content.
     pub now: String,
 }
 
-/// How a list is read.
+/// A gradebook, and how to read it.
 struct GradebookSpec<'a> {
     title: String,
     table: Table,
-    /// The column that is filled.
+    /// The column to fill in.
     target: usize,
-    /// The columns that tell people apart, the surest first.
+    /// The keys that identify people, the most reliable first.
     keys: Vec<MatchKey<'a>>,
-    /// Which rows are people.
+    /// Whether a row is a person's.
     is_person: &'a dyn Fn(&[String]) -> bool,
-    /// Which rows the platform would not change.
+    /// Whether the platform does not allow changes to a row.
     is_locked: &'a dyn Fn(&[String]) -> bool,
-    /// How a row is called.
+    /// The person's name in a row, for messages.
     name: &'a dyn Fn(&[String]) -> String,
 }
 
-/// Two texts that mean the same person if they are the same: in a row, and of a person.
+/// A key that matches rows with people: the text in the row equals one of the person's texts.
 struct MatchKey<'a> {
     row_text: Box<RowText<'a>>,
     person_texts: fn(&Person) -> Vec<String>,
 }
 
-/// What a row says under a key.
+/// A function that returns a row's text for a key.
 type RowText<'a> = dyn Fn(&[String]) -> String + 'a;
 
-/// A column, and what it is of a person.
-fn column_key<'a>(column: usize, of_person: fn(&Person) -> Vec<String>) -> MatchKey<'a> {
+/// Returns a key whose text in a row is the content of a column.
+fn column_key<'a>(column: usize, person_texts: fn(&Person) -> Vec<String>) -> MatchKey<'a> {
     MatchKey {
         row_text: Box::new(move |row| row[column].clone()),
-        person_texts: of_person,
+        person_texts,
     }
 }
 
-/// Cells that a teacher has set on purpose.
+/// The content of an excused student's cell, which is never overwritten.
 const EXCUSED: &str = "EX";
 
-fn fill(shape: GradebookSpec, class: &GradedClass) -> FilledGradebook {
+fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
     let GradebookSpec {
         title,
         mut table,
@@ -87,41 +87,43 @@ fn fill(shape: GradebookSpec, class: &GradedClass) -> FilledGradebook {
         is_person,
         is_locked,
         name,
-    } = shape;
-    let (places, mut warnings) = match_rows(&table, &keys, is_person, name, class);
+    } = spec;
+    let (matches, mut warnings) = match_rows(&table, &keys, is_person, name, class);
     let mut changes = Vec::new();
     let mut filled: BTreeMap<usize, &ClassRow> = BTreeMap::new();
-    for (line, place) in places {
-        let who = name(&table.rows[place]);
-        if let Some(other) = filled.insert(place, line) {
-            let (one, two) = (&other.result.id, &line.result.id);
+    for (class_row, row_index) in matches {
+        let who = name(&table.rows[row_index]);
+        if let Some(other) = filled.insert(row_index, class_row) {
+            let (one, two) = (&other.result.id, &class_row.result.id);
             warnings.push(format!(
                 "{who} has two submissions, {one} and {two}: keep one"
             ));
         }
     }
-    // Of two, neither counts.
-    let twice = |warnings: &[String], who: &str| {
-        let begin = format!("{who} has two submissions");
-        warnings.iter().any(|warning| warning.starts_with(&begin))
+    // If a person has two submissions, neither is filled in.
+    let has_two_submissions = |warnings: &[String], who: &str| {
+        let prefix = format!("{who} has two submissions");
+        warnings.iter().any(|warning| warning.starts_with(&prefix))
     };
-    for (place, line) in filled {
-        let who = name(&table.rows[place]);
-        let locked = is_locked(&table.rows[place]);
-        let cell = &mut table.rows[place][target];
-        let Some(counted) = line.counted else {
-            warnings.push(format!("{who}: {}, left as it is", line.status()));
+    for (row_index, class_row) in filled {
+        let who = name(&table.rows[row_index]);
+        let locked = is_locked(&table.rows[row_index]);
+        let cell = &mut table.rows[row_index][target];
+        let Some(counted) = class_row.counted else {
+            warnings.push(format!("{who}: {}; left unchanged", class_row.status()));
             continue;
         };
-        if twice(&warnings, &who) {
+        if has_two_submissions(&warnings, &who) {
             continue;
         }
         if locked {
-            warnings.push(format!("{who} can not be changed there, left as it is"));
+            warnings.push(format!(
+                "{who}: the platform does not allow changes; left unchanged"
+            ));
             continue;
         }
         if cell.trim() == EXCUSED {
-            warnings.push(format!("{who} is excused, left as it is"));
+            warnings.push(format!("{who} is excused; left unchanged"));
             continue;
         }
         let now = counted.points.to_string();
@@ -142,7 +144,8 @@ fn fill(shape: GradebookSpec, class: &GradedClass) -> FilledGradebook {
     }
 }
 
-/// The row of each line's people, and who has none.
+/// Finds the row of each person in the class. Also returns a warning for each person without
+/// exactly one row.
 fn match_rows<'c>(
     table: &Table,
     keys: &[MatchKey],
@@ -150,34 +153,34 @@ fn match_rows<'c>(
     name: &dyn Fn(&[String]) -> String,
     class: &'c GradedClass,
 ) -> (Vec<(&'c ClassRow, usize)>, Vec<String>) {
-    // Of each key, the rows that have it: one, or nobody can be told by it.
+    // For each key, the rows by their text. A text in several rows identifies nobody.
     let indices: Vec<BTreeMap<String, Vec<usize>>> = keys
         .iter()
         .map(|key| {
             let mut index: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-            for (place, row) in table.rows.iter().enumerate() {
+            for (row_index, row) in table.rows.iter().enumerate() {
                 let text = normalise(&(key.row_text)(row));
                 if is_person(row) && !text.is_empty() {
-                    index.entry(text).or_default().push(place);
+                    index.entry(text).or_default().push(row_index);
                 }
             }
             index
         })
         .collect();
-    let (mut places, mut warnings) = (Vec::new(), Vec::new());
-    for line in &class.rows {
-        for person in &line.result.info.people {
+    let (mut matches, mut warnings) = (Vec::new(), Vec::new());
+    for class_row in &class.rows {
+        for person in &class_row.result.info.people {
             let found = keys.iter().zip(&indices).find_map(|(key, index)| {
                 let texts = (key.person_texts)(person);
                 let mut texts = texts.iter().map(|text| normalise(text));
                 texts.find_map(|text| index.get(&text))
             });
             match found.map(Vec::as_slice) {
-                Some([place]) => places.push((line, *place)),
+                Some([row_index]) => matches.push((class_row, *row_index)),
                 Some(several) => {
                     let names: Vec<String> = several
                         .iter()
-                        .map(|place| name(&table.rows[*place]))
+                        .map(|row_index| name(&table.rows[*row_index]))
                         .collect();
                     warnings.push(format!(
                         "{} could be any of {}: fill in by hand",
@@ -189,10 +192,10 @@ fn match_rows<'c>(
             }
         }
     }
-    (places, warnings)
+    (matches, warnings)
 }
 
-/// Without case and the space around.
+/// Returns the text in lower case and without surrounding space.
 fn normalise(text: &str) -> String {
     text.trim().to_lowercase()
 }
@@ -202,9 +205,9 @@ fn cell_equals(cell: &str, points: u32) -> bool {
     number.is_ok_and(|number| number == f64::from(points))
 }
 
-/// What was graded for other than the list's maximum.
+/// Returns a warning if the points that were graded have another maximum than the gradebook.
 fn maximum_warning(class: &GradedClass, listed: &str) -> Option<String> {
-    let counted = class.rows.iter().find_map(|line| line.counted)?;
+    let counted = class.rows.iter().find_map(|class_row| class_row.counted)?;
     let listed = listed.trim();
     (!listed.is_empty() && !cell_equals(listed, counted.max_points)).then(|| {
         format!(
@@ -214,7 +217,7 @@ fn maximum_warning(class: &GradedClass, listed: &str) -> Option<String> {
     })
 }
 
-/// The column of this name, or what to do.
+/// Returns the index of the column with this name; the error says what to do.
 fn require_column(
     table: &Table,
     path: &Path,
@@ -228,7 +231,7 @@ fn require_column(
     })
 }
 
-/// Nothing in the place of nothing.
+/// Returns a list of the text, or an empty list for an empty text.
 fn non_empty(text: &str) -> Vec<String> {
     match text {
         "" => Vec::new(),

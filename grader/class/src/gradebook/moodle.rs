@@ -1,5 +1,5 @@
-//! Moodle's grading worksheet. Only `Grade` and the feedback are read back, by the participant's
-//! number; whoever can not be graded any more is left alone.
+//! Moodle's grading worksheet. Moodle imports only `Grade` and the feedback, by the participant's
+//! number. Grades that can no longer be changed are left unchanged.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::table::{Table, TableError};
 const REMEDY: &str =
     "download the grading worksheet from the assignment's page (it must allow offline grading)";
 
-/// The worksheet at `path`, with the class's points.
+/// Reads the worksheet at `path` and fills in the class's points.
 pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, TableError> {
     let table = Table::read(path)?;
     let identifier = require_column(&table, path, "Identifier", REMEDY)?;
@@ -51,7 +51,7 @@ pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, 
     Ok(filled)
 }
 
-/// `123` of `Participant 123`, whatever the language of the site.
+/// Returns `123` for `Participant 123`, in any language of the site.
 fn participant(identifier: &str) -> String {
     let number = identifier.rsplit(' ').next();
     number.unwrap_or(identifier).to_owned()

@@ -1,4 +1,4 @@
-//! Whom a list means, and what is left alone.
+//! Tests that the right rows are filled in, and the others left unchanged.
 
 use grader::policy::Policy;
 
@@ -17,7 +17,7 @@ fn person(name: &str, email: &str, sid: &str, number: &str) -> Person {
 }
 
 fn class(people: &[(&str, Person)]) -> GradedClass {
-    let line = |(id, person): &(&str, Person)| {
+    let class_row = |(id, person): &(&str, Person)| {
         let row = EntryResult {
             id: (*id).to_owned(),
             info: EntryInfo {
@@ -36,7 +36,7 @@ fn class(people: &[(&str, Person)]) -> GradedClass {
         exam: String::new(),
         exam_hash: String::new(),
         isolation: String::new(),
-        rows: people.iter().map(line).collect(),
+        rows: people.iter().map(class_row).collect(),
         missing: Vec::new(),
     }
 }
@@ -62,14 +62,14 @@ fn cells(filled: &FilledGradebook) -> Vec<&str> {
 #[test]
 fn the_most_reliable_key_wins_over_the_name() {
     let file = list(CANVAS);
-    // The number is Jane's, whatever the name says.
+    // The number is Jane's, although the name is Ann's.
     let class = class(&[("x", person("Ann Lee", "", "", "7001"))]);
     let filled = fill_canvas(file.path(), Some("7"), &class).unwrap();
     assert_eq!(cells(&filled), ["100", "80", "", ""]);
     assert_eq!(
         filled.table.header.len(),
         6,
-        "no other assignment goes back"
+        "other assignments must not be in the copy"
     );
 }
 
@@ -96,12 +96,12 @@ fn ambiguous_people_and_duplicate_submissions_are_not_filled_in() {
 fn rejects_ambiguous_and_ignored_columns() {
     let file = list(CANVAS);
     let nobody = class(&[]);
-    let error = |text: &str, meant: Option<&str>| {
-        fill_canvas(list(text).path(), meant, &nobody)
+    let error = |text: &str, column: Option<&str>| {
+        fill_canvas(list(text).path(), column, &nobody)
             .unwrap_err()
             .to_string()
     };
-    assert!(error(CANVAS, None).contains("name it with --column: Path (7); Quiz (8)"));
+    assert!(error(CANVAS, None).contains("choose one with --column: Path (7); Quiz (8)"));
     assert!(error(CANVAS, Some("Exam")).contains("has no column Exam"));
     let dropped = CANVAS.replace("Path (7)", "Path Final Score (7)");
     assert!(error(&dropped, Some("7")).contains("Canvas ignores columns"));

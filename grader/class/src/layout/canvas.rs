@@ -1,7 +1,7 @@
-//! Canvas's "Download submissions": files side by side, named
-//! `doejane_LATE_7001_9001_camera.rs`: the sortable name without signs, whether it is late, the
-//! user, the attachment, and the name that the student gave it, to which Canvas adds `-1`, `-2` when it is
-//! handed in again.
+//! Canvas's "Download submissions": files in one folder, named like
+//! `doejane_LATE_7001_9001_camera.rs`: the sortable name without punctuation, `LATE` if it is late,
+//! the user id, the attachment id, and the student's file name. Canvas appends `-1`, `-2`, … to the
+//! file name when it is handed in again.
 
 use std::collections::BTreeMap;
 
@@ -9,12 +9,12 @@ use super::{LayoutContents, is_task_file, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
-/// Of somebody whose text or link is all there is.
-const TEXT_ONLY: &str = "a text or a link was handed in, and no file";
-/// Of a text of somebody who handed in files as well.
-const TEXT_BESIDE_FILES: &str = "a text or a link, beside files: those are graded";
+/// The reason for a user without files.
+const TEXT_ONLY: &str = "a text or a link was handed in, but no file";
+/// The reason for a text or link of a user who has files as well.
+const TEXT_BESIDE_FILES: &str = "a text or a link; the files handed in with it are graded";
 
-/// What a file's name tells.
+/// The parts of a file name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct CanvasName<'a> {
     who: String,
@@ -24,51 +24,53 @@ pub(super) struct CanvasName<'a> {
     file: String,
 }
 
-/// None if it is not such a name.
+/// Parses the name of a submitted file; returns `None` for other names.
 fn parse(name: &str) -> Option<CanvasName<'_>> {
     let parts: Vec<&str> = name.split('_').collect();
-    let place = (1..parts.len().saturating_sub(2))
-        .find(|place| is_user(&parts, *place) && is_number(parts[place + 1]))?;
-    let (who, late) = split_late(&parts[..place]);
+    let index = (1..parts.len().saturating_sub(2))
+        .find(|index| is_user(&parts, *index) && is_number(parts[index + 1]))?;
+    let (who, late) = split_late(&parts[..index]);
     Some(CanvasName {
         who,
         late,
-        user: parts[place],
-        attachment: parts[place + 1].parse().ok()?,
-        file: parts[place + 2..].join("_"),
+        user: parts[index],
+        attachment: parts[index + 1].parse().ok()?,
+        file: parts[index + 2..].join("_"),
     })
 }
 
-/// Whether a name is one of Canvas's.
+/// Returns whether a file is named as in Canvas's download.
 pub(super) fn is_name(name: &str) -> bool {
     parse(name).is_some() || parse_text(name).is_some()
 }
 
-/// Of `doejane_7001_text.html`, and of `…_link.html`. None if it is not such a name.
+/// Parses the name of a submitted text or link, such as `doejane_7001_text.html` or `…_link.html`;
+/// returns `None` for other names.
 fn parse_text(name: &str) -> Option<CanvasName<'_>> {
     let parts: Vec<&str> = name.split('_').collect();
-    let place = parts.len().checked_sub(2)?;
-    let is_text = ["text.html", "link.html"].contains(&parts[place + 1]);
-    let (who, late) = split_late(&parts[..place]);
-    (is_text && place > 0 && is_user(&parts, place)).then(|| CanvasName {
+    let index = parts.len().checked_sub(2)?;
+    let is_text = ["text.html", "link.html"].contains(&parts[index + 1]);
+    let (who, late) = split_late(&parts[..index]);
+    (is_text && index > 0 && is_user(&parts, index)).then(|| CanvasName {
         who,
         late,
-        user: parts[place],
+        user: parts[index],
         attachment: 0,
-        file: parts[place + 1].to_owned(),
+        file: parts[index + 1].to_owned(),
     })
 }
 
-/// Without names, an id of letters and digits stands in the user's place.
-fn is_user(parts: &[&str], place: usize) -> bool {
-    is_number(parts[place]) || parts[place - 1] == "anon"
+/// Returns whether a part of the name is a user id. In anonymous downloads the part before it is
+/// `anon`, and the id may contain letters.
+fn is_user(parts: &[&str], index: usize) -> bool {
+    is_number(parts[index]) || parts[index - 1] == "anon"
 }
 
 fn is_number(text: &str) -> bool {
     !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
 }
 
-/// The name, and whether it is late.
+/// Splits off `LATE`: returns the user's name, and whether the file is late.
 fn split_late(parts: &[&str]) -> (String, bool) {
     let (late, names) = match parts {
         [names @ .., "LATE"] if !names.is_empty() => (true, names),
@@ -88,7 +90,7 @@ pub(super) fn read(root: &Node) -> LayoutContents {
             }
             (_, Some(name)) => texts.push((name, node)),
             (Some(_) | None, None) => {
-                others.push(unmatched_path(node, "its name is not one of Canvas's"));
+                others.push(unmatched_path(node, "its name is not in Canvas's format"));
             }
         }
     }
@@ -108,17 +110,17 @@ pub(super) fn read(root: &Node) -> LayoutContents {
     (entries.collect(), others)
 }
 
-/// All of one user's files.
+/// Returns the entry for all files of one user.
 fn entry_of_files(mut files: Vec<(CanvasName, &Node)>) -> Entry {
     files.sort_by_key(|(name, _)| name.attachment);
-    let (last, newest) = files.last().expect("a user is known by a file");
+    let (last, newest) = files.last().expect("every user has a file");
     let is_one = |(name, _): &(CanvasName, &Node)| is_task_file(&original_name(&name.file));
     let archive = files.iter().rfind(|(_, node)| node.is_archive());
-    // What lies open counts, as it does in a folder.
+    // Task files that are not packed take precedence over an archive, as in a folder.
     let archive = archive.filter(|_| !files.iter().any(is_one));
     let source = match archive {
         Some((_, archive)) => Source::Path(archive.path.clone()),
-        // Of a file that was handed in again the newest counts: it is taken last.
+        // Files that were handed in again come later, and the last one of a name counts.
         None => Source::Files(
             files
                 .iter()
@@ -154,7 +156,8 @@ fn entry(name: &CanvasName, late: bool, from: String, source: Source) -> Entry {
     }
 }
 
-/// `camera.rs` of `camera-2.rs`: only of the five, whose names are known.
+/// Removes the number that Canvas appends: returns `camera.rs` for `camera-2.rs`. Only for task
+/// files, since other names may end in a number themselves.
 fn original_name(name: &str) -> String {
     let original = |file: &str| -> Option<String> {
         let (stem, end) = file.rsplit_once('.')?;

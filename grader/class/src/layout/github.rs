@@ -1,19 +1,19 @@
-//! Clones of a GitHub classroom: repositories that all begin with the assignment's name and end
-//! with the account's. GitHub Classroom put them into `ASSIGNMENT-submissions`; classroom50 lays
+//! Clones from GitHub Classroom or classroom50: repositories named after the assignment and the
+//! account. GitHub Classroom puts them into a folder `ASSIGNMENT-submissions`; classroom50 writes
 //! `scores.csv` beside them.
 
 use super::{LayoutContents, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
-/// The folder's name, as GitHub Classroom's tool gives it.
+/// The end of the name of the folder that GitHub Classroom's tool creates.
 const SUBMISSIONS_SUFFIX: &str = "-submissions";
-/// What classroom50's tool lays beside the repositories: a line for each student and attempt.
+/// The file that classroom50's tool writes beside the repositories: a row per student and attempt.
 pub const CLASSROOM50_SCORES: &str = "scores.csv";
-/// What its repositories hold beside the work.
+/// A file that is in each repository of classroom50.
 const CLASSROOM50_RESULT: &str = "result.json";
 
-/// What all repositories begin with. None if this is no such folder.
+/// Returns the prefix of all repositories' names; `None` if the folder has another layout.
 pub(super) fn prefix(root: &Node) -> Option<String> {
     if let Some(assignment) = root.name.strip_suffix(SUBMISSIONS_SUFFIX) {
         return Some(format!("{assignment}-"));
@@ -24,8 +24,8 @@ pub(super) fn prefix(root: &Node) -> Option<String> {
     is_classroom50.then(|| common_prefix(folders().map(|node| node.name.as_str())))
 }
 
-/// Up to the last `-` that all names share. Accounts may have `-` in them, and one account alone
-/// can not be told from the assignment: its whole name is kept.
+/// Returns the common prefix of all names up to its last `-`, since accounts may contain `-`. It is
+/// empty for a single name, where the account cannot be told from the assignment.
 fn common_prefix<'a>(mut names: impl Iterator<Item = &'a str>) -> String {
     let Some(first) = names.next() else {
         return String::new();
@@ -64,7 +64,7 @@ pub(super) fn read(root: &Node) -> LayoutContents {
                 source: Source::Path(node.path.clone()),
             });
         } else if node.name != CLASSROOM50_SCORES {
-            others.push(unmatched_path(node, "it is no repository"));
+            others.push(unmatched_path(node, "it is not a repository"));
         }
     }
     (entries, others)

@@ -1,5 +1,5 @@
-//! Gradescope's "Export submissions": a folder for each, and `submission_metadata.yml`, whose keys
-//! are Ruby's symbols, with a colon in front.
+//! Gradescope's "Export submissions": a folder for each submission, and `submission_metadata.yml`,
+//! whose keys are Ruby symbols, with a colon in front.
 
 use std::collections::BTreeMap;
 
@@ -10,17 +10,18 @@ use super::{LayoutContents, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
-/// The file that says whose each folder is.
+/// The file that lists the people of each folder.
 pub const METADATA: &str = "submission_metadata.yml";
 
-/// The metadata can not be read.
+/// The metadata cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[error(
-    "{METADATA}: {0}; export the submissions again, or take the file away to go by folder names"
+    "cannot read {METADATA}: {0}; export the submissions again, or delete the file to go by folder \
+     names"
 )]
 pub struct MetadataError(String);
 
-/// Of one submission. Whatever else stands there, such as earlier results, is passed over.
+/// The metadata of one submission. Other keys, such as earlier results, are ignored.
 #[derive(Debug, Deserialize)]
 struct Metadata {
     #[serde(alias = ":submitters", default)]
@@ -39,7 +40,7 @@ struct Submitter {
     email: Option<Scalar>,
 }
 
-/// A number that nobody has quoted is text all the same.
+/// A text. Student ids may be numbers without quotes.
 #[derive(Debug, Deserialize)]
 #[serde(untagged)]
 enum Scalar {
@@ -55,18 +56,15 @@ pub(super) fn read(root: &Node, metadata: &str) -> Result<LayoutContents, Metada
         match known.remove(&node.name) {
             Some(metadata) => entries.push(entry(node, metadata)),
             None if node.name == METADATA => {}
-            None => others.push(unmatched_path(
-                node,
-                "submission_metadata.yml does not know it",
-            )),
+            None => others.push(unmatched_path(node, "it is not in submission_metadata.yml")),
         }
     }
     for (name, metadata) in known {
-        let about = entry_info(&name, metadata);
+        let info = entry_info(&name, metadata);
         let source = Source::Missing("its folder is not in the export".to_owned());
         entries.push(Entry {
             id: name,
-            info: about,
+            info,
             source,
         });
     }
@@ -74,7 +72,8 @@ pub(super) fn read(root: &Node, metadata: &str) -> Result<LayoutContents, Metada
 }
 
 fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, MetadataError> {
-    // The exports of big classes hold all that earlier graders said: more than strangers may send.
+    // The exports of large classes include all earlier results, and exceed the default limits,
+    // which are meant for untrusted input.
     let budget = serde_saphyr::budget! {
         max_reader_input_bytes: Some(256 << 20),
         max_events: 50_000_000,

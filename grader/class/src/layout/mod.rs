@@ -1,7 +1,7 @@
-//! What people have, read into entries: each layout is recognised by looking, and pure.
+//! The layouts of the platforms' exports. A layout is recognised by its file names, and read into
+//! entries without opening the files.
 //!
-//! Their shapes are those of the platforms' own exports; what does not fit one is said, never
-//! dropped in silence.
+//! Files that do not fit the layout are reported, never silently ignored.
 
 mod canvas;
 mod github;
@@ -19,27 +19,27 @@ use crate::listing::Node;
 pub use github::CLASSROOM50_SCORES;
 pub use gradescope::{METADATA, MetadataError};
 
-/// A class, as it was found.
+/// The layout and the entries of a class.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecognisedClass {
-    /// What it looks like.
+    /// The layout.
     pub layout: Layout,
-    /// In the order of their ids.
+    /// The entries, in the order of their ids.
     pub entries: Vec<Entry>,
-    /// What belongs to nobody, and why.
+    /// The files and folders that belong to no entry.
     pub unmatched: Vec<UnmatchedPath>,
 }
 
-/// Something in the input that is no submission.
+/// A file or folder in the input that belongs to no submission.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnmatchedPath {
     /// Its name.
     pub name: String,
-    /// Why.
+    /// The reason.
     pub why: String,
 }
 
-/// Where an input is from.
+/// A layout of the input, named after the platform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
     /// Gradescope's "Export submissions".
@@ -55,19 +55,20 @@ pub enum Layout {
 }
 
 impl Layout {
-    /// What people call it.
+    /// Returns a description for messages.
     pub fn description(self) -> &'static str {
         match self {
             Layout::Gradescope => "a Gradescope export",
             Layout::Canvas => "a Canvas download",
             Layout::Moodle => "a Moodle download",
             Layout::GitHub => "clones from a GitHub classroom",
-            Layout::Plain => "folders and archives, one a student",
+            Layout::Plain => "folders and archives, one per student",
         }
     }
 }
 
-/// The class in this folder. `metadata` is the text of Gradescope's, where there is one.
+/// Recognises the layout of a folder and returns its entries. `metadata` is the text of
+/// Gradescope's metadata file, if there is one.
 pub fn recognise(root: &Node, metadata: Option<&str>) -> Result<RecognisedClass, MetadataError> {
     let root = find_class_folder(root);
     let (layout, (mut entries, unmatched)) = if let Some(metadata) = metadata {
@@ -90,7 +91,8 @@ pub fn recognise(root: &Node, metadata: Option<&str>) -> Result<RecognisedClass,
     })
 }
 
-/// The folder itself, or the only one in it where that is but a wrapper around the class.
+/// Returns the folder with the entries: folders that contain only one other folder are skipped,
+/// unless that one is a submission.
 pub fn find_class_folder(root: &Node) -> &Node {
     match root.children() {
         [only] if only.is_folder() && !is_submission(only) => find_class_folder(only),
@@ -102,7 +104,7 @@ fn is_task_file(name: &str) -> bool {
     TASK_FILES.iter().any(|file| file.name == name)
 }
 
-/// Whether this one folder is somebody's work, and not a class.
+/// Returns whether a folder is a single submission rather than a class.
 fn is_submission(node: &Node) -> bool {
     let is_moodles = moodle::parse(&node.name).is_some();
     let holds = |node: &Node| TASK_FILES.iter().any(|file| node.find(file.name).is_some());
@@ -111,31 +113,31 @@ fn is_submission(node: &Node) -> bool {
     is_moodles || holds(node) || below || student.is_some_and(holds)
 }
 
-/// Whether more than half of what lies here is of a kind.
+/// Returns whether `is_one` is true for more than half of the folder's contents.
 fn is_majority(root: &Node, is_one: impl Fn(&Node) -> bool) -> bool {
     let count = root.children().iter().filter(|node| is_one(node)).count();
     2 * count > root.children().len()
 }
 
-/// Two ids that a file system may take for one get numbers.
+/// Appends numbers to ids that are equal on a file system that ignores case.
 fn make_ids_unique(entries: &mut [Entry]) {
-    let mut taken = BTreeSet::new();
+    let mut used = BTreeSet::new();
     for entry in entries {
-        let wished = folder_name(&entry.id);
-        let mut id = wished.clone();
+        let wanted = folder_name(&entry.id);
+        let mut id = wanted.clone();
         let mut number = 2;
-        while !taken.insert(id.to_lowercase()) {
-            id = format!("{wished}-{number}");
+        while !used.insert(id.to_lowercase()) {
+            id = format!("{wanted}-{number}");
             number += 1;
         }
         entry.id = id;
     }
 }
 
-/// What a layout finds.
+/// The entries of a layout, and the paths that belong to none.
 type LayoutContents = (Vec<Entry>, Vec<UnmatchedPath>);
 
-/// Something that belongs to nobody.
+/// Returns a path that belongs to no entry, with the reason.
 fn unmatched_path(node: &Node, why: &str) -> UnmatchedPath {
     UnmatchedPath {
         name: node.name.clone(),

@@ -1,5 +1,6 @@
-//! Moodle's "Download all submissions": `Jane Doe_123_assignsubmission_file_`, a folder or the
-//! beginning of a file's name. The number is the participant's, which the worksheet has as well.
+//! Moodle's "Download all submissions": `Jane Doe_123_assignsubmission_file_` is the name of a
+//! folder or the beginning of a file name. The number is the participant's, as in the grading
+//! worksheet.
 
 use std::collections::BTreeMap;
 
@@ -8,33 +9,33 @@ use crate::entry::{Entry, EntryInfo, Person, Source, several_archives_message};
 use crate::listing::Node;
 
 const MARK: &str = "_assignsubmission_";
-/// Of somebody whose text is all there is.
-const TEXT_ONLY: &str = "a text was handed in, and no file";
-/// Of a text of somebody who handed in files as well.
-const TEXT_BESIDE_FILES: &str = "a text, beside files: those are graded";
+/// The reason for a participant without files.
+const TEXT_ONLY: &str = "a text was handed in, but no file";
+/// The reason for a text of a participant who has files as well.
+const TEXT_BESIDE_FILES: &str = "a text; the files handed in with it are graded";
 
-/// What a name tells.
+/// The parts of a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct MoodleName<'a> {
-    /// With the group in front, where there are groups.
+    /// The participant's name, with the group in front if there are groups.
     who: &'a str,
     participant: &'a str,
-    /// `file`, or another way of handing in.
+    /// The type of submission: `file`, or another one such as `onlinetext`.
     kind: &'a str,
-    /// The file, in downloads without folders.
+    /// The file name, in downloads without folders.
     file: &'a str,
 }
 
-/// None if it is not such a name.
+/// Parses a name; returns `None` if it is not in Moodle's format.
 pub(super) fn parse(name: &str) -> Option<MoodleName<'_>> {
     let (head, tail) = name.split_once(MARK)?;
-    let (way, file) = tail.split_once('_').unwrap_or((tail, ""));
+    let (kind, file) = tail.split_once('_').unwrap_or((tail, ""));
     let (who, participant) = head.rsplit_once('_')?;
     let is_number = !participant.is_empty() && participant.bytes().all(|b| b.is_ascii_digit());
     is_number.then_some(MoodleName {
         who,
         participant,
-        kind: way,
+        kind,
         file,
     })
 }
@@ -48,13 +49,13 @@ pub(super) fn read(root: &Node) -> LayoutContents {
                 .entry(name.participant)
                 .or_default()
                 .push((name, node)),
-            None => others.push(unmatched_path(node, "its name is not one of Moodle's")),
+            None => others.push(unmatched_path(node, "its name is not in Moodle's format")),
         }
     }
     let mut entries = Vec::new();
-    for found in people.into_values() {
+    for submitted in people.into_values() {
         let is_file = |(name, _): &(MoodleName, &Node)| name.kind == "file";
-        let (files, texts): (Vec<_>, Vec<_>) = found.into_iter().partition(is_file);
+        let (files, texts): (Vec<_>, Vec<_>) = submitted.into_iter().partition(is_file);
         if files.is_empty() {
             let source = Source::Missing(TEXT_ONLY.to_owned());
             entries.push(entry(&texts[0], source));
@@ -68,8 +69,8 @@ pub(super) fn read(root: &Node) -> LayoutContents {
     (entries, others)
 }
 
-/// What of one participant's files is graded, by the same rule as if they lay in a folder, and
-/// which of them it is called by.
+/// Chooses the files of a participant to grade, by the same rules as in a folder. Also returns the
+/// file that names the entry.
 fn choose_source<'f, 'n>(
     files: &'f [(MoodleName<'n>, &'n Node)],
 ) -> (&'f (MoodleName<'n>, &'n Node), Source) {
@@ -86,9 +87,12 @@ fn choose_source<'f, 'n>(
             Source::Missing(several_archives_message(archives.len())),
         ),
         (Some(_), _) | (None, []) => {
-            let named =
+            let name_and_path =
                 |(name, node): &(MoodleName, &Node)| (name.file.to_owned(), node.path.clone());
-            (&files[0], Source::Files(files.iter().map(named).collect()))
+            (
+                &files[0],
+                Source::Files(files.iter().map(name_and_path).collect()),
+            )
         }
     }
 }
@@ -98,7 +102,7 @@ fn entry((name, node): &(MoodleName, &Node), source: Source) -> Entry {
         id: format!("{}_{}", name.who, name.participant),
         info: EntryInfo {
             people: vec![Person {
-                // Where marking is blind, the number is all that there is.
+                // With blind marking, only the number is known.
                 name: match name.who {
                     "Participant" => format!("Participant {}", name.participant),
                     who => who.to_owned(),

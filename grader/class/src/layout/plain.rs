@@ -1,4 +1,4 @@
-//! A folder of folders, of archives, or of both: each is named after whose it is.
+//! A folder of folders, archives, or both, each named after its student.
 
 use super::{LayoutContents, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
@@ -28,7 +28,7 @@ pub(super) fn read(root: &Node) -> LayoutContents {
     (entries, others)
 }
 
-/// Without what says that it is an archive.
+/// Returns the name without the archive's extension.
 fn strip_archive_extension(name: &str) -> &str {
     let lower = name.to_ascii_lowercase();
     let ends = [".tar.gz", ".tgz", ".tar", ".zip", ".rar", ".7z"];

@@ -1,4 +1,5 @@
-//! How layouts are told apart; what each is read into is shown through the real binary.
+//! Tests of recognising layouts. The entries of each layout are tested with the binary, in
+//! `tests/it/layouts.rs`.
 
 use std::path::PathBuf;
 

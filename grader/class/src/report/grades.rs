@@ -1,4 +1,4 @@
-//! `grades.csv`: a line for each student, to be opened anywhere.
+//! `grades.csv`: a row for each student.
 
 use crate::entry::Person;
 use crate::model::{ClassRow, GradedClass};
@@ -17,8 +17,8 @@ const COLUMNS_BEFORE_TASKS: [&str; 9] = [
 ];
 const COLUMNS_AFTER_TASKS: [&str; 5] = ["late_days", "submitted", "from", "why", "report"];
 
-/// The table of the class. Whoever has no score has no number in it: that is for a person to
-/// decide.
+/// Returns the table of the class. Points are empty without a score: the teacher decides what such
+/// a submission counts for.
 pub fn grades_table(class: &GradedClass) -> Table {
     let first = class.scores().next();
     let tasks: Vec<&str> = first.map_or(Vec::new(), |(_, score)| {
@@ -26,9 +26,9 @@ pub fn grades_table(class: &GradedClass) -> Table {
     });
     let header: Vec<&str> = [&COLUMNS_BEFORE_TASKS[..], &tasks, &COLUMNS_AFTER_TASKS].concat();
     let mut table = Table::new(&header);
-    for line in &class.rows {
-        for person in &line.result.info.people {
-            table.rows.push(row(line, person, tasks.len()));
+    for class_row in &class.rows {
+        for person in &class_row.result.info.people {
+            table.rows.push(row(class_row, person, tasks.len()));
         }
     }
     for person in &class.missing {
@@ -39,32 +39,32 @@ pub fn grades_table(class: &GradedClass) -> Table {
     table
 }
 
-fn row(line: &ClassRow, person: &Person, tasks: usize) -> Vec<String> {
-    let mut row = person_cells(&line.result.id, person, line.status());
-    let counted = line.counted.map(|counted| counted.points.to_string());
+fn row(class_row: &ClassRow, person: &Person, tasks: usize) -> Vec<String> {
+    let mut row = person_cells(&class_row.result.id, person, class_row.status());
+    let counted = class_row.counted.map(|counted| counted.points.to_string());
     row.push(counted.unwrap_or_default());
-    match line.result.score() {
+    match class_row.result.score() {
         Some(score) => {
             row.extend([score.points, score.max_points].map(|points| points.to_string()));
             row.extend(score.tasks.iter().map(|task| task.points.to_string()));
         }
         None => row.extend(vec![String::new(); 2 + tasks]),
     }
-    let late = match (line.counted, line.result.info.late) {
+    let late = match (class_row.counted, class_row.result.info.late) {
         (Some(counted), _) => counted.late_days.to_string(),
         (None, true) => "late".to_owned(),
         (None, false) => String::new(),
     };
-    let about = &line.result.info;
-    let report = line
+    let info = &class_row.result.info;
+    let report = class_row
         .result
         .score()
-        .map(|_| format!("students/{}/report.html", line.result.id));
+        .map(|_| format!("students/{}/report.html", class_row.result.id));
     row.extend([
         late,
-        escape_formula(about.submitted.as_deref().unwrap_or_default()),
-        escape_formula(&about.from),
-        escape_formula(line.why()),
+        escape_formula(info.submitted.as_deref().unwrap_or_default()),
+        escape_formula(&info.from),
+        escape_formula(class_row.why()),
         report.unwrap_or_default(),
     ]);
     row

@@ -1,4 +1,4 @@
-//! What people and programs read of a class: each a function of it.
+//! Reports about a class, as text, HTML and CSV.
 
 pub mod grades;
 pub mod page;

@@ -1,5 +1,5 @@
-//! `class.html`: the class on one page that asks no network for anything: who has what, how points
-//! spread, what most got wrong, and a link to each report.
+//! `class.html`: the class on one self-contained page, with everyone's points, their distribution,
+//! the most common mistakes, and a link to each report.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -14,9 +14,13 @@ use crate::summary::ClassSummary;
 
 const STYLE: &str = include_str!("page.css");
 
-/// The page.
+/// Renders the page.
 pub fn render_page(class: &GradedClass, summary: &ClassSummary) -> String {
-    let title = format!("{} submissions, {} exam", class.rows.len(), class.exam);
+    let count = match class.rows.len() {
+        1 => "1 submission".to_owned(),
+        count => format!("{count} submissions"),
+    };
+    let title = format!("{count}, {} exam", class.exam);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -46,8 +50,9 @@ pub fn render_page(class: &GradedClass, summary: &ClassSummary) -> String {
                     p {
                         "Exam " code { (sanitized(&class.exam)) } ", "
                         code { (sanitized(class.exam_hash.get(..12).unwrap_or_default())) }
-                        "; isolation " code { (sanitized(&class.isolation)) } ". For programs: "
-                        code { "class.json" } ", " code { "grades.csv" } " beside this page."
+                        "; isolation " code { (sanitized(&class.isolation)) }
+                        ". The same data for programs: "
+                        code { "class.json" } ", " code { "grades.csv" } ", in the same folder."
                     }
                 }
             }
@@ -56,7 +61,7 @@ pub fn render_page(class: &GradedClass, summary: &ClassSummary) -> String {
     page.into_string()
 }
 
-/// Nothing from elsewhere, no script, and this one style.
+/// Returns a policy that forbids scripts and external resources, and allows only [`STYLE`].
 fn content_security_policy() -> String {
     let hash = STANDARD.encode(Sha256::digest(STYLE));
     format!("default-src 'none'; style-src 'sha256-{hash}'; base-uri 'none'; form-action 'none'")
@@ -72,24 +77,24 @@ fn distribution(summary: &ClassSummary) -> Markup {
         section aria-labelledby="spread" {
             h2 #spread { "Points" }
             table {
-                caption { "How many have none, some, all: each column is a tenth of the points" }
+                caption { "Number of submissions by points: each column is a tenth of the maximum" }
                 thead {
                     tr {
                         th scope="col" { "Task" }
-                        th scope="col" { "Spread" }
+                        th scope="col" { "Distribution" }
                         th scope="col" .number { "Mean" }
                         th scope="col" .number { "Median" }
                         th scope="col" .number { "Of" }
                     }
                 }
                 tbody {
-                    @for (title, spread) in all.chain(tasks) {
+                    @for (title, distribution) in all.chain(tasks) {
                         tr {
                             th scope="row" { (sanitized(title)) }
-                            td { (bars(spread)) }
-                            td .number { (format!("{:.1}", spread.mean)) }
-                            td .number { (spread.median) }
-                            td .number { (spread.of) }
+                            td { (bars(distribution)) }
+                            td .number { (format!("{:.1}", distribution.mean)) }
+                            td .number { (distribution.median) }
+                            td .number { (distribution.of) }
                         }
                     }
                 }
@@ -98,20 +103,20 @@ fn distribution(summary: &ClassSummary) -> Markup {
     }
 }
 
-/// Ten columns, and in words the same.
-fn bars(spread: &Distribution) -> Markup {
-    let highest = spread.bins.iter().max().copied().unwrap_or(0).max(1);
-    let counts: Vec<String> = spread.bins.iter().map(ToString::to_string).collect();
+/// Renders a distribution as ten columns, with the numbers as text for screen readers.
+fn bars(distribution: &Distribution) -> Markup {
+    let highest = distribution.bins.iter().max().copied().unwrap_or(0).max(1);
+    let counts: Vec<String> = distribution.bins.iter().map(ToString::to_string).collect();
     let label = format!(
         "from the lowest tenth to the highest: {}",
         counts.join(", ")
     );
-    let column = |(place, count): (usize, &usize)| {
+    let column = |(index, count): (usize, &usize)| {
         let height = 40.0 * *count as f64 / highest as f64;
-        let (x, y) = (12 * place, 41.0 - height);
+        let (x, y) = (12 * index, 41.0 - height);
         format!("<rect x=\"{x}\" y=\"{y:.1}\" width=\"10\" height=\"{height:.1}\"/>")
     };
-    let columns: String = spread.bins.iter().enumerate().map(column).collect();
+    let columns: String = distribution.bins.iter().enumerate().map(column).collect();
     html! {
         (PreEscaped(format!(
             "<svg class=\"bars\" viewBox=\"0 0 118 42\" role=\"img\" aria-label=\"{label}\">\
@@ -124,7 +129,7 @@ fn mistake_sections(summary: &ClassSummary) -> Markup {
     html! {
         section aria-labelledby="mistakes" {
             h2 #mistakes { "Most common mistakes" }
-            @if summary.mistakes.is_empty() { p { "None was recognised." } }
+            @if summary.mistakes.is_empty() { p { "No known mistake was recognised." } }
             ul .counted {
                 @for mistake in &summary.mistakes {
                     li { strong { (mistake.count) " × " } (sanitized(&mistake.hint)) }
@@ -132,7 +137,7 @@ fn mistake_sections(summary: &ClassSummary) -> Markup {
             }
         }
         section aria-labelledby="failed" {
-            h2 #failed { "Failed most" }
+            h2 #failed { "Items failed most often" }
             ul .counted {
                 @for failed in &summary.failed_most {
                     li {
@@ -144,7 +149,7 @@ fn mistake_sections(summary: &ClassSummary) -> Markup {
         }
         @if !summary.outliers.is_empty() {
             section aria-labelledby="look" {
-                h2 #look { "To be looked at" }
+                h2 #look { "Submissions that need attention" }
                 ul {
                     @for outlier in &summary.outliers {
                         li { strong { (sanitized(&outlier.id)) } ": " (sanitized(&outlier.why)) }
@@ -173,7 +178,7 @@ fn submissions_section(class: &GradedClass) -> Markup {
                         }
                     }
                     tbody {
-                        @for line in &class.rows { (submission_row(line, tasks.len())) }
+                        @for row in &class.rows { (submission_row(row, tasks.len())) }
                         @for person in &class.missing {
                             tr {
                                 th scope="row" { (sanitized(person.display_name())) }
@@ -190,39 +195,39 @@ fn submissions_section(class: &GradedClass) -> Markup {
     }
 }
 
-fn submission_row(line: &ClassRow, tasks: usize) -> Markup {
-    let who = sanitized(&line.result.info.display_names());
+fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
+    let who = sanitized(&row.result.info.display_names());
     html! {
         tr {
-            @match line.result.score() {
-                Some(score) => (score_cells(line, score, who)),
+            @match row.result.score() {
+                Some(score) => (score_cells(row, score, who)),
                 None => {
                     th scope="row" { (who) }
                     td .number { "–" }
                     td .number { "–" }
                     @for _ in 0..tasks { td {} }
-                    td { strong { (line.status()) } ": " (sanitized(line.why())) }
+                    td { strong { (row.status()) } ": " (sanitized(row.why())) }
                 },
             }
         }
     }
 }
 
-fn score_cells(line: &ClassRow, score: &ScoreSummary, who: Markup) -> Markup {
-    let late = line.counted.map_or(0, |counted| counted.late_days);
-    let counts = line.counted.map_or(0, |counted| counted.points);
+fn score_cells(row: &ClassRow, score: &ScoreSummary, who: Markup) -> Markup {
+    let late = row.counted.map_or(0, |counted| counted.late_days);
+    let counts = row.counted.map_or(0, |counted| counted.points);
     html! {
-        th scope="row" { a href=(report_link(&line.result.id)) { (who) } }
+        th scope="row" { a href=(report_link(&row.result.id)) { (who) } }
         td .number { strong { (counts) } }
         td .number { (score.points) }
         @for task in &score.tasks {
             td .number .less[task.points < task.max_points] { (task.points) }
         }
-        td { @if late > 0 { (late) " late days" } }
+        td { @if late == 1 { "1 late day" } @else if late > 1 { (late) " late days" } }
     }
 }
 
-/// An id has letters of any language, which a link must spell in bytes.
+/// Returns the link to a report. An id may have letters of any language, which are percent-encoded.
 fn report_link(id: &str) -> String {
     let byte = |byte: u8| match byte {
         b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' => {
@@ -234,7 +239,7 @@ fn report_link(id: &str) -> String {
     format!("students/{id}/report.html")
 }
 
-/// What others have written, without power over what stands around it.
+/// Returns text from others without control characters that could affect the text around it.
 fn sanitized(text: &str) -> Markup {
     html! { (sanitize(text, 300)) }
 }

@@ -1,4 +1,4 @@
-//! `--dry-run`: who would be graded from what.
+//! The output of `--dry-run`: who would be graded from which files.
 
 use std::fmt::{self, Write};
 
@@ -8,38 +8,38 @@ use crate::entry::{Entry, Person};
 use crate::input::collect_submission;
 use crate::layout::{RecognisedClass, UnmatchedPath};
 
-/// The most characters of a line's parts.
+/// The maximum number of characters of a name or reason.
 const MAX_CHARS: usize = 200;
 
-/// What was found, and what each would be graded from.
-pub fn render_preview(found: &RecognisedClass, missing: &[Person]) -> String {
+/// Renders the entries with the files that each would be graded from.
+pub fn render_preview(class: &RecognisedClass, missing: &[Person]) -> String {
     let mut text = String::new();
-    write_preview(&mut text, found, missing).expect("text takes text");
+    write_preview(&mut text, class, missing).expect("writing to a string succeeds");
     text
 }
 
-fn write_preview(out: &mut String, found: &RecognisedClass, missing: &[Person]) -> fmt::Result {
+fn write_preview(out: &mut String, class: &RecognisedClass, missing: &[Person]) -> fmt::Result {
     writeln!(
         out,
         "\n  {} in {}\n",
-        count_submissions(found.entries.len()),
-        found.layout.description()
+        count_submissions(class.entries.len()),
+        class.layout.description()
     )?;
     let mut gradable = 0;
-    for entry in &found.entries {
-        let what = describe_files(entry);
-        gradable += usize::from(what.is_ok());
+    for entry in &class.entries {
+        let files = describe_files(entry);
+        gradable += usize::from(files.is_ok());
         let who = sanitized(&entry.info.display_names());
         let late = if entry.info.late { ", late" } else { "" };
-        match what {
+        match files {
             Ok(files) => writeln!(out, "  {who}{late}: {files}")?,
             Err(why) => writeln!(out, "  {who}{late}: nothing to grade: {}", sanitized(&why))?,
         }
         writeln!(out, "      {}", sanitized(&entry.info.from))?;
     }
-    write_warnings(out, found)?;
+    write_warnings(out, class)?;
     if !missing.is_empty() {
-        writeln!(out, "\n  in the lists, and nothing handed in:")?;
+        writeln!(out, "\n  in the lists, but nothing handed in:")?;
         for person in missing {
             writeln!(out, "      {}", sanitized(person.display_name()))?;
         }
@@ -47,28 +47,29 @@ fn write_preview(out: &mut String, found: &RecognisedClass, missing: &[Person]) 
     writeln!(
         out,
         "\n  {gradable} of {} can be graded\n",
-        found.entries.len()
+        class.entries.len()
     )
 }
 
-/// What a person has to see to: to be said as well where there are grades, which have no line for it.
-pub fn render_warnings(found: &RecognisedClass) -> String {
+/// Renders the problems that the teacher has to resolve. They are printed after grading as well,
+/// since the grades do not include them.
+pub fn render_warnings(class: &RecognisedClass) -> String {
     let mut text = String::new();
-    write_warnings(&mut text, found).expect("text takes text");
+    write_warnings(&mut text, class).expect("writing to a string succeeds");
     text
 }
 
-fn write_warnings(out: &mut String, found: &RecognisedClass) -> fmt::Result {
-    for (one, other) in duplicate_people(&found.entries) {
+fn write_warnings(out: &mut String, class: &RecognisedClass) -> fmt::Result {
+    for (one, other) in duplicate_people(&class.entries) {
         writeln!(
             out,
-            "\n  {one} and {other} are of the same person: keep the one that counts"
+            "\n  {one} and {other} belong to the same person: keep the one that counts"
         )?;
     }
-    if !found.unmatched.is_empty() {
-        writeln!(out, "\n  belongs to nobody:")?;
+    if !class.unmatched.is_empty() {
+        writeln!(out, "\n  not part of any submission:")?;
     }
-    for UnmatchedPath { name, why } in &found.unmatched {
+    for UnmatchedPath { name, why } in &class.unmatched {
         writeln!(out, "      {}: {}", sanitized(name), sanitized(why))?;
     }
     Ok(())
@@ -83,25 +84,25 @@ fn count_submissions(entries: usize) -> String {
 
 fn describe_files(entry: &Entry) -> Result<String, String> {
     let submission = collect_submission(entry)?;
-    let lacks = submission.files.iter().filter(|(_, text)| text.is_err());
-    let lacks: Vec<String> = lacks
+    let missing = submission.files.iter().filter(|(_, text)| text.is_err());
+    let missing: Vec<String> = missing
         .filter_map(|(_, text)| text.as_ref().err().map(ToString::to_string))
         .collect();
-    Ok(match lacks.as_slice() {
+    Ok(match missing.as_slice() {
         [] => "five files".to_owned(),
-        lacks => format!(
+        missing => format!(
             "{} of 5 files; {}",
-            submission.files.len() - lacks.len(),
-            lacks.join("; ")
+            submission.files.len() - missing.len(),
+            missing.join("; ")
         ),
     })
 }
 
-/// Pairs of entries that name the same person.
+/// Returns the pairs of entries that belong to the same person.
 fn duplicate_people(entries: &[Entry]) -> Vec<(&str, &str)> {
     let mut pairs = Vec::new();
-    for (place, one) in entries.iter().enumerate() {
-        for other in &entries[place + 1..] {
+    for (index, one) in entries.iter().enumerate() {
+        for other in &entries[index + 1..] {
             let same = |one: &Person, other: &Person| one.matches(other) || one == other;
             let mut people = one.info.people.iter();
             if people.any(|one| other.info.people.iter().any(|other| same(one, other))) {

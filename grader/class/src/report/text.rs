@@ -1,5 +1,5 @@
-//! The class on a terminal: how points spread, what most have failed, whom to look at; what a
-//! gradebook would change; what a regrade has.
+//! The reports on the terminal: a summary of the class, and the changes to gradebooks or by a
+//! regrade.
 
 use std::fmt::{self, Write};
 
@@ -13,15 +13,15 @@ use crate::summary::ClassSummary;
 
 const STRONG: Style = Style::new().bold();
 const FAINT: Style = Style::new().dimmed();
-/// A column of so many points, from none to all.
+/// The columns of a bar chart, from the lowest to the highest.
 const COLUMNS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
-/// The most lines of a gradebook's or a regrade's changes.
+/// The maximum number of changes to list.
 const MAX_LINES: usize = 40;
 
-/// The summary.
+/// Renders the summary.
 pub fn render_summary(summary: &ClassSummary) -> String {
     let mut text = String::new();
-    write_summary(&mut text, summary).expect("text takes text");
+    write_summary(&mut text, summary).expect("writing to a string succeeds");
     text
 }
 
@@ -31,20 +31,20 @@ fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
     let others = [
         (
             summary.nothing_to_grade,
-            "handed in nothing that can be graded",
+            "without anything that can be graded",
         ),
         (
             summary.not_graded,
-            "not graded, for reasons that are not theirs: run this again",
+            "not graded because of the grader or the machine: run this again",
         ),
-        (summary.missing, "in the lists, and handed in nothing"),
+        (summary.missing, "in the lists, but handed in nothing"),
         (
             summary.undated,
-            "of them count as in time: nothing says when they came",
+            "counted as on time, since their submission time is unknown",
         ),
     ];
-    for (count, words) in others.iter().filter(|(count, _)| *count > 0) {
-        writeln!(out, "  {count} {words}")?;
+    for (count, description) in others.iter().filter(|(count, _)| *count > 0) {
+        writeln!(out, "  {count} {description}")?;
     }
     if let Some(points) = &summary.points {
         writeln!(out)?;
@@ -55,12 +55,12 @@ fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
     }
     let failed = summary.failed_most.iter();
     let failed = failed.map(|failed| (failed.count, format!("{}  {}", failed.item, failed.title)));
-    write_counts(out, "failed most", failed)?;
+    write_counts(out, "items failed most often", failed)?;
     let mistakes = summary.mistakes.iter();
     let mistakes = mistakes.map(|mistake| (mistake.count, mistake.hint.clone()));
-    write_counts(out, "made most", mistakes)?;
+    write_counts(out, "most common mistakes", mistakes)?;
     if !summary.outliers.is_empty() {
-        writeln!(out, "\n{STRONG}  to be looked at{STRONG:#}")?;
+        writeln!(out, "\n{STRONG}  submissions that need attention{STRONG:#}")?;
     }
     for outlier in &summary.outliers {
         writeln!(
@@ -73,13 +73,13 @@ fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
     writeln!(out)
 }
 
-fn write_distribution(out: &mut String, title: &str, spread: &Distribution) -> fmt::Result {
-    let highest = spread.bins.iter().max().copied().unwrap_or(0).max(1);
+fn write_distribution(out: &mut String, title: &str, distribution: &Distribution) -> fmt::Result {
+    let highest = distribution.bins.iter().max().copied().unwrap_or(0).max(1);
     let column = |count: &usize| match count {
         0 => '·',
         count => COLUMNS[(8 * count).div_ceil(highest)],
     };
-    let bars: String = spread.bins.iter().map(column).collect();
+    let bars: String = distribution.bins.iter().map(column).collect();
     let Distribution {
         mean,
         of,
@@ -87,10 +87,10 @@ fn write_distribution(out: &mut String, title: &str, spread: &Distribution) -> f
         median,
         upper_quartile,
         ..
-    } = spread;
+    } = distribution;
     writeln!(
         out,
-        "  {title:24} {bars}  {mean:>5.1} / {of:<3} {FAINT}quarters {lower_quartile}, {median}, {upper_quartile}{FAINT:#}"
+        "  {title:24} {bars}  {mean:>5.1} / {of:<3} {FAINT}quartiles {lower_quartile}, {median}, {upper_quartile}{FAINT:#}"
     )
 }
 
@@ -103,13 +103,13 @@ fn write_counts(
     if lines.peek().is_some() {
         writeln!(out, "\n{STRONG}  {title}{STRONG:#}")?;
     }
-    for (count, words) in lines {
-        writeln!(out, "  {count:>4}  {}", one_line(&words))?;
+    for (count, text) in lines {
+        writeln!(out, "  {count:>4}  {}", one_line(&text))?;
     }
     Ok(())
 }
 
-/// What a list's copy changes, before it is written.
+/// Renders the changes in the copy of a gradebook.
 pub fn render_gradebook(filled: &FilledGradebook) -> String {
     let mut text = format!("\n{STRONG}  {}{STRONG:#}\n", one_line(&filled.title));
     let width = filled.changes.iter().map(|c| c.who.chars().count()).max();
@@ -135,17 +135,18 @@ pub fn render_gradebook(filled: &FilledGradebook) -> String {
     text
 }
 
-/// What a regrade has changed; `because` is what is not as it was.
-pub fn render_drifts(drifts: &[Drift], because: &[&str]) -> String {
-    let because = match because {
-        [] => "of what scores follow from, nothing is different".to_owned(),
-        because => format!("different now: {}", because.join(", ")),
+/// Renders the changes of a regrade; `causes` are the settings that changed.
+pub fn render_drifts(drifts: &[Drift], causes: &[&str]) -> String {
+    let causes = match causes {
+        [] => "no setting changed".to_owned(),
+        causes => format!("changed settings: {}", causes.join(", ")),
     };
     let count = match drifts.len() {
-        0 => "nobody's points changed".to_owned(),
-        count => format!("{count} changed"),
+        0 => "no score changed".to_owned(),
+        1 => "1 score changed".to_owned(),
+        count => format!("{count} scores changed"),
     };
-    let mut text = format!("\n{STRONG}  regraded: {count}{STRONG:#} ({because})\n");
+    let mut text = format!("\n{STRONG}  regraded: {count}{STRONG:#} ({causes})\n");
     for drift in drifts.iter().take(MAX_LINES) {
         let now = drift
             .now
@@ -168,7 +169,7 @@ pub fn render_drifts(drifts: &[Drift], because: &[&str]) -> String {
     text
 }
 
-/// One line, whatever stands in it.
+/// Returns text from others on one line, without control characters.
 fn one_line(text: &str) -> String {
     sanitize(text, 160).replace('\n', " ")
 }

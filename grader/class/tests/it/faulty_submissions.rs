@@ -1,5 +1,4 @@
-//! One student's disaster is one student's: there is a line for each, and the others' points are
-//! untouched.
+//! Faulty submissions: each gets a row, and the points of the others are not affected.
 
 use serde_json::Value;
 
@@ -9,7 +8,7 @@ const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 
 #[test]
 fn a_faulty_submission_does_not_affect_the_others() {
-    let place = TestClass::named("class")
+    let class = TestClass::named("class")
         .with_reference("fine")
         .with_starter("=starter")
         .with_reference("panics")
@@ -22,19 +21,19 @@ fn a_faulty_submission_does_not_affect_the_others() {
         .with("broken/sphere.rs", "fn (")
         .with("bad.zip", "PK\x03\x04 and no more")
         .with_folder("empty");
-    let exam = place.small_exam(&ITEMS);
-    let output = place.grade(&exam, &[]);
+    let exam = class.small_exam(&ITEMS);
+    let output = class.grade(&exam, &[]);
     let text = successful_stdout(&output);
-    let grades = place.read("grades.csv");
+    let grades = class.read("grades.csv");
     let line = |id: &str| {
         let begin = format!("{id},");
         let line = grades.lines().find(|line| line.starts_with(&begin));
         line.unwrap_or_else(|| panic!("{id}: {grades}")).to_owned()
     };
-    let summary: Value = serde_json::from_str(&place.read("class.json")).unwrap();
+    let summary: Value = serde_json::from_str(&class.read("class.json")).unwrap();
     let most = summary["points"]["of"].as_u64().unwrap();
     assert!(line("fine").contains(&format!("graded,{most},{most},{most}")));
-    // A name that a spreadsheet would calculate is shown instead.
+    // A name that a spreadsheet would take for a formula is escaped.
     assert!(line("_starter").contains("'=starter,,,,graded,0,0,"));
     assert!(
         line("bad").contains("nothing to grade,,,"),
@@ -49,26 +48,26 @@ fn a_faulty_submission_does_not_affect_the_others() {
 
     assert_eq!(summary["graded"], 4);
     assert_eq!(summary["nothing_to_grade"], 2);
-    assert!(text.contains("to be looked at"), "{text}");
-    let page = place.read("class.html");
+    assert!(text.contains("submissions that need attention"), "{text}");
+    let page = class.read("class.html");
     assert!(page.contains("href=\"students/fine/report.html\""));
-    assert!(!page.contains("=starter</script"), "names are text");
+    assert!(!page.contains("=starter</script"), "names must be escaped");
 }
 
 #[test]
 fn late_days_cost_what_the_policy_says() {
     let metadata = "---\nsubmission_1:\n  :submitters:\n  - :name: Late\n    :email: l@x.edu\n  :created_at: 2026-11-21 00:10:00.000000000 Z\nsubmission_2:\n  :submitters:\n  - :name: Early\n    :email: e@x.edu\n  :created_at: 2026-11-20 00:10:00.000000000 Z\n";
-    let place = TestClass::named("export")
+    let class = TestClass::named("export")
         .with("submission_metadata.yml", metadata)
         .with_reference("submission_1")
         .with_reference("submission_2");
-    let exam = place.small_exam(&ITEMS);
-    let policy = place.write_beside(
+    let exam = class.small_exam(&ITEMS);
+    let policy = class.write_beside(
         "policy.toml",
         "[points]\nout_of = 50\n[late]\ndue = 2026-11-20T23:59:59Z\npercent_per_day = 10\n",
     );
-    successful_stdout(&place.grade(&exam, &["--policy", &policy]));
-    let grades = place.read("grades.csv");
+    successful_stdout(&class.grade(&exam, &["--policy", &policy]));
+    let grades = class.read("grades.csv");
     assert!(
         grades.contains("submission_1,Late,l@x.edu,,,graded,45,"),
         "{grades}"
@@ -78,12 +77,12 @@ fn late_days_cost_what_the_policy_says() {
         "{grades}"
     );
 
-    // Whoever goes on and forgets it is told.
-    let again = place.grade(&exam, &[]);
+    // A run that is continued without the policy prints a warning.
+    let again = class.grade(&exam, &[]);
     successful_stdout(&again);
     let error = String::from_utf8(again.stderr).unwrap();
     assert!(
-        error.contains("the policy is not that of the last run"),
+        error.contains("the policy differs from the last run's"),
         "{error}"
     );
 }

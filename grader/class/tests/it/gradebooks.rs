@@ -1,4 +1,4 @@
-//! The teacher's own lists, with points in them: through the real binary, from one class.
+//! Filling in the teacher's gradebooks with the points of one class.
 
 use insta::assert_snapshot;
 
@@ -6,15 +6,15 @@ use crate::harness::{TestClass, exit_code_and_stderr, successful_stdout};
 
 #[test]
 fn rejects_an_ambiguous_gradebook_before_grading() {
-    let place = TestClass::named("class").with_reference("ann");
-    let exam = place.small_exam(&["camera.offset"]);
+    let class = TestClass::named("class").with_reference("ann");
+    let exam = class.small_exam(&["camera.offset"]);
     let canvas = "Student,ID,SIS Login ID,Section,One (1),Two (2)\n";
-    let canvas = place.write_beside("canvas-export.csv", canvas);
-    let output = place.grade(&exam, &["--canvas", &canvas]);
+    let canvas = class.write_beside("canvas-export.csv", canvas);
+    let output = class.grade(&exam, &["--canvas", &canvas]);
     let (code, error) = exit_code_and_stderr(&output);
     assert_eq!(code, 2);
-    assert!(error.contains("name it with --column"), "{error}");
-    assert!(!place.out().exists(), "something was graded");
+    assert!(error.contains("choose one with --column"), "{error}");
+    assert!(!class.out().exists(), "nothing must be graded");
 }
 
 #[test]
@@ -39,12 +39,12 @@ submission_3:
     :sid: u4
     :email: empty@example.edu
 ";
-    let place = TestClass::named("export")
+    let class = TestClass::named("export")
         .with("submission_metadata.yml", metadata)
         .with_reference("submission_1")
         .with_starter("submission_2")
         .with_folder("submission_3");
-    let canvas = place.write_beside(
+    let canvas = class.write_beside(
         "canvas-export.csv",
         "Student,ID,SIS User ID,SIS Login ID,Section,Quiz (11),Path Tracer (4242),Final Score
     Points Possible,,,,,10,4,(read only)
@@ -54,21 +54,21 @@ submission_3:
 \"Missing, M\",7005,u5,missing,Lab 1,6,2,60
 ",
     );
-    let moodle = place.write_beside(
+    let moodle = class.write_beside(
         "worksheet.csv",
         "\u{feff}Identifier,Full name,ID number,Email address,Status,Grade,Maximum Grade,Grade can be changed,Last modified (submission),Last modified (grade),Feedback comments
 Participant 301,José Núñez,u1,jose@example.edu,Submitted,,4.00,Yes,-,-,
 Participant 302,Ann Lee,u2,ann@example.edu,Submitted,\"2,00\",4.00,No,-,-,
 ",
     );
-    let gradescope = place.write_beside(
+    let gradescope = class.write_beside(
         "grades.csv",
         "First Name,Last Name,SID,Email,Sections,Total Score,Max Points,Status
 José,Núñez,u1,jose@example.edu,,1.0,4.0,Graded
 Ann,Lee,u2,ann@example.edu,,4.0,4.0,Graded
 ",
     );
-    let exam = place.small_exam(&["camera.offset", "sphere.radius"]);
+    let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
     let lists = [
         "--canvas",
         &canvas,
@@ -79,10 +79,10 @@ Ann,Lee,u2,ann@example.edu,,4.0,4.0,Graded
         "--gradescope",
         &gradescope,
     ];
-    let text = successful_stdout(&place.grade(&exam, &lists));
+    let text = successful_stdout(&class.grade(&exam, &lists));
     let lists = text.split("Canvas, ").nth(1).unwrap();
-    let here = place.path_beside("");
+    let here = class.path_beside("");
     let lists = lists.replace(here.to_str().unwrap(), "HERE/");
-    let copies = ["canvas.csv", "moodle.csv", "gradescope.csv"].map(|name| place.read(name));
+    let copies = ["canvas.csv", "moodle.csv", "gradescope.csv"].map(|name| class.read(name));
     assert_snapshot!(format!("{lists}\n{}", copies.join("\n")));
 }

@@ -1,4 +1,4 @@
-//! Classes made on the spot, a small exam for them, and the program that grades them.
+//! Test classes, a small exam for them, and functions that run the binary.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,38 +10,38 @@ use tempfile::TempDir;
 
 pub const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 
-/// The folder of the whole project.
+/// Returns the root folder of the repository.
 pub fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// A folder for a class and what comes of it, which vanishes.
+/// A temporary folder with a class and its results.
 pub struct TestClass {
     folder: TempDir,
     pub name: String,
 }
 
 impl TestClass {
-    /// A class in a folder of this name.
+    /// Creates a class in a folder with this name.
     pub fn named(name: &str) -> Self {
-        let place = TestClass {
+        let class = TestClass {
             folder: TempDir::new().unwrap(),
             name: name.to_owned(),
         };
-        fs::create_dir(place.input()).unwrap();
-        place
+        fs::create_dir(class.input()).unwrap();
+        class
     }
 
     pub fn input(&self) -> PathBuf {
         self.folder.path().join(&self.name)
     }
 
-    /// A path beside the class.
+    /// Returns a path next to the class's folder.
     pub fn path_beside(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
-    /// Puts a file into the class.
+    /// Adds a file to the class.
     pub fn with(self, path: &str, bytes: impl AsRef<[u8]>) -> Self {
         let path = self.input().join(path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -49,55 +49,56 @@ impl TestClass {
         self
     }
 
-    /// Puts five files of one word each into the class, for whoever only looks.
+    /// Adds a minimal submission, for tests that never compile it.
     pub fn with_minimal_submission(self, folder: &str) -> Self {
-        TASK_FILES.iter().fold(self, |place, file| {
+        TASK_FILES.iter().fold(self, |class, file| {
             let path = match folder {
                 "" => (*file).to_owned(),
                 folder => format!("{folder}/{file}"),
             };
-            place.with(&path, "text")
+            class.with(&path, "text")
         })
     }
 
-    /// Puts the reference's five files into the class.
+    /// Adds a submission with the reference's task files.
     pub fn with_reference(self, folder: &str) -> Self {
         self.with_files_of("reference/src", folder)
     }
 
-    /// Puts the starter's five files into the class.
+    /// Adds a submission with the starter's task files.
     pub fn with_starter(self, folder: &str) -> Self {
         self.with_files_of("grader/starter", folder)
     }
 
     fn with_files_of(self, source: &str, folder: &str) -> Self {
-        TASK_FILES.iter().fold(self, |place, file| {
+        TASK_FILES.iter().fold(self, |class, file| {
             let text = fs::read(workspace().join(source).join(file)).unwrap();
-            place.with(&format!("{folder}/{file}"), text)
+            class.with(&format!("{folder}/{file}"), text)
         })
     }
 
-    /// An empty folder of the class.
+    /// Adds an empty folder to the class.
     pub fn with_folder(self, name: &str) -> Self {
         fs::create_dir_all(self.input().join(name)).unwrap();
         self
     }
 
-    /// Replaces text that must be there.
+    /// Replaces text in a file, and panics if it is not found.
     pub fn with_replaced(self, path: &str, from: &str, to: &str) -> Self {
         let text = fs::read_to_string(self.input().join(path)).unwrap();
-        assert!(text.contains(from), "{path} has no {from:?} any more");
+        assert!(text.contains(from), "{path} no longer contains {from:?}");
         self.with(path, text.replace(from, to))
     }
 
-    /// Writes a file beside the class.
+    /// Writes a file next to the class's folder, and returns its path.
     pub fn write_beside(&self, name: &str, text: &str) -> String {
         let path = self.path_beside(name);
         fs::write(&path, text).unwrap();
         path.to_str().unwrap().to_owned()
     }
 
-    /// An exam of these items of the practice exam alone: most tests need no more.
+    /// Writes an exam with only these items of the practice exam, which is faster, and returns its
+    /// path.
     pub fn small_exam(&self, items: &[&str]) -> String {
         let path = workspace().join("grader/exams/practice.json");
         let mut exam: Value = serde_json::from_slice(&fs::read(path).unwrap()).unwrap();
@@ -106,7 +107,7 @@ impl TestClass {
         assert_eq!(
             all.len(),
             items.len(),
-            "an item is not in the exam any more"
+            "every item must be in the practice exam"
         );
         for item in all.iter_mut() {
             item["needs"] = Value::Array(Vec::new());
@@ -115,7 +116,7 @@ impl TestClass {
         self.write_beside("exam.json", &exam.to_string())
     }
 
-    /// Who would be graded from what.
+    /// Returns the output of `--dry-run`.
     pub fn preview(&self) -> String {
         self.preview_of(&self.input(), &[])
     }
@@ -134,7 +135,7 @@ impl TestClass {
             .to_owned()
     }
 
-    /// Grades the class into `out` beside it.
+    /// Grades the class into the folder `out` next to it.
     pub fn grade(&self, exam: &str, more: &[&str]) -> Output {
         self.command(exam, more).output().unwrap()
     }
@@ -145,7 +146,7 @@ impl TestClass {
             .arg(self.input())
             .arg("--out")
             .arg(self.out())
-            // What is kept apart from what is the grader's own tests' matter.
+            // Isolation is tested in the grader's own tests.
             .args(["--exam", exam, "--no-reference", "--isolation", "none"])
             .args(more);
         command
@@ -160,27 +161,27 @@ impl TestClass {
     }
 }
 
-/// The program itself, run from the workspace's folder.
+/// Returns a command for the binary, run in the root folder of the repository.
 pub fn class_command() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_class"));
     command.current_dir(workspace());
     command
 }
 
-/// What a run said; it must have gone well.
+/// Returns the standard output of a run, and panics if the run failed.
 pub fn successful_stdout(output: &Output) -> String {
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{error}");
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// What a run complained of, and its exit code.
+/// Returns the exit code and the standard error of a run.
 pub fn exit_code_and_stderr(output: &Output) -> (i32, String) {
     let error = String::from_utf8_lossy(&output.stderr).into_owned();
     (output.status.code().unwrap(), error)
 }
 
-/// All files below a folder but for what no two runs have alike: how long it took.
+/// Returns all files in a folder, without the timings, which differ in every run.
 pub fn comparable_files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut files = BTreeMap::new();
     collect_files(folder, folder, &mut files);

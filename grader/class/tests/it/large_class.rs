@@ -1,11 +1,11 @@
-//! A whole class, killed twenty times: the same bytes as undisturbed, and no slower than its cores
-//! allow. It takes minutes of all cores, so it is run on purpose:
+//! A large class that is killed twenty times: the results are the same as those of an uninterrupted
+//! run. The test uses all cores for minutes, so it is ignored by default. Run it with:
 //!
 //! ```text
 //! cargo run --release -p author --example submissions -- target/class 200
 //! cargo build --release -p class
 //! CLASS=target/class PROGRAM=target/release/class \
-//!     cargo test -p class --test it -- --ignored --nocapture two_hundred
+//!     cargo test -p class --test it -- --ignored --nocapture large_class
 //! ```
 
 use std::path::{Path, PathBuf};
@@ -29,48 +29,51 @@ fn run(input: &Path, out: &Path) -> Command {
     command
 }
 
-/// CPU time of all children that have ended so far.
+/// Returns the CPU time of all child processes that have ended.
 fn children_cpu_time() -> Duration {
     let stat = fs::read_to_string("/proc/self/stat").unwrap();
-    // After the name, which may hold spaces: fields 16 and 17, in ticks, of which a second has 100.
+    // After the name, which may contain spaces: fields 16 and 17, in ticks of 10 ms.
     let (_, fields) = stat.rsplit_once(") ").unwrap();
     let fields: Vec<&str> = fields.split(' ').collect();
-    let ticks = |place: usize| fields[place].parse::<u64>().unwrap();
+    let ticks = |index: usize| fields[index].parse::<u64>().unwrap();
     Duration::from_millis(10 * (ticks(13) + ticks(14)))
 }
 
 #[test]
-#[ignore = "it takes minutes of all cores, and a class: see above"]
+#[ignore = "takes minutes on all cores, and needs a class: see above"]
 fn a_large_class_killed_twenty_times_gives_the_same_results() {
     let input = PathBuf::from(env::var_os("CLASS").expect("CLASS names the folder"));
     let input = workspace().join(input);
-    let place = TempDir::new().unwrap();
-    let (whole, torn) = (place.path().join("whole"), place.path().join("torn"));
+    let folder = TempDir::new().unwrap();
+    let (uninterrupted, interrupted) = (
+        folder.path().join("uninterrupted"),
+        folder.path().join("interrupted"),
+    );
     let count = fs::read_dir(&input).unwrap().count();
 
-    // Whatever is compiled once is compiled before anything is measured.
+    // Compiles the shared dependencies before anything is measured.
     let one = fs::read_dir(&input).unwrap().next().unwrap().unwrap();
-    let small = place.path().join("small");
+    let small = folder.path().join("small");
     fs::create_dir_all(small.join("one")).unwrap();
     for file in TASK_FILES {
         fs::copy(one.path().join(file), small.join("one").join(file)).unwrap();
     }
-    successful_stdout(&run(&small, &place.path().join("warm")).output().unwrap());
+    successful_stdout(&run(&small, &folder.path().join("warm")).output().unwrap());
 
     let (began, before) = (Instant::now(), children_cpu_time());
-    successful_stdout(&run(&input, &whole).output().unwrap());
+    successful_stdout(&run(&input, &uninterrupted).output().unwrap());
     let (took, cpu) = (began.elapsed(), children_cpu_time() - before);
-    let wanted = comparable_files(&whole);
+    let wanted = comparable_files(&uninterrupted);
     println!("{count} submissions: {took:.1?} by the clock, {cpu:.1?} of CPU time");
 
-    // Moments that no pattern of ours could spare, and the same in every run of this test.
+    // Pseudorandom times, which are the same in every run of this test.
     let mut random = 88_172_645_463_325_252_u64;
     let mut killed = 0;
     for _ in 0..KILLS {
         random ^= random << 13;
         random ^= random >> 7;
         random ^= random << 17;
-        let mut command = run(&input, &torn);
+        let mut command = run(&input, &interrupted);
         command.stdout(Stdio::null()).stderr(Stdio::null());
         let mut run = command.spawn().unwrap();
         thread::sleep(took * (random % 1000) as u32 / 1000 / (KILLS / 2));
@@ -78,13 +81,16 @@ fn a_large_class_killed_twenty_times_gives_the_same_results() {
         run.kill().unwrap();
         run.wait().unwrap();
     }
-    let kept = fs::read_dir(torn.join("students")).unwrap().count();
-    println!("killed {killed} of {KILLS} times, with {kept} submissions begun");
+    let kept = fs::read_dir(interrupted.join("students")).unwrap().count();
+    println!("killed {killed} of {KILLS} times, with {kept} submissions started");
     assert!(
         killed >= KILLS / 2,
-        "most runs were over before they were killed"
+        "most runs must still be running when they are killed"
     );
-    successful_stdout(&run(&input, &torn).output().unwrap());
-    assert!(comparable_files(&torn) == wanted, "the results differ");
+    successful_stdout(&run(&input, &interrupted).output().unwrap());
+    assert!(
+        comparable_files(&interrupted) == wanted,
+        "the results differ"
+    );
     println!("resumed: {} files, the same bytes", wanted.len());
 }

@@ -1,4 +1,4 @@
-//! Who would be graded from what, of each platform's export. Names are as awkward as people's are.
+//! Previews of each platform's export. Names are as unusual as real ones.
 
 use std::fs::File;
 use std::io::Write;
@@ -10,7 +10,7 @@ use zip::write::SimpleFileOptions;
 
 use crate::harness::{TASK_FILES, TestClass};
 
-/// An archive of five files, in a folder of their own.
+/// Returns an archive with the five task files in a subfolder.
 fn archive() -> Vec<u8> {
     let mut writer = ZipWriter::new(std::io::Cursor::new(Vec::new()));
     for file in TASK_FILES {
@@ -23,7 +23,7 @@ fn archive() -> Vec<u8> {
     writer.finish().unwrap().into_inner()
 }
 
-/// The folder as the archive that a platform would have sent.
+/// Writes the folder as an archive, as a platform would export it.
 fn zipped(folder: &Path, file: &Path) {
     let mut writer = ZipWriter::new(File::create(file).unwrap());
     let mut folders = vec![folder.to_owned()];
@@ -48,7 +48,7 @@ fn zipped(folder: &Path, file: &Path) {
     writer.finish().unwrap();
 }
 
-/// As Ruby writes it: symbols, numbers without quotes, tags, and all that an earlier grader said.
+/// Metadata as Ruby writes it: symbols, unquoted numbers, tags, and the results of earlier grading.
 const GRADESCOPE: &str = "---
 submission_101:
   :submitters:
@@ -104,16 +104,16 @@ fn reads_a_gradescope_export_with_groups() {
 
 #[test]
 fn an_archived_export_gives_the_same_preview() {
-    let place = gradescope();
-    let file = place.path_beside("assignment_55_export.zip");
-    zipped(&place.input(), &file);
-    assert_eq!(place.preview_of(&file, &[]), place.preview());
+    let class = gradescope();
+    let file = class.path_beside("assignment_55_export.zip");
+    zipped(&class.input(), &file);
+    assert_eq!(class.preview_of(&file, &[]), class.preview());
 }
 
 #[test]
 fn unusual_files_of_one_student_do_not_affect_the_others() {
-    let place = TestClass::named("beside");
-    let file = place.path_beside("class.zip");
+    let class = TestClass::named("beside");
+    let file = class.path_beside("class.zip");
     let mut writer = ZipWriter::new(File::create(&file).unwrap());
     let plain = SimpleFileOptions::default();
     let mut write = |path: &str, bytes: &[u8]| {
@@ -126,22 +126,22 @@ fn unusual_files_of_one_student_do_not_affect_the_others() {
     write("class/long/camera.rs", &[b' '; (1 << 20) + 1]);
     write("class/outside/../../escaped.rs", b"text");
     write(&format!("class/{}/camera.rs", "n".repeat(300)), b"text");
-    // Of what is never looked at nothing is inflated, however much it is.
+    // Files that are not needed are not unpacked, however large they are.
     write("class/junk/notes.bin", &[0; 2 << 20]);
     writer.add_directory("class/empty/", plain).unwrap();
     writer
         .add_symlink("class/link/camera.rs", "/etc/passwd", plain)
         .unwrap();
     writer.finish().unwrap();
-    let preview = place.preview_of(&file, &[]);
+    let preview = class.preview_of(&file, &[]);
     assert_snapshot!(preview.replace(&"n".repeat(300), "NNN"));
 }
 
 #[test]
 fn reports_invalid_gradescope_metadata() {
-    let place = TestClass::named("export").with("submission_metadata.yml", "submission_1: [");
+    let class = TestClass::named("export").with("submission_metadata.yml", "submission_1: [");
     let output = crate::harness::class_command()
-        .arg(place.input())
+        .arg(class.input())
         .arg("--dry-run")
         .output()
         .unwrap();
@@ -153,7 +153,7 @@ fn reports_invalid_gradescope_metadata() {
 
 #[test]
 fn groups_canvas_files_by_user_and_takes_the_newest() {
-    let place = TestClass::named("submissions")
+    let class = TestClass::named("submissions")
         .with("doejane_7001_9001_hw.zip", archive())
         .with("doejane_7001_9005_hw-1.zip", archive())
         .with("nunezjose_LATE_7002_9010_camera.rs", "old")
@@ -164,15 +164,15 @@ fn groups_canvas_files_by_user_and_takes_the_newest() {
         .with("leeann_LATE_7004_text.html", "text")
         .with("doejane_7001_link.html", "text")
         .with("anon_xK3f9_9040_hw.zip", archive());
-    assert_snapshot!(place.preview());
+    assert_snapshot!(class.preview());
 }
 
 #[test]
 fn a_canvas_group_submission_counts_for_all_its_members() {
-    let place = TestClass::named("submissions")
+    let class = TestClass::named("submissions")
         .with("doejane_7001_9001_hw.zip", archive())
         .with("oharabob_7003_9030_hw.zip", archive());
-    let groups = place.write_beside(
+    let groups = class.write_beside(
         "groups.csv",
         "name,canvas_user_id,user_id,login_id,sections,group_name,canvas_group_id,group_id
 Jane Doe,7001,u1,jane,Lab 2,Team A,51,
@@ -181,7 +181,7 @@ Bob O'Hara,7003,u3,bob,Lab 1,,,
 Ann Lee,7004,u4,ann,Lab 1,Team B,52,
 ",
     );
-    let preview = place.preview_of(&place.input(), &["--roster", &groups]);
+    let preview = class.preview_of(&class.input(), &["--roster", &groups]);
     let (graded, missing) = preview.split_once("nothing handed in:").unwrap();
     assert!(
         graded.contains("  doejane + Núñez, José: five files"),
@@ -196,7 +196,7 @@ Ann Lee,7004,u4,ann,Lab 1,Team B,52,
 
 #[test]
 fn reads_moodle_folders_with_files_or_an_archive() {
-    let place = TestClass::named("CG-Path tracing-77")
+    let class = TestClass::named("CG-Path tracing-77")
         .with_minimal_submission("José Núñez_301_assignsubmission_file_")
         .with(
             "Ann Lee, PhD_302_assignsubmission_file_/abgabe.zip",
@@ -213,29 +213,29 @@ fn reads_moodle_folders_with_files_or_an_archive() {
             "José Núñez_301_assignsubmission_onlinetext_/onlinetext.html",
             "text",
         );
-    assert_snapshot!(place.preview());
+    assert_snapshot!(class.preview());
 }
 
 #[test]
 fn moodle_numbers_distinguish_people_of_the_same_name() {
-    let place = TestClass::named("moodle")
+    let class = TestClass::named("moodle")
         .with_minimal_submission("Ann Lee_307_assignsubmission_file_")
         .with_minimal_submission("Ann Lee_308_assignsubmission_file_");
-    let worksheet = place.write_beside(
+    let worksheet = class.write_beside(
         "worksheet.csv",
         "Identifier,Full name,Email address,Grade
 Participant 307,Ann Lee,a@example.edu,
 Participant 308,Ann Lee,b@example.edu,
 ",
     );
-    let preview = place.preview_of(&place.input(), &["--moodle", &worksheet]);
+    let preview = class.preview_of(&class.input(), &["--moodle", &worksheet]);
     assert!(!preview.contains("same person"), "{preview}");
     assert!(!preview.contains("nothing handed in"), "{preview}");
 }
 
 #[test]
 fn groups_flat_moodle_downloads_by_participant() {
-    let place = TestClass::named("flat")
+    let class = TestClass::named("flat")
         .with("Ann Lee_302_assignsubmission_file_camera.rs", "text")
         .with("Ann Lee_302_assignsubmission_file_my_notes.txt", "text")
         .with("Participant_303_assignsubmission_file_hw.tar.gz", "text")
@@ -243,26 +243,26 @@ fn groups_flat_moodle_downloads_by_participant() {
         .with("Bob_304_assignsubmission_file_b.zip", archive())
         .with("Eve_305_assignsubmission_file_bvh.rs", "text")
         .with("Eve_305_assignsubmission_file_scenes.zip", "text");
-    assert_snapshot!(place.preview());
+    assert_snapshot!(class.preview());
 }
 
 #[test]
 fn names_github_clones_by_account_and_joins_the_roster() {
-    let place = TestClass::named("pathtracing-submissions")
+    let class = TestClass::named("pathtracing-submissions")
         .with_minimal_submission("pathtracing-ann-lee/student/src")
         .with_minimal_submission("pathtracing-zoe/student/src")
         .with("pathtracing-empty/README.md", "text");
-    let roster = place.write_beside(
+    let roster = class.write_beside(
         "roster.csv",
         "name,email,github_username\n\"Lee, Ann\",ann@example.edu,Ann-Lee\nBob,bob@example.edu,bob\n",
     );
-    let preview = place.preview_of(&place.input(), &["--roster", &roster]);
+    let preview = class.preview_of(&class.input(), &["--roster", &roster]);
     assert_snapshot!(preview);
 }
 
 #[test]
 fn recognises_classroom50_clones() {
-    let place = TestClass::named("2026-11-20")
+    let class = TestClass::named("2026-11-20")
         .with_minimal_submission("cg-pathtracing-ann/student/src")
         .with("cg-pathtracing-ann/result.json", "{}")
         .with_minimal_submission("cg-pathtracing-bob/student/src")
@@ -276,12 +276,12 @@ bob,Bob,O'Hara,bob@example.edu,2026-11-19T10:00:00Z,false
 dora,Dora,Y,dora@example.edu,,
 ",
         );
-    assert_snapshot!(place.preview());
+    assert_snapshot!(class.preview());
 }
 
 #[test]
 fn reads_a_plain_folder_and_lists_everything_it_cannot_use() {
-    let place = TestClass::named("class")
+    let class = TestClass::named("class")
         .with_minimal_submission("ann lee")
         .with_minimal_submission("ANN_LEE")
         .with("bob.zip", archive())
@@ -292,21 +292,21 @@ fn reads_a_plain_folder_and_lists_everything_it_cannot_use() {
         .with("grades.xlsx", "text")
         .with_minimal_submission("two/a")
         .with_minimal_submission("two/b");
-    assert_snapshot!(place.preview());
+    assert_snapshot!(class.preview());
 }
 
 #[test]
 fn rejects_a_single_submission() {
-    let place = TestClass::named("student").with("camera.rs", "text");
+    let class = TestClass::named("student").with("camera.rs", "text");
     let output = crate::harness::class_command()
-        .arg(place.input())
+        .arg(class.input())
         .arg("--dry-run")
         .output()
         .unwrap();
     let (code, error) = crate::harness::exit_code_and_stderr(&output);
     assert_eq!(code, 2);
     assert!(
-        error.contains("one alone is graded by `cargo grade`"),
+        error.contains("to grade a single submission, use `cargo grade`"),
         "{error}"
     );
 }

@@ -1,4 +1,5 @@
-//! What is the machine's fault is tried again, and flagged if it stays: never scored.
+//! Faults of the machine: grading is tried again. If the fault remains, it is reported and the
+//! submission has no score.
 
 #![cfg(unix)]
 
@@ -10,7 +11,7 @@ use crate::harness::{TestClass, exit_code_and_stderr, successful_stdout};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 
-/// A linker that fails for as long as there are files beside it to be taken away.
+/// A linker that fails once for each file `fault-*` next to it, which it removes.
 const LINKER: &str = r#"#!/bin/sh
 here=$(dirname "$0")
 for fault in "$here"/fault-*; do
@@ -23,8 +24,8 @@ done
 PATH=${PATH#*:} exec cc "$@"
 "#;
 
-fn grade_with_faults(faults: usize, place: &TestClass, exam: &str) -> Output {
-    let tools = place.path_beside("tools");
+fn grade_with_faults(faults: usize, class: &TestClass, exam: &str) -> Output {
+    let tools = class.path_beside("tools");
     fs::create_dir_all(&tools).unwrap();
     let linker = tools.join("cc");
     fs::write(&linker, LINKER).unwrap();
@@ -33,10 +34,13 @@ fn grade_with_faults(faults: usize, place: &TestClass, exam: &str) -> Output {
         fs::write(tools.join(format!("fault-{fault}")), "").unwrap();
     }
     let path = format!("{}:{}", tools.display(), std::env::var("PATH").unwrap());
-    let mut run = place.command(exam, &[]);
+    let mut run = class.command(exam, &[]);
     let output = run.env("PATH", path).output().unwrap();
     let unused = fs::read_dir(&tools).unwrap().count() - 1;
-    assert!(faults == 0 || unused < faults, "nothing was linked");
+    assert!(
+        faults == 0 || unused < faults,
+        "the linker must have been called"
+    );
     for fault in 0..faults {
         fs::remove_file(tools.join(format!("fault-{fault}"))).ok();
     }
@@ -45,24 +49,24 @@ fn grade_with_faults(faults: usize, place: &TestClass, exam: &str) -> Output {
 
 #[test]
 fn a_transient_fault_is_retried_and_a_lasting_fault_gives_no_score() {
-    let place = TestClass::named("class").with_reference("ann");
-    let exam = place.small_exam(&ITEMS);
+    let class = TestClass::named("class").with_reference("ann");
+    let exam = class.small_exam(&ITEMS);
 
-    let output = grade_with_faults(1000, &place, &exam);
+    let output = grade_with_faults(1000, &class, &exam);
     let (code, error) = exit_code_and_stderr(&output);
     assert_eq!(code, 3, "{error}");
     assert!(
         error.contains("not graded, and not the student's fault"),
         "{error}"
     );
-    let grades = place.read("grades.csv");
+    let grades = class.read("grades.csv");
     assert!(grades.contains("ann,ann,,,,not graded,,,"), "{grades}");
-    let score = place.out().join("students/ann/score.json");
-    assert!(!score.exists(), "there is a score");
+    let score = class.out().join("students/ann/score.json");
+    assert!(!score.exists(), "there must be no score");
 
-    let text = successful_stdout(&grade_with_faults(1, &place, &exam));
+    let text = successful_stdout(&grade_with_faults(1, &class, &exam));
     assert!(!text.contains("not graded"), "{text}");
-    let grades = place.read("grades.csv");
+    let grades = class.read("grades.csv");
     let points: Vec<&str> = grades.lines().nth(1).unwrap().split(',').collect();
     assert_eq!((points[5], points[6]), ("graded", points[7]), "{grades}");
 }

@@ -1,4 +1,4 @@
-//! The real binary on classes as platforms export them.
+//! Tests of the `class` binary, with classes like those that platforms export.
 
 mod faulty_submissions;
 mod gradebooks;

@@ -1,4 +1,4 @@
-//! Killed at any moment and started again; graded again on purpose.
+//! Runs that are killed and resumed, and regrades.
 
 use std::fs;
 use std::process::Stdio;
@@ -27,47 +27,47 @@ fn sample_class(name: &str) -> TestClass {
 
 #[test]
 fn a_killed_run_resumes_to_the_same_results() {
-    let place = sample_class("class");
-    let exam = place.small_exam(&ITEMS);
+    let class = sample_class("class");
+    let exam = class.small_exam(&ITEMS);
     let began = Instant::now();
-    successful_stdout(&place.grade(&exam, &[]));
-    let whole = began.elapsed();
-    let wanted = comparable_files(&place.out());
-    fs::remove_dir_all(place.out()).unwrap();
+    successful_stdout(&class.grade(&exam, &[]));
+    let duration = began.elapsed();
+    let wanted = comparable_files(&class.out());
+    fs::remove_dir_all(class.out()).unwrap();
 
     let mut killed = 0;
     for round in 0..KILLS {
-        let mut run = place.command(&exam, &[]);
+        let mut run = class.command(&exam, &[]);
         let mut run = run
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        // Whenever it comes, the end must be the same: moments spread over most of a run.
-        thread::sleep(whole * ((7 * round) % KILLS) / KILLS * 4 / 5 + Duration::from_millis(1));
+        // The runs are killed at times that are spread over most of a run.
+        thread::sleep(duration * ((7 * round) % KILLS) / KILLS * 4 / 5 + Duration::from_millis(1));
         killed += u32::from(run.try_wait().unwrap().is_none());
         run.kill().unwrap();
         run.wait().unwrap();
     }
     assert!(killed > 0, "no run was killed");
-    // Such files lie there if it was while one was written, which these moments may spare.
+    // Temporary files remain if a run is killed while it writes one, which may not have happened.
     for folder in ["", "students/ann"] {
-        let folder = place.out().join(folder);
+        let folder = class.out().join(folder);
         fs::create_dir_all(&folder).unwrap();
         fs::write(folder.join(".tmpZ81xPq"), "half of a f").unwrap();
     }
-    successful_stdout(&place.grade(&exam, &[]));
-    assert_eq!(comparable_files(&place.out()), wanted);
+    successful_stdout(&class.grade(&exam, &[]));
+    assert_eq!(comparable_files(&class.out()), wanted);
 }
 
 #[test]
 fn only_what_changed_is_graded_again() {
-    let place = sample_class("class");
-    let exam = place.small_exam(&ITEMS);
-    let first = place.grade(&exam, &[]);
+    let class = sample_class("class");
+    let exam = class.small_exam(&ITEMS);
+    let first = class.grade(&exam, &[]);
     successful_stdout(&first);
-    let place = place.with("bob/notes.rs", "").with_reference("zoë");
-    let second = place.grade(&exam, &[]);
+    let class = class.with("bob/notes.rs", "").with_reference("zoë");
+    let second = class.grade(&exam, &[]);
     successful_stdout(&second);
     let lines = String::from_utf8(second.stderr).unwrap();
     let graded = |id: &str| {
@@ -75,7 +75,7 @@ fn only_what_changed_is_graded_again() {
             .lines()
             .any(|line| line.contains(&format!("] {id}: ")))
     };
-    // A note in the report is a change of it.
+    // The additional file adds a note to the report, so the submission is graded again.
     assert!(graded("bob") && graded("zoë"), "{lines}");
     assert!(
         !graded("ann") && !graded("carl") && !graded("dora"),
@@ -85,38 +85,35 @@ fn only_what_changed_is_graded_again() {
 
 #[test]
 fn refuses_to_mix_incomparable_scores_and_regrade_reports_the_changes() {
-    let place = sample_class("class");
-    let exam = place.small_exam(&ITEMS);
-    successful_stdout(&place.grade(&exam, &[]));
+    let class = sample_class("class");
+    let exam = class.small_exam(&ITEMS);
+    successful_stdout(&class.grade(&exam, &[]));
 
-    let (worth, other) = exam_with_changed_points(&place, &exam, -1);
+    let (worth, other) = exam_with_changed_points(&class, &exam, -1);
 
-    let (code, error) = exit_code_and_stderr(&place.grade(&other, &[]));
+    let (code, error) = exit_code_and_stderr(&class.grade(&other, &[]));
     assert_eq!(code, 2);
-    assert!(
-        error.contains("the exam changed; --regrade grades all again"),
-        "{error}"
-    );
+    assert!(error.contains("the exam changed; use --regrade"), "{error}");
 
-    let text = successful_stdout(&place.grade(&other, &["--regrade"]));
+    let text = successful_stdout(&class.grade(&other, &["--regrade"]));
     assert!(
-        text.contains("regraded: 3 changed (different now: the exam)"),
+        text.contains("regraded: 3 scores changed (changed settings: the exam)"),
         "{text}"
     );
     assert!(
         text.contains(&format!("camera.offset {worth} → {}: pass", worth - 1)),
         "{text}"
     );
-    assert!(place.out().join("students/ann/previous.json").is_file());
-    // A run that only goes on says the same, and grades nothing.
-    let again = successful_stdout(&place.grade(&other, &[]));
-    assert!(again.contains("regraded: 3 changed"), "{again}");
+    assert!(class.out().join("students/ann/previous.json").is_file());
+    // A run that only resumes prints the same, and grades nothing.
+    let again = successful_stdout(&class.grade(&other, &[]));
+    assert!(again.contains("regraded: 3 scores changed"), "{again}");
 
     let (code, error) = exit_code_and_stderr(
         &class_command()
-            .arg(place.input())
+            .arg(class.input())
             .args(["--regrade", "--isolation", "none", "--out"])
-            .arg(place.path_beside("nothing"))
+            .arg(class.path_beside("nothing"))
             .output()
             .unwrap(),
     );
@@ -124,32 +121,33 @@ fn refuses_to_mix_incomparable_scores_and_regrade_reports_the_changes() {
     assert!(error.contains("holds no scores yet"), "{error}");
 }
 
-/// An exam whose camera's item is worth so much more or less, and what it was worth.
-fn exam_with_changed_points(place: &TestClass, exam: &str, by: i64) -> (i64, String) {
+/// Changes the points of the camera's item. Returns its original points and the path of the new
+/// exam.
+fn exam_with_changed_points(class: &TestClass, exam: &str, by: i64) -> (i64, String) {
     let mut other: Value = serde_json::from_slice(&fs::read(exam).unwrap()).unwrap();
     let camera = &mut other["items"][0];
     assert_eq!(camera["id"], "camera.offset");
     let worth = camera["points"].as_i64().unwrap();
     camera["points"] = (worth + by).into();
     let name = format!("revalued-{by}.json");
-    (worth, place.write_beside(&name, &other.to_string()))
+    (worth, class.write_beside(&name, &other.to_string()))
 }
 
 #[test]
 fn an_abandoned_regrade_keeps_the_old_scores() {
-    let place = sample_class("class");
-    let exam = place.small_exam(&ITEMS);
-    successful_stdout(&place.grade(&exam, &[]));
-    let (_, wrong) = exam_with_changed_points(&place, &exam, 1);
-    successful_stdout(&place.grade(&wrong, &["--regrade"]));
-    // As it is when whoever typed it has seen that it is the wrong exam.
-    let run = place.out().join("run.json");
+    let class = sample_class("class");
+    let exam = class.small_exam(&ITEMS);
+    successful_stdout(&class.grade(&exam, &[]));
+    let (_, wrong) = exam_with_changed_points(&class, &exam, 1);
+    successful_stdout(&class.grade(&wrong, &["--regrade"]));
+    // As if the run had been interrupted because it is the wrong exam.
+    let run = class.out().join("run.json");
     let text = fs::read_to_string(&run).unwrap();
     let text = text.replace("inished\": true", "inished\": false");
     fs::write(&run, text).unwrap();
 
-    let (worth, right) = exam_with_changed_points(&place, &exam, -1);
-    let text = successful_stdout(&place.grade(&right, &["--regrade"]));
+    let (worth, right) = exam_with_changed_points(&class, &exam, -1);
+    let text = successful_stdout(&class.grade(&right, &["--regrade"]));
     let change = format!("camera.offset {worth} → {}: pass", worth - 1);
     assert!(text.contains(&change), "{text}");
 }

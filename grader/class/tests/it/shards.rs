@@ -1,5 +1,5 @@
-//! A class that is spread over machines: the parts are the whole, and the recipes for schedulers
-//! are tried out or read strictly.
+//! Classes that are graded in shards, and the recipes for schedulers, which are run or checked
+//! against strict schemas.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ use crate::harness::{
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
-/// In a folder with a name such as Moodle gives.
+/// Returns a class in a folder with a name like Moodle's.
 fn three_submissions() -> TestClass {
     TestClass::named("CG-Path tracing (2)")
         .with_reference("ann")
@@ -19,10 +19,10 @@ fn three_submissions() -> TestClass {
         .with("carl.zip", "no archive")
 }
 
-fn grade_shard(place: &TestClass, exam: &str, which: &str, more: &[&str]) -> String {
-    let out = place.path_beside(&format!("shard-{}", which.replace('/', "-")));
+fn grade_shard(class: &TestClass, exam: &str, which: &str, more: &[&str]) -> String {
+    let out = class.path_beside(&format!("shard-{}", which.replace('/', "-")));
     let output = class_command()
-        .arg(place.input())
+        .arg(class.input())
         .args(["--exam", exam, "--no-reference", "--isolation", "none"])
         .args(["--shard", which])
         .args(more)
@@ -42,18 +42,18 @@ fn merge(shards: &[&str], out: &Path) -> Output {
 
 #[test]
 fn merged_shards_equal_an_unsharded_run() {
-    let place = three_submissions();
-    let exam = place.small_exam(&ITEMS);
-    let policy = place.write_beside("policy.toml", "[points]\nout_of = 7\n");
+    let class = three_submissions();
+    let exam = class.small_exam(&ITEMS);
+    let policy = class.write_beside("policy.toml", "[points]\nout_of = 7\n");
     let more = ["--policy", policy.as_str()];
-    successful_stdout(&place.grade(&exam, &more));
-    let shards = ["1/2", "2/2"].map(|which| grade_shard(&place, &exam, which, &more));
+    successful_stdout(&class.grade(&exam, &more));
+    let shards = ["1/2", "2/2"].map(|which| grade_shard(&class, &exam, which, &more));
     let [one, two] = shards.each_ref().map(String::as_str);
-    let out = place.path_beside("merged");
+    let out = class.path_beside("merged");
     successful_stdout(&merge(&[one, two], &out));
-    // Without a word of the policy, which is theirs.
-    assert_eq!(comparable_files(&out), comparable_files(&place.out()));
-    assert!(place.read("grades.csv").contains("graded,7,"));
+    // The merge takes the policy from the shards.
+    assert_eq!(comparable_files(&out), comparable_files(&class.out()));
+    assert!(class.read("grades.csv").contains("graded,7,"));
 
     let refused = |shards: &[&str], why: &str| {
         let (code, error) = exit_code_and_stderr(&merge(shards, &out));
@@ -61,19 +61,19 @@ fn merged_shards_equal_an_unsharded_run() {
         assert!(error.contains(why), "{error}");
     };
     refused(&[one, two, one], "were both given the same --shard?");
-    refused(&[one], "part 2/2 is not among them");
-    let other = place.write_beside("other.toml", "[points]\nout_of = 8\n");
-    grade_shard(&place, &exam, "2/2", &["--policy", &other]);
+    refused(&[one], "no folder has part 2/2");
+    let other = class.write_beside("other.toml", "[points]\nout_of = 8\n");
+    grade_shard(&class, &exam, "2/2", &["--policy", &other]);
     refused(&[one, two], "different policies");
 }
 
-/// What the recipes call, in the place of `cargo class`.
-fn set_recipe_variables(command: &mut Command, place: &TestClass, exam: &str) {
+/// Sets the variables of a recipe, so that it runs the binary instead of `cargo class`.
+fn set_recipe_variables(command: &mut Command, class: &TestClass, exam: &str) {
     command
         .current_dir(workspace())
         .env("CLASS", env!("CARGO_BIN_EXE_class"))
-        .env("INPUT", place.input())
-        .env("OUT", place.out())
+        .env("INPUT", class.input())
+        .env("OUT", class.out())
         .env(
             "OPTIONS",
             format!("--exam {exam} --no-reference --isolation none"),
@@ -84,7 +84,7 @@ fn recipe(name: &str) -> std::path::PathBuf {
     workspace().join("grader/class/recipes").join(name)
 }
 
-/// Runs the script's array as `sbatch` does: as many tasks as it asks for, then what comes after.
+/// A replacement for `sbatch` that runs all tasks of an array, or a script without an array.
 const SBATCH: &str = r#"#!/bin/bash
 set -euo pipefail
 for word in "$@"; do case "$word" in
@@ -109,9 +109,9 @@ fi
 fn the_recipe_for_slurm_grades_and_merges_an_array() {
     use std::os::unix::fs::PermissionsExt;
 
-    let place = three_submissions();
-    let exam = place.small_exam(&ITEMS);
-    let bin = place.path_beside("bin");
+    let class = three_submissions();
+    let exam = class.small_exam(&ITEMS);
+    let bin = class.path_beside("bin");
     fs::create_dir(&bin).unwrap();
     fs::write(bin.join("sbatch"), SBATCH).unwrap();
     fs::set_permissions(bin.join("sbatch"), fs::Permissions::from_mode(0o755)).unwrap();
@@ -122,9 +122,9 @@ fn the_recipe_for_slurm_grades_and_merges_an_array() {
         .arg(recipe("slurm.sh"))
         .env("PATH", path)
         .env("SHARDS", "2");
-    set_recipe_variables(&mut submit, &place, &exam);
+    set_recipe_variables(&mut submit, &class, &exam);
     successful_stdout(&submit.output().unwrap());
-    let grades = place.read("grades.csv");
+    let grades = class.read("grades.csv");
     assert_eq!(grades.lines().count(), 4, "{grades}");
 }
 
@@ -133,15 +133,15 @@ fn the_recipe_for_gnu_parallel_grades_and_merges() {
     let is_there = Command::new("parallel").arg("--version").output();
     if !is_there.is_ok_and(|output| String::from_utf8_lossy(&output.stdout).contains("GNU")) {
         assert!(std::env::var_os("CI").is_none(), "GNU parallel is missing");
-        return eprintln!("SKIPPED: there is no GNU parallel here");
+        return eprintln!("SKIPPED: GNU parallel is not installed");
     }
-    let place = three_submissions();
-    let exam = place.small_exam(&ITEMS);
+    let class = three_submissions();
+    let exam = class.small_exam(&ITEMS);
     let mut run = Command::new("bash");
     run.arg(recipe("parallel.sh")).env("SHARDS", "2");
-    set_recipe_variables(&mut run, &place, &exam);
+    set_recipe_variables(&mut run, &class, &exam);
     successful_stdout(&run.output().unwrap());
-    assert_eq!(place.read("grades.csv").lines().count(), 4);
+    assert_eq!(class.read("grades.csv").lines().count(), 4);
 }
 
 mod recipe_schemas {
@@ -157,7 +157,7 @@ mod recipe_schemas {
         serde_saphyr::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
-    /// What Kubernetes takes (batch/v1, Job), as far as the recipe needs it.
+    /// The schema of a Kubernetes Job (batch/v1), as far as the recipe needs it.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields, rename_all = "camelCase")]
     struct Job {
@@ -219,9 +219,9 @@ mod recipe_schemas {
         let pod = job.spec.template.spec;
         assert_eq!(pod.restart_policy, "Never");
         let [container] = pod.containers.as_slice() else {
-            panic!("one container")
+            panic!("there must be one container")
         };
-        // Counted from 0 there, and from 1 here.
+        // Kubernetes counts from 0, and shards are counted from 1.
         let shards = &container.env[0];
         assert_eq!(shards["name"], "SHARDS");
         assert_eq!(shards["value"], job.spec.completions.to_string());
@@ -233,7 +233,7 @@ mod recipe_schemas {
         assert_eq!(container.volume_mounts.len(), pod.volumes.len());
     }
 
-    /// What GitHub takes of a workflow, as far as the recipe needs it.
+    /// The schema of a GitHub workflow, as far as the recipe needs it.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Workflow {
@@ -282,7 +282,7 @@ mod recipe_schemas {
         let strategy = shard.strategy.as_ref().unwrap();
         assert!(
             !strategy.fail_fast,
-            "one part's fault must not stop the others"
+            "a failing part must not stop the others"
         );
         let parts = &strategy.matrix["part"];
         let wanted: Vec<u32> = (1..=parts.len() as u32).collect();

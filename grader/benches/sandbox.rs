@@ -1,14 +1,11 @@
-//! What the sandbox costs: starting a probe until it answers, and compiling a submission, with and
-//! without, turn by turn, so that a noisy machine disturbs both.
+//! Measures the cost of the sandbox: starting a probe up to its first answer, and compiling a
+//! submission, with and without it. The two alternate, so that a busy machine affects both.
 //!
-//! `cargo bench -p grader --bench sandbox` prints CPU time, and time by the clock, at the best level
-//! that holds here.
+//! `cargo bench -p grader --bench sandbox` prints CPU time and wall time at the best isolation
+//! level that is available.
 
 #[path = "warm_grade/cost.rs"]
-#[allow(
-    dead_code,
-    reason = "no program is measured here, but what the grader does"
-)]
+#[allow(dead_code, reason = "only work in this process is measured here")]
 mod cost;
 
 use std::path::{Path, PathBuf};
@@ -32,12 +29,12 @@ const BUDGET: Budget = Budget {
 };
 
 fn main() -> ExitCode {
-    // The sandbox starts this very program as its launcher.
+    // The sandbox starts this program again as its launcher.
     if let Some(ended) = sandbox::run_as_launcher() {
         return ended;
     }
-    let workspace = Workspace::find().expect("this is the workspace");
-    let open = Builder::prepare(&workspace).expect("submissions can be built");
+    let workspace = Workspace::find().expect("the benchmark runs in the workspace");
+    let open = Builder::prepare(&workspace).expect("the dependencies can be built");
     let confined = match with_best_level(&open) {
         Ok(confined) => confined,
         Err(why) => {
@@ -46,15 +43,22 @@ fn main() -> ExitCode {
         }
     };
     let reference = root().join("reference/src");
-    let submission = Submission::collect(&reference).expect("the reference is there");
+    let submission = Submission::collect(&reference).expect("the reference can be read");
     let builders = [&open, &confined];
-    let builds = builders.map(|builder| builder.build(&submission).expect("it builds"));
-    println!("{} beside none", builds[1].isolation());
+    let builds = builders.map(|builder| {
+        builder
+            .build(&submission)
+            .expect("the reference can be built")
+    });
+    println!(
+        "isolation level {} compared with none",
+        builds[1].isolation()
+    );
 
-    let compile = |which: usize| Cost::of(|| drop(builders[which].build(&submission)));
+    let compile = |index: usize| Cost::of(|| drop(builders[index].build(&submission)));
     report("compile", COMPILES, compile);
-    report("start of a probe", STARTS, |which| {
-        Cost::of(|| first_answer(&builds[which]))
+    report("start a probe", STARTS, |index| {
+        Cost::of(|| first_answer(&builds[index]))
     });
     ExitCode::SUCCESS
 }
@@ -64,25 +68,28 @@ fn root() -> PathBuf {
 }
 
 fn first_answer(build: &Build) {
-    let program = build.probe.as_deref().expect("it compiles");
-    let mut probe = build.launcher(program).start(BUDGET).expect("it starts");
+    let program = build.probe.as_deref().expect("the reference compiles");
+    let mut probe = build
+        .launcher(program)
+        .start(BUDGET)
+        .expect("the probe starts");
     let nothing: [&Question; 0] = [];
-    probe.ask(nothing, BUDGET).expect("it answers");
+    probe.ask(nothing, BUDGET).expect("the probe answers");
 }
 
-/// Medians, in milliseconds, without and with; and how many times as much that is.
+/// Prints the medians in milliseconds without and with the sandbox, and their ratio.
 fn report(what: &str, rounds: usize, one: impl Fn(usize) -> Cost) {
     let rounds: Vec<[Cost; 2]> = (0..rounds).map(|_| [one(0), one(1)]).collect();
-    let median = |which: usize, time: &dyn Fn(&Cost) -> Duration| {
-        let mut times: Vec<Duration> = rounds.iter().map(|round| time(&round[which])).collect();
+    let median = |index: usize, time: &dyn Fn(&Cost) -> Duration| {
+        let mut times: Vec<Duration> = rounds.iter().map(|round| time(&round[index])).collect();
         times.sort();
         1e3 * times[times.len() / 2].as_secs_f64()
     };
     let print = |name: &str, time: &dyn Fn(&Cost) -> Duration| {
-        let [open, confined] = [0, 1].map(|which| median(which, time));
+        let [open, confined] = [0, 1].map(|index| median(index, time));
         let ratio = confined / open;
         println!("{what:18}{name:14}{open:8.1} and {confined:8.1} ms, {ratio:.3} ×");
     };
     print("CPU", &|cost| cost.cpu);
-    print("by the clock", &|cost| cost.wall);
+    print("wall", &|cost| cost.wall);
 }

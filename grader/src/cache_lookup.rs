@@ -1,4 +1,4 @@
-//! A submission that is graded again as it was: what was said of it then, in a few milliseconds.
+//! Finds the cached report of an unchanged submission, in a few milliseconds.
 
 use crate::cached_report::{CacheKey, CachedReport};
 use crate::cli::Arguments;
@@ -8,8 +8,8 @@ use crate::grade::{builder, collect, default_folder};
 use crate::report_files::ReportFiles;
 use crate::workspace::Workspace;
 
-/// What was said of the submission, and the files that tell it, if it was graded before, and nothing
-/// has changed since.
+/// Returns the cached report and its files, if the submission was graded before and nothing has
+/// changed since.
 pub fn find_cached_report(
     arguments: &Arguments,
 ) -> Result<Option<(CachedReport, ReportFiles)>, Error> {
@@ -19,14 +19,15 @@ pub fn find_cached_report(
     let workspace = Workspace::find()?;
     let submission = collect(arguments, &workspace)?;
     let files = ReportFiles::without_reload(&default_folder(&workspace, &submission));
-    // What mostly changes comes first: whoever has edited a file waits for no more than this.
-    let earlier = CachedReport::read(&files).filter(|earlier| earlier.is_for(&submission));
-    let Some(earlier) = earlier else {
+    // The submission is compared first because it changes most often: after an edit, the slower
+    // steps below are skipped.
+    let cached = CachedReport::read(&files).filter(|cached| cached.is_for(&submission));
+    let Some(cached) = cached else {
         return Ok(None);
     };
     let exam = exam_file::hash(arguments.exam.as_deref())?;
-    let built_with = builder(arguments, &workspace)?.identity();
-    let key = CacheKey::new(arguments, &submission, &exam, &built_with);
-    let is_unchanged = key.is_some_and(|key| earlier.is_current(&key, &files));
-    Ok(is_unchanged.then_some((earlier, files)))
+    let builder_identity = builder(arguments, &workspace)?.identity();
+    let key = CacheKey::new(arguments, &submission, &exam, &builder_identity);
+    let is_unchanged = key.is_some_and(|key| cached.is_current(&key, &files));
+    Ok(is_unchanged.then_some((cached, files)))
 }

@@ -1,9 +1,10 @@
-//! What was said of a submission when it was last graded, kept beside its score.
+//! The last report on a submission, stored beside its score and printed again if nothing has
+//! changed.
 //!
-//! One's own work only, in its usual place, and only where all follows from what was compared: what
-//! ran out of time or memory, crashed, or was not what the compiler could digest may go otherwise
-//! next time. Nothing kept here is ever taken for another submission, exam, toolchain or grader, nor
-//! if the files that it tells of are no longer what they were.
+//! Only a student's own work in its default folder is cached, and only if its result is
+//! reproducible: time-outs, exhausted memory, crashes and compiler failures may turn out
+//! differently next time. A cached report is never used for another submission, exam, toolchain or
+//! grader, nor after one of the report's files has changed.
 
 use std::env;
 use std::fs;
@@ -18,64 +19,65 @@ use crate::report_files::ReportFiles;
 use crate::score::{Score, Verdict};
 use crate::submission::Submission;
 
-/// Beside the score.
+/// File name of the record, beside the score.
 const RECORD: &str = "earlier.json";
 
-/// What a score follows from.
+/// The inputs of a score.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CacheKey {
-    /// The five files, and what is said of others. Apart, since this is what mostly changes.
+    /// Hash of the task files, and of the notes about other files. It is kept separate because
+    /// usually only this part changes.
     submission: String,
-    /// All else.
+    /// Hash of all other inputs.
     environment: String,
 }
 
-/// What was said of a submission.
+/// A report with the inputs that it depends on.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct CachedReport {
     key: CacheKey,
-    /// The names of the contents of the files beside this one.
+    /// Hashes of the report's files.
     file_hashes: Vec<String>,
-    /// The score's points.
+    /// Points of the score.
     pub points: u32,
-    /// What stood on the terminal.
+    /// The report as printed on the terminal.
     pub report: String,
 }
 
 impl CachedReport {
-    /// What is kept beside these files, of whatever it is.
+    /// Reads the record beside these files, if there is a valid one.
     pub fn read(files: &ReportFiles) -> Option<Self> {
         serde_json::from_slice(&fs::read(files.folder.join(RECORD)).ok()?).ok()
     }
 
-    /// Whether it is of this submission, whatever the circumstances.
+    /// Returns whether the report is about this submission, regardless of the other inputs.
     pub fn is_for(&self, submission: &Submission) -> bool {
         self.key.submission == submission_hash(submission)
     }
 
-    /// Whether it is of just this, and the files that it tells of are as they were.
+    /// Returns whether the inputs are the same and the report's files are unchanged.
     pub fn is_current(&self, key: &CacheKey, files: &ReportFiles) -> bool {
         self.key == *key && self.file_hashes == content_hashes(files)
     }
 }
 
-/// Keeps what is said of a submission for the next time, if that can be said again. That it can not
-/// be kept is no reason to stop.
-pub fn store(key: &CacheKey, score: &Score, told: &str, files: &ReportFiles) {
-    let earlier = CachedReport {
+/// Stores a report if its result is reproducible. A failure to write it is ignored.
+pub fn store(key: &CacheKey, score: &Score, report: &str, files: &ReportFiles) {
+    let record = CachedReport {
         key: key.clone(),
         file_hashes: content_hashes(files),
         points: score.points,
-        report: told.to_owned(),
+        report: report.to_owned(),
     };
     if score.complete && score.items().all(|item| is_reproducible(&item.verdict)) {
-        let text = serde_json::to_string(&earlier).expect("texts and numbers");
+        let text = serde_json::to_string(&record).expect("strings and numbers can be serialised");
         atomic_write::write(&text, &files.folder.join(RECORD)).ok();
     }
 }
 
 impl CacheKey {
-    /// Whether anything is kept: of one's own work, whole, in its usual place and form.
+    /// Returns whether these options allow caching: a student's own work, the whole exam, the
+    /// default folder and no additional outputs.
     pub fn is_cacheable(arguments: &Arguments) -> bool {
         let exam = arguments.exam.as_deref();
         !arguments.untrusted
@@ -91,12 +93,12 @@ impl CacheKey {
             && exam != Some(Path::new("-"))
     }
 
-    /// `None` where nothing is kept.
+    /// Hashes the inputs of a score. `None` if these options do not allow caching.
     pub fn new(
         arguments: &Arguments,
         submission: &Submission,
         exam: &str,
-        built_with: &str,
+        builder_identity: &str,
     ) -> Option<Self> {
         if !CacheKey::is_cacheable(arguments) {
             return None;
@@ -109,14 +111,14 @@ impl CacheKey {
             arguments.hints,
             arguments.cpu_limit,
         );
-        let circumstances = ContentHash::default()
+        let environment = ContentHash::default()
             .with(format!("{options:?}").as_bytes())
             .with(format!("{} {}", grader.display(), file_fingerprint(&grader)).as_bytes())
             .with(exam.as_bytes())
-            .with(built_with.as_bytes());
+            .with(builder_identity.as_bytes());
         Some(CacheKey {
             submission: submission_hash(submission),
-            environment: circumstances.hex(),
+            environment: environment.hex(),
         })
     }
 }
@@ -128,15 +130,15 @@ fn submission_hash(submission: &Submission) -> String {
     ContentHash::default().with(all.as_bytes()).hex()
 }
 
-/// The names of what the files hold; an empty one of what can not be read.
+/// Returns the hashes of the files' contents. That of an unreadable file is empty.
 fn content_hashes(files: &ReportFiles) -> Vec<String> {
     let paths: Vec<PathBuf> = files.paths().map(Path::to_owned).collect();
-    let name = |bytes: Vec<u8>| ContentHash::default().with(&bytes).hex();
-    let names = paths.iter().map(|path| fs::read(path).map(name));
-    names.map(Result::unwrap_or_default).collect()
+    let hash = |bytes: Vec<u8>| ContentHash::default().with(&bytes).hex();
+    let hashes = paths.iter().map(|path| fs::read(path).map(hash));
+    hashes.map(Result::unwrap_or_default).collect()
 }
 
-/// Whether it would be the same on any day.
+/// Returns whether grading again would give the same verdict.
 fn is_reproducible(verdict: &Verdict) -> bool {
     match verdict {
         Verdict::Pass

@@ -1,12 +1,12 @@
-//! Reading what a process prints without ever waiting for its end: a child of it may hold the
-//! pipe open for ever.
+//! Captures what a process prints, without waiting for the end of the pipe: a child of the process
+//! may keep it open forever.
 
 use std::io::Read;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// What came through a pipe so far: its beginning, and how much there was.
+/// The output of a process so far: its beginning, and its length.
 #[derive(Clone, Debug)]
 pub struct Capture {
     shared: Arc<Shared>,
@@ -15,7 +15,7 @@ pub struct Capture {
 #[derive(Debug, Default)]
 struct Shared {
     state: Mutex<State>,
-    /// Told when the pipe ends: whoever waits for a compiler uses no time meanwhile.
+    /// Notified when the pipe ends, so that waiting for a compiler uses no CPU time.
     end: Condvar,
 }
 
@@ -27,8 +27,8 @@ struct State {
 }
 
 impl Capture {
-    /// Starts to read. The first `keep` bytes are kept; all the rest is read and dropped, so that
-    /// whoever prints much is not stopped by a full pipe.
+    /// Starts reading in a thread. Keeps the first `keep` bytes and discards the rest, so that a
+    /// process that prints a lot is not blocked by a full pipe.
     pub fn start(mut pipe: impl Read + Send + 'static, keep: usize) -> Self {
         let capture = Capture {
             shared: Arc::default(),
@@ -46,8 +46,8 @@ impl Capture {
                         return;
                     }
                     Ok(length) => {
-                        let room = keep.saturating_sub(state.head.len()).min(length);
-                        state.head.extend_from_slice(&buffer[..room]);
+                        let kept = keep.saturating_sub(state.head.len()).min(length);
+                        state.head.extend_from_slice(&buffer[..kept]);
                         state.total += length as u64;
                     }
                 }
@@ -56,23 +56,23 @@ impl Capture {
         capture
     }
 
-    /// The beginning, as text.
+    /// Returns the beginning of the output as text.
     pub fn head(&self) -> String {
         String::from_utf8_lossy(&self.lock().head).into_owned()
     }
 
-    /// The number of bytes so far.
+    /// Returns the number of bytes so far.
     pub fn total(&self) -> u64 {
         self.lock().total
     }
 
-    /// Waits until the pipe ends or the time is over, whichever comes first.
-    pub fn wait_for_end(&self, patience: Duration) {
+    /// Waits until the pipe ends or the timeout is over, whichever comes first.
+    pub fn wait_for_end(&self, timeout: Duration) {
         let state = self.lock();
         let waited = self
             .shared
             .end
-            .wait_timeout_while(state, patience, |state| !state.ended);
+            .wait_timeout_while(state, timeout, |state| !state.ended);
         drop(waited);
     }
 

@@ -1,21 +1,21 @@
-//! Showing a file to whoever sits before the machine.
+//! Opens a file on the user's desktop.
 
 use std::path::Path;
 use std::{env, io};
 
-/// Why nothing was opened.
+/// Reasons why a file was not opened.
 #[derive(Debug, thiserror::Error)]
 enum OpenError {
-    /// Nobody sees what this machine would show.
-    #[error("there is no desktop here")]
+    /// The user would not see it: there is no desktop.
+    #[error("there is no desktop")]
     NoDesktop,
-    /// There is no program for it, or it does not start.
-    #[error("no program opens pages here ({0})")]
+    /// There is no program that opens the file, or it does not start.
+    #[error("no program can open the page ({0})")]
     NoProgram(#[from] io::Error),
 }
 
-/// Opens the file with the program that the desktop has for it, and does not wait for that. Where
-/// there is none it says where the file is: that is no failure.
+/// Opens a file with the desktop's program for it, without waiting for that program. If this does
+/// not work, prints the path of the file, which is not an error.
 pub fn show(file: &Path) {
     if let Err(why) = open(file) {
         anstream::eprintln!("{why}: open {} yourself", file.display());
@@ -29,8 +29,8 @@ fn open(file: &Path) -> Result<(), OpenError> {
     Ok(open::that_detached(file)?)
 }
 
-/// Elsewhere than on Linux and its like there always is one. There, over a plain ssh connection,
-/// an opener would start and fail unseen.
+/// Returns whether there is a desktop. Windows and macOS always have one. On other systems, over a
+/// plain ssh connection, a program would start and fail unseen.
 fn has_desktop() -> bool {
     let is_set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
     cfg!(any(windows, target_os = "macos"))

@@ -1,5 +1,5 @@
-//! `cargo grade --doctor`: what submissions are built with on this machine, and how far they can be
-//! kept apart from it.
+//! `cargo grade --doctor`: reports the compiler that submissions are built with on this machine,
+//! and the levels of isolation that work here.
 
 mod folder;
 mod gradescope;
@@ -14,15 +14,15 @@ use crate::sandbox::Isolation;
 use crate::select_isolation::{MIN_FOR_UNTRUSTED, with_level};
 use crate::workspace::Workspace;
 
-/// What was found, to be printed.
+/// The findings of `--doctor`, to be printed.
 #[derive(Debug)]
 pub struct Diagnosis {
     builder: Builder,
-    /// From best to worst.
+    /// Each level, from best to worst, with the result of testing it.
     levels: Vec<(Isolation, Result<(), SelfTestError>)>,
 }
 
-/// Looks at everything, and tries every level.
+/// Finds the compiler and its dependencies, and tests every level.
 pub fn diagnose() -> Result<Diagnosis, Error> {
     let builder = Builder::prepare(&Workspace::find()?)?;
     let levels = Isolation::ALL.map(|level| (level, with_level(&builder, level).map(drop)));
@@ -33,13 +33,13 @@ pub fn diagnose() -> Result<Diagnosis, Error> {
 }
 
 impl Diagnosis {
-    /// The best level that holds.
+    /// Returns the best level that works.
     pub fn best_level(&self) -> Isolation {
-        let mut holding = self.levels.iter().filter(|(_, held)| held.is_ok());
-        holding.next().map_or(Isolation::None, |(level, _)| *level)
+        let mut working = self.levels.iter().filter(|(_, result)| result.is_ok());
+        working.next().map_or(Isolation::None, |(level, _)| *level)
     }
 
-    /// 0 where others' work can be graded, else 3.
+    /// Returns 0 if other people's work can be graded here, otherwise 3.
     pub fn exit_code(&self) -> u8 {
         if self.best_level() >= MIN_FOR_UNTRUSTED {
             0
@@ -58,9 +58,9 @@ impl fmt::Display for Diagnosis {
             self.builder.dependencies().display()
         )?;
         writeln!(f, "isolation      {}\n", self.best_level())?;
-        for (level, held) in &self.levels {
-            match held {
-                Ok(()) => writeln!(f, "  {:15}holds", level.name())?,
+        for (level, result) in &self.levels {
+            match result {
+                Ok(()) => writeln!(f, "  {:15}works", level.name())?,
                 Err(why) => {
                     writeln!(f, "  {:15}{why}", level.name())?;
                     if let Some(remedy) = remedy(why) {
@@ -70,27 +70,30 @@ impl fmt::Display for Diagnosis {
             }
         }
         match self.exit_code() {
-            0 => writeln!(f, "\nOthers' work can be graded here, with --untrusted."),
+            0 => writeln!(
+                f,
+                "\nOther people's work can be graded here, with --untrusted."
+            ),
             _ => writeln!(
                 f,
-                "\nOnly your own work can be graded here: others' takes {MIN_FOR_UNTRUSTED} or better."
+                "\nOnly your own work can be graded here: other people's needs {MIN_FOR_UNTRUSTED} or better."
             ),
         }
     }
 }
 
-/// What to do, where the reason itself does not say it.
+/// Returns what to do about a level that does not work, if the reason itself does not say it.
 fn remedy(why: &SelfTestError) -> Option<&'static str> {
     match why {
         SelfTestError::NotCompiled(_) => Some(
-            "static programs need libc.a: it is in libc6-dev (Debian, Ubuntu), glibc-static \
-             (Fedora), musl-dev (Alpine)",
+            "static programs need libc.a: install libc6-dev (Debian, Ubuntu), glibc-static \
+             (Fedora) or musl-dev (Alpine)",
         ),
         SelfTestError::CompilerCanRead
         | SelfTestError::ProgramCan(_)
-        | SelfTestError::Incomplete(_) => {
-            Some("do not grade others' work here at this level, and tell us: grader/SECURITY.md")
-        }
+        | SelfTestError::Incomplete(_) => Some(
+            "do not grade other people's work at this level, and report it: grader/SECURITY.md",
+        ),
         SelfTestError::Setup(_) => None,
     }
 }

@@ -1,4 +1,4 @@
-//! What can go wrong that is no student's fault, and whose it is.
+//! Errors that are not a student's fault, and the exit code of each.
 
 use std::io;
 use std::path::PathBuf;
@@ -12,54 +12,54 @@ use crate::select_isolation::IsolationError;
 use crate::submission::SubmissionError;
 use crate::workspace::WorkspaceError;
 
-/// Why there is no score.
+/// An error that prevents grading.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The submission's place.
+    /// The submission cannot be found or read.
     #[error(transparent)]
     Submission(#[from] SubmissionError),
-    /// The exam.
+    /// The exam cannot be used.
     #[error(transparent)]
     Exam(#[from] ExamError),
-    /// The policy.
+    /// The policy cannot be used.
     #[error(transparent)]
     Policy(#[from] PolicyError),
-    /// When it was handed in.
+    /// The submission time cannot be read.
     #[error(transparent)]
     SubmissionTime(#[from] SubmissionTimeError),
-    /// A platform's package.
+    /// A platform's package cannot be read.
     #[error(transparent)]
     Package(#[from] PackageError),
-    /// What platforms read.
+    /// An output format cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// What to replay.
+    /// The question to replay does not exist.
     #[error("{0}")]
     Replay(String),
-    /// The project's place.
+    /// The workspace cannot be found.
     #[error(transparent)]
     Workspace(#[from] WorkspaceError),
-    /// The compiler or what it needs.
+    /// The compiler or the dependencies do not work.
     #[error(transparent)]
     Build(#[from] BuildError),
-    /// The submission can not be kept apart as it should.
+    /// The required isolation is not available.
     #[error(transparent)]
     Isolation(#[from] IsolationError),
-    /// A report can not be written.
-    #[error("can not write {path}: {source}")]
+    /// A report cannot be written.
+    #[error("cannot write {path}: {source}")]
     Report {
-        /// Which.
+        /// Path of the report.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
-    /// A probe can not be started, or made.
-    #[error("can not run the submission's program: {0}")]
+    /// A probe cannot be built or started.
+    #[error("cannot run the submission's program: {0}")]
     Probe(#[from] io::Error),
 }
 
 impl Error {
-    /// 2 where whoever typed the command can mend it, 3 where it is our fault or the machine's.
+    /// Returns 2 for errors that the user can fix, and 3 for those of the grader or the machine.
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Submission(_)

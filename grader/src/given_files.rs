@@ -1,20 +1,21 @@
-//! What is handed out, as this program was built with it: the starter's five files and the given
-//! ones. Files of these names beside a submission are compared, never used.
+//! The starter's files, embedded in this program: the five task files and the given files. Given
+//! files in a submission are compared with these, but never used.
 
 use crate::exam::Task;
 
 /// One of the five files that students write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TaskFile {
-    /// Such as `sphere.rs`.
+    /// File name, such as `sphere.rs`.
     pub name: &'static str,
-    /// As handed out.
+    /// Text of the starter's file.
     pub starter: &'static str,
-    /// What the other files call by name. Without these, errors would be told of the callers.
+    /// Declarations that other files use. If one is missing, the compiler reports errors in those
+    /// files instead.
     pub required_declarations: &'static [&'static str],
 }
 
-/// The five files, in lecture order.
+/// The five task files, in lecture order.
 pub const TASK_FILES: [TaskFile; 5] = [
     TaskFile {
         name: "camera.rs",
@@ -51,18 +52,19 @@ pub const TASK_FILES: [TaskFile; 5] = [
     },
 ];
 
-/// The given files that every submission is compiled with.
+/// Given files that are compiled with every submission.
 pub const GIVEN_FILES: [(&str, &str); 3] = [
     ("lib.rs", include_str!("../starter/lib.rs")),
     ("primitive.rs", include_str!("../starter/primitive.rs")),
     ("world.rs", include_str!("../starter/world.rs")),
 ];
 
-/// The given file that only draws pictures.
+/// The given file that renders pictures. The grader does not use it.
 pub const MAIN_FILE: (&str, &str) = ("main.rs", include_str!("../starter/main.rs"));
 
 impl TaskFile {
-    /// The given methods that `text` does not hold as they were handed out: worth a note.
+    /// Returns the names of given methods that differ from the starter in `text`. They are
+    /// mentioned in a note.
     pub fn changed_methods(&self, text: &str) -> Vec<&'static str> {
         let text = without_whitespace(text);
         let mut changed = Vec::new();
@@ -74,7 +76,7 @@ impl TaskFile {
         changed
     }
 
-    /// The tasks whose points depend on this file.
+    /// Returns the tasks whose points depend on this file.
     pub fn tasks(&self) -> impl Iterator<Item = Task> {
         let name = self.name;
         Task::ALL
@@ -83,7 +85,8 @@ impl TaskFile {
     }
 }
 
-/// The methods that stand complete in a starter file: name, and text from signature to brace.
+/// Returns the complete methods of a starter file: name, and text from the signature to the closing
+/// brace.
 fn given_methods(starter: &'static str) -> Vec<(&'static str, &'static str)> {
     const END: &str = "\n    }\n";
     let code = starter.split("#[cfg(test)]").next().unwrap_or(starter);
@@ -101,7 +104,7 @@ fn given_methods(starter: &'static str) -> Vec<(&'static str, &'static str)> {
         .collect()
 }
 
-/// Without white space: formatting is no change.
+/// Removes white space, so that formatting does not count as a change.
 fn without_whitespace(text: &str) -> String {
     text.split_whitespace().collect()
 }
@@ -139,11 +142,11 @@ mod tests {
     #[test]
     fn starter_has_every_required_declaration() {
         for file in TASK_FILES {
-            let lacking = file
+            let missing = file
                 .required_declarations
                 .iter()
                 .find(|part| !file.starter.contains(**part));
-            assert_eq!(lacking, None, "{}", file.name);
+            assert_eq!(missing, None, "{}", file.name);
         }
     }
 }

@@ -1,17 +1,20 @@
-//! Grades a path-tracing submission: builds it, asks it, judges its answers, writes a score.
+//! Grades a path-tracing submission: builds it, runs the exam, judges the answers and writes a
+//! score.
 //!
-//! Student code runs in a *probe*, a process that is told questions and never what counts as
-//! right. Points come only from comparing its answers here.
+//! Student code runs in a *probe*, a process that receives questions and never the expected
+//! answers. Points come only from comparing its answers here.
 //!
-//! Floors, from the ground up; each imports only from below:
+//! Layers, from top to bottom. A module imports only from layers below its own:
 //!
-//! | floor | modules |
+//! | layer | modules |
 //! |---|---|
-//! | the job | [`grade`], [`replay`], [`unchanged`], [`watch`], [`doctor`]; [`earlier`], [`files`] |
-//! | one exam | [`examine`], [`verdict`], [`exhibit`], [`report`], [`mod@format`] |
-//! | its steps | [`isolate`], [`build`], [`ask`]; [`drawing`] of what was judged |
-//! | data | [`place`], [`again`], [`policy`], [`submission`], [`given`], [`stages`], [`score`] |
-//! | [`judging`], a package of its own | [`exam`], [`judge`] and what else is named below |
+//! | the job | [`grade`], [`replay`], [`cache_lookup`], [`watch`], [`doctor`] |
+//! | files of the job | [`cached_report`], [`report_files`] |
+//! | one exam | [`run_exam`], [`verdict`], [`report_answers`], [`report`], [`mod@format`] |
+//! | its steps | [`select_isolation`], [`build`], [`probe`]; [`drawing`] of judged answers |
+//! | results | [`score`], [`rerun_command`], [`stage_times`] |
+//! | inputs | [`policy`], [`submission`], [`given_files`], [`question_ref`] |
+//! | [`judging`], a separate package | [`exam`], [`judge`], and the other modules re-exported below |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`], [`zipfile`] |
 
 pub use judging::{

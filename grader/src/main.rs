@@ -1,4 +1,4 @@
-//! `cargo grade`: one submission, one score.
+//! `cargo grade`: grades one submission.
 
 use std::io;
 use std::path::Path;
@@ -21,9 +21,9 @@ use grader::sandbox;
 use grader::score;
 use grader::watch::watch;
 
-/// Said of what was not graded once more.
+/// Printed below a cached report.
 const UNCHANGED_NOTICE: &str =
-    "  Nothing has changed since this was graded; `--fresh` grades it once more.\n\n";
+    "  Nothing has changed since this was graded; use `--fresh` to grade it again.\n\n";
 
 fn main() -> ExitCode {
     if let Some(ended) = sandbox::run_as_launcher() {
@@ -45,18 +45,18 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         anstream::print!("{}", policy::DEFAULT);
         return Ok(ExitCode::SUCCESS);
     }
-    if let Some(place) = &arguments.replay {
-        anstream::print!("{}", replay(arguments, place)?);
+    if let Some(question) = &arguments.replay {
+        anstream::print!("{}", replay(arguments, question)?);
         return Ok(ExitCode::SUCCESS);
     }
     if let Some(package) = &arguments.package {
-        let complaints = package::problems(package)?;
-        for complaint in &complaints {
-            anstream::println!("{}: {complaint}", package.display());
+        let problems = package::problems(package)?;
+        for problem in &problems {
+            anstream::println!("{}: {problem}", package.display());
         }
-        return Ok(match complaints.len() {
+        return Ok(match problems.len() {
             0 => {
-                anstream::println!("{}: nothing is wrong with it", package.display());
+                anstream::println!("{}: no problems found", package.display());
                 ExitCode::SUCCESS
             }
             _ => ExitCode::from(2),
@@ -75,25 +75,25 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         let never = watch(arguments, hints)?;
         match never {}
     }
-    if let Some((earlier, files)) = cache_lookup::find_cached_report(arguments)? {
+    if let Some((cached, files)) = cache_lookup::find_cached_report(arguments)? {
         print_text(&format!(
             "{}{UNCHANGED_NOTICE}{}",
-            earlier.report,
+            cached.report,
             file_list(&files)
         ))?;
         if arguments.open {
             desktop::show(&files.page);
         }
-        return Ok(exit_code(earlier.points, arguments));
+        return Ok(exit_code(cached.points, arguments));
     }
     let graded = grade(arguments)?;
-    let told = terminal_report(&graded, arguments, hints);
+    let text = terminal_report(&graded, arguments, hints);
     print_text(&format!(
-        "{told}{}",
+        "{text}{}",
         graded.files.as_ref().map_or(String::new(), file_list)
     ))?;
     if let (Some(key), Some(files)) = (&graded.cache_key, &graded.files) {
-        cached_report::store(key, &graded.score, &told, files);
+        cached_report::store(key, &graded.score, &text, files);
     }
     if let Some(commands) = graded.commands() {
         anstream::print!("{commands}");
@@ -107,7 +107,7 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     Ok(exit_code(graded.score.points, arguments))
 }
 
-/// Whether that many points are as many as required.
+/// Returns the exit code for these points: 1 if they are below `--require`.
 fn exit_code(points: u32, arguments: &Arguments) -> ExitCode {
     match points < arguments.require.unwrap_or(0) {
         true => ExitCode::from(1),
@@ -115,20 +115,21 @@ fn exit_code(points: u32, arguments: &Arguments) -> ExitCode {
     }
 }
 
-/// What is read on a terminal. With a platform's format, students read it in a log.
+/// Returns the report for the terminal. With `--format`, it appears in a log that students read, so
+/// it contains only what they may see.
 fn terminal_report(graded: &GradedSubmission, arguments: &Arguments, hints: HintDetail) -> String {
     let score = match arguments.format.is_empty() {
         true => &graded.score,
         false => &graded.student_view.visible,
     };
-    let mut told = report(score, arguments.task, hints);
+    let mut text = report(score, arguments.task, hints);
     if arguments.policy.is_some() && arguments.task.is_none() {
-        told.push_str(&format!("  counts for {}\n\n", graded.student_view.counted));
+        text.push_str(&format!("  counts for {}\n\n", graded.student_view.counted));
     }
-    told
+    text
 }
 
-/// The files that tell it, a line each.
+/// Returns the paths of the report's files, one per line.
 fn file_list(files: &ReportFiles) -> String {
     let lines = files.paths().map(relative_to_current_folder);
     lines
@@ -136,7 +137,8 @@ fn file_list(files: &ReportFiles) -> String {
         .collect()
 }
 
-/// Prints it. Where a runner looks for commands in all that is printed, it is told not to.
+/// Prints the text. On GitHub Actions, where printed text can contain commands to the runner, these
+/// are disabled.
 fn print_text(text: &str) -> Result<(), Error> {
     match std::env::var_os("GITHUB_ACTIONS") {
         Some(_) => {
@@ -148,7 +150,7 @@ fn print_text(text: &str) -> Result<(), Error> {
     Ok(())
 }
 
-/// The path as it would be typed from the current folder.
+/// Returns the path relative to the current folder, if it is inside.
 fn relative_to_current_folder(path: &Path) -> &Path {
     let here = std::env::current_dir().unwrap_or_default();
     path.strip_prefix(here).unwrap_or(path)

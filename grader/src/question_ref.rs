@@ -1,13 +1,13 @@
-//! How people name one question.
+//! References to questions, as people write them.
 
 use std::str::FromStr;
 
-/// One question of an exam: `sphere.from_inside#7`.
+/// A reference to one question of an exam, such as `sphere.from_inside#7`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct QuestionRef {
     /// The item's id.
     pub item: String,
-    /// Counted from 1 over all questions of the item.
+    /// The question's number, counted from 1 over all questions of the item.
     pub number: usize,
 }
 
@@ -23,7 +23,7 @@ impl FromStr for QuestionRef {
                 item: item.to_owned(),
                 number,
             }),
-            _ => Err("an item and a number are meant, such as sphere.from_inside#7".to_owned()),
+            _ => Err("expected an item and a number, such as sphere.from_inside#7".to_owned()),
         }
     }
 }
@@ -34,9 +34,9 @@ mod tests {
 
     #[test]
     fn parses_an_item_and_a_number_from_one() {
-        let place: QuestionRef = "sphere.from_inside#7".parse().unwrap();
+        let question: QuestionRef = "sphere.from_inside#7".parse().unwrap();
         assert_eq!(
-            (place.item.as_str(), place.number),
+            (question.item.as_str(), question.number),
             ("sphere.from_inside", 7)
         );
         for bad in ["sphere.from_inside", "sphere#0", "sphere#x", "#"] {

@@ -1,4 +1,4 @@
-//! Asking one question again, alone, and showing all of its answer: for a `println!` or a look.
+//! Runs a single question again and shows the whole answer and everything that the code prints.
 
 use std::fmt::Write;
 
@@ -18,24 +18,24 @@ use crate::select_isolation::with_requested_level;
 use crate::verdict::file_message;
 use crate::workspace::Workspace;
 
-/// The most characters that are shown of what was printed.
+/// Maximum length of the printed text that is shown, in characters.
 const MAX_PRINTED_CHARS: usize = 20_000;
 
-/// Asks it; returns what a terminal shows.
-pub fn replay(arguments: &Arguments, place: &QuestionRef) -> Result<String, Error> {
+/// Runs the question and returns the text for the terminal.
+pub fn replay(arguments: &Arguments, reference: &QuestionRef) -> Result<String, Error> {
     let workspace = Workspace::find()?;
     let exam = exam_file::load(arguments.exam.as_deref())?.exam;
-    let (question, wanted) = find_question(&exam, place)?;
+    let (question, wanted) = find_question(&exam, reference)?;
     let submission = collect(arguments, &workspace)?;
     let build =
         with_requested_level(Builder::prepare(&workspace)?, arguments)?.build(&submission)?;
 
-    let mut shown = String::new();
+    let mut text = String::new();
     for (file, why) in &build.not_compiled {
-        writeln!(shown, "{}\n", file_message(file, why)).expect("text takes text");
+        writeln!(text, "{}\n", file_message(file, why)).expect("writing to a string cannot fail");
     }
     let Some(program) = &build.probe else {
-        return Ok(shown);
+        return Ok(text);
     };
     let budget = budget(arguments);
     let mut probe = build.launcher(program).start(budget)?;
@@ -48,44 +48,44 @@ pub fn replay(arguments: &Arguments, place: &QuestionRef) -> Result<String, Erro
     };
     let asked = describe::element(&question, 0);
     write!(
-        shown,
+        text,
         "asked    {asked}\ngot      {got}\nwanted   {wanted}\nprinted  {printed}\n"
     )
-    .expect("text takes text");
-    Ok(shown)
+    .expect("writing to a string cannot fail");
+    Ok(text)
 }
 
-/// The question with this one element, and its key in words.
-fn find_question(exam: &Exam, place: &QuestionRef) -> Result<(Question, String), Error> {
-    let item = exam.items.iter().find(|item| item.id == place.item);
+/// Returns a question with only this element, and its expected answer as text.
+fn find_question(exam: &Exam, reference: &QuestionRef) -> Result<(Question, String), Error> {
+    let item = exam.items.iter().find(|item| item.id == reference.item);
     let item = item.ok_or_else(|| {
-        let alike = exam.items.iter().map(|item| item.id.as_str());
-        let task = place.item.split('.').next().unwrap_or_default();
-        let alike: Vec<&str> = alike.filter(|id| id.starts_with(task)).collect();
+        let ids = exam.items.iter().map(|item| item.id.as_str());
+        let task = reference.item.split('.').next().unwrap_or_default();
+        let ids: Vec<&str> = ids.filter(|id| id.starts_with(task)).collect();
         Error::Replay(format!(
-            "the exam has no item `{}`; there are: {}",
-            place.item,
-            alike.join(", ")
+            "the exam has no item `{}`; the items of this task are: {}",
+            reference.item,
+            ids.join(", ")
         ))
     })?;
-    match item.element(place.number) {
+    match item.element(reference.number) {
         Some((question, element)) => {
-            let asked = &item.questions[question];
-            let alone = subset(&asked.question, element..element + 1);
-            Ok((alone, expected_text(asked, element)))
+            let question = &item.questions[question];
+            let alone = subset(&question.question, element..element + 1);
+            Ok((alone, expected_text(question, element)))
         }
         None => Err(Error::Replay(format!(
-            "{} asks {} questions: there is no number {}",
-            place.item,
+            "{} has {} questions, so there is no number {}",
+            reference.item,
             item.count(),
-            place.number
+            reference.number
         ))),
     }
 }
 
-/// What is right, each on a line of its own where several are. A whole picture is no line.
-fn expected_text(asked: &ExamQuestion, element: usize) -> String {
-    match asked.question {
+/// Returns the expected answers, one per line. A path-traced picture is not printed.
+fn expected_text(question: &ExamQuestion, element: usize) -> String {
+    match question.question {
         Question::Radiance { .. } => "the reference's picture".to_owned(),
         Question::Camera { .. }
         | Question::Shapes { .. }
@@ -93,7 +93,7 @@ fn expected_text(asked: &ExamQuestion, element: usize) -> String {
         | Question::Build { .. }
         | Question::Traverse { .. }
         | Question::BuildAndTraverse { .. }
-        | Question::Done => describe::answer::wanted(asked, element).join(", or\n         "),
+        | Question::Done => describe::answer::wanted(question, element).join(", or\n         "),
     }
 }
 

@@ -1,5 +1,5 @@
-//! What a page can show of an item beside its line in the score: the answers themselves. They are
-//! not for the score file, which is read by programs and shall stay small.
+//! The answers that an HTML report draws. They are not part of the score file, which is for
+//! programs and should stay small.
 
 use std::collections::BTreeMap;
 
@@ -9,12 +9,12 @@ use crate::exam::Item;
 use crate::picture;
 use crate::score::{ItemScore, Verdict};
 
-/// The answers to whole items, by the items' ids.
+/// The answers to items, by item id.
 #[derive(Clone, Debug, Default)]
 pub struct ReportAnswers(BTreeMap<String, Vec<Answer>>);
 
 impl ReportAnswers {
-    /// Keeps the answers that `line` speaks of, if there is something to be seen in them.
+    /// Keeps the answers to an item if the report has something to draw from them.
     pub fn record(&mut self, item: &Item, line: &ItemScore, answers: Vec<Answer>) {
         let is_judged = match line.verdict {
             Verdict::Pass | Verdict::Partial | Verdict::Wrong | Verdict::Panicked => true,
@@ -34,7 +34,7 @@ impl ReportAnswers {
         }
     }
 
-    /// The answer to one question of an item, counted from 0.
+    /// Returns the answer to one question of an item, by its index.
     pub fn answer(&self, item: &str, question: usize) -> Option<&Answer> {
         self.0.get(item)?.get(question)
     }

@@ -1,4 +1,4 @@
-//! What is written of a score, and where.
+//! The files that a score is written to.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -11,30 +11,30 @@ use crate::report::{atomic_write, json};
 use crate::report_answers::ReportAnswers;
 use crate::score::Score;
 
-/// While the exam is asked, the files are written no more often than this. Most items take a
-/// millisecond, and so does writing a score: whoever is stopped loses no more than so much.
+/// The shortest time between two writes of the score file during an exam. Most items take a
+/// millisecond, and so does writing a score. A grader that is killed loses no more than this.
 const SCORE_INTERVAL: Duration = Duration::from_millis(100);
-/// The same for the page, which takes longer than most items.
+/// The same for the page, which takes longer to write than most items take to test.
 const PAGE_INTERVAL: Duration = Duration::from_secs(1);
 
-/// The files of one submission's score.
+/// The report files of one submission.
 #[derive(Debug)]
 pub struct ReportFiles {
-    /// For programs.
+    /// The score file, for programs.
     pub score: PathBuf,
-    /// For people.
+    /// The HTML page, for people.
     pub page: PathBuf,
     score_written_at: Option<Instant>,
-    /// For platforms.
+    /// The files for grading platforms.
     pub outputs: Outputs,
-    /// Where they are, unless a platform says otherwise.
+    /// The folder that they are written to, unless a platform requires another.
     pub folder: PathBuf,
     page_written_at: Option<Instant>,
     reload: Reload,
 }
 
 impl ReportFiles {
-    /// Those in this folder.
+    /// Returns the report files in a folder. `reload` says whether the page reloads itself.
     pub fn new(folder: &Path, reload: Reload) -> Self {
         ReportFiles {
             score: folder.join("score.json"),
@@ -47,30 +47,30 @@ impl ReportFiles {
         }
     }
 
-    /// Those in this folder, of a page that stays as it is.
+    /// Returns the report files in a folder, with a page that does not reload itself.
     pub fn without_reload(folder: &Path) -> Self {
         ReportFiles::new(folder, Reload::Never)
     }
 
-    /// All of them.
+    /// Returns the paths of all files.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         let own = [self.score.as_path(), self.page.as_path()];
         own.into_iter().chain(self.outputs.paths())
     }
 
-    /// Writes both: at the first item and at the end, and between them after each item that took its
-    /// time.
+    /// Writes the score file and the page, if they are due: at the first item, at the end, and at
+    /// intervals in between.
     pub fn write(
         &mut self,
         score: &Score,
         exam: &Exam,
-        exhibits: &ReportAnswers,
+        answers: &ReportAnswers,
     ) -> Result<(), Error> {
         self.write_score(score)?;
-        self.write_page(score, exam, exhibits)
+        self.write_page(score, exam, answers)
     }
 
-    /// Writes the score file, if it is time to.
+    /// Writes the score file if it is due.
     pub fn write_score(&mut self, score: &Score) -> Result<(), Error> {
         if score.complete || is_due(self.score_written_at, SCORE_INTERVAL) {
             write(&self.score, &json::to_string(score))?;
@@ -79,23 +79,23 @@ impl ReportFiles {
         Ok(())
     }
 
-    /// Writes the page, if it is time to.
+    /// Writes the page if it is due.
     pub fn write_page(
         &mut self,
         score: &Score,
         exam: &Exam,
-        exhibits: &ReportAnswers,
+        answers: &ReportAnswers,
     ) -> Result<(), Error> {
         if score.complete || is_due(self.page_written_at, PAGE_INTERVAL) {
-            write(&self.page, &html::page(score, exam, exhibits, self.reload))?;
+            write(&self.page, &html::page(score, exam, answers, self.reload))?;
             self.page_written_at = Some(Instant::now());
         }
         Ok(())
     }
 }
 
-fn is_due(written: Option<Instant>, pace: Duration) -> bool {
-    written.is_none_or(|at| at.elapsed() >= pace)
+fn is_due(written_at: Option<Instant>, interval: Duration) -> bool {
+    written_at.is_none_or(|at| at.elapsed() >= interval)
 }
 
 fn write(path: &Path, text: &str) -> Result<(), Error> {

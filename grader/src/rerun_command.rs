@@ -1,23 +1,23 @@
-//! The command that asks the same once more.
+//! The command that grades an item again.
 
 use std::path::{Path, PathBuf};
 
-/// What of a command line says who was asked what: it stands in every command that a report gives.
+/// The options that every printed command must repeat to refer to the same submission and exam.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RerunCommand {
-    /// The submission, unless it is the student's own.
+    /// The submission, unless it is the default one.
     pub submission: Option<PathBuf>,
     /// The exam, unless it is the practice exam.
     pub exam: Option<PathBuf>,
 }
 
 impl RerunCommand {
-    /// One question alone.
+    /// Returns the command that runs one question again.
     pub fn replay(&self, item: &str, number: usize) -> String {
         self.command(&format!("--replay {item}#{number}"))
     }
 
-    /// One task alone.
+    /// Returns the command that grades one task again.
     pub fn task(&self, task: &str) -> String {
         self.command(&format!("--task {task}"))
     }
@@ -38,7 +38,7 @@ impl RerunCommand {
     }
 }
 
-/// A path as one word of a command line.
+/// Quotes a path for a command line, if necessary.
 fn shell_word(path: &Path) -> String {
     let text = path.to_string_lossy().into_owned();
     let is_plain = |c: char| c.is_alphanumeric() || "_-./:\\+,@%".contains(c);

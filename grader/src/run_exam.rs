@@ -1,4 +1,4 @@
-//! Asking a whole exam, item by item. Whatever happens in one item, the next is asked.
+//! Runs an exam item by item. A failure in one item does not affect the next.
 
 use std::io;
 use std::path::Path;
@@ -18,13 +18,13 @@ use crate::verdict::{
     ItemOutcome, add_hints, blocked_score, blocking_item, item_score, substituted_score,
 };
 
-/// After so many items of a task have run out of time, its others are not asked.
+/// After this many time-outs, the remaining items of a task are skipped.
 const MAX_TIMEOUTS: usize = 2;
-/// The most characters that are kept of what a submission prints.
+/// Maximum length of the stored output of a submission, in characters.
 const MAX_PRINTED_CHARS: usize = 1_000;
 
-/// Asks every item of `exam` and notes its score, which is shown to `progress` after each, with
-/// the answers that are worth a look; if that is an error, nothing more is asked.
+/// Grades every item of `exam` and records its score. After each item, `progress` is called with
+/// the score and the answers to draw. If it returns an error, grading stops.
 pub fn run_exam<E: From<io::Error>>(
     exam: &Exam,
     build: &Build,
@@ -32,33 +32,34 @@ pub fn run_exam<E: From<io::Error>>(
     score: &mut Score,
     mut progress: impl FnMut(&mut Score, &ReportAnswers) -> Result<(), E>,
 ) -> Result<(), E> {
-    let mut exhibits = ReportAnswers::default();
+    let mut report_answers = ReportAnswers::default();
     for (number, task) in Task::ALL.into_iter().enumerate() {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
-        // A process for each task: what one leaves behind can not help or harm another.
+        // One process per task, so that a task cannot affect the next one.
         let mut sessions = TaskSessions::new(build, budget);
         for item in items {
             let (line, answers) = sessions.grade_item(item, score)?;
-            exhibits.record(item, &line, answers);
+            report_answers.record(item, &line, answers);
             score.record(line);
             score.update_totals();
-            progress(score, &exhibits)?;
+            progress(score, &report_answers)?;
         }
         if let Some(scores) = score.tasks.iter_mut().find(|scores| scores.id == task) {
             let spent = sessions.spent();
-            let began = Instant::now();
+            let started_at = Instant::now();
             scores.printed = sessions.finish(exam, &mut scores.items);
             let stages = &mut score.timings.stages;
             stages.start += spent.start;
             stages.asking[number] += spent.asking;
-            stages.judging += spent.judging + began.elapsed();
+            stages.judging += spent.judging + started_at.elapsed();
         }
     }
     score.complete = true;
-    progress(score, &exhibits)
+    progress(score, &report_answers)
 }
 
-/// One task, asked of the submission by itself, and where needed carried forward.
+/// The processes of one task: the submission's own program and, if needed, the one with substituted
+/// parts.
 struct TaskSessions<'a> {
     build: &'a Build,
     own: Session,
@@ -74,7 +75,8 @@ impl<'a> TaskSessions<'a> {
         }
     }
 
-    /// What becomes of one item, after those that it needs, and the answers that say so.
+    /// Grades one item and returns its score and answers. The items that it needs must be graded
+    /// already.
     fn grade_item(&mut self, item: &Item, others: &Score) -> io::Result<(ItemScore, Vec<Answer>)> {
         if let Some(why) = self.build.not_compiled.get(item.task.file()) {
             return Ok((item_score(item, &ItemOutcome::NotCompiled(why)), Vec::new()));
@@ -89,35 +91,36 @@ impl<'a> TaskSessions<'a> {
             SubstitutedProgram::NotCompiled => Ok((line, answers)),
             SubstitutedProgram::Program(program) => {
                 let budget = self.own.budget;
-                let carried = self
+                let substituted = self
                     .substituted
                     .get_or_insert_with(|| Session::new(self.build, Some(program), budget));
-                let (outcome, answers) = carried.ask(item)?;
-                let again = item_score(item, &outcome);
-                Ok((substituted_score(by, &line, again), answers))
+                let (outcome, answers) = substituted.ask(item)?;
+                let substituted_item = item_score(item, &outcome);
+                Ok((substituted_score(by, &line, substituted_item), answers))
             }
         }
     }
 
-    /// Where the time went, of both.
+    /// Returns the time spent by both processes.
     fn spent(&self) -> TimeSpent {
-        let carried = self.substituted.as_ref().map(|session| session.spent);
-        let (own, carried) = (self.own.spent, carried.unwrap_or_default());
+        let substituted = self.substituted.as_ref().map(|session| session.spent);
+        let (own, substituted) = (self.own.spent, substituted.unwrap_or_default());
         TimeSpent {
-            start: own.start + carried.start,
-            asking: own.asking + carried.asking,
-            judging: own.judging + carried.judging,
+            start: own.start + substituted.start,
+            asking: own.asking + substituted.asking,
+            judging: own.judging + substituted.judging,
         }
     }
 
-    /// Gives the hints that only show once the whole task was asked; returns what was printed.
+    /// Adds hints, which need the answers to the whole task, and returns what the submission
+    /// printed.
     fn finish(mut self, exam: &Exam, lines: &mut [ItemScore]) -> Option<String> {
         for line in lines
             .iter_mut()
             .filter(|line| line.points < line.max_points)
         {
             let session = match (&self.substituted, line.carried_forward) {
-                (Some(carried), true) => carried,
+                (Some(substituted), true) => substituted,
                 (Some(_) | None, _) => &self.own,
             };
             let item = exam.items.iter().find(|item| item.id == line.id);
@@ -129,7 +132,7 @@ impl<'a> TaskSessions<'a> {
     }
 }
 
-/// Whether there is an answer to be wondered about, or a reason why there is none.
+/// Returns whether a hint is possible: there is a wrong answer, or a reason why there is none.
 fn can_have_hint(verdict: &Verdict) -> bool {
     match verdict {
         Verdict::Partial
@@ -151,7 +154,7 @@ fn was_killed(answered: &Result<Vec<Answer>, Fault>) -> bool {
     matches!(answered, Err(Fault::Crashed(Crash::Killed)))
 }
 
-/// One task's process, started when there is something to ask and again after a fault.
+/// A process for one task. It is started for the first item, and again after a fault.
 struct Session {
     launcher: Option<Launcher>,
     budget: Budget,
@@ -162,7 +165,7 @@ struct Session {
     spent: TimeSpent,
 }
 
-/// Where one session's time went.
+/// Time that a session spent, by activity.
 #[derive(Clone, Copy, Debug, Default)]
 struct TimeSpent {
     start: Duration,
@@ -183,7 +186,7 @@ impl Session {
         }
     }
 
-    /// What becomes of one item, and the answers, if there are any.
+    /// Runs one item and returns its outcome and its answers, if there are any.
     fn ask(&mut self, item: &Item) -> io::Result<(ItemOutcome<'static>, Vec<Answer>)> {
         let Some(launcher) = &self.launcher else {
             return Ok((ItemOutcome::Pending, Vec::new()));
@@ -192,43 +195,44 @@ impl Session {
             let fault = Fault::TimedOut(TimeLimit::Cpu(self.budget.cpu));
             return Ok((ItemOutcome::Skipped(fault), Vec::new()));
         }
-        let began = Instant::now();
+        let started_at = Instant::now();
         let mut probe = match self.probe.take() {
             Some(probe) => probe,
             None => launcher.start(self.budget)?,
         };
-        let started = Instant::now();
-        let questions = item.questions.iter().map(|asked| &asked.question);
+        let ready_at = Instant::now();
+        let questions = item.questions.iter().map(|question| &question.question);
         let mut answered = probe.ask(questions.clone(), self.budget);
         if was_killed(&answered) {
-            // Nothing that a submission does. What the system lacks, it may have by now.
+            // The system killed it, which is not the submission's fault. Try once more, since the
+            // shortage may be over.
             probe = launcher.start(self.budget)?;
             answered = probe.ask(questions, self.budget);
         }
-        self.spent.start += started - began;
-        self.spent.asking += started.elapsed();
-        let began = Instant::now();
+        self.spent.start += ready_at - started_at;
+        self.spent.asking += ready_at.elapsed();
+        let started_at = Instant::now();
         match answered {
             Ok(answers) => {
                 self.probe = Some(probe);
                 self.observations.record(item, Ok(&answers));
-                let judged = item.questions.iter().zip(&answers);
-                let judged = judged.map(|(asked, answer)| judge(asked, answer));
-                let outcome = ItemOutcome::Answered(judged.collect());
-                self.spent.judging += began.elapsed();
+                let judgements = item.questions.iter().zip(&answers);
+                let judgements = judgements.map(|(question, answer)| judge(question, answer));
+                let outcome = ItemOutcome::Answered(judgements.collect());
+                self.spent.judging += started_at.elapsed();
                 Ok((outcome, answers))
             }
             Err(fault @ Fault::Crashed(Crash::Killed)) => Err(io::Error::other(fault.to_string())),
             Err(fault) => {
                 self.out_of_time += usize::from(matches!(fault, Fault::TimedOut(_)));
-                let place = culprit(launcher, item)?;
+                let element = culprit(launcher, item)?;
                 self.keep_output(probe);
                 self.observations
                     .record(item, Err(fault.no_answer_reason()));
                 Ok((
                     ItemOutcome::Fault {
                         fault,
-                        culprit: place,
+                        culprit: element,
                     },
                     Vec::new(),
                 ))
@@ -236,11 +240,11 @@ impl Session {
         }
     }
 
-    /// Ends a probe and keeps the beginning of what it has printed.
+    /// Ends a probe and keeps what it printed, unless something is kept already.
     fn keep_output(&mut self, probe: Probe) {
-        let words = probe.finish();
+        let output = probe.finish();
         if self.printed.is_empty() {
-            self.printed = words;
+            self.printed = output;
         }
     }
 

@@ -1,7 +1,8 @@
-//! The score file: what everyone reads, from a terminal to a learning platform. Its schema is
-//! published by `cargo grade --schema`.
+//! The score file, the result of grading for people and programs. `cargo grade --schema` prints its
+//! schema.
 //!
-//! The same submission, exam and toolchain give the same bytes, but for `timings`, `isolation`.
+//! The same submission, exam and toolchain give the same bytes, except for `timings` and
+//! `isolation`.
 
 use serde::Serialize;
 
@@ -13,118 +14,118 @@ use crate::sandbox::Isolation;
 use crate::section::Section;
 use crate::stage_times::StageTimes;
 
-/// The version of this format.
+/// Version of the format.
 pub const SCHEMA_VERSION: u32 = 1;
 
-/// The format, as a JSON schema. Committed, and compared with the types by a test: whoever grades
-/// need not compile what derives it.
+/// The JSON schema of the format. It is committed, so that graders need not compile `schemars`, and
+/// a test compares it with the types.
 pub const PUBLISHED_SCHEMA: &str = include_str!("score.schema.json");
 
-/// One submission, graded.
+/// The score of one submission.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Score {
-    /// The version of this format: 1.
+    /// Version of this format: 1.
     pub schema: u32,
-    /// The submission's name.
+    /// Name of the submission.
     pub submission: String,
-    /// What was asked.
+    /// The exam.
     pub exam: ExamName,
-    /// How submissions were kept apart from this machine.
+    /// Isolation level of the submission.
     pub isolation: Isolation,
-    /// Whether everything has been asked. False in a file that is still being written, or whose
-    /// grader was stopped.
+    /// Whether every item has been graded. False while the file is being written, or if the grader
+    /// was stopped.
     pub complete: bool,
-    /// How to ask the same once more. Not in the file, which is the same wherever it is made.
+    /// The options to repeat in commands. Not in the file, whose contents must not depend on paths.
     #[serde(skip)]
     pub rerun_command: RerunCommand,
-    /// The sum over all tasks.
+    /// Sum of the points of all tasks.
     pub points: u32,
-    /// The most points that could be had.
+    /// Maximum number of points.
     pub max_points: u32,
-    /// In lecture order.
+    /// The tasks, in lecture order.
     pub tasks: Vec<TaskScore>,
-    /// What the compiler and the grader had to say of the files.
+    /// Compiler errors, and notes on the submission's files.
     pub build: BuildReport,
-    /// How long it took. Not reproducible.
+    /// Duration of grading. Not reproducible.
     pub timings: Timings,
 }
 
-/// One task's items.
+/// The score of one task.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TaskScore {
-    /// Which.
+    /// Id of the task.
     pub id: Task,
-    /// What people read.
+    /// Title of the task.
     pub title: String,
-    /// The sum over its items.
+    /// Sum of the points of its items.
     pub points: u32,
-    /// The most points that could be had.
+    /// Maximum number of points.
     pub max_points: u32,
-    /// In the order of asking.
+    /// The items, in the order in which they were graded.
     pub items: Vec<ItemScore>,
-    /// What the submission printed while it was asked, the beginning of it.
+    /// Beginning of what the submission printed during the task.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub printed: Option<String>,
 }
 
-/// One item, judged.
+/// The score of one item.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ItemScore {
-    /// Such as `sphere.from_inside`.
+    /// Id of the item, such as `sphere.from_inside`.
     pub id: String,
-    /// What must hold, in words.
+    /// Title of the item, which says what must hold.
     pub title: String,
-    /// What it earned.
+    /// Points earned.
     pub points: u32,
-    /// What it is worth.
+    /// Maximum number of points.
     pub max_points: u32,
-    /// What became of it.
+    /// Result of the item.
     #[serde(flatten)]
     pub verdict: Verdict,
-    /// For students: what happened, in a sentence. Empty if all is well.
+    /// For students: what happened, in one sentence. Empty if the item passed.
     pub message: String,
-    /// Where in the submission's files it went wrong, if the code itself says so.
+    /// Location of the failure in the submission's files, if the code panicked there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<CodeLocation>,
-    /// For students: where to look. Only where something is wrong.
+    /// For students: where to look. Only for failed items.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub look: Option<String>,
-    /// For students: the section of the handout that teaches it, such as
-    /// `boxes.md#zero-and-minus-zero`. Only where something is wrong.
+    /// For students: the section of the handout to read, such as `boxes.md#zero-and-minus-zero`.
+    /// Only for failed items.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub section: Option<Section>,
-    /// For students: the known mistake that answers the same; several if nothing tells them apart.
+    /// For students: hints for the recognised mistake, or for several that give the same answers.
     pub hints: Vec<Hint>,
-    /// For students: the first thing that went wrong.
+    /// For students: the first wrong answer.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub evidence: Option<Evidence>,
-    /// Whether this is what came of asking again, with right parts in the place of the
-    /// submission's other files, because one of those had failed.
+    /// Whether the item was graded with the reference's parts in place of the submission's other
+    /// files, because an item that it depends on had failed.
     pub carried_forward: bool,
-    /// Files beside this one that show it.
+    /// Names of picture files beside this file.
     pub pictures: Vec<String>,
-    /// For staff only.
+    /// Additional information for staff.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub staff: Option<String>,
 }
 
-/// A line of one of the five files.
+/// A line in one of the submission's files.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct CodeLocation {
-    /// Such as `sphere.rs`.
+    /// File name, such as `sphere.rs`.
     pub file: String,
-    /// Counted from 1.
+    /// Line number, counted from 1.
     pub line: u32,
 }
 
 impl CodeLocation {
-    /// The place that a panic names, such as `sphere.rs:34`. None if it is in no submission's file.
-    pub fn from_panic(place: &str) -> Option<Self> {
-        let mut parts = place.split(':');
+    /// Parses the location of a panic, such as `sphere.rs:34`. `None` if it is not in a task file.
+    pub fn from_panic(location: &str) -> Option<Self> {
+        let mut parts = location.split(':');
         let file = parts.next()?;
         let file = TASK_FILES.iter().find(|known| known.name == file)?;
         Some(CodeLocation {
@@ -134,31 +135,31 @@ impl CodeLocation {
     }
 }
 
-/// What a known mistake would do well to hear.
+/// A hint for a known mistake.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Hint {
-    /// A question that leads there.
+    /// A question that leads to the mistake.
     pub nudge: String,
-    /// What is wrong.
+    /// An explanation of the mistake.
     pub hint: String,
 }
 
-/// What was asked, what came, what should have come.
+/// A question with the submission's answer and the expected one.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Evidence {
-    /// Which question of the item, counted from 1: `cargo grade --replay ITEM#NUMBER`.
+    /// Number of the question in the item, counted from 1: `cargo grade --replay ITEM#NUMBER`.
     pub number: usize,
     /// The question.
     pub asked: String,
     /// The submission's answer.
     pub got: String,
-    /// The right one.
+    /// The expected answer.
     pub wanted: String,
 }
 
-/// What became of one item.
+/// Result of one item.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "verdict", rename_all = "snake_case")]
@@ -167,37 +168,37 @@ pub enum Verdict {
     Pass,
     /// Some points.
     Partial,
-    /// An answer that is not right.
+    /// A wrong answer.
     Wrong,
     /// The code panicked.
     Panicked,
     /// The code is not written yet.
     Unimplemented,
-    /// No answer in time.
+    /// The time limit was exceeded.
     TimedOut,
-    /// The code used more memory than there is.
+    /// The memory limit was exceeded.
     OutOfMemory,
-    /// The process ended.
+    /// The process ended unexpectedly.
     Crashed,
-    /// What came back was no answer.
+    /// The process sent invalid answers.
     Protocol,
-    /// The file does not compile, or is not there.
+    /// The file does not compile, or is missing.
     NotCompiled,
-    /// It rests on another task, which earned nothing.
+    /// The item depends on an item of another task that earned no points.
     Blocked {
-        /// The item that it needs.
+        /// Id of the item that it depends on.
         by: String,
     },
-    /// Not asked yet.
+    /// Not graded yet.
     Pending,
 }
 
 impl Verdict {
-    /// What people read.
+    /// Returns a human-readable label.
     pub fn label(&self) -> &'static str {
         match self {
             Verdict::Pass => "passed",
-            Verdict::Partial => "in part",
+            Verdict::Partial => "partial",
             Verdict::Wrong => "wrong",
             Verdict::Panicked => "panicked",
             Verdict::Unimplemented => "not written yet",
@@ -207,73 +208,73 @@ impl Verdict {
             Verdict::Protocol => "no answer",
             Verdict::NotCompiled => "not compiled",
             Verdict::Blocked { .. } => "blocked",
-            Verdict::Pending => "not asked yet",
+            Verdict::Pending => "not graded yet",
         }
     }
 }
 
-/// What the compiler and the grader had to say of the files.
+/// Compiler errors, and notes on the submission's files.
 #[derive(Clone, Debug, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct BuildReport {
-    /// The files in whose place the starter's was taken.
+    /// Files that were replaced by the starter's.
     pub not_compiled: Vec<FileReport>,
-    /// What is worth knowing and costs nothing.
+    /// Notes that do not affect points.
     pub notes: Vec<String>,
 }
 
-/// One file that could not be used.
+/// A file that could not be used.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FileReport {
-    /// Such as `sphere.rs`.
+    /// File name, such as `sphere.rs`.
     pub file: String,
-    /// The line of that error, counted from 1.
+    /// Line of the compiler's first error in the file, counted from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<u32>,
-    /// The compiler's first error in it, or why there is no text.
+    /// The compiler's first error in the file, or why the file could not be read.
     pub message: String,
 }
 
-/// How long it took, in milliseconds.
+/// Duration of grading, in milliseconds.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Timings {
-    /// From files to a probe.
+    /// Time to build the probe.
     pub build_ms: u64,
-    /// Asking and judging.
+    /// Time to run the exam.
     pub exam_ms: u64,
-    /// In detail, for `--timings`: not in the file.
+    /// Details for `--timings`. Not in the file.
     #[serde(skip)]
     pub stages: StageTimes,
 }
 
 impl ItemScore {
-    /// The command that asks the same again: one question where there is one to speak of, else
-    /// the task.
-    pub fn rerun_command(&self, again: &RerunCommand) -> String {
+    /// Returns the command that runs the item again: the question of its evidence, or else the
+    /// task.
+    pub fn rerun_command(&self, command: &RerunCommand) -> String {
         match &self.evidence {
-            Some(evidence) => again.replay(&self.id, evidence.number),
-            None => again.task(self.id.split('.').next().unwrap_or_default()),
+            Some(evidence) => command.replay(&self.id, evidence.number),
+            None => command.task(self.id.split('.').next().unwrap_or_default()),
         }
     }
 }
 
 impl Score {
-    /// All items, in the order of asking.
+    /// Returns all items, in the order in which they are graded.
     pub fn items(&self) -> impl Iterator<Item = &ItemScore> {
         self.tasks.iter().flat_map(|task| &task.items)
     }
 
-    /// Puts a line in the place of the one with the same id.
+    /// Replaces the score of the item with the same id.
     pub fn record(&mut self, line: ItemScore) {
         let mut items = self.tasks.iter_mut().flat_map(|task| &mut task.items);
-        if let Some(place) = items.find(|item| item.id == line.id) {
-            *place = line;
+        if let Some(item) = items.find(|item| item.id == line.id) {
+            *item = line;
         }
     }
 
-    /// Adds up.
+    /// Adds up the points of all tasks.
     pub fn update_totals(&mut self) {
         for task in &mut self.tasks {
             task.points = task.items.iter().map(|item| item.points).sum();
@@ -291,12 +292,12 @@ mod tests {
         let schema = schemars::schema_for!(Score);
         let schema = format!("{:#}\n", schema.as_value());
         if std::env::var_os("INSTA_UPDATE").is_some_and(|what| what == "always") {
-            let place = concat!(env!("CARGO_MANIFEST_DIR"), "/src/score.schema.json");
-            std::fs::write(place, &schema).unwrap();
+            let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/score.schema.json");
+            std::fs::write(path, &schema).unwrap();
         }
         assert_eq!(
             PUBLISHED_SCHEMA, schema,
-            "`INSTA_UPDATE=always cargo test -p grader --lib schema` writes it anew"
+            "`INSTA_UPDATE=always cargo test -p grader --lib schema` updates it"
         );
     }
 }

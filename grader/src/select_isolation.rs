@@ -1,4 +1,5 @@
-//! Which isolation a submission is graded with: what was asked for, or no grading at all.
+//! Selects the isolation level for grading. If the requested level is not available, nothing is
+//! graded.
 
 use std::fmt::Write;
 
@@ -6,33 +7,34 @@ use crate::build::{Builder, SelfTestError};
 use crate::cli::Arguments;
 use crate::sandbox::{Isolation, Sandbox};
 
-/// The least for code that is not one's own, unless another level is named.
+/// The lowest level for other people's code, unless another level is requested.
 pub const MIN_FOR_UNTRUSTED: Isolation = Isolation::NoNamespaces;
 
-/// What was asked for is not to be had here.
+/// The requested isolation is not available on this machine.
 #[derive(Debug, thiserror::Error)]
 pub enum IsolationError {
-    /// The level that was named.
-    #[error("isolation {level} is not reached: {why}\n{ADVICE}")]
+    /// The requested level does not work.
+    #[error("isolation level {level} is not available: {why}\n{ADVICE}")]
     LevelUnavailable {
-        /// Which.
+        /// The level.
         level: Isolation,
-        /// Why.
+        /// The reason.
         why: SelfTestError,
     },
-    /// None of those that are good enough.
+    /// No level works that is good enough for other people's code.
     #[error(
-        "others' code is not graded here: isolation is worse than {MIN_FOR_UNTRUSTED}\n{missing}{ADVICE}"
+        "other people's code cannot be graded here: isolation is weaker than {MIN_FOR_UNTRUSTED}\n{missing}{ADVICE}"
     )]
     NoSufficientLevel {
-        /// A line for each that was tried.
+        /// A line with the reason for each level that was tested.
         missing: String,
     },
 }
 
-const ADVICE: &str = "see `cargo grade --doctor`; to grade your own work, leave --untrusted away";
+const ADVICE: &str = "see `cargo grade --doctor`; to grade your own work, leave out --untrusted";
 
-/// The builder in the sandbox that the command line asks for, tried out: for one's own work in none.
+/// Returns the builder with the isolation that the command line requests, after testing it. For
+/// your own work, that is none.
 pub fn with_requested_level(
     builder: Builder,
     arguments: &Arguments,
@@ -45,7 +47,7 @@ pub fn with_requested_level(
     }
 }
 
-/// The builder in the best sandbox that is good enough for others' work.
+/// Returns the builder with the best level that works and is good enough for other people's code.
 pub fn with_best_level(builder: &Builder) -> Result<Builder, IsolationError> {
     let mut missing = String::new();
     for level in Isolation::ALL
@@ -54,13 +56,15 @@ pub fn with_best_level(builder: &Builder) -> Result<Builder, IsolationError> {
     {
         match with_level(builder, level) {
             Ok(builder) => return Ok(builder),
-            Err(why) => writeln!(missing, "  {level}: {why}").expect("text takes text"),
+            Err(why) => {
+                writeln!(missing, "  {level}: {why}").expect("writing to a string succeeds")
+            }
         }
     }
     Err(IsolationError::NoSufficientLevel { missing })
 }
 
-/// The builder at this level, if it holds.
+/// Returns the builder with this level, after testing it.
 pub fn with_level(builder: &Builder, level: Isolation) -> Result<Builder, SelfTestError> {
     let builder = builder.clone().with_sandbox(Sandbox::at(level));
     if level > Isolation::None {

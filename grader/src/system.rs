@@ -1,7 +1,7 @@
-//! What differs between operating systems, and nothing else: all of the grader's `cfg` stands here.
+//! Functions that differ between operating systems.
 //!
-//! Each system has the same functions. Where a system can not do a thing, its function does
-//! nothing, and says so.
+//! Every system has the same functions. If a system does not support one, it does nothing or
+//! returns `None`, and its documentation says so.
 
 use std::process::Command;
 use std::time::Duration;
@@ -25,36 +25,38 @@ pub use unix::{
 };
 #[cfg(windows)]
 pub use windows::{
-    ending, free_space, kill_group, link, open_file, open_regular, open_to_all, own_group,
-    readable_by_all, runnable_by_all, tied,
+    command_killed_at_eof, exit_reason, free_space, kill_group, make_executable,
+    make_folder_accessible, make_readable, open_file_without_hard_links, open_regular_file,
+    symlink, use_own_process_group,
 };
 
-/// What a process may use. Where the system knows no such limit, wall time is the only one.
+/// Resource limits of a process. On a system without such limits, only wall time is limited.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Limits {
     /// Address space, in bytes.
     pub memory: u64,
-    /// CPU time of the process over its whole life.
+    /// Total CPU time of the process.
     pub cpu: Duration,
     /// The largest file that it may write, in bytes.
     pub file: u64,
 }
 
-/// How many seconds of CPU time a process may ignore that its time is over, before it is killed.
+/// Seconds of CPU time between the soft limit, which a process may ignore, and the hard limit,
+/// which kills it.
 #[cfg(target_os = "linux")]
 pub(crate) const CPU_GRACE_SECONDS: u64 = 1;
 
 /// How a process ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExitReason {
-    /// By itself, with this exit code.
+    /// It exited with this code.
     Code(i32),
-    /// By this signal.
+    /// This signal ended it.
     Signal(i32),
 }
 
-/// What no program can do without: Windows' own libraries, and the linker, look these up. macOS is
-/// asked where its linker's files lie.
+/// Environment variables that programs cannot do without. On Windows, the system's libraries and
+/// the linker look them up; on macOS, they say where the linker's files are.
 const REQUIRED_VARIABLES: [&str; 16] = [
     "SystemRoot",
     "SystemDrive",
@@ -66,7 +68,7 @@ const REQUIRED_VARIABLES: [&str; 16] = [
     "ProgramData",
     "ProgramFiles",
     "ProgramFiles(x86)",
-    // Set where somebody chose a linker by hand.
+    // Set if a linker was chosen by hand.
     "VCINSTALLDIR",
     "INCLUDE",
     "LIB",
@@ -75,10 +77,10 @@ const REQUIRED_VARIABLES: [&str; 16] = [
     "SDKROOT",
 ];
 
-/// Takes away all of the environment but what the system can not do without.
+/// Removes all environment variables except those that the system cannot do without.
 pub fn clear_environment(command: &mut Command) {
     command.env_clear();
-    // On Linux an empty environment is enough, and the same for everyone.
+    // On Linux an empty environment is enough, and it is the same on every machine.
     if cfg!(target_os = "linux") {
         return;
     }
@@ -90,19 +92,20 @@ pub fn clear_environment(command: &mut Command) {
     }
 }
 
-/// No limits: `setrlimit` is for oneself only, and jobs are not for safe code.
+/// Does nothing: `setrlimit` limits only the calling process, and the job objects of Windows cannot
+/// be used from safe code.
 #[cfg(not(target_os = "linux"))]
-pub fn limit(_: &std::process::Child, _: Limits) -> std::io::Result<()> {
+pub fn set_limits(_: &std::process::Child, _: Limits) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Not told.
+/// Returns `None`: not available on this system.
 #[cfg(not(target_os = "linux"))]
 pub fn cpu_time(_: &std::process::Child) -> Option<Duration> {
     None
 }
 
-/// Not told.
+/// Returns `None`: not available on this system.
 #[cfg(not(target_os = "linux"))]
 pub fn memory(_: &std::process::Child) -> Option<u64> {
     None

@@ -1,4 +1,4 @@
-//! From what became of an item to its line in the score: pure.
+//! Turns the outcome of an item into its score. Pure.
 
 use crate::build::NotCompiled;
 use crate::describe;
@@ -16,30 +16,30 @@ use crate::score::{
 use crate::section::Section;
 use crate::signatures::KnownMistake;
 
-/// The most characters of a student's or compiler's text in a message.
+/// Maximum length of a student's or the compiler's text in a message, in characters.
 const MAX_TEXT_CHARS: usize = 2_000;
 
-/// What became of one item.
+/// The outcome of running one item.
 #[derive(Clone, Debug)]
 pub enum ItemOutcome<'a> {
-    /// Not asked yet.
+    /// Not run yet.
     Pending,
-    /// Its file is not part of the program.
+    /// The task's file is not part of the program.
     NotCompiled(&'a NotCompiled),
-    /// No answer.
+    /// There is no answer.
     Fault {
-        /// Why.
+        /// The reason.
         fault: Fault,
-        /// The question and its element that bring it about alone, if any does.
+        /// Index of the question and the element that cause the fault when run alone, if known.
         culprit: Option<(usize, usize)>,
     },
-    /// Not asked, because other items of the task had run out of time.
+    /// Not run, because other items of the task exceeded the time limit.
     Skipped(Fault),
-    /// An answer to each question, judged.
+    /// There is a judged answer to each question.
     Answered(Vec<Judgement>),
 }
 
-/// The score of a submission that nothing was asked yet.
+/// Returns the score of a submission before any item is graded.
 pub fn pending_score(exam: &Exam, name: ExamName, submission: &str) -> Score {
     let task_score = |task: Task| {
         let items = exam.items.iter().filter(|item| item.task == task);
@@ -75,7 +75,7 @@ pub fn pending_score(exam: &Exam, name: ExamName, submission: &str) -> Score {
     }
 }
 
-/// The item's line in the score.
+/// Returns the score of an item with this outcome.
 pub fn item_score(item: &Item, outcome: &ItemOutcome) -> ItemScore {
     let mut score = ItemScore {
         id: item.id.clone(),
@@ -99,14 +99,11 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome) -> ItemScore {
             score.verdict = Verdict::NotCompiled;
             score.message = not_compiled_message(item, why);
         }
-        ItemOutcome::Fault {
-            fault,
-            culprit: place,
-        } => {
+        ItemOutcome::Fault { fault, culprit } => {
             score.verdict = verdict_of(fault);
             score.message = fault.to_string();
             score.section = item.section.clone();
-            score.evidence = place.map(|(question, element)| Evidence {
+            score.evidence = culprit.map(|(question, element)| Evidence {
                 number: item.number(question, element),
                 asked: describe::element(&item.questions[question].question, element),
                 got: "no answer".to_owned(),
@@ -115,7 +112,8 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome) -> ItemScore {
         }
         ItemOutcome::Skipped(fault) => {
             score.verdict = verdict_of(fault);
-            score.message = "not asked: other items of this task had run out of time".to_owned();
+            score.message =
+                "skipped, because other items of this task exceeded the time limit".to_owned();
         }
         ItemOutcome::Answered(judgements) => score_answers(item, judgements, &mut score),
     }
@@ -127,7 +125,7 @@ fn not_compiled_message(item: &Item, why: &NotCompiled) -> String {
         NotCompiled::Unreadable(unreadable) => unreadable.to_string(),
         NotCompiled::MissingDeclaration(part) => {
             format!(
-                "{} has no `{part}`, which other files call",
+                "{} has no `{part}`, which other files use",
                 item.task.file()
             )
         }
@@ -136,7 +134,7 @@ fn not_compiled_message(item: &Item, why: &NotCompiled) -> String {
     }
 }
 
-/// The line of what the compiler said of a file.
+/// Returns the line of the compiler's error, if there is one.
 pub fn file_line(why: &NotCompiled) -> Option<u32> {
     match why {
         NotCompiled::Error { line, .. } => *line,
@@ -146,12 +144,12 @@ pub fn file_line(why: &NotCompiled) -> Option<u32> {
     }
 }
 
-/// What the compiler said, or why there was nothing to compile.
+/// Returns the compiler's error, or why there was nothing to compile.
 pub fn file_message(file: &str, why: &NotCompiled) -> String {
     match why {
         NotCompiled::Unreadable(unreadable) => unreadable.to_string(),
         NotCompiled::MissingDeclaration(part) => {
-            format!("{file} has no `{part}`, which other files call")
+            format!("{file} has no `{part}`, which other files use")
         }
         NotCompiled::Error { text, .. } | NotCompiled::Compiler(text) => {
             sanitize(text, MAX_TEXT_CHARS)
@@ -169,21 +167,21 @@ fn verdict_of(fault: &Fault) -> Verdict {
 }
 
 fn score_answers(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
-    let share = judgements.iter().map(|judgement| judgement.credit).min();
-    let share = share.unwrap_or(Credit::NONE);
-    score.points = share.apply(item.points);
-    if share == Credit::FULL {
+    let credit = judgements.iter().map(|judgement| judgement.credit).min();
+    let credit = credit.unwrap_or(Credit::NONE);
+    score.points = credit.apply(item.points);
+    if credit == Credit::FULL {
         score.verdict = Verdict::Pass;
         return;
     }
     score.look = Some(item.look.clone());
     score.section = item.section.clone();
 
-    // Of the worst question: that is the one that the points are those of.
+    // The item's points are those of its worst question, so the message is about that question.
     let worst = judgements
         .iter()
         .enumerate()
-        .find(|(_, j)| j.credit == share);
+        .find(|(_, j)| j.credit == credit);
     let Some((question, failure)) = worst.and_then(|(i, j)| Some((i, j.failure.as_ref()?))) else {
         score.verdict = Verdict::Protocol;
         return;
@@ -200,7 +198,7 @@ fn score_answers(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
         FailureKind::Panicked(panic) if panic.is_unimplemented() => {
             score.verdict = Verdict::Unimplemented;
             score.message = format!(
-                "{} still says `todo!`",
+                "{} still contains `todo!`",
                 sanitize(&panic.location, MAX_TEXT_CHARS)
             );
             score.at = CodeLocation::from_panic(&panic.location);
@@ -209,15 +207,18 @@ fn score_answers(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
             return;
         }
         FailureKind::Panicked(panic) => {
-            let (place, words) = (&panic.location, &panic.message);
-            score.message = sanitize(&format!("panicked at {place}: {words}"), MAX_TEXT_CHARS);
+            let (location, message) = (&panic.location, &panic.message);
+            score.message = sanitize(
+                &format!("panicked at {location}: {message}"),
+                MAX_TEXT_CHARS,
+            );
             score.at = CodeLocation::from_panic(&panic.location);
             let panicked = partial(Verdict::Panicked);
             (panicked, "a panic".to_owned(), "an answer".to_owned())
         }
         FailureKind::Protocol(why) => {
             score.verdict = Verdict::Protocol;
-            score.message = format!("what came back is no answer: {why}");
+            score.message = format!("the program sent an invalid answer: {why}");
             return;
         }
     };
@@ -232,12 +233,13 @@ fn score_answers(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
 
 fn wrong_answer_message(what: &str, failure: &Failure) -> String {
     match failure.count {
+        Some((1, of)) if of > 1 => format!("1 of {of} is wrong: {what}"),
         Some((wrong, of)) if of > 1 => format!("{wrong} of {of} are wrong; the first: {what}"),
-        Some(_) | None => format!("first mistake: {what}"),
+        Some(_) | None => format!("wrong: {what}"),
     }
 }
 
-/// The item of another task that this one needs, which earned nothing.
+/// Returns the item of another task that this one needs and that earned no points, if there is one.
 pub fn blocking_item<'a>(item: &'a Item, others: &Score) -> Option<&'a str> {
     let earned_nothing = |id: &&String| {
         let needed = others.items().find(|other| other.id == **id);
@@ -246,14 +248,15 @@ pub fn blocking_item<'a>(item: &'a Item, others: &Score) -> Option<&'a str> {
     item.needs.iter().find(earned_nothing).map(String::as_str)
 }
 
-/// Nobody can tell whose mistake it is, where there is no right part to try instead.
+/// Returns the score of an item that may fail because of `by`. Without substituted parts, nobody
+/// can tell which of the two is wrong.
 pub fn blocked_score(by: &str, line: ItemScore) -> ItemScore {
     if line.points > 0 || line.verdict == Verdict::Pending {
         return line;
     }
     ItemScore {
         verdict: Verdict::Blocked { by: by.to_owned() },
-        message: format!("rests on {by}: mend that first"),
+        message: format!("depends on {by}: fix that first"),
         at: None,
         look: None,
         section: None,
@@ -262,8 +265,7 @@ pub fn blocked_score(by: &str, line: ItemScore) -> ItemScore {
     }
 }
 
-/// With what the known mistakes that explain the answers would do well to hear. Which ones they
-/// are is for staff.
+/// Adds the hints of the mistakes that explain the answers. Their ids are for staff.
 pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
     if mistakes.is_empty() {
         return;
@@ -273,7 +275,7 @@ pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
         hint: mistake.hint.clone(),
     };
     line.hints = mistakes.iter().map(hint).collect();
-    // The likeliest mistake comes first.
+    // The most likely mistake comes first.
     if let Some(section) = mistakes.first().and_then(|mistake| mistake.section.clone()) {
         line.section = Some(section);
     }
@@ -281,22 +283,26 @@ pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
     line.staff = Some(format!("answers like {}", ids.join(" or ")));
 }
 
-/// What the submission earns with right parts in the place of its other files, which is what
-/// counts: a mistake in those costs nothing here, and no mistake here is hidden by one in those.
-pub fn substituted_score(by: &str, own: &ItemScore, carried: ItemScore) -> ItemScore {
-    let message = match (own.verdict == Verdict::Pass, carried.message.as_str()) {
+/// Returns the score of an item that was graded with substituted parts. This score counts: mistakes
+/// in other files cost nothing here, and cannot hide a mistake in this file either.
+pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> ItemScore {
+    let message = match (own.verdict == Verdict::Pass, substituted.message.as_str()) {
         (true, "") => String::new(),
         (false, "") => {
-            format!("wrong only because of {by}: with right parts in its place, all is well")
+            format!("wrong only because of {by}: correct with the reference's parts")
         }
         (true, message) => {
-            format!("{message}; two mistakes that cancel: it shows with right parts for {by}")
+            format!(
+                "{message}; two mistakes cancel each other: this one shows with the reference's parts for {by}"
+            )
         }
-        (false, message) => format!("{message}; asked with right parts, because of {by}"),
+        (false, message) => {
+            format!("{message}; graded with the reference's parts, because of {by}")
+        }
     };
     ItemScore {
         message,
         carried_forward: true,
-        ..carried
+        ..substituted
     }
 }

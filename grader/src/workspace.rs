@@ -1,23 +1,24 @@
-//! Where the project lies on this machine, and where the grader may write.
+//! Locations of the workspace, and of the files that the grader writes.
 
 use std::env;
 use std::path::{Path, PathBuf};
 
-/// The folder that holds `student/` and the lock file.
+/// The folder that contains `student/` and the lock file.
 #[derive(Clone, Debug)]
 pub struct Workspace {
     root: PathBuf,
 }
 
-/// There is no workspace to be found.
+/// The workspace cannot be found.
 #[derive(Debug, thiserror::Error)]
 #[error(
-    "can not find the assignment's folder (the one with student/framework): run the command inside it"
+    "cannot find the assignment's folder, which contains student/framework: run the command inside it"
 )]
 pub struct WorkspaceError;
 
 impl Workspace {
-    /// The workspace around the current folder, else the one that this program was built in.
+    /// Finds the workspace around the current folder, or else the one in which this program was
+    /// built.
     pub fn find() -> Result<Self, WorkspaceError> {
         let here = env::current_dir().unwrap_or_default();
         let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
@@ -27,36 +28,37 @@ impl Workspace {
                 folder.join("student/framework/Cargo.toml").is_file()
                     && folder.join("Cargo.lock").is_file()
             })
-            // Not `canonicalize`: on Windows that is a path that nobody would type.
+            // `canonicalize` is not used, since on Windows it returns paths that nobody would type.
             .map(|root| Workspace {
                 root: root.to_owned(),
             })
             .ok_or(WorkspaceError)
     }
 
-    /// The folder itself.
+    /// Returns the folder itself.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// Students' own work.
+    /// Returns the folder of students' own work.
     pub fn student(&self) -> PathBuf {
         self.root.join("student")
     }
 
-    /// The solved files, where staff has them.
+    /// Returns the folder of the solved files, if it exists.
     pub fn reference(&self) -> Option<PathBuf> {
         let folder = self.root.join("reference/src");
         folder.is_dir().then_some(folder)
     }
 
-    /// All that the grader writes unless told otherwise: reports, and what it keeps for the next
-    /// run. `cargo clean` takes it away.
+    /// Returns the folder for everything that the grader writes by default, including its caches.
+    /// `cargo clean` removes it.
     pub fn output_folder(&self) -> PathBuf {
         self.root.join("target/grade")
     }
 
-    /// The path as given if it exists from the current folder, else from the workspace's.
+    /// Returns the path as given if it exists relative to the current folder, or else relative to
+    /// the workspace.
     pub fn resolve(&self, path: &Path) -> PathBuf {
         if path.exists() {
             path.to_owned()

@@ -1,5 +1,5 @@
-//! Zips: the directory at the end says what is in one, and only what is wanted is inflated. Nothing
-//! is unpacked to a disk.
+//! Zip archives: the directory at the end lists the contents, and only requested entries are
+//! inflated. Nothing is written to disk.
 
 use std::io::Read;
 
@@ -9,23 +9,23 @@ use rawzip::{
     ZipFileHeaderRecord, ZipLocator,
 };
 
-/// What the upper half of the bytes means in a name that is no UTF-8: code page 437, which the format
-/// was made with. PKWARE's APPNOTE.TXT, appendix D.
+/// The upper half of code page 437, the original encoding of the format, for names that are not
+/// UTF-8 (PKWARE's APPNOTE.TXT, appendix D).
 const CODE_PAGE_437: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐\
     └┴┬├─┼╞╟╚╔╩╦╠═╬╧╨╤╥╙╘╒╓╫╪┘┌█▄▌▐▀αßΓπΣσµτΦΘΩδ∞φε∩≡±≥≤⌠⌡÷≈°∙·√ⁿ²■\u{a0}";
 
-/// A zip, its directory read.
+/// A zip archive whose directory has been read.
 #[derive(Debug)]
 pub struct Zip<R> {
     archive: ZipArchive<R>,
-    /// What is in it, in the order of its directory.
+    /// Its entries, in directory order.
     pub entries: Vec<Entry>,
 }
 
-/// What a directory says of a file or folder.
+/// The kind of an entry, according to the directory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryKind {
-    /// A file.
+    /// A regular file.
     File,
     /// A folder.
     Folder,
@@ -33,42 +33,42 @@ pub enum EntryKind {
     Special,
 }
 
-/// One file or folder.
+/// A file, folder, link or device in a zip.
 #[derive(Debug)]
 pub struct Entry {
-    /// As it stands there, whatever that leads to.
+    /// The recorded name. It may be a path that leads outside.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: EntryKind,
-    /// Who may read, write and run it: nine bits, as Unix has them.
+    /// The nine permission bits of Unix.
     pub permissions: u32,
     method: CompressionMethod,
     is_encrypted: bool,
     wayfinder: ZipArchiveEntryWayfinder,
 }
 
-/// Why a zip, or one file in it, can not be read.
+/// Reasons why a zip, or an entry of it, cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ZipError {
-    /// It ends too soon, or is not what it claims to be.
+    /// It is truncated or malformed.
     #[error("{0}")]
     Damaged(#[from] rawzip::Error),
-    /// Its directory is longer or shorter than its end says.
-    #[error("its directory holds another number of files than it says")]
+    /// Its directory has more or fewer entries than it declares.
+    #[error("the number of files in its directory differs from the declared one")]
     WrongCount,
-    /// It holds more than was to be read.
-    #[error("it holds more than {0} files")]
+    /// It has too many entries.
+    #[error("it has more than {0} files")]
     TooManyEntries(usize),
-    /// A file is encrypted.
+    /// The entry is encrypted.
     #[error("it needs a password")]
     Encrypted,
-    /// A file is compressed in a way that is rarely used.
-    #[error("it is compressed in a way of its own")]
+    /// The entry's compression method is rare and not supported.
+    #[error("its compression method is not supported")]
     UnsupportedMethod,
 }
 
 impl<R: ReaderAt> Zip<R> {
-    /// Reads the directory of a zip of so many bytes, of at most so many entries.
+    /// Reads the directory of a zip of `length` bytes. Fails if it has more than `most` entries.
     pub fn open(bytes: R, length: u64, most: usize) -> Result<Self, ZipError> {
         let mut buffer = vec![0; RECOMMENDED_BUFFER_SIZE];
         let located = ZipLocator::new().locate_in_reader(bytes, &mut buffer, length);
@@ -81,14 +81,14 @@ impl<R: ReaderAt> Zip<R> {
             }
             entries.push(Entry::new(&header));
         }
-        // What is cut out of a directory would else be missing without a word.
+        // Otherwise entries that were cut out of the directory would go unnoticed.
         if archive.entries_hint() != entries.len() as u64 {
             return Err(ZipError::WrongCount);
         }
         Ok(Zip { archive, entries })
     }
 
-    /// The bytes of one of the entries; at their end it is known whether they are whole.
+    /// Returns a reader of an entry's contents. Damage is reported when it reaches their end.
     pub fn read(&self, entry: &Entry) -> Result<impl Read + '_, ZipError> {
         if entry.is_encrypted {
             return Err(ZipError::Encrypted);
@@ -123,14 +123,14 @@ impl Entry {
     }
 }
 
-/// Those who write UTF-8 do not always say so.
+/// Decodes a name. UTF-8 is tried even without the flag for it, which not every program sets.
 fn decode_name(bytes: &[u8]) -> String {
     let of_byte = |byte: &u8| match byte.checked_sub(128) {
         None => char::from(*byte),
-        Some(place) => CODE_PAGE_437
+        Some(index) => CODE_PAGE_437
             .chars()
-            .nth(place.into())
-            .expect("there are 128"),
+            .nth(index.into())
+            .expect("the table has 128 characters"),
     };
     match str::from_utf8(bytes) {
         Ok(name) => name.to_owned(),

@@ -1,5 +1,5 @@
-//! The floor: one `rustc` call for the five files, with the given `lib.rs` and `primitive.rs`, and
-//! nothing else of ours. Everything that they name is compiled already.
+//! The baseline: one `rustc` call for the five task files and the given `lib.rs` and
+//! `primitive.rs`. All their dependencies are compiled already.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,52 +7,52 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// The call, once as it is and once as far as the types.
+/// Creates bare `rustc` calls, with or without code generation.
 pub struct BareRustc {
     dependencies: Value,
 }
 
 impl BareRustc {
-    /// With what a grade has just been built with.
+    /// Uses the dependencies of the most recent grade.
     pub fn prepare(cache: &Path) -> Self {
         BareRustc {
             dependencies: newest(cache),
         }
     }
 
-    /// From five files to code.
+    /// Returns the command that compiles the five files.
     pub fn compile(&self, folder: &Path) -> Command {
         self.rustc(
             folder,
-            &["--crate-name=floor", "--crate-type=rlib", "lib.rs"],
+            &["--crate-name=baseline", "--crate-type=rlib", "lib.rs"],
         )
     }
 
-    /// From five files to what is wrong with them.
+    /// Returns the command that checks the five files for errors.
     pub fn check(&self, folder: &Path) -> Command {
         let mut command = self.compile(folder);
         command.arg("--emit=metadata");
         command
     }
 
-    /// From five files, and this root around them, to a program.
+    /// Returns the command that compiles the five files and this root to a program.
     pub fn program(&self, folder: &Path, root: &str) -> Command {
         self.rustc(folder, &["--crate-type=bin", root])
     }
 
     fn rustc(&self, folder: &Path, arguments: &[&str]) -> Command {
-        // Not rustup's stand-in, which takes 8 ms.
+        // Not rustup's proxy, which takes 8 ms.
         let rustc = Path::new(env!("CARGO")).with_file_name("rustc");
         let mut command = Command::new(rustc);
         command.current_dir(folder);
         command.arg("--edition=2024").args(arguments);
         command.args(["-Copt-level=2", "-Ccodegen-units=1", "-Cdebuginfo=0"]);
         command.args(["-Coverflow-checks=on", "-Awarnings"]);
-        let text = |value: &Value| value.as_str().expect("it is a path").to_owned();
+        let text = |value: &Value| value.as_str().expect("the value is a path").to_owned();
         let folder = text(&self.dependencies["folder"]);
         command.arg(format!("-Ldependency={folder}"));
         let externs = self.dependencies["externs"].as_object();
-        for (name, rlib) in externs.expect("it is a map") {
+        for (name, rlib) in externs.expect("the value is a map") {
             command
                 .arg("--extern")
                 .arg(format!("{name}={}", text(rlib)));
@@ -63,12 +63,13 @@ impl BareRustc {
 
 fn newest(cache: &Path) -> Value {
     let entries = fs::read_dir(cache)
-        .expect("a grade has filled it")
+        .expect("a grade has filled the cache")
         .flatten();
     let records = entries.map(|entry| entry.path().join("dependencies.json"));
     let newest: Option<PathBuf> = records
         .filter(|record| record.is_file())
         .max_by_key(|record| fs::metadata(record).and_then(|file| file.modified()).ok());
-    let text = fs::read(newest.expect("a grade has filled it")).expect("it can be read");
-    serde_json::from_slice(&text).expect("the grader wrote it")
+    let text =
+        fs::read(newest.expect("a grade has filled the cache")).expect("the record can be read");
+    serde_json::from_slice(&text).expect("the grader wrote valid JSON")
 }

@@ -1,4 +1,4 @@
-//! Submissions that earn everything, and of which no two are the same.
+//! Submissions that earn all points, and that differ from each other.
 
 use std::fs;
 use std::path::Path;
@@ -8,40 +8,47 @@ use tempfile::TempDir;
 const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 const GIVEN_FILES: [&str; 2] = ["lib.rs", "primitive.rs"];
 
-/// The reference's files, in a folder of their own.
+/// Returns a new folder with the reference's files.
 pub fn submission(root: &Path) -> TempDir {
-    let folder = TempDir::new().expect("there is room for a folder");
+    let folder = TempDir::new().expect("a folder can be created");
     copy(root, folder.path());
     folder
 }
 
-/// The same for the bare compiler: the probe's way in needs `world`, the floor does not.
+/// Does the same for the bare compiler call, without the module `world`, which only the probe
+/// needs.
 pub fn baseline(root: &Path) -> TempDir {
     let folder = submission(root);
     let lib = folder.path().join("lib.rs");
-    let text = fs::read_to_string(&lib).expect("it was copied");
-    fs::write(&lib, text.replace("pub mod world;\n", "")).expect("it can be written");
+    let text = fs::read_to_string(&lib).expect("the file was copied");
+    fs::write(&lib, text.replace("pub mod world;\n", "")).expect("the file can be written");
     folder
 }
 
-/// Puts the reference's files there.
+/// Copies the reference's files to a folder.
 pub fn copy(root: &Path, folder: &Path) {
     for file in TASK_FILES.into_iter().chain(GIVEN_FILES) {
         let source = root.join("reference/src").join(file);
-        fs::copy(source, folder.join(file)).expect("the reference is there");
+        fs::copy(source, folder.join(file)).expect("the reference can be read");
     }
 }
 
-/// Really changes the submission: a constant in two hot functions.
+/// Changes a constant in two hot functions of the submission, so that the compiler must run again.
 pub fn change(root: &Path, folder: &Path, round: usize) {
-    for (file, place) in [
+    for (file, text_to_change) in [
         ("sphere.rs", "discriminant < 0.0"),
         ("triangle.rs", "determinant == 0.0"),
     ] {
         let path = root.join("reference/src").join(file);
-        let text = fs::read_to_string(path).expect("the reference is there");
-        assert!(text.contains(place), "{file} has no {place}");
-        let changed = text.replace(place, &format!("{place} || ray.range.max < -{round}.5"));
-        fs::write(folder.join(file), changed).expect("it can be written");
+        let text = fs::read_to_string(path).expect("the reference can be read");
+        assert!(
+            text.contains(text_to_change),
+            "{file} has no {text_to_change}"
+        );
+        let changed = text.replace(
+            text_to_change,
+            &format!("{text_to_change} || ray.range.max < -{round}.5"),
+        );
+        fs::write(folder.join(file), changed).expect("the file can be written");
     }
 }

@@ -1,4 +1,4 @@
-//! What a piece of work costs: wall time, and CPU time of ourselves and of all that we start.
+//! Measures wall time, and the CPU time of this process and its children.
 
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use nix::sys::resource::{UsageWho, getrusage};
 use nix::sys::time::TimeVal;
 
-/// Two times. On a machine with other work, only the second is worth a comparison.
+/// Wall time and CPU time. On a busy machine only CPU time can be compared.
 #[derive(Clone, Copy, Debug)]
 pub struct Cost {
     pub wall: Duration,
@@ -23,20 +23,20 @@ impl Cost {
         }
     }
 
-    /// Of a program, which must succeed.
+    /// Measures a program, which must succeed.
     pub fn of_program(command: &mut Command) -> Cost {
         Cost::of(|| {
             let status = command.stdout(Stdio::null()).status();
-            let status = status.expect("it can be started");
+            let status = status.expect("the program can be started");
             assert!(status.success(), "{command:?} failed");
         })
     }
 }
 
-/// CPU time so far; that of a child counts once it has been waited for.
+/// Returns the CPU time so far. That of a child is included once it has been waited for.
 fn used() -> Duration {
     let [own, children] = [UsageWho::RUSAGE_SELF, UsageWho::RUSAGE_CHILDREN].map(|who| {
-        let usage = getrusage(who).expect("the system counts");
+        let usage = getrusage(who).expect("the system reports CPU time");
         duration(usage.user_time()) + duration(usage.system_time())
     });
     own + children
@@ -44,5 +44,5 @@ fn used() -> Duration {
 
 fn duration(time: TimeVal) -> Duration {
     let micros = time.tv_sec() * 1_000_000 + time.tv_usec();
-    Duration::from_micros(u64::try_from(micros).expect("time goes on"))
+    Duration::from_micros(u64::try_from(micros).expect("CPU time is not negative"))
 }

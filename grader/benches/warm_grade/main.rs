@@ -1,7 +1,7 @@
-//! What grading costs beside compiling: the table of `README.md` in the folder above.
+//! Measures the overhead of grading compared with compiling, for the table in `../README.md`.
 //!
-//! Every round changes the submission, and then does each thing once, turn by turn, so that a noisy
-//! machine disturbs all. What is compared is CPU time, of one round.
+//! Each round changes the submission and then measures each quantity once, so that a busy machine
+//! affects all of them. CPU times are compared within a round.
 
 mod bare;
 mod changed;
@@ -27,26 +27,26 @@ use watch::WatchProcess;
 
 const ROUNDS: usize = 15;
 
-/// What is measured, in the order of one round, and what it is compared with.
+/// The quantities in the order of a round, and the baselines that they are compared with.
 const ROWS: [Row; 7] = [
     Row::new("bare rustc of the five files (F)", "F", TimeKind::Cpu),
-    Row::new("the same as far as types (T)", "F", TimeKind::Cpu),
+    Row::new("the same up to type checking (T)", "F", TimeKind::Cpu),
     Row::new("changed submission to probe", "F", TimeKind::Cpu),
     Row::new("changed submission to score.json", "F", TimeKind::Cpu),
-    // What a program has used so far that goes on is not known.
-    Row::new("does not compile: until it is said", "T", TimeKind::Wall),
-    Row::new("--watch: save to all points", "F", TimeKind::Wall),
-    Row::new("unchanged: told again", "F", TimeKind::Cpu),
+    // CPU time is not known while a process is still running.
+    Row::new("time to the first compile error", "T", TimeKind::Wall),
+    Row::new("--watch: save to complete score", "F", TimeKind::Wall),
+    Row::new("unchanged: cached report", "F", TimeKind::Cpu),
 ];
 
-/// One line of the table.
+/// A row of the table.
 struct Row {
     name: &'static str,
     baseline: &'static str,
     time: TimeKind,
 }
 
-/// Which time is compared.
+/// The kind of time that is compared.
 #[derive(Clone, Copy)]
 enum TimeKind {
     Cpu,
@@ -54,11 +54,11 @@ enum TimeKind {
 }
 
 impl Row {
-    const fn new(name: &'static str, unit: &'static str, by: TimeKind) -> Self {
+    const fn new(name: &'static str, baseline: &'static str, time: TimeKind) -> Self {
         Row {
             name,
-            baseline: unit,
-            time: by,
+            baseline,
+            time,
         }
     }
 
@@ -80,41 +80,48 @@ fn main() {
     let [broken, watched, same] = [(); 3].map(|()| submission(&root));
 
     grade(folder.path(), 100);
-    let workspace = Workspace::find().expect("it is around us");
-    let builder = Builder::prepare(&workspace).expect("it was prepared");
+    let workspace = Workspace::find().expect("the benchmark runs in the workspace");
+    let builder = Builder::prepare(&workspace).expect("the dependencies can be built");
     let bare = BareRustc::prepare(&workspace.output_folder().join("dependencies"));
-    let mut watching = WatchProcess::start(watched.path());
+    let mut watcher = WatchProcess::start(watched.path());
     let mut rounds = Vec::new();
     for round in 0..ROUNDS {
         change(&root, folder.path(), round);
-        let floor = Cost::of_program(&mut bare.compile(folder.path()));
+        let bare_rustc = Cost::of_program(&mut bare.compile(folder.path()));
         let types = Cost::of_program(&mut bare.check(folder.path()));
         let probe = Cost::of(|| {
-            let changed = Submission::collect(folder.path()).expect("it is there");
-            let build = builder.build(&changed).expect("it can be built");
+            let changed = Submission::collect(folder.path()).expect("the submission can be read");
+            let build = builder
+                .build(&changed)
+                .expect("the submission can be built");
             assert!(build.probe.is_some(), "the reference compiles");
         });
-        let whole = grade(folder.path(), 100);
+        let score = grade(folder.path(), 100);
         change(&root, broken.path(), round);
         break_file(&broken.path().join("sphere.rs"));
-        let told = first_error(broken.path());
+        let error = first_error(broken.path());
         let saved = Cost::of(|| {
             change(&root, watched.path(), round);
-            watching.report();
+            watcher.report();
         });
-        let again = regrade_unchanged(same.path());
-        rounds.push([floor, types, probe, whole, told, saved, again]);
+        let cached = regrade_unchanged(same.path());
+        rounds.push([bare_rustc, types, probe, score, error, saved, cached]);
     }
     print(&rounds);
-    drop(watching);
-    let name = same.path().file_name().expect("it has a name");
-    fs::remove_dir_all(workspace.output_folder().join(name)).expect("it was graded there");
+    drop(watcher);
+    let name = same
+        .path()
+        .file_name()
+        .expect("a temporary folder has a name");
+    fs::remove_dir_all(workspace.output_folder().join(name)).expect("the score was written there");
 
     let world = submission(&root);
     let given = root.join("grader/starter/world.rs");
-    fs::copy(given, world.path().join("world.rs")).expect("it is there");
-    let submission = Submission::collect(world.path()).expect("it is there");
-    let build = builder.build(&submission).expect("it can be built");
+    fs::copy(given, world.path().join("world.rs")).expect("the starter can be copied");
+    let submission = Submission::collect(world.path()).expect("the submission can be read");
+    let build = builder
+        .build(&submission)
+        .expect("the submission can be built");
     let program = build.probe.as_deref().expect("the reference compiles");
     wire::compare(world.path(), &bare, &build.launcher(program));
 }
@@ -134,39 +141,41 @@ fn print(rounds: &[[Cost; ROWS.len()]]) {
                 .iter()
                 .map(|round| row.ratio(round[which], [round[0], round[1]])),
         );
-        let (name, unit) = (row.name, row.baseline);
-        println!("{name:36}{wall:>9.0}{cpu:>9.0}{ratio:>8.2} {unit}");
+        let (name, baseline) = (row.name, row.baseline);
+        println!("{name:36}{wall:>9.0}{cpu:>9.0}{ratio:>8.2} {baseline}");
     }
 }
 
-/// Until the first word on a file that does not compile. The rest is graded after that.
+/// Measures the time to the first error of a file that does not compile. The rest is graded after
+/// that.
 fn first_error(folder: &Path) -> Cost {
     let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
     command.arg(folder).arg("--out").arg(folder.join("out"));
     command.stdout(Stdio::null()).stderr(Stdio::piped());
-    let mut said = String::new();
+    let mut first_line = String::new();
     let mut child = None;
     let cost = Cost::of(|| {
-        let child = child.insert(command.spawn().expect("it can be started"));
-        let words = child.stderr.take().expect("it is a pipe");
-        let read = BufReader::new(words).read_line(&mut said);
-        read.expect("it writes text");
+        let child = child.insert(command.spawn().expect("the grader can be started"));
+        let stderr = child.stderr.take().expect("the stream is piped");
+        let read = BufReader::new(stderr).read_line(&mut first_line);
+        read.expect("the grader writes text");
     });
-    assert!(said.starts_with("sphere.rs: error"), "{said}");
+    assert!(first_line.starts_with("sphere.rs: error"), "{first_line}");
     child
-        .expect("it was started")
+        .expect("the grader was started")
         .wait()
-        .expect("it comes to an end");
+        .expect("the grader ends");
     cost
 }
 
-/// An error of types.
+/// Adds a type error to a file.
 fn break_file(file: &Path) {
-    let text = fs::read_to_string(file).expect("it was written");
-    fs::write(file, format!("{text}\nconst RADIUS: f32 = \"one\";\n")).expect("it can be written");
+    let text = fs::read_to_string(file).expect("the file was written");
+    fs::write(file, format!("{text}\nconst RADIUS: f32 = \"one\";\n"))
+        .expect("the file can be written");
 }
 
-/// A submission that has not changed, in its usual place. The first time, it is graded.
+/// Grades a submission in its default folder, and measures grading it again without a change.
 fn regrade_unchanged(folder: &Path) -> Cost {
     let grader = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));

@@ -1,6 +1,6 @@
-//! What one run in the middle says, whatever the slowest of them met.
+//! The median, which is not affected by a few slow runs.
 
-/// Of an even number of values, the upper of the two in the middle.
+/// Returns the median. Of an even number of values, it is the larger of the two in the middle.
 pub fn median(values: impl IntoIterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);

@@ -1,10 +1,10 @@
-//! `cargo grade --watch`, and how long its reports are in coming.
+//! Runs `cargo grade --watch` and waits for its reports.
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, ChildStdout, Command, Stdio};
 
-/// A grader that waits for saves; ended when dropped.
+/// A grader that waits for saved files. It is killed when dropped.
 pub struct WatchProcess {
     child: Child,
     lines: BufReader<ChildStdout>,
@@ -16,11 +16,11 @@ impl WatchProcess {
         command.arg("--watch").arg(folder);
         command.arg("--out").arg(folder.join("out"));
         let child = command.stdout(Stdio::piped()).spawn();
-        let mut child = child.expect("it can be started");
-        let lines = BufReader::new(child.stdout.take().expect("it is a pipe"));
-        let mut watching = WatchProcess { child, lines };
-        watching.report();
-        watching
+        let mut child = child.expect("the grader can be started");
+        let lines = BufReader::new(child.stdout.take().expect("the stream is piped"));
+        let mut watcher = WatchProcess { child, lines };
+        watcher.report();
+        watcher
     }
 
     /// Waits for the next report.
@@ -28,8 +28,11 @@ impl WatchProcess {
         let mut line = String::new();
         while !line.contains("save a file to grade again") {
             line.clear();
-            let read = self.lines.read_line(&mut line).expect("it writes text");
-            assert!(read > 0, "it has ended");
+            let read = self
+                .lines
+                .read_line(&mut line)
+                .expect("the grader writes text");
+            assert!(read > 0, "the grader has ended");
         }
     }
 }

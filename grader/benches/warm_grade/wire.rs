@@ -1,5 +1,5 @@
-//! What the pipe costs: 100,000 rays asked of a probe, beside the same questions answered where they
-//! are by the same code, turn by turn.
+//! Measures the cost of the pipe: 100,000 rays sent to a probe, compared with the same questions
+//! answered by the same code in one process. The two alternate.
 
 use std::fs;
 use std::path::Path;
@@ -16,13 +16,15 @@ use crate::median;
 
 const ROUNDS: usize = 7;
 const RAYS: usize = 100_000;
-/// The program without a pipe answers so often more, so that reading the questions does not count.
+/// Number of additional repetitions in one process. Their time does not include reading the
+/// questions.
 const REPETITIONS: u32 = 20;
 const BUDGET: Budget = Budget {
     cpu: Duration::from_secs(60),
 };
 
-/// The end of a program that reads all questions, and then answers them once and so often more.
+/// The end of a program that reads all questions, and then answers them once plus the given number
+/// of repetitions.
 const IN_PROCESS: &str = r#"
 fn main() {
     use std::io::Read;
@@ -43,48 +45,54 @@ fn main() {
 }
 "#;
 
-/// Prints a line for questions as the exam's, of many rays each, and one for the worst: of one ray.
+/// Prints a row for a hundred rays per question, as in the exam, and one for the worst case of one
+/// ray.
 pub fn compare(folder: &Path, bare: &BareRustc, launcher: &Launcher) {
-    let lib = fs::read_to_string(folder.join("lib.rs")).expect("it was copied");
-    fs::write(folder.join("in_process.rs"), lib + IN_PROCESS).expect("it can be written");
+    let lib = fs::read_to_string(folder.join("lib.rs")).expect("the file was copied");
+    fs::write(folder.join("in_process.rs"), lib + IN_PROCESS).expect("the file can be written");
     Cost::of_program(&mut bare.program(folder, "in_process.rs"));
     println!("\n{RAYS} rays, median of {ROUNDS} rounds, CPU ms");
-    println!("rays a question   in process   over the pipe   ratio");
-    for each in [100, 1] {
-        let rounds = (0..ROUNDS).map(|_| round(folder, launcher, &questions(each)));
+    println!("  rays/question   in process   over the pipe   ratio");
+    for rays_per_question in [100, 1] {
+        let rounds = (0..ROUNDS).map(|_| round(folder, launcher, &questions(rays_per_question)));
         let rounds: Vec<[f64; 2]> = rounds.collect();
-        let here = median(rounds.iter().map(|[here, _]| *here));
-        let there = median(rounds.iter().map(|[_, there]| *there));
-        let ratio = median(rounds.iter().map(|[here, there]| there / here));
-        println!("{each:>15}{here:>13.1}{there:>16.1}{ratio:>8.1}");
+        let in_process = median(rounds.iter().map(|[in_process, _]| *in_process));
+        let over_pipe = median(rounds.iter().map(|[_, over_pipe]| *over_pipe));
+        let ratio = median(
+            rounds
+                .iter()
+                .map(|[in_process, over_pipe]| over_pipe / in_process),
+        );
+        println!("{rays_per_question:>15}{in_process:>13.1}{over_pipe:>16.1}{ratio:>8.1}");
     }
 }
 
-/// CPU time in milliseconds: in process, and over the pipe.
+/// Returns CPU times in milliseconds: in one process, and over the pipe.
 fn round(folder: &Path, launcher: &Launcher, questions: &[Question]) -> [f64; 2] {
     let frames = questions.iter().fold(Vec::new(), |frames, question| {
-        wire::append(frames, 0, question).expect("it can be encoded")
+        wire::append(frames, 0, question).expect("the question can be encoded")
     });
     let file = folder.join("questions");
-    fs::write(&file, frames).expect("it can be written");
+    fs::write(&file, frames).expect("the file can be written");
     let [once, more] = [0, REPETITIONS].map(|times| {
         let mut command = std::process::Command::new(folder.join("in_process"));
-        let questions = fs::File::open(&file).expect("it was written");
+        let questions = fs::File::open(&file).expect("the file was written");
         command.arg(times.to_string()).stdin(Stdio::from(questions));
         Cost::of_program(&mut command).cpu
     });
-    let there = Cost::of(|| {
-        let mut probe = launcher.start(BUDGET).expect("it starts");
-        let answers = probe.ask(questions, BUDGET).expect("it answers");
+    let over_pipe = Cost::of(|| {
+        let mut probe = launcher.start(BUDGET).expect("the probe starts");
+        let answers = probe.ask(questions, BUDGET).expect("the probe answers");
         assert_eq!(answers.len(), questions.len());
-        // Its time counts once it has ended.
+        // The CPU time of a child is known once it has ended.
         probe.finish();
     });
-    [more.saturating_sub(once) / REPETITIONS, there.cpu].map(|cpu| 1e3 * cpu.as_secs_f64())
+    [more.saturating_sub(once) / REPETITIONS, over_pipe.cpu].map(|cpu| 1e3 * cpu.as_secs_f64())
 }
 
-/// All rays at one triangle, so many in each question; about half of them hit.
-fn questions(each: usize) -> Vec<Question> {
+/// Returns questions with this number of rays each, all toward one triangle. About half of them
+/// hit.
+fn questions(rays_per_question: usize) -> Vec<Question> {
     let corner = |x, y| Vertex::new(vec3(x, y, -2.0), Vec3::Z, Vec2::ZERO);
     let triangle = Shape::Triangle {
         vertices: [corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0)],
@@ -95,7 +103,7 @@ fn questions(each: usize) -> Vec<Question> {
         Ray::new(vec3(x, y, 0.0), Vec3::NEG_Z)
     };
     let rays: Vec<Ray> = (0..RAYS).map(ray).collect();
-    let questions = rays.chunks(each).map(|rays| Question::Shapes {
+    let questions = rays.chunks(rays_per_question).map(|rays| Question::Shapes {
         shapes: vec![triangle],
         rays: Rays::List(rays.to_vec()),
     });

@@ -1,5 +1,5 @@
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::Target::find("scene")
-    .expect("a target")
+    .expect("the target exists")
     .run(bytes));

@@ -1,5 +1,5 @@
-//! Answers that are well formed and otherwise anything: judged, recognised, scored, and put into
-//! all three reports.
+//! Well-formed answers with any values: they are judged, compared with known mistakes, scored, and
+//! written to all three reports.
 
 use std::sync::LazyLock;
 
@@ -15,13 +15,13 @@ use grader::score::Verdict;
 use grader::verdict::{ItemOutcome, add_hints, item_score, pending_score};
 use protocol::Answer;
 
-/// An item of each kind of key.
+/// An exam with an item for each kind of key.
 static EXAM: LazyLock<ExamFile> = LazyLock::new(|| {
     let text = include_bytes!("small.json");
-    grader::exam_file::parse("small.json".as_ref(), text).expect("it is a good exam")
+    grader::exam_file::parse("small.json".as_ref(), text).expect("the exam is valid")
 });
 
-/// The first byte chooses the item; the answers to its questions follow.
+/// Grades the bytes: the first one chooses the item, and the answers to its questions follow.
 pub fn read(bytes: &[u8]) {
     let Some((choice, mut rest)) = bytes.split_first() else {
         return;
@@ -45,31 +45,34 @@ fn grade(item: &Item, answers: Vec<Answer>) {
         ..EXAM.exam.clone()
     };
     let judgements: Vec<_> = answered_questions(item, &answers)
-        .map(|(a, b)| judge(a, b))
+        .map(|(question, answer)| judge(question, answer))
         .collect();
-    for (asked, answer) in answered_questions(item, &answers) {
-        let _ = (measure(asked, answer), mismatches(asked, answer));
+    for (question, answer) in answered_questions(item, &answers) {
+        let _ = (measure(question, answer), mismatches(question, answer));
     }
-    let mut line = item_score(item, &ItemOutcome::Answered(judgements));
-    let is_right = line.points == line.max_points;
-    assert_eq!(is_right, line.verdict == Verdict::Pass, "{line:?}");
+    let mut scored = item_score(item, &ItemOutcome::Answered(judgements));
+    let is_right = scored.points == scored.max_points;
+    assert_eq!(is_right, scored.verdict == Verdict::Pass, "{scored:?}");
 
-    let mut sightings = Observations::default();
-    sightings.record(item, Ok(&answers));
-    add_hints(&mut line, &sightings.explain(&exam, item));
-    let mut exhibits = ReportAnswers::default();
-    exhibits.record(item, &line, answers);
+    let mut observations = Observations::default();
+    observations.record(item, Ok(&answers));
+    add_hints(&mut scored, &observations.explain(&exam, item));
+    let mut report_answers = ReportAnswers::default();
+    report_answers.record(item, &scored, answers);
     let mut score = pending_score(&exam, EXAM.name(), "any");
-    score.record(line);
+    score.record(scored);
     score.update_totals();
     score.complete = true;
 
     let text = json::to_string(&score);
     serde_json::from_str::<serde_json::Value>(&text).expect("the score is JSON");
-    let shown = report(&score, None, HintDetail::Full);
-    assert!(!shown.contains('\u{7}'), "a bell rings");
-    let page = page(&score, &exam, &exhibits, Reload::Never);
-    assert!(page.ends_with("</html>"), "the page is whole");
+    let printed = report(&score, None, HintDetail::Full);
+    assert!(
+        !printed.contains('\u{7}'),
+        "the report has a bell character"
+    );
+    let page = page(&score, &exam, &report_answers, Reload::Never);
+    assert!(page.ends_with("</html>"), "the page is complete");
 }
 
 fn answered_questions<'a>(

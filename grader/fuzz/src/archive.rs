@@ -1,4 +1,4 @@
-//! Archives: whatever a student's machine or a course's platform has packed.
+//! Archives from students' machines and course platforms.
 
 use std::fs;
 use std::sync::LazyLock;
@@ -6,12 +6,12 @@ use std::sync::LazyLock;
 use grader::submission::Submission;
 use tempfile::TempDir;
 
-static FOLDER: LazyLock<TempDir> = LazyLock::new(|| TempDir::new().expect("a folder"));
+static FOLDER: LazyLock<TempDir> = LazyLock::new(|| TempDir::new().expect("temporary folder"));
 
-/// The bytes as a submission: five files, or a reason.
+/// Reads the bytes as a submission, which gives five files or an error.
 pub fn read(bytes: &[u8]) {
     let path = FOLDER.path().join("any.zip");
-    fs::write(&path, bytes).expect("a file");
+    fs::write(&path, bytes).expect("the file can be written");
     match Submission::collect(&path) {
         Err(error) => assert!(!error.to_string().is_empty()),
         Ok(submission) => assert_eq!(submission.files.len(), 5),

@@ -1,8 +1,8 @@
-//! What the compiler says, which quotes what a submission wrote.
+//! Compiler messages, which quote a submission's code.
 
 use grader::build::diagnostics::errors;
 
-/// The compiler's messages, line by line.
+/// Reads the bytes as compiler messages, one per line.
 pub fn read(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     for error in errors(&text) {

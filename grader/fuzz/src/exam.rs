@@ -1,4 +1,4 @@
-//! Exam files: an instructor's, from another version or a hand that slipped.
+//! Exam files, which may come from another version or have been edited by hand.
 
 use std::path::Path;
 
@@ -6,16 +6,16 @@ use grader::exam_file::parse;
 use grader::verdict::pending_score;
 use protocol::wire;
 
-/// A file that is taken can be asked, down to the bytes on the wire.
+/// Reads the bytes as an exam. If it is valid, its questions must be encodable.
 pub fn read(bytes: &[u8]) {
     match parse(Path::new("any.json"), bytes) {
-        Err(bad) => assert!(!bad.to_string().is_empty()),
+        Err(error) => assert!(!error.to_string().is_empty()),
         Ok(file) => {
             pending_score(&file.exam, file.name(), "any");
             for item in &file.exam.items {
-                for asked in &item.questions {
-                    let _ = asked.question.max_answer_bytes();
-                    wire::encode(7, &asked.question).expect("it can be asked");
+                for exam_question in &item.questions {
+                    let _ = exam_question.question.max_answer_bytes();
+                    wire::encode(7, &exam_question.question).expect("the question can be encoded");
                 }
                 assert!(item.element(item.count()).is_some());
             }

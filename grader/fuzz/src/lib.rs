@@ -1,8 +1,9 @@
-//! Everything that reads what others wrote, given any bytes at all: it must not panic, must not
-//! hang, and must not take more memory than its input is worth.
+//! Fuzz targets for everything that parses untrusted input: on any bytes, it must not panic, must
+//! not hang, and must not use memory out of proportion to its input.
 //!
-//! Each target is a function of bytes. `cargo test -p fuzz` runs it on the corpus, on changes to the
-//! corpus and on noise, everywhere; `cargo fuzz run` (see README.md) runs it for as long as one likes.
+//! Each target is a function of bytes. `cargo test -p fuzz` runs it on the corpus, on changes to
+//! the corpus and on noise, on any machine. `cargo fuzz run` (see README.md) runs it for as long as
+//! needed.
 
 mod answers;
 mod archive;
@@ -16,26 +17,26 @@ mod wire;
 
 use peak_alloc::PeakAlloc;
 
-/// Counts what is allocated.
+/// The allocator, which counts allocated bytes.
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// One thing that reads what others wrote.
+/// A fuzz target: a parser of untrusted input.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
-    /// Also the name of its folder in `corpus/`.
+    /// Its name, which is also the name of its folder in `corpus/`.
     pub name: &'static str,
     read: fn(&[u8]),
-    /// The most bytes of memory for each byte of input, beside [`Target::ROOM`].
+    /// The most bytes of memory per byte of input, in addition to [`Target::BASE_MEMORY`].
     memory_per_byte: usize,
 }
 
-/// All of them.
+/// All fuzz targets.
 pub const TARGETS: [Target; 9] = [
-    // A miss is two bytes on the wire and 64 in memory, and a list grows by doubling.
+    // A miss takes two bytes on the wire and 64 in memory, and a list grows by doubling.
     Target::new("wire", wire::read, 128),
     Target::new("answers", answers::read, 1024),
-    // A megabyte of the same letter is a kilobyte when it is packed.
+    // A megabyte of the same letter compresses to a kilobyte.
     Target::new("archive", archive::read, 2048),
     Target::new("exam", exam::read, 512),
     Target::new("scene", scene::read, 512),
@@ -46,36 +47,36 @@ pub const TARGETS: [Target; 9] = [
 ];
 
 impl Target {
-    /// What the smallest input may take: serde reserves up to 1 MiB on the word of a length, and a
-    /// report is a page.
+    /// The memory that even the smallest input may use, in bytes: serde reserves up to 1 MiB for a
+    /// declared length, and a report is a whole page.
     const BASE_MEMORY: usize = 16 << 20;
 
-    /// A target of this name, and how many bytes of memory each byte of input may take.
-    pub const fn new(name: &'static str, read: fn(&[u8]), growth: usize) -> Self {
+    /// Creates a target that may use `memory_per_byte` bytes of memory per byte of input.
+    pub const fn new(name: &'static str, read: fn(&[u8]), memory_per_byte: usize) -> Self {
         Target {
             name,
             read,
-            memory_per_byte: growth,
+            memory_per_byte,
         }
     }
 
-    /// The target of this name.
+    /// Returns the target with this name.
     pub fn find(name: &str) -> Option<Self> {
         TARGETS.into_iter().find(|target| target.name == name)
     }
 
-    /// Reads the bytes, and panics if that takes more memory than they are worth. What other
-    /// threads allocate meanwhile counts as well.
+    /// Runs the target on these bytes, and panics if it uses too much memory. Allocations by other
+    /// threads during that time count as well.
     pub fn run(&self, bytes: &[u8]) {
         let before = MEMORY.current_usage();
         MEMORY.reset_peak_usage();
         (self.read)(bytes);
-        let taken = MEMORY.peak_usage().saturating_sub(before);
+        let used = MEMORY.peak_usage().saturating_sub(before);
         let most = Self::BASE_MEMORY + self.memory_per_byte * bytes.len();
         let (name, length) = (self.name, bytes.len());
         assert!(
-            taken <= most,
-            "{name}: {length} bytes took {taken} bytes of memory, and at most {most} are fine"
+            used <= most,
+            "{name}: {length} bytes of input used {used} bytes of memory; the limit is {most}"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! OBJ files: from anywhere on the Internet.
+//! OBJ files from anywhere on the Internet.
 
 use std::fs;
 use std::sync::LazyLock;
@@ -12,17 +12,17 @@ const SCENE: &str = r#"{
     "shapes": [{ "mesh": { "file": "any.obj", "material": "clay", "subdivide": 1 } }]
 }"#;
 
-/// A scene, and beside it the place of its mesh.
+/// The folder of a scene and its mesh.
 static FOLDER: LazyLock<TempDir> = LazyLock::new(|| {
-    let folder = TempDir::new().expect("a folder");
-    fs::write(folder.path().join("scene.json"), SCENE).expect("a file");
+    let folder = TempDir::new().expect("temporary folder");
+    fs::write(folder.path().join("scene.json"), SCENE).expect("the file can be written");
     folder
 });
 
-/// The bytes as the mesh of a scene.
+/// Reads the bytes as the mesh of a scene.
 pub fn read(bytes: &[u8]) {
     let folder = FOLDER.path();
-    fs::write(folder.join("any.obj"), bytes).expect("a file");
+    fs::write(folder.join("any.obj"), bytes).expect("the file can be written");
     match Scene::load(&folder.join("scene.json")) {
         Err(error) => assert!(!error.to_string().is_empty()),
         Ok(scene) => {

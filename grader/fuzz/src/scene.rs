@@ -1,8 +1,8 @@
-//! Scene files: students write their own.
+//! Scene files, which students may write themselves.
 
 use framework::scene::Scene;
 
-/// A scene that is taken has only numbers that can be drawn with.
+/// Reads the bytes as a scene. If it is valid, it must be renderable.
 pub fn read(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     match Scene::from_text(&text) {

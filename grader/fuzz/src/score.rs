@@ -1,4 +1,4 @@
-//! Score files, as a class reads them again: of other machines, or of a run that was killed.
+//! Score files that a class reads again, from other machines or from a run that was killed.
 
 use class::entry::EntryInfo;
 use class::model::{ClassRow, GradedClass};
@@ -8,22 +8,23 @@ use class::run::Run;
 use class::summary::ClassSummary;
 use grader::policy::Policy;
 
-/// A score that is taken can be told of in all of a class's files. What is kept beside it is read too.
+/// Reads the bytes as a score, and as the files beside it. If the score is valid, it must be
+/// reportable in all files of a class.
 pub fn read(bytes: &[u8]) {
-    let words = String::from_utf8_lossy(bytes);
-    let stamp: Result<Stamp, _> = serde_json::from_str(&words);
-    let run: Result<Run, _> = serde_json::from_str(&words);
+    let json = String::from_utf8_lossy(bytes);
+    let stamp: Result<Stamp, _> = serde_json::from_str(&json);
+    let run: Result<Run, _> = serde_json::from_str(&json);
     if let Ok(run) = &run {
         assert!(run.settings.differences(&run.settings).is_empty());
     }
-    let about = stamp.map_or_else(|_| EntryInfo::default(), |stamp| stamp.info);
-    let Ok(told) = ScoreSummary::parse(&words) else {
+    let info = stamp.map_or_else(|_| EntryInfo::default(), |stamp| stamp.info);
+    let Ok(summary) = ScoreSummary::parse(&json) else {
         return;
     };
     let row = |id: &str| EntryResult {
         id: id.to_owned(),
-        info: about.clone(),
-        outcome: EntryOutcome::Graded(Box::new(told.clone())),
+        info: info.clone(),
+        outcome: EntryOutcome::Graded(Box::new(summary.clone())),
     };
     let policy = Policy::default();
     let class = GradedClass {
@@ -35,8 +36,8 @@ pub fn read(bytes: &[u8]) {
             .into(),
         missing: Vec::new(),
     };
-    let summary = ClassSummary::new(&class);
-    assert!(page::render_page(&class, &summary).ends_with("</html>"));
+    let class_summary = ClassSummary::new(&class);
+    assert!(page::render_page(&class, &class_summary).ends_with("</html>"));
     assert!(!grades::grades_table(&class).to_csv().is_empty());
-    assert!(!text::render_summary(&summary).is_empty());
+    assert!(!text::render_summary(&class_summary).is_empty());
 }

@@ -1,21 +1,22 @@
-//! Frames: the only thing that comes out of a submission's process.
+//! Frames, the only output of a submission's process that the grader parses.
 
 use protocol::wire::{self, WireError};
 use protocol::{Answer, Question};
 
-/// What a question of a thousand elements allows.
+/// The longest answer to a question of a thousand elements, in bytes.
 const LIMIT: usize = 80 << 10;
 
-/// As many frames as there are, each as an answer and as a question.
+/// Reads all frames in the bytes, each as an answer and as a question.
 pub fn read(bytes: &[u8]) {
     let mut rest = bytes;
     loop {
         let frame = match wire::read(&mut rest, LIMIT) {
             Ok(frame) => frame,
             Err(WireError::EndOfStream | WireError::TooLong { .. }) => return,
-            Err(error) => panic!("reading from memory can not fail: {error}"),
+            Err(error) => panic!("reading from memory cannot fail: {error}"),
         };
-        // What can be read can be written, and then reads the same: but for NaN, bit by bit.
+        // A decoded value can be encoded again. Encodings are compared because NaN differs from
+        // itself.
         if let Ok(answer) = frame.decode::<Answer>() {
             assert_round_trip(&answer);
         }
@@ -27,8 +28,8 @@ pub fn read(bytes: &[u8]) {
 }
 
 fn assert_round_trip<T: serde::Serialize + serde::de::DeserializeOwned>(value: &T) {
-    let bytes = wire::encode(7, value).expect("what was read can be written");
-    let frame = wire::read(&mut bytes.as_slice(), bytes.len()).expect("a frame");
-    let again = wire::encode(7, &frame.decode::<T>().expect("the same")).expect("the same");
+    let bytes = wire::encode(7, value).expect("a decoded value can be encoded");
+    let frame = wire::read(&mut bytes.as_slice(), bytes.len()).expect("the frame can be read");
+    let again = wire::encode(7, &frame.decode::<T>().expect("it decodes")).expect("it encodes");
     assert_eq!(bytes, again);
 }

@@ -1,4 +1,4 @@
-//! The corpus as tests, on every machine: each input that once led somewhere, changes to it, noise.
+//! Runs the fuzz targets as ordinary tests: on the corpus, on changes to it, and on noise.
 
 use std::fs;
 use std::path::Path;
@@ -9,25 +9,26 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-/// Memory is counted for the whole process: one at a time.
+/// Held by each test, because memory is counted for the whole process.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
-/// Changes to the corpus, and as many inputs of pure noise. `cargo fuzz` tries millions.
+/// The number of random inputs per target, about half of them changes to the corpus and half noise.
+/// `cargo fuzz` runs millions.
 const CASES: u32 = 300;
-/// The longest noise, in bytes.
+/// The longest noise input, in bytes.
 const MAX_NOISE_BYTES: usize = 300;
 
 fn corpus(target: &Target) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
     let mut files: Vec<_> = fs::read_dir(folder.join(target.name))
         .expect("each target has a corpus")
-        .map(|entry| entry.expect("it can be read").path())
+        .map(|entry| entry.expect("the folder can be read").path())
         .collect();
     files.sort();
     files.iter().map(|file| fs::read(file).unwrap()).collect()
 }
 
-/// One small change to an input: what tools, disks and hands do.
+/// A small change to an input, such as tools, disks and people make.
 #[derive(Clone, Debug)]
 enum Change {
     Cut(Index),
@@ -39,15 +40,15 @@ enum Change {
 }
 
 fn change() -> impl Strategy<Value = Change> {
-    let place = any::<Index>;
+    let index = any::<Index>;
     let digits = prop::sample::select(vec!["-1", "99999999999999999999", "1e400", "null", "[[[["]);
     prop_oneof![
-        place().prop_map(Change::Cut),
-        (place(), 0..8_u8).prop_map(|(at, bit)| Change::Flip(at, 1 << bit)),
-        (place(), any::<u8>()).prop_map(|(at, byte)| Change::Set(at, byte)),
-        (place(), place()).prop_map(|(from, to)| Change::Double(from, to)),
-        (place(), place()).prop_map(|(from, to)| Change::Drop(from, to)),
-        (place(), digits).prop_map(|(at, text)| Change::Splice(at, text.into())),
+        index().prop_map(Change::Cut),
+        (index(), 0..8_u8).prop_map(|(at, bit)| Change::Flip(at, 1 << bit)),
+        (index(), any::<u8>()).prop_map(|(at, byte)| Change::Set(at, byte)),
+        (index(), index()).prop_map(|(from, to)| Change::Double(from, to)),
+        (index(), index()).prop_map(|(from, to)| Change::Drop(from, to)),
+        (index(), digits).prop_map(|(at, text)| Change::Splice(at, text.into())),
     ]
 }
 
@@ -75,7 +76,7 @@ impl Change {
     }
 }
 
-/// The same every time: a test that fails today failed yesterday.
+/// Returns a test runner with a fixed seed, so that tests are reproducible.
 fn runner() -> TestRunner {
     let config = Config {
         cases: CASES,
@@ -87,7 +88,7 @@ fn runner() -> TestRunner {
 
 fn survives_anything(name: &str) {
     let _alone = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
-    let target = Target::find(name).expect("a target");
+    let target = Target::find(name).expect("the target exists");
     let corpus = corpus(&target);
     corpus.iter().for_each(|bytes| target.run(bytes));
 
@@ -158,8 +159,8 @@ fn compiler_output_can_be_any_bytes() {
 #[test]
 fn excessive_memory_use_is_detected() {
     let _alone = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
-    let hoard = Target::new("hoard", |_| drop(vec![1_u8; 64 << 20]), 1);
-    let noticed = std::panic::catch_unwind(|| hoard.run(b"few")).unwrap_err();
-    let words = noticed.downcast_ref::<String>().expect("words");
-    assert!(words.contains("3 bytes took"), "{words}");
+    let wasteful = Target::new("wasteful", |_| drop(vec![1_u8; 64 << 20]), 1);
+    let panic = std::panic::catch_unwind(|| wasteful.run(b"few")).unwrap_err();
+    let message = panic.downcast_ref::<String>().expect("a message");
+    assert!(message.contains("3 bytes of input used"), "{message}");
 }

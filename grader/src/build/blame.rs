@@ -1,4 +1,4 @@
-//! Which files of a submission are not part of the program, and why.
+//! Determines which files of a submission cannot be compiled, and why.
 
 use std::collections::BTreeMap;
 
@@ -6,26 +6,26 @@ use crate::build::diagnostics::Diagnostic;
 use crate::given_files::TaskFile;
 use crate::submission::{Submission, TaskFileError};
 
-/// Why a file is not part of the program.
+/// The reason why a file is not part of the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotCompiled {
-    /// There is no text to compile.
+    /// The file is missing or unreadable.
     Unreadable(TaskFileError),
-    /// It lacks something that other files call.
+    /// The file lacks a declaration that other files use.
     MissingDeclaration(&'static str),
-    /// The compiler's first error in it.
+    /// The compiler's first error in the file.
     Error {
-        /// What it says.
+        /// The compiler's message.
         text: String,
-        /// Where, counted from 1.
+        /// Line number, counted from 1.
         line: Option<u32>,
     },
-    /// The compiler did not finish, and did not say because of which file.
+    /// The compiler failed without naming a file.
     Compiler(String),
 }
 
 impl NotCompiled {
-    /// Whether it would be the same on any day.
+    /// Returns whether compiling again would give the same result.
     pub fn is_reproducible(&self) -> bool {
         match self {
             NotCompiled::Unreadable(
@@ -41,16 +41,17 @@ impl NotCompiled {
     }
 }
 
-/// Files that are not worth a compile: without text, or without what the others call.
+/// Returns the files that need not be compiled: unreadable ones, and those without a declaration
+/// that other files use.
 pub(super) fn unusable_files(submission: &Submission) -> BTreeMap<&'static str, NotCompiled> {
     let why = |file: &TaskFile, text: &Result<String, TaskFileError>| match text {
         Err(unreadable) => Some(NotCompiled::Unreadable(unreadable.clone())),
         Ok(text) => {
-            let lacking = file
+            let missing = file
                 .required_declarations
                 .iter()
                 .find(|part| !text.contains(**part));
-            lacking.map(|part| NotCompiled::MissingDeclaration(part))
+            missing.map(|part| NotCompiled::MissingDeclaration(part))
         }
     };
     submission
@@ -60,7 +61,7 @@ pub(super) fn unusable_files(submission: &Submission) -> BTreeMap<&'static str, 
         .collect()
 }
 
-/// Notes each file that the errors name, with its first error. False if they name no new one.
+/// Records each file that the errors name, with its first error. Returns false if no file is new.
 pub(super) fn blame(
     errors: &[Diagnostic],
     not_compiled: &mut BTreeMap<&'static str, NotCompiled>,
@@ -78,7 +79,7 @@ pub(super) fn blame(
     not_compiled.len() > before
 }
 
-/// Notes every file that is not noted yet, all for the same reason.
+/// Records all remaining files with the same reason.
 pub(super) fn blame_all(
     submission: &Submission,
     why: &str,

@@ -1,6 +1,6 @@
-//! A folder for one submission's build, or for a class that was in an archive: fresh each time, so that
-//! nothing of an earlier one can be taken for this one's, and gone afterwards. A grader that is killed
-//! can not clear up; the next one does.
+//! Temporary directories for building a submission, or for unpacking a class from an archive. Each
+//! one is new, so it contains nothing from an earlier build, and is removed afterwards. If a grader
+//! is killed, the next one removes its directory.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -8,22 +8,22 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-/// Locked as long as its folder is in use. The system lets go of it when a grader ends, however that
-/// came.
+/// A file that is locked while the directory is in use. The system releases the lock when the
+/// grader ends, for whatever reason.
 const LOCK_FILE: &str = "lock";
-/// What it is called until it is locked: nobody else shall be first.
+/// Name of the file until it is locked, so that another grader cannot lock it first.
 const UNLOCKED_FILE: &str = "lock.new";
 
-/// Such a folder. It vanishes with this.
+/// A temporary directory, which is removed when this value is dropped.
 #[derive(Debug)]
 pub struct BuildDir {
-    // Let go of before the folder is removed: some systems remove nothing that is open.
+    // Dropped before the folder, since some systems cannot remove open files.
     _lock: File,
     folder: TempDir,
 }
 
 impl BuildDir {
-    /// A new one in this folder.
+    /// Creates a directory inside `all`.
     pub fn new_in(all: &Path) -> io::Result<Self> {
         fs::create_dir_all(all)?;
         let folder = TempDir::new_in(all)?;
@@ -39,16 +39,17 @@ impl BuildDir {
         })
     }
 
-    /// The folder.
+    /// Returns the path of the directory.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
 }
 
-/// Removes the rooms of graders that were killed.
+/// Removes the directories of graders that were killed.
 pub fn remove_abandoned(all: &Path) {
     for entry in fs::read_dir(all).into_iter().flatten().flatten() {
-        // Whatever can not be opened, locked or removed is somebody's, and does no harm.
+        // A directory that cannot be opened, locked or removed may belong to someone else, and does
+        // no harm.
         let Ok(lock) = File::open(entry.path().join(LOCK_FILE)) else {
             continue;
         };

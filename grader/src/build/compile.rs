@@ -1,4 +1,4 @@
-//! The five files and ours, made into a program that answers questions.
+//! Compiles a submission's task files and the given files into a probe.
 
 use std::fs;
 use std::io;
@@ -8,16 +8,16 @@ use crate::build::program_cache::ContentHash;
 use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
 use crate::given_files::GIVEN_FILES;
 
-/// The crate's root: the given `lib.rs`, and a way in.
+/// The crate's root: the given `lib.rs` and a `main` function.
 const ROOT: &str = "probe.rs";
 const ENTRY: &str = "
-/// Answers the grader.
+/// Answers the grader's questions.
 fn main() -> std::process::ExitCode {
     framework::probe::main(&world::Student)
 }
 ";
 
-/// Compiles the five files, given as name and text, together with ours, in `folder`.
+/// Compiles the task files, given as names and texts, together with the given files in `folder`.
 pub fn compile(files: &[(&str, &str)], folder: &Path, rustc: &Rustc) -> io::Result<CompileOutcome> {
     let content = files.iter().chain(&GIVEN_FILES).fold(
         ContentHash::default().with(rustc.identity()),

@@ -1,5 +1,5 @@
-//! What the compiler needs where it is kept apart from the machine: its own files, the linker's,
-//! and those of one crate. Neither the workspace, nor other submissions, nor anybody's home.
+//! The compiler's access to files in a sandbox: its own files, the linker's, and those of one
+//! crate. It cannot read the workspace, other submissions or home directories.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,8 +7,8 @@ use std::process::Command;
 use crate::build::rustc::{Crate, CrateKind, Rustc};
 use crate::sandbox::Profile;
 
-/// Where systems keep C compilers, linkers and the libraries for them. Nothing of a machine's own
-/// stands there: no `/usr/local`, no `/usr/share`.
+/// Folders in which systems keep C compilers, linkers and libraries. They contain nothing that is
+/// specific to a machine, unlike `/usr/local` and `/usr/share`.
 const SYSTEM_PATHS: [&str; 14] = [
     "/bin",
     "/lib",
@@ -26,7 +26,7 @@ const SYSTEM_PATHS: [&str; 14] = [
     "/etc/ld.so.conf",
 ];
 
-/// Says on the command line what the compiler else finds out from `/proc`, which it does not see.
+/// Adds arguments for what the compiler usually finds out from `/proc`, which the sandbox hides.
 pub(super) fn arguments(rustc: &Rustc, source: &Crate, command: &mut Command) {
     let sysroot = rustc.toolchain.sysroot();
     command
@@ -34,13 +34,13 @@ pub(super) fn arguments(rustc: &Rustc, source: &Crate, command: &mut Command) {
         .arg("--sysroot")
         .arg(sysroot);
     match source.kind {
-        // So that it needs no file when it starts.
+        // Static linking, so that the program opens no libraries when it starts.
         CrateKind::Program => _ = command.arg("-Ctarget-feature=+crt-static"),
         CrateKind::Library => {}
     }
 }
 
-/// What it may read and write.
+/// Returns the files that the compiler may read and write.
 pub(super) fn profile(rustc: &Rustc, source: &Crate) -> Profile {
     let links = source.links.iter().map(|(_, library)| *library);
     let own = [rustc.toolchain.sysroot(), &rustc.dependencies.folder];

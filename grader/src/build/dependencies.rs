@@ -1,9 +1,10 @@
-//! What every submission is linked with: `glam`, `protocol`, and `framework` as the probe needs
-//! it. Compiled once per toolchain by cargo, locked, and copied into the grader's own cache.
+//! The crates that every submission is linked with: `glam`, `protocol`, and `framework` with the
+//! probe's features. Cargo compiles them once per toolchain with locked versions, and they are
+//! copied to the grader's cache.
 //!
-//! Cargo compiles where it has compiled the grader: half of the crates are the same, and are there
-//! already. The copy is what submissions see. In cargo's folder the reference lies as well, and what
-//! is there today may be another tomorrow.
+//! Cargo uses the target folder in which it has compiled the grader, so half of the crates are
+//! already compiled. Submissions see only the copy, because the target folder also contains the
+//! reference and may change at any time.
 
 use std::collections::BTreeMap;
 use std::env::consts::DLL_SUFFIX;
@@ -19,45 +20,45 @@ use crate::build::toolchain::Toolchain;
 use crate::system;
 use crate::workspace::Workspace;
 
-/// The crates that a submission may name.
+/// The crates that a submission may import.
 const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
-/// The package that they all come with, as the probe needs it.
+/// Cargo arguments for the package that depends on all of them, with the probe's features.
 const FRAMEWORK_PACKAGE: [&str; 3] = ["--package", "framework", "--no-default-features"];
-/// Changes when this module makes something else of the same sources.
+/// Change this when the same sources are compiled in a different way.
 const RECIPE_VERSION: &str = "4";
 
-/// Where the compiled dependencies lie.
+/// Locations of the compiled dependencies.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Dependencies {
-    /// The rlib of each crate that a submission may name.
+    /// The rlib of each crate that a submission may import.
     pub externs: BTreeMap<String, PathBuf>,
-    /// The folder with the crates that those need.
+    /// The folder with their dependencies.
     pub folder: PathBuf,
 }
 
-/// The dependencies can not be made: our fault, or the machine's.
+/// The dependencies cannot be built, which is the fault of the grader or the machine.
 #[derive(Debug, thiserror::Error)]
 pub enum DependenciesError {
-    /// The cache can not be used.
-    #[error("can not use {path}: {source}")]
+    /// The cache cannot be used.
+    #[error("cannot use {path}: {source}")]
     Io {
-        /// What was touched.
+        /// The affected path.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
-    /// Cargo failed; it has said why.
+    /// Cargo failed, and has printed why.
     #[error(
-        "cargo could not build student/framework (its words are above); the first run needs the network once"
+        "cargo could not build student/framework (see its messages above); the first run needs network access"
     )]
     Cargo,
-    /// Cargo said nothing of a crate that we need.
-    #[error("cargo built no {0}: is student/framework as it was handed out?")]
+    /// Cargo's messages do not mention a required crate.
+    #[error("cargo did not build the crate {0}: has student/framework been changed?")]
     MissingCrate(String),
 }
 
 impl Dependencies {
-    /// Those in the cache, or newly made ones.
+    /// Returns the dependencies from the cache, or builds them.
     pub fn prepare(
         workspace: &Workspace,
         toolchain: &Toolchain,
@@ -69,15 +70,15 @@ impl Dependencies {
             .join(&key[..16]);
         prepare_once(&cache, || {
             eprintln!(
-                "Preparing what submissions are built with: this once, it takes some seconds."
+                "Compiling the dependencies of submissions; this takes some seconds, and only once."
             );
             let libraries = build(&FRAMEWORK_PACKAGE, workspace, toolchain)?;
             copy(libraries, &EXTERNS, &cache.join("crates"))
         })
     }
 
-    /// Those and more crates of the lock file: for a solution of ours. No submission is ever built
-    /// with them.
+    /// Returns these dependencies and more crates of the lock file. Only the course's own solutions
+    /// are built with them, never a submission.
     pub fn with_crates(
         names: &[String],
         workspace: &Workspace,
@@ -100,8 +101,8 @@ impl Dependencies {
     }
 }
 
-/// What this folder holds already, or what is now made in it. It is never made twice: a compiler may
-/// be reading what was made first.
+/// Returns the dependencies in this folder, or builds them there. They are never built twice,
+/// because a compiler may be reading the first ones.
 fn prepare_once(
     cache: &Path,
     make: impl FnOnce() -> Result<Dependencies, DependenciesError>,
@@ -112,17 +113,17 @@ fn prepare_once(
     }
 
     let _lock = lock(cache)?;
-    // Somebody else may have made them while we waited.
+    // Another process may have built them while this one waited.
     if let Some(ready) = read(&record) {
         return Ok(ready);
     }
-    let made = make()?;
-    let text = serde_json::to_vec_pretty(&made).expect("paths are text");
+    let built = make()?;
+    let text = serde_json::to_vec_pretty(&built).expect("paths are valid UTF-8");
     fs::write(&record, text).map_err(io_error(&record))?;
-    Ok(made)
+    Ok(built)
 }
 
-/// Held by whoever makes what lies in this folder.
+/// Locks this folder until the returned file is dropped.
 fn lock(cache: &Path) -> Result<File, DependenciesError> {
     fs::create_dir_all(cache).map_err(io_error(cache))?;
     let path = cache.join("lock");
@@ -145,7 +146,8 @@ fn read(record: &Path) -> Option<Dependencies> {
         .then_some(ready)
 }
 
-/// What the compiled dependencies follow from: the compiler, the lock file, the sources.
+/// Returns a hash of everything that the compiled dependencies depend on: compiler, lock file,
+/// sources.
 fn cache_key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, DependenciesError> {
     let mut hasher = blake2b_simd::State::new();
     hasher.update(RECIPE_VERSION.as_bytes());
@@ -180,8 +182,8 @@ fn list_sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Dependenc
     Ok(())
 }
 
-/// Runs cargo for one package: without the network if that is enough. Returns where each crate's
-/// library is.
+/// Builds one package with cargo, and uses the network only if necessary. Returns the crates' names
+/// and libraries.
 fn build(
     package: &[&str],
     workspace: &Workspace,
@@ -204,7 +206,7 @@ fn build(
             } else {
                 Stdio::inherit()
             });
-        // The same flags for everyone, whatever this shell or folder says.
+        // The same flags on every machine, regardless of the environment and cargo's configuration.
         cargo
             .env("CARGO_ENCODED_RUSTFLAGS", "")
             .env_remove("RUSTC_WRAPPER")
@@ -227,7 +229,8 @@ fn build(
     Ok(libraries(&String::from_utf8_lossy(&output.stdout)))
 }
 
-/// What it prints. Its standard input stays open as long as we wait: that is what it is tied to.
+/// Runs the command and returns its output. Its standard input is kept open meanwhile: the command
+/// is killed when it closes.
 fn output(cargo: &mut Command) -> io::Result<Output> {
     let mut child = cargo.stdout(Stdio::piped()).spawn()?;
     let tie = child.stdin.take();
@@ -236,8 +239,8 @@ fn output(cargo: &mut Command) -> io::Result<Output> {
     output
 }
 
-/// Finds each crate's library in cargo's messages, one JSON value a line. Of macros that is one of
-/// the system's: rustc looks for those as well, though nothing is linked with them.
+/// Finds each crate's library in cargo's messages, which are one JSON value per line. For a
+/// procedural macro it is a dynamic library: rustc needs it even though nothing is linked with it.
 fn libraries(messages: &str) -> Vec<(String, PathBuf)> {
     messages
         .lines()
@@ -257,7 +260,7 @@ fn libraries(messages: &str) -> Vec<(String, PathBuf)> {
         .collect()
 }
 
-/// Copies all of them into one folder. A submission may name these.
+/// Copies all libraries into one folder. `names` are the crates that a submission may import.
 fn copy(
     libraries: Vec<(String, PathBuf)>,
     names: &[&str],
@@ -266,7 +269,7 @@ fn copy(
     fs::create_dir_all(folder).map_err(io_error(folder))?;
     let mut externs = BTreeMap::new();
     for (name, library) in libraries {
-        let copy = folder.join(library.file_name().expect("cargo names files"));
+        let copy = folder.join(library.file_name().expect("cargo prints paths of files"));
         fs::copy(&library, &copy).map_err(io_error(&library))?;
         if names.contains(&&*name) {
             externs.insert(name, copy);
@@ -293,10 +296,10 @@ mod tests {
     fn concurrent_callers_build_the_dependencies_once() {
         let folder = tempfile::tempdir().unwrap();
         let cache = folder.path().join("key");
-        let made = AtomicU32::new(0);
+        let built = AtomicU32::new(0);
         let all_at_once = Barrier::new(8);
         let make = || {
-            made.fetch_add(1, Ordering::SeqCst);
+            built.fetch_add(1, Ordering::SeqCst);
             let rlib = cache.join("libglam.rlib");
             fs::write(&rlib, "a library").map_err(io_error(&rlib))?;
             Ok(Dependencies {
@@ -312,6 +315,6 @@ mod tests {
                 });
             }
         });
-        assert_eq!(made.load(Ordering::SeqCst), 1, "times that they were made");
+        assert_eq!(built.load(Ordering::SeqCst), 1, "number of builds");
     }
 }

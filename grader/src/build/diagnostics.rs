@@ -1,10 +1,10 @@
-//! What the compiler says, in its own typed form.
+//! The compiler's messages in JSON.
 
 use serde::Deserialize;
 
 use crate::given_files::TASK_FILES;
 
-/// One message of `rustc --error-format=json`.
+/// A message of `rustc --error-format=json`.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Diagnostic {
     message: String,
@@ -27,13 +27,13 @@ struct Span {
     text: Vec<SourceLine>,
 }
 
-/// A line of source that a span touches.
+/// A line of source code that a span covers.
 #[derive(Clone, Debug, Deserialize)]
 struct SourceLine {
     text: String,
 }
 
-/// All errors among the compiler's messages; warnings are a matter between it and the student.
+/// Returns the errors among the compiler's messages. Warnings do not affect grading.
 pub fn errors(messages: &str) -> Vec<Diagnostic> {
     messages
         .lines()
@@ -43,9 +43,9 @@ pub fn errors(messages: &str) -> Vec<Diagnostic> {
 }
 
 impl Diagnostic {
-    /// Which of the five files has to be mended: the one that the error is in. An error in a given
-    /// file is told of the file that it points to for an explanation ("method not found for this
-    /// struct"), else of the one that its line calls.
+    /// Returns the task file that must be fixed. That is the file with the error. For an error in a
+    /// given file, it is a task file that the message refers to ("method not found for this
+    /// struct"), or else the one that is called on the line of the error.
     pub fn blamed_file(&self) -> Option<&'static str> {
         let primary = || self.spans.iter().filter(|span| span.is_primary);
         let secondary = self.spans.iter().filter(|span| !span.is_primary);
@@ -62,26 +62,27 @@ impl Diagnostic {
             })
     }
 
-    /// The first line of the error in this file, counted from 1. None if it is in another.
+    /// Returns the line of the error if it is in this file, counted from 1.
     pub fn line_in(&self, file: &str) -> Option<u32> {
         let mut spans = self.spans.iter().filter(|span| span.is_primary);
         spans.find(|span| span.file_name == file)?.line_start
     }
 
-    /// The whole message, as the compiler prints it.
+    /// Returns the whole message as the compiler prints it.
     pub fn text(&self) -> &str {
         self.rendered.as_deref().unwrap_or(&self.message).trim_end()
     }
 }
 
-/// The file that a line of a given file calls first, by its name: `triangle.bbox()`.
+/// Returns the task file that a line of a given file calls first, found by its name, such as
+/// `triangle.bbox()`.
 fn called_file(line: &str) -> Option<&'static str> {
     let line = line.to_lowercase();
-    let place = |name: &str| line.find(name.trim_end_matches(".rs"));
-    let named = TASK_FILES
+    let position = |name: &str| line.find(name.trim_end_matches(".rs"));
+    let called = TASK_FILES
         .iter()
-        .filter_map(|file| Some((place(file.name)?, file.name)));
-    named.min().map(|(_, name)| name)
+        .filter_map(|file| Some((position(file.name)?, file.name)));
+    called.min().map(|(_, name)| name)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! What makes a program of what was compiled.
+//! Selects the linker.
 
 use std::io;
 use std::path::Path;
@@ -6,16 +6,16 @@ use std::process::Command;
 
 use crate::system;
 
-/// Where the toolchain's own linker lies, on the one system where it is the usual one.
+/// Path of the linker that is bundled with the toolchain, on the platform where it is the default.
 const BUNDLED_LINKER: &str = "lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld";
 
-/// Says which linker to use, in a command that compiles a program in this folder.
+/// Adds arguments that select the linker for a program in this folder.
 ///
-/// The toolchain's own, if it has one, and without the wrapper that `rustc` calls it by: that looks
-/// for it in `/proc`, which is not there for a compiler that is kept apart. In one thread, because
-/// for a program so small a second one costs more than it saves; and without `-O1`, which merges
-/// texts that nobody keeps. The system's linker, which knows no such options, would make a compile a
-/// third slower.
+/// The toolchain's own linker is used if it exists. The wrapper that `rustc` calls is bypassed,
+/// because it looks for the linker in `/proc`, which the sandbox hides. One thread is enough for
+/// such small programs, and a second one costs more than it saves. `-O0` skips merging strings,
+/// which is not worth the time for a program that is deleted soon after. The system's linker does
+/// not have these options and would make a compile a third slower.
 pub(super) fn arguments(sysroot: &Path, folder: &Path, command: &mut Command) -> io::Result<()> {
     let own = sysroot.join(BUNDLED_LINKER);
     if cfg!(all(target_os = "linux", target_arch = "x86_64")) && own.is_file() {

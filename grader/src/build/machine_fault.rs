@@ -1,4 +1,4 @@
-//! What a machine can lack while it compiles: no submission shall pay for that.
+//! Failures of the machine while it compiles, for which no submission may lose points.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,45 +7,48 @@ use crate::build::diagnostics::Diagnostic;
 use crate::sandbox::ExitReason;
 use crate::system;
 
-/// The room on a disk that no honest compile fails with, in bytes.
+/// Free disk space below which a failed compile is blamed on the disk, in bytes.
 const MIN_FREE_BYTES: u64 = 64 << 20;
-/// What the compiler says of a linker that was ended by what its limits do not send.
+/// Part of the compiler's message about a linker that was killed by a signal that resource limits
+/// never send.
 const LINKER_KILLED: &str = "signal: 9 (SIGKILL)";
 
-/// The machine can not compile now, whatever the text.
+/// The machine cannot compile at the moment, regardless of the source code.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum MachineFault {
-    /// Memory, by all that one can see.
+    /// Most likely out of memory.
     #[error(
-        "the system has ended the compiler (signal 9): give this machine more memory, or grade fewer at once"
+        "the system killed the compiler (signal 9): give this machine more memory, or grade fewer submissions at once"
     )]
     Memory,
-    /// Room on a disk.
-    #[error("the disk is full: {} has {} MiB left, and a build takes up to {}", .path.display(), .left >> 20, MIN_FREE_BYTES >> 20)]
+    /// The disk is full.
+    #[error("the disk is full: {} has {} MiB left, but a build needs up to {} MiB", .path.display(), .left >> 20, MIN_FREE_BYTES >> 20)]
     DiskFull {
-        /// The folder around the one that was compiled in.
+        /// The folder that contains the build directory.
         path: PathBuf,
-        /// In bytes.
+        /// Free space, in bytes.
         left: u64,
     },
 }
 
 impl MachineFault {
-    /// Whether it is the machine that has failed. Errors that name a submission's file are never its
-    /// fault. `folder` is where it was compiled: what a failed compile has left there is removed, so
-    /// that a text which fills the disk by itself is not excused.
+    /// Returns an error if the machine has failed. Errors that name a submission's file are never
+    /// the machine's fault. `folder` is the build directory of the failed compile. It is removed
+    /// before free space is checked, so that source code which fills the disk by itself is not
+    /// excused.
     pub(super) fn check(
-        ending: ExitReason,
+        exit_reason: ExitReason,
         errors: &[Diagnostic],
         folder: &Path,
     ) -> Result<(), Self> {
         if errors.iter().any(|error| error.blamed_file().is_some()) {
             return Ok(());
         }
-        // In its first line: below stand names that a submission may have chosen.
+        // Only the first line is checked, because the following lines may contain names chosen by
+        // the submission.
         let first_line = |error: &Diagnostic| error.text().lines().next().map(str::to_owned);
         let linker = |error| first_line(error).is_some_and(|line| line.contains(LINKER_KILLED));
-        if ending.is_external_kill() || errors.iter().any(linker) {
+        if exit_reason.is_external_kill() || errors.iter().any(linker) {
             return Err(MachineFault::Memory);
         }
         fs::remove_dir_all(folder).ok();
@@ -64,10 +67,10 @@ mod tests {
     use super::*;
     use crate::build::diagnostics::errors;
 
-    fn check(ending: ExitReason, message: &str, span: &str) -> Result<(), MachineFault> {
+    fn check(exit_reason: ExitReason, message: &str, span: &str) -> Result<(), MachineFault> {
         let line = format!(r#"{{"message":"{message}","level":"error","spans":[{span}]}}"#);
         let folder = TempDir::new().unwrap();
-        MachineFault::check(ending, &errors(&line), &folder.path().join("any"))
+        MachineFault::check(exit_reason, &errors(&line), &folder.path().join("any"))
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! From five files to a probe. A file that does not compile costs its own tasks: the starter's
-//! takes its place.
+//! Builds a probe from a submission's five files. A file that does not compile fails its own tasks
+//! only: it is replaced by the starter's file.
 
 mod blame;
 pub mod build_dir;
@@ -42,47 +42,47 @@ pub use crate::build::programs::{Build, SubstitutedProgram};
 pub use crate::build::self_test::SelfTestError;
 pub use crate::build::toolchain::file_fingerprint;
 
-/// How often a submission is compiled at most.
+/// Maximum number of attempts to compile a submission.
 const MAX_ATTEMPTS: usize = 3;
 
-/// What submissions are built with: made once, used for many.
+/// Builds submissions. It is prepared once and used for many.
 #[derive(Clone, Debug)]
 pub struct Builder {
     rustc: Rustc,
-    /// The reference's parts, where it is at hand.
+    /// The reference's parts, if there is a reference.
     reference_parts: Option<ReferenceParts>,
     folder: PathBuf,
 }
 
-/// The grader's own fault, or the machine's.
+/// An error of the grader or the machine.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {
     /// There is no compiler.
     #[error(transparent)]
     Toolchain(#[from] ToolchainError),
-    /// There is nothing to link with.
+    /// The dependencies cannot be built.
     #[error(transparent)]
     Dependencies(#[from] DependenciesError),
-    /// There is nothing to carry forward on.
+    /// The reference's parts cannot be built.
     #[error(transparent)]
     Substitution(#[from] SubstitutionError),
-    /// Nothing compiles at all.
+    /// Not even the starter compiles.
     #[error(
-        "not even the files that were handed out compile on this machine; is the disk full, is there a linker?\n{0}"
+        "not even the starter compiles on this machine: is the disk full, or the linker missing?\n{0}"
     )]
     Machine(String),
-    /// The work folder can not be used.
-    #[error("can not build in {path}: {source}")]
+    /// The build folder cannot be used.
+    #[error("cannot build in {path}: {source}")]
     Io {
-        /// The folder.
+        /// Path of the folder.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
 }
 
 impl Builder {
-    /// Finds the compiler and makes the dependencies, if they are not there yet.
+    /// Finds the compiler, and builds the dependencies unless they are cached.
     pub fn prepare(workspace: &Workspace) -> Result<Self, BuildError> {
         let toolchain = Toolchain::find()?;
         let dependencies = Dependencies::prepare(workspace, &toolchain)?;
@@ -100,7 +100,7 @@ impl Builder {
         })
     }
 
-    /// Builds that can be carried forward as well, on the parts of this reference.
+    /// Returns a builder that can also substitute parts of this reference.
     pub fn with_reference(
         self,
         reference: &Path,
@@ -114,8 +114,8 @@ impl Builder {
         })
     }
 
-    /// Builds that may name more crates of the lock file: for solutions of ours that need them, and
-    /// never for submissions.
+    /// Returns a builder with more crates of the lock file. It is used for the course's own
+    /// solutions, and never for submissions.
     pub fn with_crates(&self, names: &[String], workspace: &Workspace) -> Result<Self, BuildError> {
         let mut builder = self.clone();
         builder.rustc.dependencies =
@@ -123,7 +123,7 @@ impl Builder {
         Ok(builder)
     }
 
-    /// The name of all that programs follow from, beside the submission.
+    /// Returns a hash of everything that programs depend on besides the submission.
     pub fn identity(&self) -> String {
         let parts = self
             .reference_parts
@@ -133,28 +133,28 @@ impl Builder {
         parts.with(self.rustc.identity()).hex()
     }
 
-    /// What compiles.
+    /// Returns the path of the compiler.
     pub fn compiler(&self) -> &Path {
         &self.rustc.toolchain.rustc
     }
 
-    /// The folder with what every submission is linked with.
+    /// Returns the folder of the crates that every submission is linked with.
     pub fn dependencies(&self) -> &Path {
         &self.rustc.dependencies.folder
     }
 
-    /// How submissions will be kept apart from the machine.
+    /// Returns how submissions will be isolated from the machine.
     pub fn isolation(&self) -> Isolation {
         self.rustc.sandbox.level()
     }
 
-    /// Builds in this sandbox, and programs that are to be asked in it.
+    /// Returns a builder that compiles and runs submissions in this sandbox.
     pub fn with_sandbox(mut self, sandbox: Sandbox) -> Self {
         self.rustc.sandbox = sandbox;
         self
     }
 
-    /// Keeps all programs in this folder, and takes them from there when the same is built again.
+    /// Returns a builder that stores all programs in this folder and reuses them.
     pub fn with_cache(mut self, folder: &Path) -> Result<Self, BuildError> {
         let kept = ProgramCache::new(folder).map_err(|source| BuildError::Io {
             path: folder.to_owned(),
@@ -164,17 +164,17 @@ impl Builder {
         Ok(self)
     }
 
-    /// Builds a submission, with the starter's file in place of each that can not be compiled.
+    /// Builds a submission. Each file that does not compile is replaced by the starter's.
     pub fn build(&self, submission: &Submission) -> Result<Build, BuildError> {
         self.build_with_progress(submission, |_| {})
     }
 
-    /// The same; says which files can not be compiled before the others are, whenever there are
-    /// more of them. A student need not wait for what is graded all the same.
+    /// Does the same, and calls `report_errors` whenever more files are found that do not compile,
+    /// before the others are compiled. Students see errors without waiting for the rest to be graded.
     pub fn build_with_progress(
         &self,
         submission: &Submission,
-        mut tell: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
+        mut report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
     ) -> Result<Build, BuildError> {
         let io = |source| BuildError::Io {
             path: self.folder.clone(),
@@ -186,8 +186,8 @@ impl Builder {
         let mut probe = None;
         for attempt in 0..MAX_ATTEMPTS {
             let files = with_starter_files(submission, &not_compiled);
-            let place = build_dir.path().join(attempt.to_string());
-            match compile(&files, &place, &self.rustc).map_err(io)? {
+            let folder = build_dir.path().join(attempt.to_string());
+            match compile(&files, &folder, &self.rustc).map_err(io)? {
                 CompileOutcome::Done(path) => {
                     probe = Some(path);
                     break;
@@ -199,14 +199,14 @@ impl Builder {
                 }
                 CompileOutcome::Failed(why) => blame_all(submission, &why, &mut not_compiled),
             }
-            tell(&not_compiled);
+            report_errors(&not_compiled);
             if not_compiled.len() == submission.files.len() {
                 break;
             }
         }
         if probe.is_none() {
             self.check_machine(build_dir.path())?;
-            let why = "the files that were left did not compile together";
+            let why = "the remaining files do not compile together";
             blame_all(submission, why, &mut not_compiled);
         }
         Ok(Build {
@@ -218,8 +218,8 @@ impl Builder {
         })
     }
 
-    /// Compiles the starter, where nothing of a submission did: if even that fails, then a full
-    /// disk, a broken linker or too little memory is to blame, and no student.
+    /// Compiles the starter after nothing of a submission compiled. If this fails too, the cause is
+    /// a full disk, a broken linker or too little memory, and not the submission.
     fn check_machine(&self, folder: &Path) -> Result<(), BuildError> {
         let starter = TASK_FILES.map(|file| (file.name, file.starter));
         let why = match compile(&starter, &folder.join("starter"), &self.rustc) {
@@ -245,7 +245,7 @@ impl Builder {
             bvh,
             parts,
             rustc: self.rustc.clone(),
-            folder: build_dir.join("carried"),
+            folder: build_dir.join("substitution"),
             program: OnceLock::new(),
         })
     }

@@ -1,36 +1,36 @@
-//! Programs that were built before, by the content that they were made of: for whoever builds the
-//! same submissions over and over. Grading one does not: what is compiled is what is asked.
+//! A cache of compiled programs by the hash of their inputs, for tools that build the same
+//! submissions repeatedly. Normal grading does not use it: it always compiles.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A folder of programs.
+/// A folder of compiled programs.
 #[derive(Clone, Debug)]
 pub struct ProgramCache {
     folder: PathBuf,
 }
 
-/// The name of one program's content.
+/// A hash of a program's inputs.
 #[derive(Debug, Default)]
 pub struct ContentHash(blake2b_simd::State);
 
 impl ContentHash {
-    /// Content that includes this as well.
+    /// Adds an input to the hash.
     pub fn with(mut self, part: &[u8]) -> Self {
         self.0.update(&(part.len() as u64).to_le_bytes());
         self.0.update(part);
         self
     }
 
-    /// In hexadecimal.
+    /// Returns the hash in hexadecimal.
     pub fn hex(&self) -> String {
         self.0.finalize().to_hex()[..32].to_owned()
     }
 }
 
 impl ProgramCache {
-    /// Programs in this folder, which is made.
+    /// Creates a cache in this folder, which is created if necessary.
     pub fn new(folder: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
         Ok(ProgramCache {
@@ -38,16 +38,17 @@ impl ProgramCache {
         })
     }
 
-    /// The program of this content, if it was built before.
+    /// Returns the cached program with this hash, if there is one.
     pub fn find(&self, content: &ContentHash) -> Option<PathBuf> {
         let path = self.folder.join(content.hex());
         path.is_file().then_some(path)
     }
 
-    /// Keeps a program; returns where.
+    /// Stores a program and returns its new path.
     pub fn store(&self, content: &ContentHash, program: &Path) -> io::Result<PathBuf> {
         let path = self.folder.join(content.hex());
-        // Moved, not copied: complete or not at all, and never open for writing when it is run.
+        // Moved instead of copied: the file is complete at any time, and never open for writing
+        // when run.
         fs::rename(program, &path)?;
         Ok(path)
     }

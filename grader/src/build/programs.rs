@@ -1,4 +1,4 @@
-//! What becomes of a submission: programs that can be asked.
+//! The result of building a submission: its programs.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -10,37 +10,37 @@ use crate::build::substitution::Substitution;
 use crate::probe::Launcher;
 use crate::sandbox::{Isolation, Sandbox};
 
-/// A submission, ready to be asked.
+/// A built submission.
 #[derive(Debug)]
 pub struct Build {
-    /// The program, unless nothing could be compiled.
+    /// Path of the program, or `None` if nothing compiled.
     pub probe: Option<PathBuf>,
-    /// The files whose tasks can not be graded, and why.
+    /// Files whose tasks cannot be graded, with the reasons.
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
     pub(super) substitution: Option<Substitution>,
     pub(super) sandbox: Sandbox,
-    /// Holds the programs; vanishes with them.
+    /// Contains the programs, and is removed when dropped.
     pub(super) _build_dir: BuildDir,
 }
 
-/// A submission's `bvh.rs` with the reference's parts in place of its other files.
+/// A submission's `bvh.rs` compiled with the reference's parts in place of its other files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SubstitutedProgram<'a> {
-    /// The program.
+    /// Path of the program.
     Program(&'a Path),
-    /// It does not compile there.
+    /// The file does not compile with these parts.
     NotCompiled,
-    /// There is no reference here, or no `bvh.rs`.
+    /// There is no reference, or no `bvh.rs`.
     NoReference,
 }
 
 impl Build {
-    /// How submissions are kept apart from the machine.
+    /// Returns how the submission is isolated from the machine.
     pub fn isolation(&self) -> Isolation {
         self.sandbox.level()
     }
 
-    /// What starts one of its programs.
+    /// Returns a launcher for one of the programs.
     pub fn launcher(&self, program: &Path) -> Launcher {
         Launcher {
             program: program.to_owned(),
@@ -48,7 +48,7 @@ impl Build {
         }
     }
 
-    /// The program with the reference's parts, compiled when it is first asked for.
+    /// Returns the program with the reference's parts, which is compiled on the first call.
     pub fn substituted_program(&self) -> io::Result<SubstitutedProgram<'_>> {
         let Some(carry) = &self.substitution else {
             return Ok(SubstitutedProgram::NoReference);

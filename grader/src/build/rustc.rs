@@ -1,5 +1,5 @@
-//! One direct call of `rustc`: no manifest, build script, configuration or fingerprint beside a
-//! submission is ever read, and its files' times mean nothing.
+//! Calls `rustc` directly. No manifest, build script, configuration or fingerprint in a submission
+//! is read, and the modification times of its files do not matter.
 
 use std::ffi::OsString;
 use std::io;
@@ -25,39 +25,39 @@ const LIMITS: Limits = Limits {
     cpu: Duration::from_secs(60),
     file: 256 << 20,
 };
-/// The back-stop for a compiler that waits instead of working.
+/// Wall time limit, for a compiler that waits instead of working.
 const WALL_LIMIT: Duration = Duration::from_secs(90);
-/// How much is kept of what the compiler says.
+/// Maximum amount of compiler messages that is stored.
 const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
 /// A crate to compile.
 #[derive(Debug)]
 pub struct Crate<'a> {
-    /// What others call it.
+    /// Name of the crate.
     pub name: &'a str,
-    /// What is made of it.
+    /// Type of the crate.
     pub kind: CrateKind,
-    /// Where its sources lie, and what is made of them.
+    /// Folder of the sources, in which the output is written too.
     pub folder: &'a Path,
-    /// The file in the folder that holds its root module.
+    /// File of the root module, relative to the folder.
     pub root: &'a str,
-    /// The crates that it may name, beside those that every submission may.
+    /// Crates that it may import, in addition to those that every submission may.
     pub links: &'a [(&'a str, &'a Path)],
-    /// The folder with what those need in turn, beside what every submission needs.
+    /// Folder with the dependencies of these crates, in addition to those of every submission.
     pub dependency_folder: Option<&'a Path>,
 }
 
-/// What is made of a crate.
+/// Type of a crate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CrateKind {
     /// An executable.
     Program,
-    /// An `rlib`, and the metadata that suffices to compile against it.
+    /// An `rlib`, and its metadata, which are enough to compile against it.
     Library,
 }
 
 impl CrateKind {
-    /// What the compiler calls its file.
+    /// Returns the name of the compiler's output file.
     fn file_name(self, name: &str) -> String {
         match self {
             CrateKind::Program => format!("{name}{}", std::env::consts::EXE_SUFFIX),
@@ -66,38 +66,38 @@ impl CrateKind {
     }
 }
 
-/// What became of one call of the compiler.
+/// Result of a compiler call.
 #[derive(Debug)]
 pub enum CompileOutcome {
-    /// The program or library.
+    /// Path of the program or library.
     Done(PathBuf),
-    /// Errors.
+    /// Errors in the source code.
     Errors(Vec<Diagnostic>),
-    /// The compiler did not come to an end by itself, or said nothing that we understand.
+    /// The compiler did not finish, or its messages could not be parsed.
     Failed(String),
 }
 
-/// What submissions are compiled with.
+/// The compiler with its environment.
 #[derive(Clone, Debug)]
 pub struct Rustc {
     /// The compiler.
     pub toolchain: Toolchain,
-    /// What everything is linked with.
+    /// The crates that everything is linked with.
     pub dependencies: Dependencies,
-    /// What was compiled before, for whoever wants it again.
+    /// Programs that were compiled before, if they may be reused.
     pub cache: Option<ProgramCache>,
-    /// How the compiler is kept apart, and programs are linked for.
+    /// The sandbox for the compiler. Programs are linked to run in it.
     pub sandbox: Sandbox,
 }
 
 impl Rustc {
-    /// What everything that it makes follows from, beside the sources.
+    /// Returns everything that its output depends on besides the sources.
     pub fn identity(&self) -> &[u8] {
-        // The folder is named after the compiler and the dependencies' sources.
+        // The folder's name is a hash of the compiler and of the dependencies' sources.
         self.dependencies.folder.as_os_str().as_encoded_bytes()
     }
 
-    /// The program of this content, compiled unless it is kept from an earlier time.
+    /// Returns the program with this hash from the cache, or else compiles and stores it.
     pub fn compile_cached(
         &self,
         content: &ContentHash,
@@ -115,7 +115,7 @@ impl Rustc {
         })
     }
 
-    /// Compiles one crate. What the machine lacks for that is an error, and no fault of the crate's.
+    /// Compiles one crate. A failure of the machine is an error, and not a result of the crate.
     pub fn compile(&self, source: &Crate) -> io::Result<CompileOutcome> {
         let mut command = Command::new(&self.toolchain.rustc);
         system::clear_environment(&mut command);
@@ -144,14 +144,14 @@ impl Rustc {
             .sandbox
             .start(command, source.folder, profile, LIMITS)?;
         let messages = Capture::start(
-            process.child.stderr.take().expect("it is piped"),
+            process.child.stderr.take().expect("the stream is piped"),
             MAX_MESSAGE_BYTES,
         );
 
         let deadline = Instant::now() + WALL_LIMIT;
-        let ending = loop {
+        let exit_reason = loop {
             match process.exit_reason() {
-                Some(ending) => break ending,
+                Some(exit_reason) => break exit_reason,
                 None if Instant::now() >= deadline => {
                     process.kill();
                     let seconds = WALL_LIMIT.as_secs();
@@ -159,28 +159,29 @@ impl Rustc {
                         "the compiler was stopped after {seconds} s"
                     )));
                 }
-                // Its last words come just before its end, and until then there is nothing to see.
+                // The compiler closes its output just before it ends, so there is no need to poll
+                // before that.
                 None => messages.wait_for_end(deadline.saturating_duration_since(Instant::now())),
             }
             thread::sleep(Duration::from_micros(200));
         };
         messages.wait_for_end(Duration::from_secs(1));
 
-        if ending.is_success()
+        if exit_reason.is_success()
             && let Some(made) = self.output_file(source)?
         {
             return Ok(CompileOutcome::Done(made));
         }
         let errors = diagnostics::errors(&messages.head());
-        MachineFault::check(ending, &errors, source.folder).map_err(io::Error::other)?;
+        MachineFault::check(exit_reason, &errors, source.folder).map_err(io::Error::other)?;
         Ok(if errors.is_empty() {
-            CompileOutcome::Failed(failure_message(ending))
+            CompileOutcome::Failed(failure_message(exit_reason))
         } else {
             CompileOutcome::Errors(errors)
         })
     }
 
-    /// What was made, if it was.
+    /// Returns the path of the compiler's output, if it exists.
     fn output_file(&self, source: &Crate) -> io::Result<Option<PathBuf>> {
         let name = source.kind.file_name(source.name);
         if self.sandbox.confines() {
@@ -216,22 +217,23 @@ fn option_with_path(option: &str, path: &Path) -> OsString {
     argument
 }
 
-fn failure_message(ending: ExitReason) -> String {
-    match ending {
+fn failure_message(exit_reason: ExitReason) -> String {
+    match exit_reason {
         ExitReason::Code(code) => format!("the compiler ended with exit code {code}"),
         ExitReason::Signal(signal) => format!(
-            "the compiler was ended by signal {signal}: too much time or memory, or code that it can not digest"
+            "the compiler was killed by signal {signal}: it used too much time or memory, or crashed on this code"
         ),
     }
 }
 
-/// The same for everyone: students, TAs, CI.
+/// The same flags for students, TAs and CI.
 const FLAGS: [&str; 10] = [
     "--edition=2024",
     "-Copt-level=2",
     "-Ccodegen-units=1",
     "-Cdebuginfo=0",
-    // Ours is none, and copying that of the standard library is a third of the linking.
+    // The crates have no debug info, and copying the standard library's takes a third of the
+    // linking time.
     "-Cstrip=debuginfo",
     "-Coverflow-checks=on",
     "-Cpanic=unwind",

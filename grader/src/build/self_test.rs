@@ -1,5 +1,6 @@
-//! Whether a sandbox holds on this machine: not what the system says of itself, but what comes of
-//! trying, with the profiles of submissions. What can not be tried does not hold.
+//! Tests whether a sandbox works on this machine, by attacking it with the profiles of submissions
+//! instead of asking the system about its features. Anything that cannot be tested counts as not
+//! working.
 
 use std::fs;
 use std::io::{self, Write};
@@ -17,49 +18,49 @@ use crate::capture::Capture;
 use crate::sandbox::{Isolation, Profile};
 use crate::system::{self, Limits};
 
-/// Tries what no submission may do.
+/// Source of a program that attempts everything that a submission must not do.
 const ATTACK_PROGRAM: &str = include_str!("../../trial/attempts.rs");
-/// Its last line.
+/// Its last line of output.
 const END: &str = "end";
-/// Nothing that anybody could guess to have been in the file.
-const SECRET: &str = "planted, to be read by nobody";
+/// Contents of a file that the sandbox must hide.
+const SECRET: &str = "a secret that no submission may read";
 
 const LIMITS: Limits = Limits {
     memory: 1 << 30,
     cpu: Duration::from_secs(10),
     file: 0,
 };
-/// A trial takes milliseconds, unless the machine is very busy.
+/// A test takes milliseconds, unless the machine is very busy.
 const WALL_LIMIT: Duration = Duration::from_secs(30);
 
-/// Why a level of isolation is not reached here.
+/// The reason why an isolation level is not available.
 #[derive(Debug, thiserror::Error)]
 pub enum SelfTestError {
-    /// A part of it can not be put in place.
+    /// A part of the sandbox cannot be set up.
     #[error("{0}")]
     Setup(io::Error),
-    /// The compiler does not work in it.
-    #[error("a program can not be compiled and linked statically in it: {0}")]
+    /// The compiler does not work in the sandbox.
+    #[error("a program cannot be compiled and linked statically in it: {0}")]
     NotCompiled(String),
-    /// The compiler reads what it should not.
+    /// The compiler can read files that it must not read.
     #[error("a submission's compiler can read other files")]
     CompilerCanRead,
-    /// A program does what it should not.
+    /// A program can do something that it must not do.
     #[error("a submission can {0}")]
     ProgramCan(String),
-    /// The program that should have tried did not come to its end.
-    #[error("a program that tried what is forbidden did not end well: {0}")]
+    /// The attacking program did not finish.
+    #[error("the program that tests the sandbox did not finish: {0}")]
     Incomplete(String),
 }
 
 impl Builder {
-    /// Tries out the sandbox that submissions are built and asked in.
+    /// Tests the sandbox in which submissions are compiled and run.
     pub fn test_sandbox(&self) -> Result<(), SelfTestError> {
         let work = BuildDir::new_in(&self.folder).map_err(SelfTestError::Setup)?;
-        // Where every user of the machine could read it, were it not for the sandbox.
-        let place = TempDir::new().map_err(SelfTestError::Setup)?;
-        let key = place.path().join("key");
-        system::make_folder_accessible(place.path()).map_err(SelfTestError::Setup)?;
+        // Without a sandbox, every user of the machine can read this file.
+        let public_folder = TempDir::new().map_err(SelfTestError::Setup)?;
+        let key = public_folder.path().join("key");
+        system::make_folder_accessible(public_folder.path()).map_err(SelfTestError::Setup)?;
         fs::write(&key, SECRET).map_err(SelfTestError::Setup)?;
 
         let program = compile(
@@ -76,7 +77,7 @@ impl Builder {
             }
             CompileOutcome::Failed(why) => return Err(SelfTestError::NotCompiled(why)),
         };
-        // At this level, nothing keeps the compiler from reading what its user may.
+        // At the level `seccomp-only`, the compiler may read everything that its user may.
         if self.rustc.sandbox.level() > Isolation::SeccompOnly {
             let reads = format!("pub const KEY: &str = include_str!({key:?});");
             match compile(
@@ -92,13 +93,13 @@ impl Builder {
                 }
             }
         }
-        let said = run(&self.rustc, &program, &key)?;
-        match said.lines().next() {
+        let output = run(&self.rustc, &program, &key)?;
+        match output.lines().next() {
             Some(END) => Ok(()),
-            Some(what) if said.ends_with("end\n") => {
+            Some(what) if output.ends_with("end\n") => {
                 Err(SelfTestError::ProgramCan(what.to_owned()))
             }
-            Some(_) | None => Err(SelfTestError::Incomplete(said)),
+            Some(_) | None => Err(SelfTestError::Incomplete(output)),
         }
     }
 }
@@ -127,21 +128,21 @@ fn compile(
     compiled.map_err(SelfTestError::Setup)
 }
 
-/// What the program says, on both streams.
+/// Returns the program's output on both streams, or only the errors if there are any.
 fn run(rustc: &Rustc, program: &Path, key: &Path) -> Result<String, SelfTestError> {
     let mut command = Command::new(program);
     system::clear_environment(&mut command);
     let folder = program.parent().unwrap_or(Path::new("."));
     let process = rustc.sandbox.start(command, folder, Profile::Probe, LIMITS);
     let mut process = process.map_err(SelfTestError::Setup)?;
-    let stdout = process.child.stdout.take().expect("it is piped");
-    let stderr = process.child.stderr.take().expect("it is piped");
-    let (said, complained) = (
+    let stdout = process.child.stdout.take().expect("the stream is piped");
+    let stderr = process.child.stderr.take().expect("the stream is piped");
+    let (output, errors_output) = (
         Capture::start(stdout, 1 << 16),
         Capture::start(stderr, 1 << 16),
     );
-    let mut stdin = process.child.stdin.take().expect("it is piped");
-    // If it has ended already, its words say why.
+    let mut stdin = process.child.stdin.take().expect("the stream is piped");
+    // If the program has already ended, its output says why.
     writeln!(stdin, "{}", key.display()).ok();
 
     let deadline = Instant::now() + WALL_LIMIT;
@@ -149,10 +150,10 @@ fn run(rustc: &Rustc, program: &Path, key: &Path) -> Result<String, SelfTestErro
         thread::sleep(Duration::from_millis(1));
     }
     process.kill();
-    said.wait_for_end(Duration::from_secs(1));
-    complained.wait_for_end(Duration::from_secs(1));
-    Ok(match complained.head() {
-        complaint if complaint.is_empty() => said.head(),
-        complaint => complaint,
+    output.wait_for_end(Duration::from_secs(1));
+    errors_output.wait_for_end(Duration::from_secs(1));
+    Ok(match errors_output.head() {
+        errors if errors.is_empty() => output.head(),
+        errors => errors,
     })
 }

@@ -1,10 +1,10 @@
-//! A submission's `bvh.rs` on parts that are known to be right: so that a mistake in a box test
-//! does not cost the points of walking a tree.
+//! Compiles a submission's `bvh.rs` with the reference's parts, so that a mistake in a box test
+//! does not also cost the points for traversing a tree.
 //!
-//! Those parts are the reference's other four files, compiled once. Of them the submission's
-//! compile sees the metadata alone; they are joined in a step that reads none of its text. The
-//! reference's own `bvh.rs` is not among them: in the place of the submission's `build` stands a
-//! plain one of ours, so that a mistake in building does not cost the points of walking either.
+//! The parts are the reference's other four files, compiled once. The submission is compiled
+//! against their metadata only, and linked with them in a step that reads none of its source. The
+//! reference's own `bvh.rs` is not used. The submission's `build` is replaced by a plain one, so
+//! that a mistake in building does not cost the points for traversing either.
 
 use std::fs;
 use std::io;
@@ -18,7 +18,7 @@ use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
 use crate::given_files::{GIVEN_FILES, TASK_FILES};
 use crate::sandbox::Sandbox;
 
-/// The reference's files that make up the parts, in the order of their dependence.
+/// The reference's files that make up the parts, in the order of their dependencies.
 const PART_FILES: [&str; 5] = [
     "camera.rs",
     "bbox.rs",
@@ -27,7 +27,7 @@ const PART_FILES: [&str; 5] = [
     "primitive.rs",
 ];
 
-/// Their root.
+/// The root module of the parts.
 const PARTS_ROOT: &str = "
 pub mod bbox;
 pub mod camera;
@@ -35,56 +35,57 @@ pub mod primitive;
 pub mod sphere;
 pub mod triangle;
 ";
-/// What stands around the submission's `bvh.rs`, beside the reference's files and not in this
-/// program: students have it too, and the plain `build` is not for them.
+/// The files around a submission's `bvh.rs`. They are kept with the reference and not embedded in
+/// this program, because students have the grader's sources, and the plain `build` must stay
+/// hidden.
 const SCAFFOLD_FILES: [&str; 3] = ["around.rs", "probe.rs", "bvh.rs"];
 
-/// The compiled parts, and what stands around the submission on them.
+/// The compiled parts, and the sources that connect a submission to them.
 #[derive(Clone, Debug)]
 pub struct ReferenceParts {
     folder: PathBuf,
     scaffold: Scaffold,
 }
 
-/// Two crates of ours.
+/// Sources of two additional crates.
 #[derive(Clone, Debug)]
 struct Scaffold {
-    /// The root of the crate that the submission's `bvh.rs` finds itself in.
+    /// The root of the crate that contains the submission's `bvh.rs`.
     root: String,
-    /// The files of the crate that asks it, compiled apart from the submission's text.
+    /// The files of the crate that answers questions, compiled separately from the submission.
     probe_files: [(&'static str, String); 2],
 }
 
-/// The reference, from which the parts are made, is not as it should be: not a student's fault.
+/// The reference cannot be used to make the parts. Students cannot fix this.
 #[derive(Debug, thiserror::Error)]
 pub enum SubstitutionError {
-    /// A file can not be read or written.
-    #[error("can not use {path}: {source}")]
+    /// A file cannot be read or written.
+    #[error("cannot use {path}: {source}")]
     Io {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
-    /// The compiler refuses them.
+    /// The reference does not compile.
     #[error("the reference does not compile: see `cargo check -p reference`")]
     NotCompiled,
 }
 
 impl ReferenceParts {
-    /// Those made earlier from the same files, or newly made ones, kept below `cache`.
+    /// Returns the parts from `cache` if the files are the same, or compiles them.
     pub fn prepare(
         reference: &Path,
         cache: &Path,
         rustc: &Rustc,
     ) -> Result<Self, SubstitutionError> {
-        // Our own text, compiled once for all levels.
+        // The course's own code needs no sandbox, and one compile serves all isolation levels.
         let rustc = &Rustc {
             sandbox: Sandbox::none(),
             ..rustc.clone()
         };
         let texts = read(reference, PART_FILES)?;
-        let [(_, root), probe, bvh] = read(&reference.join("../carried"), SCAFFOLD_FILES)?;
+        let [(_, root), probe, bvh] = read(&reference.join("../substitution"), SCAFFOLD_FILES)?;
         let parts = ReferenceParts {
             folder: cache.join(cache_key(&texts, rustc)),
             scaffold: Scaffold {
@@ -99,7 +100,7 @@ impl ReferenceParts {
         fs::create_dir_all(cache).map_err(io_error(cache))?;
         let work = TempDir::new_in(cache).map_err(io_error(cache))?;
         compile_parts(&texts, work.path(), rustc)?;
-        // Complete or not at all. Somebody else may have been faster with the same.
+        // The folder appears complete or not at all. Another process may have been faster.
         match fs::rename(work.path(), folder) {
             Err(_) if folder.is_dir() => {}
             renamed => renamed.map_err(io_error(folder))?,
@@ -107,7 +108,7 @@ impl ReferenceParts {
         Ok(parts)
     }
 
-    /// All that they follow from, and what stands around a submission on them.
+    /// Returns a hash of everything that the parts and the scaffold depend on.
     pub fn content_hash(&self) -> ContentHash {
         let folder = ContentHash::default().with(self.folder.as_os_str().as_encoded_bytes());
         let Scaffold {
@@ -132,7 +133,7 @@ fn io_error(path: &Path) -> impl FnOnce(io::Error) -> SubstitutionError {
     move |source| SubstitutionError::Io { path, source }
 }
 
-/// The texts of these files, in their order.
+/// Reads these files in order.
 fn read<const N: usize>(
     folder: &Path,
     names: [&'static str; N],
@@ -145,7 +146,7 @@ fn read<const N: usize>(
     Ok(texts)
 }
 
-/// What the parts follow from: their texts, and what they are compiled with.
+/// Returns a hash of everything that the parts depend on: their sources and the compiler.
 fn cache_key(texts: &[(&str, String)], rustc: &Rustc) -> String {
     let all = texts.iter().fold(
         ContentHash::default()
@@ -179,31 +180,31 @@ fn compile_parts(
             return Err(SubstitutionError::NotCompiled);
         }
     }
-    // Compiled, the texts are of no more use here, and would only be a solution left lying about.
+    // The sources are no longer needed, and they would leave a solution on this machine.
     for name in PART_FILES {
         fs::remove_file(folder.join(name)).map_err(io_error(folder))?;
     }
     Ok(())
 }
 
-/// A submission's `bvh.rs`, to be compiled on the parts if it ever comes to that.
+/// A submission's `bvh.rs`, which is compiled with the reference's parts only if needed.
 #[derive(Debug)]
 pub struct Substitution {
-    /// Its text.
+    /// Source of the file.
     pub bvh: String,
-    /// What takes the place of its other files.
+    /// The parts that replace the submission's other files.
     pub parts: ReferenceParts,
-    /// What compiles it.
+    /// The compiler.
     pub rustc: Rustc,
-    /// Where; not there yet.
+    /// The build folder, which does not exist yet.
     pub folder: PathBuf,
-    /// The program, once it was asked for.
+    /// The program, once it was requested.
     pub program: OnceLock<Option<PathBuf>>,
 }
 
 impl Substitution {
-    /// The program. None if it does not compile there, such as one that calls helpers of the
-    /// submission's other files.
+    /// Returns the program, or `None` if it does not compile. This happens if it uses helpers in
+    /// the submission's other files.
     pub fn program(&self) -> io::Result<Option<&Path>> {
         if self.program.get().is_none() {
             let program = self.compile()?;
@@ -233,8 +234,8 @@ impl Substitution {
         )
     }
 
-    /// Compiles the starter's `bvh.rs` in its place, where nothing says why the submission's does not
-    /// compile: if that does not either, the machine is to blame.
+    /// Compiles the starter's `bvh.rs` with the parts, if no error explains why the submission's
+    /// does not compile. If the starter's does not compile either, the machine is to blame.
     fn check_starter(&self) -> io::Result<()> {
         let [.., bvh] = TASK_FILES;
         let starter = Substitution {
@@ -250,7 +251,7 @@ impl Substitution {
             CompileOutcome::Failed(why) => why,
         };
         Err(io::Error::other(format!(
-            "not even the file that was handed out compiles on the reference's parts: {why}"
+            "not even the starter's bvh.rs compiles with the reference's parts: {why}"
         )))
     }
 

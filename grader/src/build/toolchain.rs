@@ -1,4 +1,4 @@
-//! Which compiler, and how it is recognised.
+//! Finds the Rust toolchain.
 
 use std::env;
 use std::fs;
@@ -6,23 +6,23 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::UNIX_EPOCH;
 
-/// The real `cargo` and `rustc`, not rustup's stand-ins: those cost 8 ms a call, and obey a
-/// `rust-toolchain.toml` that lies about.
+/// The real `cargo` and `rustc` instead of rustup's proxies, which take 8 ms per call and obey any
+/// `rust-toolchain.toml` in the current folder.
 #[derive(Clone, Debug)]
 pub struct Toolchain {
-    /// Builds the dependencies, once.
+    /// Path of `cargo`, which builds the dependencies once.
     pub cargo: PathBuf,
-    /// Compiles submissions.
+    /// Path of `rustc`, which compiles submissions.
     pub rustc: PathBuf,
 }
 
-/// There is no compiler.
+/// The compiler cannot be found.
 #[derive(Debug, thiserror::Error)]
-#[error("can not find rustc: install Rust, or put it on the PATH ({0})")]
+#[error("cannot find rustc: install Rust, or put it on the PATH ({0})")]
 pub struct ToolchainError(String);
 
 impl Toolchain {
-    /// The toolchain whose cargo runs us, else the one on the PATH.
+    /// Finds the toolchain whose cargo runs this program, or else the one on the PATH.
     pub fn find() -> Result<Self, ToolchainError> {
         if let Some(toolchain) =
             env::var_os("CARGO").and_then(|cargo| toolchain_beside(Path::new(&cargo)))
@@ -39,13 +39,14 @@ impl Toolchain {
             .ok_or_else(|| ToolchainError(format!("nothing in {}", sysroot.trim())))
     }
 
-    /// The folder with all of it.
+    /// Returns the toolchain's root folder.
     pub fn sysroot(&self) -> &Path {
         let bin = self.rustc.parent();
         bin.and_then(Path::parent).unwrap_or(Path::new("/"))
     }
 
-    /// What changes when the compiler does. Asking it for its version would take 10 ms.
+    /// Returns text that changes when the compiler does. Running it to get its version would take
+    /// 10 ms.
     pub fn fingerprint(&self) -> String {
         let driver = self.sysroot().join("lib");
         let [rustc, driver] = [&self.rustc, &driver].map(|path| file_fingerprint(path));
@@ -53,7 +54,8 @@ impl Toolchain {
     }
 }
 
-/// What changes when a file, or what a folder holds, is replaced: its size, and when that was.
+/// Returns text that changes when a file, or the contents of a folder, are replaced: size and
+/// modification time.
 pub fn file_fingerprint(path: &Path) -> String {
     let metadata = fs::metadata(path);
     let size = metadata.as_ref().map_or(0, fs::Metadata::len);

@@ -1,4 +1,4 @@
-//! The package that is a zip: Gradescope's.
+//! Gradescope's package, which is a zip.
 
 use std::path::Path;
 
@@ -7,49 +7,49 @@ use crate::doctor::package_contents::{
 };
 use crate::exam_file::{self, ExamFile};
 
-/// What the grader is built from, and the solution: folders that are not empty.
+/// The folders from which the grader and the solution are built.
 const REQUIRED_FOLDERS: [&str; 4] = [
     "pathtracing/grader/src/",
     "pathtracing/student/framework/src/",
     "pathtracing/reference/src/",
-    "pathtracing/reference/carried/",
+    "pathtracing/reference/substitution/",
 ];
-/// The crates, so that nothing is fetched.
+/// The folder of crates, so that nothing is downloaded.
 const CRATE_CACHE: &str = "pathtracing/crates/registry/cache/";
-/// What is told of them, without which cargo does not look for them.
+/// The index of these crates, without which Cargo does not find them.
 const CRATE_INDEX: &str = "pathtracing/crates/registry/index/";
-/// One that only Linux needs, and that no other system has fetched.
+/// A crate that only Linux needs, so that no other system has downloaded it.
 const LINUX_ONLY_CRATE: &str = "/landlock-";
 
 impl PackageContents {
-    /// What is wrong, as Gradescope will see it.
+    /// Returns a message for each problem that Gradescope would have with the package.
     pub(super) fn problems(&self) -> Vec<String> {
-        let mut complaints = self.damage_problems();
-        complaints.extend(SCRIPTS.iter().flat_map(|name| self.script_problems(name)));
-        // Of a zip that Gradescope can not even start, the rest says nothing.
-        if complaints.is_empty() {
-            complaints.extend(self.script_problems(GRADE));
-            complaints.extend(self.exam_and_policy_problems());
-            complaints.extend(self.build_input_problems());
+        let mut problems = self.damage_problems();
+        problems.extend(SCRIPTS.iter().flat_map(|name| self.script_problems(name)));
+        // As long as Gradescope cannot start it, other problems do not matter.
+        if problems.is_empty() {
+            problems.extend(self.script_problems(GRADE));
+            problems.extend(self.exam_and_policy_problems());
+            problems.extend(self.build_input_problems());
         }
-        complaints
+        problems
     }
 
-    /// What the grader is built from.
+    /// Returns a message for each problem with the files from which the grader is built.
     fn build_input_problems(&self) -> Vec<String> {
-        let mut complaints = self.empty_folder_problems(&REQUIRED_FOLDERS, "gradescope");
+        let mut problems = self.empty_folder_problems(&REQUIRED_FOLDERS, "gradescope");
         let is_for_linux =
             |name: &String| name.starts_with(CRATE_CACHE) && name.contains(LINUX_ONLY_CRATE);
         match [CRATE_CACHE, CRATE_INDEX].into_iter().find(|part| !self.has_files_in(part)) {
-            Some(empty) => complaints.push(format!(
-                "{empty} is empty: the grader could not be built without a network; write the package where `cargo build` has run"
+            Some(empty) => problems.push(format!(
+                "{empty} is empty, so the grader cannot be built without a network: create the package on a machine where `cargo build` has run"
             )),
-            None if !self.permissions.keys().any(is_for_linux) => complaints.push(format!(
-                "{CRATE_CACHE} lacks what only Linux needs, on which Gradescope runs: write the package on Linux"
+            None if !self.permissions.keys().any(is_for_linux) => problems.push(format!(
+                "{CRATE_CACHE} lacks the crates that only Linux needs, and Gradescope runs on Linux: create the package on Linux"
             )),
             None => {}
         }
-        complaints
+        problems
     }
 
     fn script_problems(&self, name: &'static str) -> Vec<String> {
@@ -60,12 +60,14 @@ impl PackageContents {
                 .find(|path| path.ends_with(&format!("/{name}")));
             return vec![match below {
                 Some(path) => format!(
-                    "{name} is at {path}: Gradescope looks at the root of the zip; zip what is in the folder, not the folder"
+                    "{name} is at {path}, but Gradescope looks for it at the root of the zip: zip the contents of the folder, not the folder"
                 ),
                 None if name == GRADE => {
-                    format!("there is no {name}: `cargo author package gradescope` writes it")
+                    format!("there is no {name}: `cargo author package gradescope` creates it")
                 }
-                None => format!("there is no {name} at the root of the zip: Gradescope starts it"),
+                None => format!(
+                    "there is no {name} at the root of the zip, where Gradescope looks for it"
+                ),
             }];
         };
         let is_executable = |mode: u32| mode & 0o111 != 0;
@@ -73,15 +75,15 @@ impl PackageContents {
         let faults = [
             (
                 !text.starts_with(b"#!"),
-                "does not begin with #!, so nothing runs it",
+                "does not begin with #!, so it cannot be run",
             ),
             (
                 text.contains(&b'\r'),
-                "has the line ends of Windows, on which bash fails: pack it elsewhere, or with `cargo author package`",
+                "has Windows line endings, on which bash fails: pack it on another system, or with `cargo author package`",
             ),
             (
                 mode.is_some_and(|mode| !is_executable(mode)),
-                "is not executable: `chmod +x` it before it is packed",
+                "is not executable: run `chmod +x` on it before packing",
             ),
         ];
         let faults = faults.into_iter().filter(|(is_there, _)| *is_there);
@@ -94,7 +96,7 @@ impl PackageContents {
             (exam, _) => {
                 let missing = if exam.is_none() { EXAM } else { POLICY };
                 return vec![format!(
-                    "there is no {missing}: `cargo author package gradescope` writes it"
+                    "there is no {missing}: `cargo author package gradescope` creates it"
                 )];
             }
         };
@@ -102,13 +104,13 @@ impl PackageContents {
             Ok(ExamFile { exam, .. }) => exam,
             Err(error) => return vec![error.to_string()],
         };
-        let mut complaints = Vec::new();
+        let mut problems = Vec::new();
         if exam.id == "practice" {
-            complaints.push(
-                "it asks the practice exam, which students have with all its keys: name another with --exam-seed".to_owned(),
+            problems.push(
+                "it runs the practice exam, which students have with all its keys: choose another one with --exam-seed".to_owned(),
             );
         }
-        complaints.extend(policy_problem(policy, &exam));
-        complaints
+        problems.extend(policy_problem(policy, &exam));
+        problems
     }
 }

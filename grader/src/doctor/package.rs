@@ -1,5 +1,5 @@
-//! `cargo grade --doctor --package FILE`: a package as the platform will see it, before anybody
-//! hands in.
+//! `cargo grade --doctor --package FILE`: checks a package as the platform will see it, before
+//! students submit.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use crate::doctor::package_contents::read_package;
 
 pub use crate::doctor::package_contents::PackageError;
 
-/// What is wrong, a sentence each with what to do. Empty if it will grade.
+/// Returns a message for each problem, which says what to do. Empty if the package will work.
 pub fn problems(path: &Path) -> Result<Vec<String>, PackageError> {
     match path.is_dir() {
         true => Ok(folder::problems(path)),

@@ -1,4 +1,4 @@
-//! What is in a package's zip.
+//! The contents of a package's zip.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -11,53 +11,53 @@ use crate::exam::Exam;
 use crate::policy::Policy;
 use crate::zipfile::{Zip, ZipError};
 
-/// What Gradescope starts, at the root of the zip.
+/// The scripts that Gradescope runs, at the root of the zip.
 pub(super) const SCRIPTS: [&str; 2] = ["setup.sh", "run_autograder"];
-/// What both of these call.
+/// The script that both of these call.
 pub(super) const GRADE: &str = "pathtracing/grade";
 pub(super) const EXAM: &str = "pathtracing/exam.json";
 pub(super) const POLICY: &str = "pathtracing/policy.toml";
-/// The longest file that is looked into, in bytes.
+/// The longest file that is inspected, in bytes.
 const MAX_FILE_BYTES: u64 = 64 << 20;
-/// The most files that are looked at: a package has some thousands.
+/// The most entries of a zip; a package has several thousand.
 const MAX_ENTRIES: usize = 100_000;
 
-/// The package can not be looked at.
+/// Reasons why a package cannot be checked.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
-    /// There is none, or it can not be read.
-    #[error("can not read {}: {source}", path.display())]
+    /// It does not exist or cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// Which.
+        /// The package.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
-    /// It is no zip.
+    /// It is not a zip.
     #[error(
-        "{} is no zip that can be unpacked ({source}): write it with `cargo author package gradescope`",
+        "{} is not a zip that can be unpacked ({source}): create it with `cargo author package gradescope`",
         path.display()
     )]
     Zip {
-        /// Which.
+        /// The package.
         path: PathBuf,
-        /// What is wrong.
+        /// The error.
         source: ZipError,
     },
 }
 
-/// What of a zip is looked at.
+/// The contents of a zip, as far as they are checked.
 #[derive(Debug, Default)]
 pub(super) struct PackageContents {
-    /// All names, with the permissions that each is unpacked with.
+    /// The permissions of every entry, by name.
     pub(super) permissions: BTreeMap<String, u32>,
-    /// The contents of the few files that are looked into.
+    /// The contents of the few files that are inspected, by name.
     pub(super) inspected: BTreeMap<&'static str, Vec<u8>>,
-    /// What can not be unpacked, and why.
+    /// The entries that cannot be unpacked, each with the error.
     damaged: BTreeMap<String, String>,
 }
 
-/// All of a zip, unpacked to see that it can be.
+/// Reads a zip and unpacks every entry in memory, to see that this works.
 pub(super) fn read_package(path: &Path) -> Result<PackageContents, PackageError> {
     let io = |source| PackageError::Io {
         path: path.to_owned(),
@@ -75,17 +75,17 @@ pub(super) fn read_package(path: &Path) -> Result<PackageContents, PackageError>
         let mut file = archive.read(entry).map_err(zip)?;
         let name = entry.name.clone();
         contents.permissions.insert(name.clone(), entry.permissions);
-        let mut wanted = SCRIPTS.into_iter().chain([GRADE, EXAM, POLICY]);
+        let mut inspected = SCRIPTS.into_iter().chain([GRADE, EXAM, POLICY]);
         let mut bytes = Vec::new();
-        let unpacked = match wanted.find(|wanted| *wanted == name) {
-            Some(wanted) => {
+        let unpacked = match inspected.find(|inspected| *inspected == name) {
+            Some(inspected) => {
                 let read = Read::by_ref(&mut file)
                     .take(MAX_FILE_BYTES)
                     .read_to_end(&mut bytes);
-                contents.inspected.insert(wanted, bytes);
+                contents.inspected.insert(inspected, bytes);
                 read.map(drop)
             }
-            // Only to the end is it known whether it is whole.
+            // Damage is reported only at the end of the contents.
             None => io::copy(&mut file, &mut io::sink()).map(drop),
         };
         if let Err(error) = unpacked {
@@ -96,36 +96,37 @@ pub(super) fn read_package(path: &Path) -> Result<PackageContents, PackageError>
 }
 
 impl PackageContents {
-    /// What can not be unpacked.
+    /// Returns a message for each entry that cannot be unpacked.
     pub(super) fn damage_problems(&self) -> Vec<String> {
-        let damaged = self.damaged.iter().map(|(name, error)| {
-            format!("{name} is damaged ({error}): write the package once more")
-        });
+        let damaged = self
+            .damaged
+            .iter()
+            .map(|(name, error)| format!("{name} is damaged ({error}): create the package again"));
         damaged.collect()
     }
 
-    /// The contents of one of the few files that are looked into.
+    /// Returns the contents of an inspected file.
     pub(super) fn bytes_of(&self, name: &str) -> Option<&[u8]> {
         self.inspected.get(name).map(Vec::as_slice)
     }
 
-    /// Whether anything is in this folder.
+    /// Returns whether this folder has any entries.
     pub(super) fn has_files_in(&self, folder: &str) -> bool {
         let mut names = self.permissions.keys();
         names.any(|name| name.starts_with(folder) && name != folder)
     }
 
-    /// Which of these folders are empty, and what writes them.
+    /// Returns a message for each of these folders that is empty.
     pub(super) fn empty_folder_problems(&self, folders: &[&str], platform: &str) -> Vec<String> {
         let empty = folders.iter().filter(|folder| !self.has_files_in(folder));
-        let told = empty.map(|folder| {
-            format!("{folder} is empty: `cargo author package {platform}` writes what is in it")
+        let problems = empty.map(|folder| {
+            format!("{folder} is empty: `cargo author package {platform}` creates its contents")
         });
-        told.collect()
+        problems.collect()
     }
 }
 
-/// What is wrong with a policy for this exam.
+/// Returns the reason why a policy does not fit the exam, if it does not.
 pub(super) fn policy_problem(policy: &[u8], exam: &Exam) -> Option<String> {
     let path = Path::new(POLICY);
     let policy = Policy::from_text(path, &String::from_utf8_lossy(policy));

@@ -1,4 +1,4 @@
-//! What a ray meets in a heap of primitives: distances along it are all there is to see.
+//! A ray through many primitives, which would hide each other: only distances along it are drawn.
 
 use protocol::Interval;
 
@@ -9,29 +9,29 @@ use super::ink::LineStyle;
 use super::sheet::{Sheet, Symbol};
 use crate::describe;
 
-/// The drawing: the range, and both answers as the part of the ray before the hit.
-pub(super) fn draw(encounter: &HitComparison) -> Drawing {
-    let range = encounter.ray.range;
+/// Draws the range, and for both answers the part of the ray before the hit.
+pub(super) fn draw(comparison: &HitComparison) -> Drawing {
+    let range = comparison.ray.range;
     let before = |distance: f64| Interval::new(range.min, distance as f32);
-    let (got, otherwise) = match encounter.got {
-        HitAnswer::Hit(met) => (
-            Some(before(met.distance)),
-            describe::number(met.distance as f32),
+    let (got, got_text) = match comparison.got {
+        HitAnswer::Hit(hit) => (
+            Some(before(hit.distance)),
+            describe::number(hit.distance as f32),
         ),
         HitAnswer::Miss => (None, "no hit".to_owned()),
         HitAnswer::NoAnswer => (None, "no answer".to_owned()),
     };
-    let row = |name, bar, span, otherwise: &str| BarRow {
+    let row = |name, style, span, empty_text: &str| BarRow {
         name,
-        style: bar,
+        style,
         span,
-        empty_text: otherwise.to_owned(),
+        empty_text: empty_text.to_owned(),
     };
-    let wanted = encounter.wanted.map(|met| before(met.distance));
+    let wanted = comparison.wanted.map(|hit| before(hit.distance));
     let rows = [
         row("range", BarStyle::Range, Some(range), "none"),
         row("wanted", BarStyle::Right, wanted, "no hit"),
-        row("got", BarStyle::Wrong, got, &otherwise),
+        row("got", BarStyle::Wrong, got, &got_text),
     ];
     let ends = [wanted, got].into_iter().flatten();
     let ends = ends.map(|span| f64::from(span.max));
@@ -40,13 +40,13 @@ pub(super) fn draw(encounter: &HitComparison) -> Drawing {
     let mut sheet = Sheet::default();
     sheet.title("along the ray, up to the hit");
     sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, distances);
-    if let Some(met) = encounter.wanted {
-        let words = format!("wanted: a hit at {}", describe::number(met.distance as f32));
-        sheet.add_legend(Symbol::Line(LineStyle::Right), &words);
+    if let Some(hit) = comparison.wanted {
+        let text = format!("wanted: a hit at {}", describe::number(hit.distance as f32));
+        sheet.add_legend(Symbol::Line(LineStyle::Right), &text);
     }
-    if let HitAnswer::Hit(met) = encounter.got {
-        let words = format!("got: a hit at {}", describe::number(met.distance as f32));
-        sheet.add_legend(Symbol::Line(LineStyle::Wrong), &words);
+    if let HitAnswer::Hit(hit) = comparison.got {
+        let text = format!("got: a hit at {}", describe::number(hit.distance as f32));
+        sheet.add_legend(Symbol::Line(LineStyle::Wrong), &text);
     }
-    sheet.finish("The hits along the ray", encounter.caption())
+    sheet.finish("The hits along the ray", comparison.caption())
 }

@@ -1,4 +1,4 @@
-//! Intervals as bars, one below the other, over an axis of distances along a ray.
+//! Intervals as bars, one below the other, above an axis of distances along a ray.
 
 use glam::dvec2;
 use protocol::Interval;
@@ -7,26 +7,26 @@ use super::canvas::{Anchor, Canvas, WIDTH};
 use super::ink::{Fill, Ink, LineStyle};
 use super::numbers::short;
 
-/// The height of a bar's row.
+/// The height of a row.
 const ROW_HEIGHT: f64 = 20.0;
-/// Left of it stand the names.
+/// The left end of the axis. The names of the rows are to the left of it.
 const LEFT: f64 = 58.0;
 const RIGHT: f64 = WIDTH - 12.0;
 
-/// How a bar looks.
+/// The style of a bar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BarStyle {
     /// For comparison.
     Plain,
-    /// What counts.
+    /// The range of the ray.
     Range,
-    /// What is right.
+    /// The expected interval.
     Right,
-    /// What came and is not.
+    /// The submitted interval.
     Wrong,
 }
 
-/// A row: what it is called, from when to when, and what to write where that is nothing.
+/// A row: its name, its interval, and the text to show if the interval is empty.
 #[derive(Clone, Debug)]
 pub(super) struct BarRow {
     pub(super) name: &'static str,
@@ -45,8 +45,8 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// An axis over the page's width but for `left`, on which these distances can be seen, those
-    /// of them that are finite.
+    /// Creates an axis from `left` to the right edge of the page that covers all distances that are
+    /// finite.
     pub(super) fn over(left: f64, distances: impl IntoIterator<Item = f64>) -> Axis {
         let finite = distances.into_iter().filter(|t| t.abs() < 1e9);
         let (first, last) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), t| {
@@ -69,8 +69,9 @@ impl Axis {
         }
     }
 
-    /// Where on the page a distance stands; those outside at the ends. Never NaN.
-    pub(super) fn to_page(&self, t: f64) -> f64 {
+    /// Converts a distance to an x coordinate on the page. A distance outside the axis is clamped
+    /// to its ends. The result is never NaN.
+    pub(super) fn page_position(&self, t: f64) -> f64 {
         let share = (t - self.first) / (self.last - self.first);
         if share.is_nan() {
             return self.left;
@@ -78,12 +79,12 @@ impl Axis {
         self.left + share.clamp(0.0, 1.0) * (self.right - self.left)
     }
 
-    /// Whether it is on the axis.
+    /// Returns whether the axis covers this distance.
     pub(super) fn contains(&self, t: f64) -> bool {
         self.first <= t && t <= self.last
     }
 
-    /// The line at its foot, with a few distances.
+    /// Draws the axis line with a few tick labels.
     pub(super) fn draw(&self, canvas: &mut Canvas, y: f64) {
         canvas.line(
             dvec2(self.left, y),
@@ -97,7 +98,7 @@ impl Axis {
             if !self.contains(t) {
                 break;
             }
-            let x = self.to_page(t);
+            let x = self.page_position(t);
             canvas.line(dvec2(x, y), dvec2(x, y + 4.0), LineStyle::Outline);
             let at = dvec2(x, y + 17.0);
             canvas.text(at, Anchor::Middle, Ink::Faint, &short(t));
@@ -105,7 +106,7 @@ impl Axis {
     }
 }
 
-/// One, two or five times a power of ten: the least that is at least this.
+/// Returns the smallest of 1, 2 and 5 times a power of ten that is at least `least`.
 fn tick_step(least: f64) -> f64 {
     let power = 10f64.powf(least.log10().floor());
     let steps = [1.0, 2.0, 5.0].map(|step| step * power);
@@ -115,7 +116,8 @@ fn tick_step(least: f64) -> f64 {
         .unwrap_or(10.0 * power)
 }
 
-/// The rows from `y` on; returns where they end. `distances` are to be seen.
+/// Draws the rows from `y` down, and returns the y coordinate below them. The axis covers
+/// `distances`.
 pub(super) fn draw(
     canvas: &mut Canvas,
     y: f64,
@@ -124,12 +126,12 @@ pub(super) fn draw(
 ) -> f64 {
     let axis = Axis::over(LEFT, distances);
     let foot = y + ROW_HEIGHT * rows.len() as f64;
-    // Where the right interval begins and ends, through all rows.
+    // Lines through all rows at both ends of the expected interval.
     let right = rows.iter().find(|row| row.style == BarStyle::Right);
     if let Some(span) = right.and_then(|row| row.span) {
         for t in [span.min, span.max].map(f64::from) {
             if axis.contains(t) {
-                let x = axis.to_page(t);
+                let x = axis.page_position(t);
                 canvas.line(dvec2(x, y), dvec2(x, foot), LineStyle::Grid);
             }
         }
@@ -156,19 +158,19 @@ fn draw_row(canvas: &mut Canvas, axis: &Axis, y: f64, row: &BarRow) {
         return;
     };
     let (min, max) = (f64::from(span.min), f64::from(span.max));
-    let (from, to) = (axis.to_page(min), axis.to_page(max));
+    let (from, to) = (axis.page_position(min), axis.page_position(max));
     let (line, share, half) = match row.style {
         BarStyle::Plain => (LineStyle::Grid, 0.18, 5.0),
         BarStyle::Range => (LineStyle::Grid, 0.4, 5.0),
         BarStyle::Right => (LineStyle::Right, 0.6, 5.0),
         BarStyle::Wrong => (LineStyle::Wrong, 0.15, 5.0),
     };
-    // An interval of one point is seen as well.
+    // Keeps an interval of a single point visible.
     let to = to.max(from + 1.5);
     let corner = |x: f64, up: f64| dvec2(x, middle + up * half);
     let fill = Fill::Tint(ink, share);
     canvas.rectangle(corner(from, -1.0), corner(to, 1.0), line, fill);
-    // Arrows, where it goes on.
+    // Arrowheads where the interval continues beyond the axis.
     let goes_on = [(min < axis.first, from, -1.0), (max > axis.last, to, 1.0)];
     for (goes_on, x, dir) in goes_on {
         if goes_on {
@@ -186,10 +188,10 @@ mod tests {
     fn an_axis_covers_the_finite_distances_and_clamps_the_rest() {
         let axis = Axis::over(40.0, [2.0, 4.0, f64::INFINITY, f64::NAN, 1e30]);
         assert!(axis.contains(2.0) && axis.contains(4.0) && !axis.contains(9.0));
-        assert_eq!(axis.to_page(f64::NEG_INFINITY), 40.0);
-        assert_eq!(axis.to_page(f64::INFINITY), RIGHT);
-        assert_eq!(axis.to_page(f64::NAN), 40.0);
-        assert!((axis.to_page(3.0) - 0.5 * (40.0 + RIGHT)).abs() < 1e-9);
+        assert_eq!(axis.page_position(f64::NEG_INFINITY), 40.0);
+        assert_eq!(axis.page_position(f64::INFINITY), RIGHT);
+        assert_eq!(axis.page_position(f64::NAN), 40.0);
+        assert!((axis.page_position(3.0) - 0.5 * (40.0 + RIGHT)).abs() < 1e-9);
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! A ray and a box: in the plane of the two axes that decide, and as the times between the planes
-//! of each axis, which the exam tells.
+//! A ray and a box: in the plane of the two axes that decide whether the ray hits, and as the
+//! intervals between the two planes of each axis. Those intervals come with the exam.
 
 use glam::{DVec2, DVec3, Vec3, dvec2};
 use protocol::{Answer, ElementOutcome, Interval, Ray};
@@ -14,35 +14,35 @@ use super::window::Window;
 use crate::describe;
 use crate::drawing_data::DrawingData;
 
-/// One shot at a box.
+/// One query of a box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxQuery {
-    /// The corners of the box.
+    /// The minimum and maximum corner of the box.
     pub(super) corners: [Vec3; 2],
     /// The ray.
     pub(super) ray: Ray,
-    /// The part of it that counts.
+    /// The interval that the result is clipped to.
     pub(super) times: Interval,
-    /// What is right.
+    /// The expected result.
     pub(super) wanted: Option<Interval>,
-    /// When it is between the planes of each axis, if that is told.
+    /// The interval between the planes of each axis, if the exam has them.
     pub(super) slabs: Option<[Interval; 3]>,
 }
 
-/// What came: an interval, none, or no answer.
+/// The submission's answer: an interval, `None`, or no answer at all.
 type SpanAnswer = Option<Option<Interval>>;
 
 const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 
-/// The drawing.
-pub(super) fn draw(shot: &BoxQuery, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
-    let [min, max] = shot.corners.map(|corner| corner.as_dvec3());
-    let ray = &shot.ray;
+/// Draws a ray and a box.
+pub(super) fn draw(query: &BoxQuery, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
+    let [min, max] = query.corners.map(|corner| corner.as_dvec3());
+    let ray = &query.ray;
     if !(min.is_finite() && max.is_finite() && ray.origin.is_finite() && ray.dir.is_finite()) {
         return None;
     }
     let got = span_answer(element, answer);
-    let (a, b) = deciding_axes(shot);
+    let (a, b) = deciding_axes(query);
     let plane = Plane { a, b };
 
     let mut sheet = Sheet::default();
@@ -52,12 +52,17 @@ pub(super) fn draw(shot: &BoxQuery, element: usize, answer: Option<&Answer>) -> 
         AXIS_NAMES[a],
         AXIS_NAMES[b]
     ));
-    draw_picture(&mut sheet, shot, got, plane);
-    let rows = rows(shot, got);
-    sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, axis_distances(shot, got));
-    draw_legend(&mut sheet, shot, got);
+    draw_picture(&mut sheet, query, got, plane);
+    let rows = rows(query, got);
+    sheet.y = bars::draw(
+        &mut sheet.canvas,
+        sheet.y,
+        &rows,
+        axis_distances(query, got),
+    );
+    draw_legend(&mut sheet, query, got);
     let title = "The ray, the box, and the times between its planes";
-    Some(sheet.finish(title, caption(shot, got)))
+    Some(sheet.finish(title, caption(query, got)))
 }
 
 fn span_answer(element: usize, answer: Option<&Answer>) -> SpanAnswer {
@@ -74,12 +79,13 @@ fn span_answer(element: usize, answer: Option<&Answer>) -> SpanAnswer {
     }
 }
 
-/// The two axes that decide: the one whose planes the ray comes between last, and the one that it
-/// leaves first. In their plane a hit looks like one, and a miss like one.
-fn deciding_axes(shot: &BoxQuery) -> (usize, usize) {
-    let Some(slabs) = shot.slabs else {
-        // Across the axis along which the ray goes least.
-        let along = shot.ray.dir.abs();
+/// Returns the two axes that decide whether the ray hits: the one whose slab it enters last, and
+/// the one whose slab it leaves first. In the plane of these axes, a hit looks like a hit and a
+/// miss like a miss.
+fn deciding_axes(query: &BoxQuery) -> (usize, usize) {
+    let Some(slabs) = query.slabs else {
+        // Without slabs, look along the axis with the smallest component of the direction.
+        let along = query.ray.dir.abs();
         let least = (0..3).min_by(|&a, &b| along[a].total_cmp(&along[b]));
         let least = least.unwrap_or(2);
         return in_order((least + 1) % 3, (least + 2) % 3);
@@ -88,7 +94,7 @@ fn deciding_axes(shot: &BoxQuery) -> (usize, usize) {
     let last_in = last_in.unwrap_or(0);
     let others = [(last_in + 1) % 3, (last_in + 2) % 3];
     let [p, q] = others;
-    // The axis that comes in last may go out first as well: then the other that does.
+    // If the slab entered last is also left first, the second axis is the next one to be left.
     let first_out = if slabs[p].max <= slabs[q].max { p } else { q };
     in_order(last_in, first_out)
 }
@@ -110,10 +116,10 @@ impl Plane {
     }
 }
 
-fn draw_picture(sheet: &mut Sheet, shot: &BoxQuery, got: SpanAnswer, plane: Plane) {
-    let (origin, dir) = (shot.ray.origin.as_dvec3(), shot.ray.dir.as_dvec3());
+fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, got: SpanAnswer, plane: Plane) {
+    let (origin, dir) = (query.ray.origin.as_dvec3(), query.ray.dir.as_dvec3());
     let at = |t: f32| plane.project(origin + f64::from(t) * dir);
-    let corners = shot.corners.map(|corner| plane.project(corner.as_dvec3()));
+    let corners = query.corners.map(|corner| plane.project(corner.as_dvec3()));
     let size = corners[0].distance(corners[1]).max(1e-9);
     let middle = 0.5 * (corners[0] + corners[1]);
     let ends = |span: Option<Interval>| {
@@ -122,22 +128,22 @@ fn draw_picture(sheet: &mut Sheet, shot: &BoxQuery, got: SpanAnswer, plane: Plan
     };
     let is_near = |at: &DVec2| at.distance(middle) < 4.0 * size;
     let others = [
-        ends(shot.wanted),
+        ends(query.wanted),
         ends(got.flatten()),
-        ends(Some(shot.times)),
+        ends(Some(query.times)),
     ]
     .concat();
     let others = others.into_iter().chain([plane.project(origin)]);
     let seen: Vec<DVec2> = corners.into_iter().chain(others.filter(is_near)).collect();
-    let part = sheet.panel(sphere::panel_height(&seen));
-    let window = Window::around(part, seen);
+    let panel = sheet.panel(sphere::panel_height(&seen));
+    let window = Window::around(panel, seen);
 
     let canvas = &mut sheet.canvas;
-    let (low, high) = (window.to_page(corners[0]), window.to_page(corners[1]));
-    // A flat box is seen as well.
+    let (low, high) = (window.page_position(corners[0]), window.page_position(corners[1]));
+    // A flat box has an outline, too.
     canvas.rectangle(low, high, LineStyle::Outline, Fill::Tint(Ink::Text, 0.08));
-    draw_ray(canvas, &window, shot, plane);
-    if let Some(span) = shot.wanted {
+    draw_ray(canvas, &window, query, plane);
+    if let Some(span) = query.wanted {
         draw_segment(
             canvas,
             &window,
@@ -153,7 +159,7 @@ fn draw_picture(sheet: &mut Sheet, shot: &BoxQuery, got: SpanAnswer, plane: Plan
             LineStyle::Wrong,
         );
     }
-    for (span, mark) in [(shot.wanted, Mark::Right), (got.flatten(), Mark::Wrong)] {
+    for (span, mark) in [(query.wanted, Mark::Right), (got.flatten(), Mark::Wrong)] {
         for end in ends(span) {
             if let Some((at, false)) = window.pin_to_border(end) {
                 canvas.mark(at, mark);
@@ -162,12 +168,12 @@ fn draw_picture(sheet: &mut Sheet, shot: &BoxQuery, got: SpanAnswer, plane: Plan
     }
 }
 
-fn draw_ray(canvas: &mut Canvas, window: &Window, shot: &BoxQuery, plane: Plane) {
+fn draw_ray(canvas: &mut Canvas, window: &Window, query: &BoxQuery, plane: Plane) {
     const FAR: f64 = 1e6;
 
-    let (origin, dir) = (shot.ray.origin.as_dvec3(), shot.ray.dir.as_dvec3());
+    let (origin, dir) = (query.ray.origin.as_dvec3(), query.ray.dir.as_dvec3());
     let at = |t: f64| plane.project(origin + t.clamp(-FAR, FAR) * dir);
-    let times = [shot.times.min, shot.times.max].map(|t| at(t.into()));
+    let times = [query.times.min, query.times.max].map(|t| at(t.into()));
     draw_segment(canvas, window, times, LineStyle::Range);
     draw_segment(canvas, window, [at(-FAR), at(0.0)], LineStyle::Behind);
     draw_segment(canvas, window, [at(0.0), at(FAR)], LineStyle::Ray);
@@ -182,14 +188,14 @@ fn draw_segment(canvas: &mut Canvas, window: &Window, ends: [DVec2; 2], line: Li
     }
 }
 
-fn rows(shot: &BoxQuery, got: SpanAnswer) -> Vec<BarRow> {
-    let row = |name, bar, span, otherwise: &str| BarRow {
+fn rows(query: &BoxQuery, got: SpanAnswer) -> Vec<BarRow> {
+    let row = |name, style, span, empty_text: &str| BarRow {
         name,
-        style: bar,
+        style,
         span,
-        empty_text: otherwise.to_owned(),
+        empty_text: empty_text.to_owned(),
     };
-    let slabs = shot.slabs.into_iter().flatten().zip(AXIS_NAMES);
+    let slabs = query.slabs.into_iter().flatten().zip(AXIS_NAMES);
     let mut rows: Vec<BarRow> = slabs
         .map(|(slab, name)| {
             row(
@@ -200,26 +206,27 @@ fn rows(shot: &BoxQuery, got: SpanAnswer) -> Vec<BarRow> {
             )
         })
         .collect();
-    rows.push(row("times", BarStyle::Range, Some(shot.times), "none"));
-    rows.push(row("wanted", BarStyle::Right, shot.wanted, "None"));
-    let otherwise = match got {
+    rows.push(row("times", BarStyle::Range, Some(query.times), "none"));
+    rows.push(row("wanted", BarStyle::Right, query.wanted, "None"));
+    let got_text = match got {
         None => "no answer".to_owned(),
         Some(span) => describe::span(span),
     };
-    rows.push(row("got", BarStyle::Wrong, got.flatten(), &otherwise));
+    rows.push(row("got", BarStyle::Wrong, got.flatten(), &got_text));
     rows
 }
 
-/// The distances that matter: of the planes those that the ray comes between last and leaves first.
-fn axis_distances(shot: &BoxQuery, got: SpanAnswer) -> Vec<f64> {
+/// Returns the distances that the axis must cover. Of the slabs, these are the last entry and the
+/// first exit.
+fn axis_distances(query: &BoxQuery, got: SpanAnswer) -> Vec<f64> {
     let ends = |span: Interval| [f64::from(span.min), f64::from(span.max)];
-    let mut seen: Vec<f64> = [shot.wanted, Some(shot.times)]
+    let mut seen: Vec<f64> = [query.wanted, Some(query.times)]
         .into_iter()
         .flatten()
         .flat_map(ends)
         .collect();
     seen.push(0.0);
-    if let Some(slabs) = shot.slabs {
+    if let Some(slabs) = query.slabs {
         let finite = |t: &f64| t.is_finite();
         let last_in = slabs.iter().map(|slab| slab.min.into()).filter(finite);
         let first_out = slabs.iter().map(|slab| slab.max.into()).filter(finite);
@@ -233,22 +240,22 @@ fn axis_distances(shot: &BoxQuery, got: SpanAnswer) -> Vec<f64> {
     seen
 }
 
-fn draw_legend(sheet: &mut Sheet, shot: &BoxQuery, got: SpanAnswer) {
-    let wanted = format!("wanted: {}", describe::span(shot.wanted));
-    let sign = |span: Option<Interval>, mark| match span {
+fn draw_legend(sheet: &mut Sheet, query: &BoxQuery, got: SpanAnswer) {
+    let wanted = format!("wanted: {}", describe::span(query.wanted));
+    let symbol = |span: Option<Interval>, mark| match span {
         Some(_) => Symbol::Mark(mark),
         None => Symbol::None,
     };
-    sheet.add_legend(sign(shot.wanted, Mark::Right), &wanted);
+    sheet.add_legend(symbol(query.wanted, Mark::Right), &wanted);
     if let Some(span) = got {
-        let words = format!("got: {}", describe::span(span));
-        sheet.add_legend(sign(span, Mark::Wrong), &words);
+        let text = format!("got: {}", describe::span(span));
+        sheet.add_legend(symbol(span, Mark::Wrong), &text);
     }
-    let times = format!("times: {}", describe::interval(shot.times));
+    let times = format!("times: {}", describe::interval(query.times));
     sheet.add_legend(Symbol::Line(LineStyle::Range), &times);
-    let start = format!("the ray starts at {}", describe::point(shot.ray.origin));
+    let start = format!("the ray starts at {}", describe::point(query.ray.origin));
     sheet.add_legend(Symbol::Mark(Mark::Origin), &start);
-    if shot.slabs.is_some() {
+    if query.slabs.is_some() {
         let fill = Fill::Tint(Ink::Text, 0.18);
         sheet.add_legend(
             Symbol::Area(fill),
@@ -257,28 +264,28 @@ fn draw_legend(sheet: &mut Sheet, shot: &BoxQuery, got: SpanAnswer) {
     }
 }
 
-fn caption(shot: &BoxQuery, got: SpanAnswer) -> String {
-    let wanted = describe::span(shot.wanted);
-    match (shot.wanted, got) {
-        (_, None) => format!("Right is {wanted}; your code gave no answer."),
+fn caption(query: &BoxQuery, got: SpanAnswer) -> String {
+    let wanted = describe::span(query.wanted);
+    match (query.wanted, got) {
+        (_, None) => format!("The correct answer is {wanted}; your code gave no answer."),
         (Some(_), Some(None)) => {
-            format!("All bars overlap in {wanted}, the times in the box; you answer None.")
+            format!("All bars overlap in {wanted}: the ray is in the box then. You answered None.")
         }
         (Some(_), Some(Some(span))) => format!(
-            "All bars overlap in {wanted}, the times in the box; you answer {}.",
+            "All bars overlap in {wanted}: the ray is in the box then. You answered {}.",
             describe::interval(span)
         ),
         (None, Some(Some(span))) => format!(
-            "The bars have no time in common, so right is None; you answer {}.",
+            "The bars never all overlap, so the correct answer is None. You answered {}.",
             describe::interval(span)
         ),
-        (None, Some(None)) => "Right is None.".to_owned(),
+        (None, Some(None)) => "The correct answer is None.".to_owned(),
     }
 }
 
-/// The slabs of one shot, if the exam tells them.
-pub(super) fn slabs(shown: &DrawingData, element: usize) -> Option<[Interval; 3]> {
-    match shown {
+/// Returns the slabs of one query, if the exam has them.
+pub(super) fn slabs(data: &DrawingData, element: usize) -> Option<[Interval; 3]> {
+    match data {
         DrawingData::Slabs(slabs) => slabs.get(element).copied(),
         DrawingData::None | DrawingData::Traversals(_) | DrawingData::Sweep(_) => None,
     }

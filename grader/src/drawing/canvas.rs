@@ -1,7 +1,7 @@
-//! SVG, element by element, in page units: x to the right, y down.
+//! An SVG image, built element by element in page units: x to the right, y down.
 //!
-//! Numbers come from submissions: what is not finite or far off the page is left out, and after
-//! [`LONGEST`] bytes nothing is added any more. Text is escaped here and nowhere else.
+//! Coordinates come from submissions, so points that are not finite or far off the page are
+//! skipped, and nothing is added after [`MAX_BYTES`] bytes. All text is escaped here.
 
 use std::fmt::{Display, Write};
 
@@ -9,45 +9,45 @@ use glam::{DVec2, dvec2};
 
 use super::ink::{Fill, Ink, LineStyle};
 
-/// The width of every drawing. At 360 pixels a phone shows it one to one, with some room around.
+/// The width of every drawing. A phone of 360 pixels shows it at full size, with a small margin.
 pub(super) const WIDTH: f64 = 340.0;
-/// The height of letters.
+/// The font size.
 const FONT_SIZE: f64 = 12.5;
-/// The most bytes of one drawing.
+/// The maximum size of a drawing in bytes.
 const MAX_BYTES: usize = 120_000;
-/// Coordinates beyond are no part of any page.
+/// The largest coordinate that is drawn.
 const MAX_COORDINATE: f64 = 1e4;
 
-/// Where text stands, seen from its point.
+/// The position of a text relative to its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
-    /// To the right of it.
+    /// To the right of the point.
     Start,
-    /// To both sides.
+    /// Centred on the point.
     Middle,
-    /// To the left.
+    /// To the left of the point.
     End,
 }
 
 /// A mark at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mark {
-    /// Where it is right: a disc.
+    /// Expected: a disc.
     Right,
-    /// Where it came and is not: a cross.
+    /// Submitted, and wrong: a cross.
     Wrong,
-    /// Where a ray begins: a ring.
+    /// The origin of a ray: a ring.
     Origin,
 }
 
-/// What is drawn so far.
+/// The elements drawn so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Canvas {
     body: String,
 }
 
 impl Canvas {
-    /// The whole image: `height` high, with these words for whoever can not see it.
+    /// Returns the whole image with this height. `title` and `description` are for screen readers.
     pub(super) fn finish(self, height: f64, title: &str, description: &str) -> String {
         let (title, description) = (escape(title), escape(description));
         format!(
@@ -60,7 +60,7 @@ impl Canvas {
         )
     }
 
-    /// A straight line.
+    /// Draws a straight line.
     pub(super) fn line(&mut self, from: DVec2, to: DVec2, line: LineStyle) {
         if is_drawable(from) && is_drawable(to) {
             let (a, b) = (coordinates(from), coordinates(to));
@@ -71,19 +71,19 @@ impl Canvas {
         }
     }
 
-    /// A closed outline through all the points, or nothing if one of them is far off.
+    /// Draws a closed polygon, or nothing if a corner is far off the page.
     pub(super) fn polygon(&mut self, corners: &[DVec2], line: LineStyle, fill: Fill) {
         self.polygons(&[corners], line, fill);
     }
 
-    /// Several of them, alike.
+    /// Draws several polygons in the same style.
     pub(super) fn polygons(&mut self, all: &[impl AsRef<[DVec2]>], line: LineStyle, fill: Fill) {
         let mut path = String::new();
         for corners in all.iter().map(AsRef::as_ref) {
             if corners.iter().all(|corner| is_drawable(*corner)) {
                 let corners: Vec<String> =
                     corners.iter().map(|corner| coordinates(*corner)).collect();
-                write!(path, "M{}Z", corners.join("L")).expect("text takes text");
+                write!(path, "M{}Z", corners.join("L")).expect("writing to a string cannot fail");
             }
         }
         if !path.is_empty() {
@@ -92,13 +92,13 @@ impl Canvas {
         }
     }
 
-    /// A rectangle between two corners.
+    /// Draws a rectangle between two corners.
     pub(super) fn rectangle(&mut self, from: DVec2, to: DVec2, line: LineStyle, fill: Fill) {
         let corners = [from, dvec2(to.x, from.y), to, dvec2(from.x, to.y)];
         self.polygon(&corners, line, fill);
     }
 
-    /// An area between two corners, without a line around it.
+    /// Fills the rectangle between two corners, without an outline.
     pub(super) fn area(&mut self, from: DVec2, to: DVec2, fill: Fill) {
         if is_drawable(from) && is_drawable(to) {
             let (min, size) = (from.min(to), (to - from).abs());
@@ -110,7 +110,7 @@ impl Canvas {
         }
     }
 
-    /// A circle.
+    /// Draws a circle.
     pub(super) fn circle(&mut self, center: DVec2, radius: f64, line: LineStyle, fill: Fill) {
         if is_drawable(center) && radius.is_finite() && radius < MAX_COORDINATE {
             let (fill, line) = (fill.attributes(), line.attributes());
@@ -121,7 +121,7 @@ impl Canvas {
         }
     }
 
-    /// An arrow with its head at `to`.
+    /// Draws an arrow with its head at `to`.
     pub(super) fn arrow(&mut self, from: DVec2, to: DVec2, line: LineStyle, ink: Ink) {
         self.line(from, to, line);
         let Some(dir) = (to - from).try_normalize() else {
@@ -137,7 +137,7 @@ impl Canvas {
         }
     }
 
-    /// A mark.
+    /// Draws a mark.
     pub(super) fn mark(&mut self, at: DVec2, mark: Mark) {
         if !is_drawable(at) {
             return;
@@ -160,7 +160,8 @@ impl Canvas {
                     arm(-1.0, 1.0),
                     arm(1.0, -1.0)
                 );
-                // Twice, so that it shows on whatever is below.
+                // Drawn twice, so that a border of the background colour sets the cross off from
+                // what is below.
                 for (paint, width) in [("var(--paper, Canvas)", 6.0), (Ink::Wrong.paint(), 3.0)] {
                     self.add(format_args!(
                         r#"<path d="{path}" fill="none" stroke="{paint}" stroke-width="{width}"/>"#
@@ -176,7 +177,7 @@ impl Canvas {
         }
     }
 
-    /// Words, with a little paper around them, so that they can be read on lines.
+    /// Draws text with an outline in the background colour, so that it can be read on top of lines.
     pub(super) fn text(&mut self, at: DVec2, anchor: Anchor, ink: Ink, text: &str) {
         if !is_drawable(at) {
             return;
@@ -202,13 +203,13 @@ impl Canvas {
 
     fn add(&mut self, element: impl Display) {
         if self.body.len() < MAX_BYTES {
-            write!(self.body, "{element}").expect("text takes text");
+            write!(self.body, "{element}").expect("writing to a string cannot fail");
         }
     }
 }
 
 fn is_drawable(at: DVec2) -> bool {
-    // A NaN compares as false.
+    // False for NaN.
     at.abs().max_element() < MAX_COORDINATE && at.is_finite()
 }
 
@@ -224,7 +225,7 @@ fn escape(text: &str) -> String {
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
-            // What XML can not hold at all.
+            // Control characters are not allowed in XML, not even escaped.
             c if c.is_control() => escaped.push('\u{fffd}'),
             c => escaped.push(c),
         }
@@ -239,9 +240,9 @@ mod tests {
     #[test]
     fn text_cannot_become_elements() {
         let mut canvas = Canvas::default();
-        let words = "<script>&\"\u{0}";
-        canvas.text(DVec2::ZERO, Anchor::Start, Ink::Text, words);
-        let svg = canvas.finish(10.0, words, words);
+        let text = "<script>&\"\u{0}";
+        canvas.text(DVec2::ZERO, Anchor::Start, Ink::Text, text);
+        let svg = canvas.finish(10.0, text, text);
         assert!(!svg.contains("<script>") && !svg.contains('\u{0}'), "{svg}");
     }
 

@@ -1,24 +1,24 @@
-//! How things look. Never by colour alone: what is wanted is solid and a disc, what was got is
-//! dashed and a cross.
+//! Colours and line styles. Colour is never the only difference: expected things are solid lines
+//! and discs, submitted ones are dashed lines and crosses.
 //!
-//! A page sets the custom properties `--right`, `--wrong` and `--paper` for its dark side; without
-//! them the colours are those of Okabe and Ito, "Color Universal Design", 2008.
+//! For its dark theme, a page sets the custom properties `--right`, `--wrong` and `--paper`. The
+//! default colours are from Okabe and Ito, "Color Universal Design", 2008.
 
 /// A colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ink {
-    /// That of the text around.
+    /// The text colour of the page.
     Text,
-    /// The same, held back.
+    /// The text colour, lighter.
     Faint,
-    /// What is right.
+    /// Expected.
     Right,
-    /// What came and is not.
+    /// Submitted, and wrong.
     Wrong,
 }
 
 impl Ink {
-    /// As an SVG paint.
+    /// Returns the SVG paint.
     pub(super) fn paint(self) -> &'static str {
         match self {
             Ink::Text | Ink::Faint => "currentColor",
@@ -27,7 +27,7 @@ impl Ink {
         }
     }
 
-    /// How much of it.
+    /// Returns the opacity, as an SVG value.
     pub(super) fn opacity(self) -> &'static str {
         match self {
             Ink::Text | Ink::Right | Ink::Wrong => "1",
@@ -36,27 +36,27 @@ impl Ink {
     }
 }
 
-/// A kind of line.
+/// A line style.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LineStyle {
-    /// Around shapes.
+    /// The outline of a shape.
     Outline,
-    /// What is there for orientation.
+    /// A guide line.
     Grid,
     /// A ray ahead of its origin.
     Ray,
     /// The line of a ray behind its origin.
     Behind,
-    /// The part of a ray that counts.
+    /// The range of a ray.
     Range,
-    /// What is right.
+    /// Expected.
     Right,
-    /// What came and is not.
+    /// Submitted, and wrong.
     Wrong,
 }
 
 impl LineStyle {
-    /// As attributes of an SVG element.
+    /// Returns the style as attributes of an SVG element.
     pub(super) fn attributes(self) -> String {
         let (ink, opacity, width, dashes) = match self {
             LineStyle::Outline => (Ink::Text, "1", "1.5", ""),
@@ -80,17 +80,17 @@ impl LineStyle {
     }
 }
 
-/// What fills an area.
+/// The fill of an area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Fill {
-    /// Nothing.
+    /// No fill.
     None,
-    /// So much of the ink, from 0 to 1.
+    /// A colour with an opacity from 0 to 1.
     Tint(Ink, f64),
 }
 
 impl Fill {
-    /// As attributes of an SVG element.
+    /// Returns the fill as attributes of an SVG element.
     pub(super) fn attributes(self) -> String {
         match self {
             Fill::None => r#"fill="none""#.to_owned(),

@@ -1,7 +1,8 @@
-//! Drawings of failed questions, to scale: what was asked, what came, what should have come.
+//! Drawings of failed questions, to scale: the question, the submitted answer and the expected one.
 //!
-//! Pure, and without a way of its own to any answer: how a ray meets a shape, and how a tree is
-//! built or walked, comes with the exam ([`crate::shown`]). Answers may hold any numbers.
+//! This module is pure and computes no answers: how a ray hits a shape, and how a tree is built or
+//! traversed, comes with the exam ([`crate::drawing_data`]). Submitted answers may contain any
+//! numbers.
 
 mod along_ray;
 mod bars;
@@ -35,58 +36,54 @@ use traversal::RecordedTraversal;
 /// A drawing of one element of a question.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Drawing {
-    /// One `<svg>` element, to be put into a page as it is. It looks well from 340 pixels of width
-    /// up, takes its colours from `color` and the custom properties `--right`, `--wrong` and
-    /// `--paper` (the background), and has no ids.
+    /// One `<svg>` element without ids, ready to be embedded in a page. It is made for widths of
+    /// 340 pixels and more. Its colours come from `color` and the custom properties `--right`,
+    /// `--wrong` and `--paper` (the background).
     pub svg: String,
-    /// What it shows, in a sentence.
+    /// One sentence that says what the drawing shows.
     pub caption: String,
 }
 
-/// Draws one element of a question, counted from 0, beside the whole answer to the question, if one
-/// came. None where there is nothing to see that words do not say.
-pub fn draw(asked: &ExamQuestion, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
-    match &asked.question {
+/// Draws one element of a question, counted from 0, with the answer to the whole question if there
+/// is one. Returns `None` if a drawing would add nothing to the text.
+pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
+    match &question.question {
         Question::Shapes { shapes, .. } => {
-            let encounter = HitComparison::new(asked, element, answer)?;
-            shapes::draw(&encounter, shapes)
+            let comparison = HitComparison::new(question, element, answer)?;
+            shapes::draw(&comparison, shapes)
         }
-        Question::BBox {
-            min,
-            max,
-            queries: shots,
-        } => {
-            let &(ray, times) = shots.get(element)?;
-            let shot = BoxQuery {
+        Question::BBox { min, max, queries } => {
+            let &(ray, times) = queries.get(element)?;
+            let query = BoxQuery {
                 corners: [*min, *max],
                 ray,
                 times,
-                wanted: wanted_span(&asked.key, element)?,
-                slabs: bbox::slabs(&asked.drawing_data, element),
+                wanted: wanted_span(&question.key, element)?,
+                slabs: bbox::slabs(&question.drawing_data, element),
             };
-            bbox::draw(&shot, element, answer)
+            bbox::draw(&query, element, answer)
         }
         Question::Camera { camera, samples } => {
-            let aim = CameraQuery {
+            let query = CameraQuery {
                 camera: *camera,
                 sample: *samples.to_vec(camera.film).get(element)?,
-                wanted: wanted_direction(&asked.key, element)?,
+                wanted: wanted_direction(&question.key, element)?,
             };
-            camera::draw(&aim, element, answer)
+            camera::draw(&query, element, answer)
         }
         Question::Build {
             shapes,
             max_leaf_size,
         } => {
-            let (judged, sweep_cost) = tree_key(&asked.key)?;
-            let task = build::BuildCase {
+            let (checks, sweep_cost) = tree_key(&question.key)?;
+            let case = build::BuildCase {
                 shapes,
                 max_leaf_size: *max_leaf_size,
-                judged,
+                checks,
                 sweep_cost,
-                shown: &asked.drawing_data,
+                drawing_data: &question.drawing_data,
             };
-            build::draw(&task, answer)
+            build::draw(&case, answer)
         }
         Question::Traverse {
             shapes,
@@ -94,18 +91,18 @@ pub fn draw(asked: &ExamQuestion, element: usize, answer: Option<&Answer>) -> Op
             root,
             ..
         } => {
-            let encounter = HitComparison::new(asked, element, answer)?;
-            let walked = RecordedTraversal {
+            let comparison = HitComparison::new(question, element, answer)?;
+            let recorded = RecordedTraversal {
                 shapes,
                 nodes,
                 root: *root,
-                steps: steps(&asked.drawing_data, element),
+                steps: steps(&question.drawing_data, element),
             };
-            let walk = traversal::draw(&encounter, &walked);
-            Some(walk.unwrap_or_else(|| along_ray::draw(&encounter)))
+            let drawing = traversal::draw(&comparison, &recorded);
+            Some(drawing.unwrap_or_else(|| along_ray::draw(&comparison)))
         }
         Question::BuildAndTraverse { .. } => Some(along_ray::draw(&HitComparison::new(
-            asked, element, answer,
+            question, element, answer,
         )?)),
         Question::Radiance { .. } | Question::Done => None,
     }
@@ -135,10 +132,7 @@ fn wanted_direction(key: &Key, element: usize) -> Option<DVec3> {
 
 fn tree_key(key: &Key) -> Option<(&[TreeCheck], Option<f64>)> {
     match key {
-        Key::Tree {
-            checks: judged,
-            sweep_cost,
-        } => Some((judged, *sweep_cost)),
+        Key::Tree { checks, sweep_cost } => Some((checks, *sweep_cost)),
         Key::Rays { .. }
         | Key::Hits { .. }
         | Key::Spans { .. }
@@ -147,9 +141,9 @@ fn tree_key(key: &Key) -> Option<(&[TreeCheck], Option<f64>)> {
     }
 }
 
-fn steps(shown: &DrawingData, element: usize) -> &[TraversalStep] {
-    match shown {
-        DrawingData::Traversals(walks) => walks.get(element).map_or(&[], Vec::as_slice),
+fn steps(data: &DrawingData, element: usize) -> &[TraversalStep] {
+    match data {
+        DrawingData::Traversals(traversals) => traversals.get(element).map_or(&[], Vec::as_slice),
         DrawingData::None | DrawingData::Slabs(_) | DrawingData::Sweep(_) => &[],
     }
 }

@@ -1,8 +1,8 @@
-//! Numbers in drawings.
+//! Formatting of numbers in drawings.
 
 use glam::DVec3;
 
-/// Four digits that count, for places where six have no room.
+/// Formats a number with four significant digits, for places where six do not fit.
 pub(super) fn short(value: f64) -> String {
     if value.is_nan() {
         return "NaN".to_owned();
@@ -23,13 +23,13 @@ pub(super) fn short(value: f64) -> String {
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
-/// A direction, or a place where four digits do.
+/// Formats a vector with four significant digits per component.
 pub(super) fn point(value: DVec3) -> String {
     let [x, y, z] = value.to_array().map(short);
     format!("({x}, {y}, {z})")
 }
 
-/// One of something, or so many.
+/// Returns the count with the singular or plural noun: "1 leaf", "3 leaves".
 pub(super) fn pluralize(count: usize, one: &str, many: &str) -> String {
     match count {
         1 => format!("1 {one}"),

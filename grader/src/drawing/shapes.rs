@@ -1,4 +1,4 @@
-//! A ray among shapes: the one that matters is drawn.
+//! A ray and several shapes, of which the relevant one is drawn.
 
 use glam::DVec3;
 use protocol::Shape;
@@ -6,34 +6,35 @@ use protocol::Shape;
 use super::hit_comparison::{HitAnswer, HitComparison};
 use super::{Drawing, sphere, triangle};
 
-/// The drawing of the shape that the ray should meet, or does by the answer, or passes by.
-pub(super) fn draw(encounter: &HitComparison, shapes: &[Shape]) -> Option<Drawing> {
-    let told = match (encounter.wanted, encounter.got) {
-        (Some(met), _) | (None, HitAnswer::Hit(met)) => Some(met.position),
+/// Draws the shape of the expected hit, else that of the submitted hit, else the shape nearest to
+/// the ray.
+pub(super) fn draw(comparison: &HitComparison, shapes: &[Shape]) -> Option<Drawing> {
+    let position = match (comparison.wanted, comparison.got) {
+        (Some(hit), _) | (None, HitAnswer::Hit(hit)) => Some(hit.position),
         (None, HitAnswer::Miss | HitAnswer::NoAnswer) => None,
     };
-    let misfit = |shape: &&Shape| match told {
+    let distance = |shape: &&Shape| match position {
         Some(point) => distance_to_surface(shape, point),
-        None => distance_to_line(shape, encounter),
+        None => distance_to_line(shape, comparison),
     };
     let shape = shapes
         .iter()
-        .min_by(|a, b| misfit(a).total_cmp(&misfit(b)))?;
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     match *shape {
         Shape::Sphere { center, radius, .. } => {
             let (center, radius) = (center.as_dvec3(), f64::from(radius));
             (center.is_finite() && radius.is_finite() && radius > 0.0)
-                .then(|| sphere::draw(encounter, center, radius))
+                .then(|| sphere::draw(comparison, center, radius))
         }
-        Shape::Triangle { vertices, .. } => Some(triangle::draw(encounter, &vertices)),
+        Shape::Triangle { vertices, .. } => Some(triangle::draw(comparison, &vertices)),
         Shape::FlatTriangle { corners, .. } => {
             let vertices = Shape::flat_triangle_vertices(corners);
-            Some(triangle::draw(encounter, &vertices))
+            Some(triangle::draw(comparison, &vertices))
         }
     }
 }
 
-/// About how far a point is from a surface.
+/// Returns the approximate distance of a point from a surface.
 fn distance_to_surface(shape: &Shape, point: DVec3) -> f64 {
     match *shape {
         Shape::Sphere { center, radius, .. } => {
@@ -48,8 +49,8 @@ fn distance_to_surface(shape: &Shape, point: DVec3) -> f64 {
     }
 }
 
-/// About how far a shape's middle is from the line of the ray.
-fn distance_to_line(shape: &Shape, encounter: &HitComparison) -> f64 {
+/// Returns the distance of a shape's centre from the line of the ray.
+fn distance_to_line(shape: &Shape, comparison: &HitComparison) -> f64 {
     let middle = match *shape {
         Shape::Sphere { center, .. } => center.as_dvec3(),
         Shape::Triangle { .. } | Shape::FlatTriangle { .. } => {
@@ -57,11 +58,11 @@ fn distance_to_line(shape: &Shape, encounter: &HitComparison) -> f64 {
             (p0 + p1 + p2) / 3.0
         }
     };
-    let aside = middle - encounter.ray.origin.as_dvec3();
-    aside.cross(encounter.dir()).length()
+    let aside = middle - comparison.ray.origin.as_dvec3();
+    aside.cross(comparison.dir()).length()
 }
 
-/// The corners of a triangle; all in the center of a sphere.
+/// Returns the corners of a triangle; for a sphere, its centre three times.
 fn corners(shape: &Shape) -> [DVec3; 3] {
     match *shape {
         Shape::Triangle { vertices, .. } => vertices.map(|vertex| vertex.position.as_dvec3()),

@@ -1,4 +1,4 @@
-//! A ray from the side: it goes to the right, and distances along it are true to scale.
+//! A ray from the side: it points to the right, and distances along it are to scale.
 
 use glam::{DVec2, DVec3, dvec2};
 
@@ -10,7 +10,7 @@ use super::sheet::{Sheet, Symbol};
 use super::window::{Window, extent};
 use crate::describe;
 
-/// A plane through a ray, of which one direction across the ray goes up.
+/// A plane through a ray. The ray points to the right.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SideView {
     origin: DVec3,
@@ -19,38 +19,44 @@ pub(super) struct SideView {
 }
 
 impl SideView {
-    /// The plane through the ray in which `toward` lies, or any if that is along the ray.
-    pub(super) fn new(encounter: &HitComparison, toward: DVec3) -> SideView {
-        let dir = encounter.dir();
+    /// Creates the plane through the ray that contains the direction `toward`. If that is parallel
+    /// to the ray, any plane through the ray will do.
+    pub(super) fn new(comparison: &HitComparison, toward: DVec3) -> SideView {
+        let dir = comparison.dir();
         let up = (toward - toward.dot(dir) * dir).try_normalize();
         SideView {
-            origin: encounter.ray.origin.as_dvec3(),
+            origin: comparison.ray.origin.as_dvec3(),
             dir,
             up: up.unwrap_or_else(|| dir.any_orthonormal_vector()),
         }
     }
 
-    /// A point as it is seen from the side.
+    /// Projects a point to the plane.
     pub(super) fn project(&self, point: DVec3) -> DVec2 {
         self.project_vector(point - self.origin)
     }
 
-    /// A direction as it is seen from the side.
+    /// Projects a direction to the plane.
     pub(super) fn project_vector(&self, vector: DVec3) -> DVec2 {
         dvec2(vector.dot(self.dir), vector.dot(self.up))
     }
 
-    /// A point as it is seen along the ray, which is at (0, 0).
+    /// Projects a point along the ray. The ray itself is at (0, 0).
     pub(super) fn project_along_ray(&self, point: DVec3) -> DVec2 {
         let aside = point - self.origin;
         dvec2(aside.dot(self.dir.cross(self.up)), aside.dot(self.up))
     }
 }
 
-/// The points to be seen beside those of the shape: of the ray's origin, the hits and the ends of
-/// the range those that are not so far away that the shape would become a dot.
-pub(super) fn landmarks(encounter: &HitComparison, side: &SideView, shape: &[DVec2]) -> Vec<DVec2> {
-    /// So many times the shape's size.
+/// Returns the points that the drawing should show: those of the shape, and the ray's origin, the
+/// hits and the ends of the range, unless they are so far away that the shape would shrink to a
+/// dot.
+pub(super) fn landmarks(
+    comparison: &HitComparison,
+    side: &SideView,
+    shape: &[DVec2],
+) -> Vec<DVec2> {
+    /// The maximum distance, as a multiple of the shape's size.
     const MAX_SIZES: f64 = 5.0;
 
     let mut seen = shape.to_vec();
@@ -58,19 +64,19 @@ pub(super) fn landmarks(encounter: &HitComparison, side: &SideView, shape: &[DVe
         return seen;
     };
     let reach = MAX_SIZES * (max - min).length().max(1e-9);
-    let range = encounter.ray.range;
-    let ends = [range.min, range.max].map(|end| side.project(encounter.at(end.into())));
+    let range = comparison.ray.range;
+    let ends = [range.min, range.max].map(|end| side.project(comparison.at(end.into())));
     let hits = [
-        encounter.wanted.map(|met| side.project(met.position)),
-        encounter.got_point().map(|point| side.project(point)),
+        comparison.wanted.map(|hit| side.project(hit.position)),
+        comparison.got_point().map(|point| side.project(point)),
     ];
     let others = hits.into_iter().flatten().chain([DVec2::ZERO]).chain(ends);
     seen.extend(others.filter(|at| at.distance(at.clamp(min, max)) <= reach));
     seen
 }
 
-/// The line of the ray, its start, and the part that counts where that is not all ahead.
-pub(super) fn draw_ray(canvas: &mut Canvas, window: &Window, encounter: &HitComparison) {
+/// Draws the line of the ray, its origin, and its range if that is limited.
+pub(super) fn draw_ray(canvas: &mut Canvas, window: &Window, comparison: &HitComparison) {
     const FAR: f64 = 1e7;
 
     let mut along = |from: f64, to: f64, line: LineStyle| {
@@ -78,14 +84,14 @@ pub(super) fn draw_ray(canvas: &mut Canvas, window: &Window, encounter: &HitComp
             canvas.line(from, to, line);
         }
     };
-    let range = encounter.limited_range();
+    let range = comparison.limited_range();
     if let Some(range) = range {
         let (min, max) = (f64::from(range.min), f64::from(range.max));
         along(min.max(-FAR), max.min(FAR), LineStyle::Range);
     }
     along(-FAR, 0.0, LineStyle::Behind);
     along(0.0, FAR, LineStyle::Ray);
-    // The ends of the range, across the ray.
+    // Ticks across the ray at the ends of the range.
     let ends = range.map_or([f32::NAN; 2], |range| [range.min, range.max]);
     for end in ends {
         if let Some((at, false)) = window.pin_to_border(dvec2(end.into(), 0.0)) {
@@ -98,43 +104,43 @@ pub(super) fn draw_ray(canvas: &mut Canvas, window: &Window, encounter: &HitComp
     }
 }
 
-/// The hits that are wanted and that came, and what the drawing is about.
+/// Draws the expected and the submitted hit, with the field that the drawing is about.
 pub(super) fn draw_hits(
     canvas: &mut Canvas,
     window: &Window,
-    encounter: &HitComparison,
+    comparison: &HitComparison,
     side: &SideView,
 ) {
-    /// The length of a normal on the page.
+    /// The length of a normal, in page units.
     const ARROW: f64 = 46.0;
 
-    let wanted = encounter.wanted.map(|met| side.project(met.position));
-    let got = encounter.got_point().map(|point| side.project(point));
-    if let (Focus::Normal, Some(wanted), HitAnswer::Hit(met)) =
-        (encounter.focus, encounter.wanted, encounter.got)
+    let wanted = comparison.wanted.map(|hit| side.project(hit.position));
+    let got = comparison.got_point().map(|point| side.project(point));
+    if let (Focus::Normal, Some(wanted), HitAnswer::Hit(hit)) =
+        (comparison.focus, comparison.wanted, comparison.got)
     {
         let foot = side.project(wanted.position);
         let mut arrow = |normal: DVec3, aside: f64, line: LineStyle, ink: Ink| {
             let length = normal.length().clamp(0.4, 1.6) / normal.length();
             let seen = side.project_vector(normal);
-            let foot = foot + window.to_world_length(aside) * seen.perp().normalize_or_zero();
-            let tip = foot + window.to_world_length(ARROW) * length * seen;
+            let foot = foot + window.world_length(aside) * seen.perp().normalize_or_zero();
+            let tip = foot + window.world_length(ARROW) * length * seen;
             if let Some((foot, tip)) = window.clip_segment(foot, tip) {
                 canvas.arrow(foot, tip, line, ink);
             }
         };
-        // Beside each other, where they would lie on each other.
-        let is_same_way = wanted.normal.angle_between(met.normal) < 0.15;
+        // Side by side where they would cover each other.
+        let is_same_way = wanted.normal.angle_between(hit.normal) < 0.15;
         let aside = if is_same_way { 6.0 } else { 0.0 };
         arrow(wanted.normal, 0.0, LineStyle::Right, Ink::Right);
-        arrow(met.normal, aside, LineStyle::Wrong, Ink::Wrong);
-        canvas.mark(window.to_page(foot), Mark::Right);
+        arrow(hit.normal, aside, LineStyle::Wrong, Ink::Wrong);
+        canvas.mark(window.page_position(foot), Mark::Right);
         return;
     }
     if let Some((at, _)) = wanted.and_then(|at| window.pin_to_border(at)) {
         canvas.mark(at, Mark::Right);
     }
-    let is_marked = match encounter.focus {
+    let is_marked = match comparison.focus {
         Focus::Distance | Focus::Position => true,
         Focus::Normal | Focus::Uv | Focus::Origin | Focus::Material => false,
     };
@@ -144,84 +150,84 @@ pub(super) fn draw_hits(
     {
         canvas.mark(at, Mark::Wrong);
     }
-    if let (Focus::Origin, HitAnswer::Hit(met)) = (encounter.focus, encounter.got)
-        && let Some((at, _)) = window.pin_to_border(side.project(met.origin))
+    if let (Focus::Origin, HitAnswer::Hit(hit)) = (comparison.focus, comparison.got)
+        && let Some((at, _)) = window.pin_to_border(side.project(hit.origin))
     {
         canvas.mark(at, Mark::Wrong);
     }
 }
 
-/// What the signs of both mean, given the window that they are seen through.
+/// Adds the legend of the ray and of both hits.
 pub(super) fn draw_legend(
     sheet: &mut Sheet,
-    encounter: &HitComparison,
+    comparison: &HitComparison,
     side: &SideView,
     window: &Window,
 ) {
-    let got = encounter
+    let got = comparison
         .got_point()
         .and_then(|point| window.pin_to_border(side.project(point)));
     let is_off = got.is_some_and(|(_, is_off)| is_off);
-    let off = if is_off { ", off the picture" } else { "" };
+    let off = if is_off { ", outside the picture" } else { "" };
     let distance = |distance: f64| describe::number(distance as f32);
-    match (encounter.wanted, encounter.focus) {
-        (Some(met), Focus::Normal) => {
-            let words = format!("wanted: normal {}", point(met.normal));
-            sheet.add_legend(Symbol::Line(LineStyle::Right), &words);
+    match (comparison.wanted, comparison.focus) {
+        (Some(hit), Focus::Normal) => {
+            let text = format!("wanted: normal {}", point(hit.normal));
+            sheet.add_legend(Symbol::Line(LineStyle::Right), &text);
         }
-        (Some(met), Focus::Position) => {
-            let words = format!("wanted: {}", describe::point(met.position.as_vec3()));
-            sheet.add_legend(Symbol::Mark(Mark::Right), &words);
+        (Some(hit), Focus::Position) => {
+            let text = format!("wanted: {}", describe::point(hit.position.as_vec3()));
+            sheet.add_legend(Symbol::Mark(Mark::Right), &text);
         }
-        (Some(met), Focus::Uv) => {
-            let words = format!("wanted: uv {}", describe::uv(met.uv.as_vec2()));
-            sheet.add_legend(Symbol::Mark(Mark::Right), &words);
+        (Some(hit), Focus::Uv) => {
+            let text = format!("wanted: uv {}", describe::uv(hit.uv.as_vec2()));
+            sheet.add_legend(Symbol::Mark(Mark::Right), &text);
         }
-        (Some(met), Focus::Material) => {
-            let words = format!("wanted: material {}", met.material.unwrap_or_default());
-            sheet.add_legend(Symbol::Mark(Mark::Right), &words);
+        (Some(hit), Focus::Material) => {
+            let text = format!("wanted: material {}", hit.material.unwrap_or_default());
+            sheet.add_legend(Symbol::Mark(Mark::Right), &text);
         }
-        (Some(met), Focus::Distance | Focus::Origin) => {
-            let words = format!("wanted: a hit at {}", distance(met.distance));
-            sheet.add_legend(Symbol::Mark(Mark::Right), &words);
+        (Some(hit), Focus::Distance | Focus::Origin) => {
+            let text = format!("wanted: a hit at {}", distance(hit.distance));
+            sheet.add_legend(Symbol::Mark(Mark::Right), &text);
         }
         (None, _) => sheet.add_legend(Symbol::None, "wanted: no hit"),
     }
-    match (encounter.got, encounter.focus) {
+    match (comparison.got, comparison.focus) {
         (HitAnswer::NoAnswer, _) => {}
         (HitAnswer::Miss, _) => sheet.add_legend(Symbol::None, "got: no hit"),
-        (HitAnswer::Hit(met), Focus::Normal) => {
-            let words = format!("got: normal {}", point(met.normal));
-            sheet.add_legend(Symbol::Line(LineStyle::Wrong), &words);
+        (HitAnswer::Hit(hit), Focus::Normal) => {
+            let text = format!("got: normal {}", point(hit.normal));
+            sheet.add_legend(Symbol::Line(LineStyle::Wrong), &text);
         }
-        (HitAnswer::Hit(met), Focus::Position) => {
-            let words = format!("got: {}{off}", describe::point(met.position.as_vec3()));
-            sheet.add_legend(Symbol::Mark(Mark::Wrong), &words);
+        (HitAnswer::Hit(hit), Focus::Position) => {
+            let text = format!("got: {}{off}", describe::point(hit.position.as_vec3()));
+            sheet.add_legend(Symbol::Mark(Mark::Wrong), &text);
         }
-        (HitAnswer::Hit(met), Focus::Uv) => {
-            let words = format!("got: uv {}", describe::uv(met.uv.as_vec2()));
-            sheet.add_legend(Symbol::Mark(Mark::Wrong), &words);
+        (HitAnswer::Hit(hit), Focus::Uv) => {
+            let text = format!("got: uv {}", describe::uv(hit.uv.as_vec2()));
+            sheet.add_legend(Symbol::Mark(Mark::Wrong), &text);
         }
-        (HitAnswer::Hit(met), Focus::Origin) => {
-            let words = format!("got: origin {}", describe::point(met.origin.as_vec3()));
-            sheet.add_legend(Symbol::Mark(Mark::Wrong), &words);
+        (HitAnswer::Hit(hit), Focus::Origin) => {
+            let text = format!("got: origin {}", describe::point(hit.origin.as_vec3()));
+            sheet.add_legend(Symbol::Mark(Mark::Wrong), &text);
         }
-        (HitAnswer::Hit(met), Focus::Distance) => {
-            let words = format!("got: a hit at {}{off}", distance(met.distance));
-            sheet.add_legend(Symbol::Mark(Mark::Wrong), &words);
+        (HitAnswer::Hit(hit), Focus::Distance) => {
+            let text = format!("got: a hit at {}{off}", distance(hit.distance));
+            sheet.add_legend(Symbol::Mark(Mark::Wrong), &text);
         }
-        (HitAnswer::Hit(met), Focus::Material) => {
-            let words = format!("got: material {}", met.material.unwrap_or_default());
-            sheet.add_legend(Symbol::None, &words);
+        (HitAnswer::Hit(hit), Focus::Material) => {
+            let text = format!("got: material {}", hit.material.unwrap_or_default());
+            sheet.add_legend(Symbol::None, &text);
         }
     }
-    if let Some(range) = encounter.limited_range() {
-        let words = format!("the range that counts: {}", describe::interval(range));
-        sheet.add_legend(Symbol::Line(LineStyle::Range), &words);
+    if let Some(range) = comparison.limited_range() {
+        let text = format!("the ray's range: {}", describe::interval(range));
+        sheet.add_legend(Symbol::Line(LineStyle::Range), &text);
     }
-    let words = match window.distance_outside(DVec2::ZERO) {
-        away if away > 0.0 => format!("the ray starts {} off the picture", short(away)),
-        _ => "where the ray starts".to_owned(),
+    let text = match window.distance_outside(DVec2::ZERO) {
+        away if away > 0.0 => format!("the ray starts {} outside the picture", short(away)),
+        _ => "the ray's origin".to_owned(),
     };
-    sheet.add_legend(Symbol::Mark(Mark::Origin), &words);
+    sheet.add_legend(Symbol::Mark(Mark::Origin), &text);
 }

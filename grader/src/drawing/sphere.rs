@@ -1,4 +1,4 @@
-//! A ray and a sphere, in the plane through the ray and the center: there the sphere is a circle.
+//! A ray and a sphere, in the plane through the ray and the centre, where the sphere is a circle.
 
 use glam::{DVec2, DVec3, dvec2};
 
@@ -11,52 +11,52 @@ use super::side::{self, SideView};
 use super::uv;
 use super::window::{Window, extent};
 
-/// The drawing.
-pub(super) fn draw(encounter: &HitComparison, center: DVec3, radius: f64) -> Drawing {
-    let aside = center - encounter.ray.origin.as_dvec3();
-    let side = SideView::new(encounter, aside);
+/// Draws a ray and a sphere.
+pub(super) fn draw(comparison: &HitComparison, center: DVec3, radius: f64) -> Drawing {
+    let aside = center - comparison.ray.origin.as_dvec3();
+    let side = SideView::new(comparison, aside);
     let middle = side.project(center);
     let corner = DVec2::splat(radius);
     let shape = [middle - corner, middle + corner];
-    let seen = side::landmarks(encounter, &side, &shape);
+    let seen = side::landmarks(comparison, &side, &shape);
 
     let mut sheet = Sheet::default();
-    let window = match encounter.focus {
+    let window = match comparison.focus {
         Focus::Uv => {
             let titles = ["from the side", "texture coordinates"];
             let [left, right] = sheet.panels(titles, 150.0);
-            uv::draw_square(&mut sheet.canvas, right, encounter, &[]);
+            uv::draw_square(&mut sheet.canvas, right, comparison, &[]);
             Window::around(left, seen)
         }
         Focus::Distance | Focus::Position | Focus::Normal | Focus::Origin | Focus::Material => {
-            let part = sheet.panel(panel_height(&seen));
-            Window::around(part, seen)
+            let panel = sheet.panel(panel_height(&seen));
+            Window::around(panel, seen)
         }
     };
     draw_circle(&mut sheet.canvas, &window, middle, radius);
-    side::draw_ray(&mut sheet.canvas, &window, encounter);
-    side::draw_hits(&mut sheet.canvas, &window, encounter, &side);
-    side::draw_legend(&mut sheet, encounter, &side, &window);
-    let title = "The ray and the sphere, in the plane through the ray and the center";
-    sheet.finish(title, encounter.caption())
+    side::draw_ray(&mut sheet.canvas, &window, comparison);
+    side::draw_hits(&mut sheet.canvas, &window, comparison, &side);
+    side::draw_legend(&mut sheet, comparison, &side, &window);
+    let title = "The ray and the sphere, in the plane through the ray and the centre";
+    sheet.finish(title, comparison.caption())
 }
 
-/// The height of a panel over the whole width that shows these points well.
+/// Returns a suitable height for a panel of the full width that shows these points.
 pub(super) fn panel_height(seen: &[DVec2]) -> f64 {
     let size = extent(seen.iter().copied()).map_or(DVec2::ONE, |(min, max)| max - min);
-    // Of one point the shape is that of nothing over nothing.
+    // A single point has no proportions.
     let shape = if size.x > 0.0 { size.y / size.x } else { 1.0 };
     (306.0 * shape + 32.0).clamp(100.0, 210.0)
 }
 
 fn draw_circle(canvas: &mut Canvas, window: &Window, middle: DVec2, radius: f64) {
-    let at = window.to_page(middle);
+    let at = window.page_position(middle);
     let fill = Fill::Tint(Ink::Text, 0.08);
-    canvas.circle(at, window.to_page_length(radius), LineStyle::Outline, fill);
+    canvas.circle(at, window.page_length(radius), LineStyle::Outline, fill);
     let arm = dvec2(3.0, 0.0);
     canvas.line(at - arm, at + arm, LineStyle::Outline);
     canvas.line(at - arm.perp(), at + arm.perp(), LineStyle::Outline);
-    // The ray is below.
+    // Above the centre, since the ray passes below it.
     let above = at - dvec2(0.0, 7.0);
     canvas.text(above, Anchor::Middle, Ink::Faint, "center");
 }

@@ -1,4 +1,4 @@
-//! Whatever a submission answers, there is a small well-formed image, or none.
+//! Any answer of a submission gives a small, well-formed image, or none.
 
 use std::sync::LazyLock;
 
@@ -11,13 +11,13 @@ use super::{Drawing, draw};
 use crate::exam::ExamQuestion;
 use crate::exam_file;
 
-/// Larger than any honest drawing.
+/// A size that no drawing reaches.
 const MAX_BYTES: usize = 130_000;
 
 /// One question of each item of the practice exam.
 static QUESTIONS: LazyLock<Vec<ExamQuestion>> = LazyLock::new(|| {
     let exam = exam_file::load(None)
-        .expect("it was built with this program")
+        .expect("the practice exam is embedded")
         .exam;
     let items = exam.items.into_iter();
     items
@@ -25,7 +25,7 @@ static QUESTIONS: LazyLock<Vec<ExamQuestion>> = LazyLock::new(|| {
         .collect()
 });
 
-/// Numbers as submissions answer them, now and then.
+/// Numbers that submissions may answer, among them extreme ones.
 fn number() -> impl Strategy<Value = f32> {
     prop_oneof![
         4 => -5.0f32..5.0,
@@ -57,7 +57,7 @@ fn outcome<T: Clone + std::fmt::Debug>(
 }
 
 fn trace() -> impl Strategy<Value = Trace> {
-    let places = (
+    let fields = (
         point(),
         point(),
         point(),
@@ -65,7 +65,7 @@ fn trace() -> impl Strategy<Value = Trace> {
         [number(), number()],
         0..30u32,
     );
-    places.prop_map(|(position, normal, origin, distance, uv, material)| Trace {
+    fields.prop_map(|(position, normal, origin, distance, uv, material)| Trace {
         distance,
         position,
         normal,
@@ -93,7 +93,7 @@ fn tree() -> impl Strategy<Value = Tree> {
     })
 }
 
-/// An answer of the right kind to one of the questions, and the element that is drawn.
+/// The index of a question, the element to draw, and an answer of the right kind.
 fn any_answer() -> impl Strategy<Value = (usize, usize, Answer)> {
     let ray = (point(), point(), interval());
     let ray = ray.prop_map(|(origin, dir, range)| Ray { origin, dir, range });
@@ -104,10 +104,10 @@ fn any_answer() -> impl Strategy<Value = (usize, usize, Answer)> {
         outcome(tree()),
     );
     (0..QUESTIONS.len(), any::<prop::sample::Index>(), answers).prop_map(
-        |(question, element, (ray, hit, span, tree))| {
-            let asked = &QUESTIONS[question].question;
-            let count = asked.count();
-            let answer = match asked {
+        |(index, element, (ray, hit, span, tree))| {
+            let question = &QUESTIONS[index].question;
+            let count = question.count();
+            let answer = match question {
                 Question::Camera { .. } => Answer::Rays(vec![ray; count]),
                 Question::Shapes { .. }
                 | Question::Traverse { .. }
@@ -116,7 +116,7 @@ fn any_answer() -> impl Strategy<Value = (usize, usize, Answer)> {
                 Question::Build { .. } => Answer::Tree(tree),
                 Question::Radiance { .. } | Question::Done => Answer::Done,
             };
-            (question, element.index(count.max(1)), answer)
+            (index, element.index(count.max(1)), answer)
         },
     )
 }
@@ -124,7 +124,7 @@ fn any_answer() -> impl Strategy<Value = (usize, usize, Answer)> {
 fn assert_well_formed(drawing: &Drawing) {
     let svg = &drawing.svg;
     assert!(svg.len() < MAX_BYTES, "{} bytes", svg.len());
-    let document = Document::parse(svg).expect("it is XML");
+    let document = Document::parse(svg).expect("well-formed XML");
     let root = document.root_element();
     assert_eq!(root.tag_name().name(), "svg");
     assert_eq!(root.attribute("role"), Some("img"));
@@ -143,7 +143,7 @@ fn assert_well_formed(drawing: &Drawing) {
         assert!(known.contains(&name), "<{name}>");
         for attribute in element.attributes() {
             let (name, value) = (attribute.name(), attribute.value());
-            assert_ne!(name, "id", "a page holds several drawings");
+            assert_ne!(name, "id", "ids would clash: a page has several drawings");
             let wild = ["NaN", "inf"].iter().any(|word| value.contains(word));
             assert!(!wild, "{name}={value}");
         }
@@ -156,8 +156,8 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn any_answer_is_drawn_small_and_well_formed_or_not_at_all((question, element, answer) in any_answer()) {
-        if let Some(drawing) = draw(&QUESTIONS[question], element, Some(&answer)) {
+    fn any_answer_gives_a_small_well_formed_drawing_or_none((index, element, answer) in any_answer()) {
+        if let Some(drawing) = draw(&QUESTIONS[index], element, Some(&answer)) {
             assert_well_formed(&drawing);
         }
     }
@@ -165,10 +165,10 @@ proptest! {
 
 #[test]
 fn draws_the_expected_result_without_an_answer() {
-    for asked in QUESTIONS.iter() {
-        let drawing = draw(asked, 0, None);
+    for question in QUESTIONS.iter() {
+        let drawing = draw(question, 0, None);
         drawing.iter().for_each(assert_well_formed);
-        let is_expected = match asked.question {
+        let is_expected = match question.question {
             Question::Camera { .. }
             | Question::Shapes { .. }
             | Question::BBox { .. }
@@ -176,15 +176,15 @@ fn draws_the_expected_result_without_an_answer() {
             | Question::BuildAndTraverse { .. } => true,
             Question::Build { .. } | Question::Radiance { .. } | Question::Done => false,
         };
-        assert_eq!(drawing.is_some(), is_expected, "{:?}", asked.key);
+        assert_eq!(drawing.is_some(), is_expected, "{:?}", question.key);
     }
 }
 
 #[test]
 fn ignores_missing_elements_and_answers_of_another_kind() {
-    for asked in QUESTIONS.iter() {
-        assert_eq!(draw(asked, usize::MAX, Some(&Answer::Done)), None);
-        if let Some(drawing) = draw(asked, 0, Some(&Answer::Done)) {
+    for question in QUESTIONS.iter() {
+        assert_eq!(draw(question, usize::MAX, Some(&Answer::Done)), None);
+        if let Some(drawing) = draw(question, 0, Some(&Answer::Done)) {
             assert_well_formed(&drawing);
         }
     }

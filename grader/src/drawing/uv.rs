@@ -7,22 +7,23 @@ use super::hit_comparison::{HitAnswer, HitComparison};
 use super::ink::{Fill, Ink, LineStyle};
 use super::window::{Panel, Window};
 
-/// The square, with the coordinates of a triangle's corners if there is one, and both answers.
+/// Draws the square with both answers, and with the texture coordinates of a triangle's corners if
+/// `corners` is not empty.
 pub(super) fn draw_square(
     canvas: &mut Canvas,
-    part: Panel,
-    encounter: &HitComparison,
+    panel: Panel,
+    comparison: &HitComparison,
     corners: &[DVec2],
 ) {
     let around = Panel {
-        min: part.min + dvec2(8.0, 0.0),
-        max: part.max - dvec2(0.0, 10.0),
+        min: panel.min + dvec2(8.0, 0.0),
+        max: panel.max - dvec2(0.0, 10.0),
     };
     let window = Window::around(around, [DVec2::ZERO, DVec2::ONE]);
-    let (low, high) = (window.to_page(DVec2::ZERO), window.to_page(DVec2::ONE));
+    let (low, high) = (window.page_position(DVec2::ZERO), window.page_position(DVec2::ONE));
     canvas.rectangle(low, high, LineStyle::Grid, Fill::None);
-    let name = |canvas: &mut Canvas, at: DVec2, anchor, words| {
-        canvas.text(at, anchor, Ink::Faint, words);
+    let name = |canvas: &mut Canvas, at: DVec2, anchor, text| {
+        canvas.text(at, anchor, Ink::Faint, text);
     };
     name(canvas, low + dvec2(-3.0, 13.0), Anchor::End, "0");
     name(canvas, dvec2(high.x, low.y + 13.0), Anchor::Middle, "u = 1");
@@ -30,7 +31,7 @@ pub(super) fn draw_square(
 
     let outline: Vec<DVec2> = corners
         .iter()
-        .map(|corner| window.to_page(*corner))
+        .map(|corner| window.page_position(*corner))
         .collect();
     if outline.len() > 2 {
         canvas.polygon(&outline, LineStyle::Outline, Fill::Tint(Ink::Text, 0.06));
@@ -38,15 +39,15 @@ pub(super) fn draw_square(
     for (at, label) in outline.iter().zip(["p0", "p1", "p2"]) {
         canvas.text(*at + dvec2(4.0, -4.0), Anchor::Start, Ink::Text, label);
     }
-    let wanted = encounter.wanted.map(|met| met.uv);
-    let got = match encounter.got {
-        HitAnswer::Hit(met) => Some(met.uv),
+    let wanted = comparison.wanted.map(|hit| hit.uv);
+    let got = match comparison.got {
+        HitAnswer::Hit(hit) => Some(hit.uv),
         HitAnswer::Miss | HitAnswer::NoAnswer => None,
     };
     for (uv, mark) in [(wanted, Mark::Right), (got, Mark::Wrong)] {
-        let at = uv.map(|uv| window.to_page(uv)).filter(|at| at.is_finite());
+        let at = uv.map(|uv| window.page_position(uv)).filter(|at| at.is_finite());
         if let Some(at) = at {
-            canvas.mark(at.clamp(part.min + 7.0, part.max - 7.0), mark);
+            canvas.mark(at.clamp(panel.min + 7.0, panel.max - 7.0), mark);
         }
     }
 }

@@ -1,17 +1,17 @@
-//! From a plane of the world to a part of the page: to scale, and clipped.
+//! Maps a plane of the world to a panel of the page, to scale, with clipping.
 
 use glam::{DVec2, dvec2};
 
-/// A part of the page.
+/// A rectangular part of the page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Panel {
-    /// Its upper left corner.
+    /// The upper left corner.
     pub(super) min: DVec2,
-    /// Its lower right corner.
+    /// The lower right corner.
     pub(super) max: DVec2,
 }
 
-/// What of a plane is seen in a part of the page. The plane's y goes up.
+/// The part of a plane that a panel shows. The plane's y axis points up.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
     panel: Panel,
@@ -20,63 +20,62 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Around these points, those of them that are finite, with a margin.
-    pub(super) fn around(part: Panel, points: impl IntoIterator<Item = DVec2>) -> Window {
-        /// Of the part, on each side, in page units.
+    /// Creates a window that shows all points that are finite, with a margin.
+    pub(super) fn around(panel: Panel, points: impl IntoIterator<Item = DVec2>) -> Window {
+        /// The margin on each side, in page units.
         const MARGIN: f64 = 20.0;
 
         let (min, max) = extent(points).unwrap_or((DVec2::NEG_ONE, DVec2::ONE));
-        let room = part.max - part.min - 2.0 * MARGIN;
+        let available = panel.max - panel.min - 2.0 * MARGIN;
         let size = max - min;
-        // One point has no size: whatever the scale, it is in the middle.
-        let scale = (room / size.max(DVec2::splat(1e-12))).min_element();
+        // A single point is in the middle at any scale.
+        let scale = (available / size.max(DVec2::splat(1e-12))).min_element();
         Window {
-            panel: part,
+            panel,
             center: 0.5 * (min + max),
             scale,
         }
     }
 
-    /// The point's place on the page.
-    pub(super) fn to_page(&self, at: DVec2) -> DVec2 {
+    /// Converts a point to page coordinates.
+    pub(super) fn page_position(&self, at: DVec2) -> DVec2 {
         let middle = 0.5 * (self.panel.min + self.panel.max);
         middle + self.scale * (at - self.center) * dvec2(1.0, -1.0)
     }
 
-    /// So long is a length of the world on the page.
-    pub(super) fn to_page_length(&self, length: f64) -> f64 {
+    /// Converts a length to page units.
+    pub(super) fn page_length(&self, length: f64) -> f64 {
         self.scale * length
     }
 
-    /// So long is a length on the page in the world.
-    pub(super) fn to_world_length(&self, length: f64) -> f64 {
+    /// Converts a length in page units to a length in the world.
+    pub(super) fn world_length(&self, length: f64) -> f64 {
         length / self.scale
     }
 
-    /// The point's place on the page, or the nearest one at the border and `true`. None for what is
-    /// not finite.
+    /// Converts a point to page coordinates and clamps it to the panel. The flag is true if the
+    /// point was outside. Returns `None` if it is not finite.
     pub(super) fn pin_to_border(&self, at: DVec2) -> Option<(DVec2, bool)> {
         let (min, max) = (self.panel.min + 7.0, self.panel.max - 7.0);
-        let page = self.to_page(at);
+        let page = self.page_position(at);
         let inside = page.clamp(min, max);
         page.is_finite().then_some((inside, inside != page))
     }
 
-    /// How far a point is outside of what is seen.
+    /// Returns how far outside the panel a point is, in world units.
     pub(super) fn distance_outside(&self, at: DVec2) -> f64 {
-        let page = self.to_page(at);
-        self.to_world_length(page.distance(page.clamp(self.panel.min, self.panel.max)))
+        let page = self.page_position(at);
+        self.world_length(page.distance(page.clamp(self.panel.min, self.panel.max)))
     }
 
-    /// The part of a segment that is seen, on the page: what is outside of one side after the other
-    /// is cut off (Sutherland and Hodgman, "Reentrant polygon clipping", Communications of the ACM
-    /// 17, 1974).
+    /// Clips a segment to the panel, one side after the other (Sutherland and Hodgman, "Reentrant
+    /// polygon clipping", Communications of the ACM 17, 1974). Returns its ends on the page.
     pub(super) fn clip_segment(&self, from: DVec2, to: DVec2) -> Option<(DVec2, DVec2)> {
-        let (from, to) = (self.to_page(from), self.to_page(to));
+        let (from, to) = (self.page_position(from), self.page_position(to));
         if !(from.is_finite() && to.is_finite()) {
             return None;
         }
-        // So far off that nobody sees the difference, and near enough for what f64 can tell apart.
+        // Far enough to look infinite, near enough for the precision of `f64`.
         let farthest = DVec2::splat(1e9);
         let [mut from, mut to] = [from, to].map(|at| at.clamp(-farthest, farthest));
         for axis in 0..2 {
@@ -94,7 +93,7 @@ impl Window {
     }
 }
 
-/// The least and largest coordinates of those points that are finite; none if there is no such.
+/// Returns the smallest and largest coordinates of the finite points, or `None` if there are none.
 pub(super) fn extent(points: impl IntoIterator<Item = DVec2>) -> Option<(DVec2, DVec2)> {
     let finite = points.into_iter().filter(|point| point.is_finite());
     finite.fold(None, |so_far, point| match so_far {
@@ -115,8 +114,8 @@ mod tests {
     #[test]
     fn keeps_proportions_and_points_y_up() {
         let window = Window::around(PANEL, [dvec2(0.0, 0.0), dvec2(10.0, 5.0)]);
-        assert_eq!(window.to_page(dvec2(0.0, 2.5)), dvec2(20.0, 70.0));
-        assert_eq!(window.to_page(dvec2(10.0, 7.5)), dvec2(120.0, 20.0));
+        assert_eq!(window.page_position(dvec2(0.0, 2.5)), dvec2(20.0, 70.0));
+        assert_eq!(window.page_position(dvec2(10.0, 7.5)), dvec2(120.0, 20.0));
     }
 
     #[test]
@@ -124,7 +123,7 @@ mod tests {
         let window = Window::around(PANEL, [DVec2::NEG_ONE, DVec2::ONE]);
         let (from, to) = window
             .clip_segment(dvec2(-1e30, 0.0), dvec2(1e30, 0.0))
-            .expect("it passes through");
+            .expect("the segment crosses the panel");
         assert!(
             from.abs_diff_eq(dvec2(0.0, 70.0), 1e-3) && to.abs_diff_eq(dvec2(140.0, 70.0), 1e-3)
         );

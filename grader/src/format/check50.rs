@@ -1,7 +1,7 @@
 //! check50's JSON
 //! (<https://cs50.readthedocs.io/projects/check50/en/latest/json_specification.html>).
 //!
-//! `passed` has three values: null says that a check was not run, or did not come to an end.
+//! `passed` has three values: null means that a check did not run, or did not finish.
 
 use serde_json::{Value, json};
 
@@ -9,26 +9,26 @@ use crate::format::item_text::{item_message, item_text};
 use crate::format::{FormatContext, StudentView};
 use crate::score::{ItemScore, Verdict};
 
-/// The whole file.
-pub fn render(seen: &StudentView, around: &FormatContext) -> String {
-    let results: Vec<Value> = seen
+/// Renders the file.
+pub fn render(view: &StudentView, context: &FormatContext) -> String {
+    let results: Vec<Value> = view
         .visible_items()
-        .map(|(_, item)| result(seen, item, around))
+        .map(|(_, item)| result(view, item, context))
         .collect();
     super::to_json(&json!({
-        "slug": format!("pathtracing/{}", seen.visible.exam.id),
+        "slug": format!("pathtracing/{}", view.visible.exam.id),
         "results": results,
         "version": env!("CARGO_PKG_VERSION"),
     }))
 }
 
-fn result(seen: &StudentView, item: &ItemScore, around: &FormatContext) -> Value {
+fn result(view: &StudentView, item: &ItemScore, context: &FormatContext) -> Value {
     let passed = passed(&item.verdict);
     let rationale = match item_message(item) {
         nothing if nothing.is_empty() => item.verdict.label().to_owned(),
         message => message,
     };
-    let help = item_text(seen, item, around);
+    let help = item_text(view, item, context);
     let help = help.split_once('\n').map(|(_, help)| help);
     let cause = match passed {
         Some(true) => Value::Null,

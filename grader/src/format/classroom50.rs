@@ -1,7 +1,8 @@
 //! classroom50's `result.json`, version 1
 //! (<https://github.com/foundation50/classroom50>, `schemas/result-v1.schema.json`).
 //!
-//! Whose work it is comes from the runner's variables, and the runner checks that it is so.
+//! The runner's environment variables say whose submission it is, and the runner checks that the
+//! file repeats them.
 
 use serde_json::{Value, json};
 
@@ -9,7 +10,7 @@ use crate::format::item_text::{item_message, item_text};
 use crate::format::{FormatContext, StudentView};
 use crate::score::Verdict;
 
-/// What the runner sets.
+/// Environment variables that the runner sets.
 pub const VARIABLES: [&str; 9] = [
     "CLASSROOM",
     "ASSIGNMENT",
@@ -19,18 +20,18 @@ pub const VARIABLES: [&str; 9] = [
     "COMMIT_URL",
     "RELEASE_URL",
     "REVIEW_URL",
-    // The committer's date of the graded commit, which our package sets.
+    // The commit date of the graded commit, which the package's script sets.
     "SUBMITTED_AT",
 ];
 
-/// The whole file.
-pub fn render(seen: &StudentView, around: &FormatContext) -> String {
-    let of = |name: &str| around.variables.get(name).cloned().unwrap_or_default();
+/// Renders the file.
+pub fn render(view: &StudentView, context: &FormatContext) -> String {
+    let of = |name: &str| context.variables.get(name).cloned().unwrap_or_default();
     let review = match of("REVIEW_URL") {
         none if none.is_empty() => of("COMMIT_URL"),
         review => review,
     };
-    let tests: Vec<Value> = seen
+    let tests: Vec<Value> = view
         .visible_items()
         .map(|(_, item)| {
             json!({
@@ -40,7 +41,7 @@ pub fn render(seen: &StudentView, around: &FormatContext) -> String {
                 "max-score": item.max_points,
                 "outcome": item.verdict.label(),
                 "message": item_message(item),
-                "output": item_text(seen, item, around),
+                "output": item_text(view, item, context),
             })
         })
         .collect();
@@ -55,8 +56,8 @@ pub fn render(seen: &StudentView, around: &FormatContext) -> String {
         "release": of("RELEASE_URL"),
         "review": review,
         "datetime": of("SUBMITTED_AT"),
-        "score": seen.counted.points,
-        "max-score": seen.counted.max_points,
+        "score": view.counted.points,
+        "max-score": view.counted.max_points,
         "tests": tests,
     }))
 }

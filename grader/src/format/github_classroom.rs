@@ -1,6 +1,6 @@
-//! The step output `result` that GitHub Classroom's reporter read
-//! (<https://github.com/classroom-resources/autograding-grading-reporter>). The service has ended;
-//! courses that kept its workflows have the reporter still.
+//! The step output `result` for GitHub Classroom's reporter
+//! (<https://github.com/classroom-resources/autograding-grading-reporter>). The service has been
+//! discontinued, but courses that kept its workflows still use the reporter.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -9,29 +9,29 @@ use serde_json::{Value, json};
 use crate::format::size::{fit, truncate};
 use crate::format::{FormatContext, StudentView, item_text};
 
-/// What a step's output may hold, in bytes.
+/// The maximum size of a step's output in bytes.
 const MAX_BYTES: usize = 1 << 20;
 
-/// One line for `$GITHUB_OUTPUT`.
-pub fn render(seen: &StudentView, around: &FormatContext) -> String {
-    fit(MAX_BYTES, |longest| {
-        let result = result(seen, around, longest).to_string();
+/// Renders one line for `$GITHUB_OUTPUT`.
+pub fn render(view: &StudentView, context: &FormatContext) -> String {
+    fit(MAX_BYTES, |max_chars| {
+        let result = result(view, context, max_chars).to_string();
         format!("result={}\n", STANDARD.encode(result))
     })
 }
 
-fn result(seen: &StudentView, around: &FormatContext, longest: usize) -> Value {
-    let tests: Vec<Value> = seen
+fn result(view: &StudentView, context: &FormatContext, max_chars: usize) -> Value {
+    let tests: Vec<Value> = view
         .visible_items()
         .map(|(task, item)| {
             let has_all = item.points == item.max_points;
-            let said = item_text::item_text(seen, item, around);
+            let text = item_text::item_text(view, item, context);
             json!({
                 "name": format!("{}: {}", item.id, item.title),
                 "status": if has_all { "pass" } else { "fail" },
-                // Without it, the reporter's total is no number.
+                // Without a score, the reporter's total would be NaN.
                 "score": item.points,
-                "message": if has_all { Value::Null } else { truncate(&said, longest).into() },
+                "message": if has_all { Value::Null } else { truncate(&text, max_chars).into() },
                 "test_code": "",
                 "filename": task.id.file(),
                 "line_no": item.at.as_ref().map_or(0, |at| at.line),
@@ -39,8 +39,8 @@ fn result(seen: &StudentView, around: &FormatContext, longest: usize) -> Value {
         })
         .collect();
     let status = match (
-        seen.visible.complete,
-        seen.visible.points == seen.visible.max_points,
+        view.visible.complete,
+        view.visible.points == view.visible.max_points,
     ) {
         (false, _) => "error",
         (true, true) => "pass",
@@ -49,7 +49,7 @@ fn result(seen: &StudentView, around: &FormatContext, longest: usize) -> Value {
     json!({
         "version": 1,
         "status": status,
-        "max_score": seen.visible.max_points,
+        "max_score": view.visible.max_points,
         "tests": tests,
     })
 }

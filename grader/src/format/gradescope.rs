@@ -1,8 +1,8 @@
 //! Gradescope's `results.json`
 //! (<https://gradescope-autograders.readthedocs.io/en/latest/specs/>, "Output Format").
 //!
-//! A test's `visibility` hides it and, if it is hidden now, the total as well: that is Gradescope's
-//! own rule, and why hidden items stand here one by one.
+//! Gradescope applies a test's `visibility` itself, and hides the total while a test is hidden. So
+//! hidden items are listed one by one here.
 
 use serde_json::{Map, Value, json};
 
@@ -13,30 +13,31 @@ use crate::format::{FormatContext, ItemView, StudentView};
 use crate::policy::Visibility;
 use crate::score::Verdict;
 
-/// Gradescope publishes no limit; its neighbours begin to cut at half of this, in bytes.
+/// The maximum size in bytes. Gradescope documents no limit; similar platforms truncate at half
+/// this size.
 const MAX_BYTES: usize = 256 << 10;
 
-/// The whole file.
-pub fn render(seen: &StudentView, around: &FormatContext) -> String {
-    fit(MAX_BYTES, |longest| {
-        super::to_json(&results(seen, around, longest))
+/// Renders the file.
+pub fn render(view: &StudentView, context: &FormatContext) -> String {
+    fit(MAX_BYTES, |max_chars| {
+        super::to_json(&results(view, context, max_chars))
     })
 }
 
-fn results(seen: &StudentView, around: &FormatContext, longest: usize) -> Value {
-    let score = &seen.visible;
+fn results(view: &StudentView, context: &FormatContext, max_chars: usize) -> Value {
+    let score = &view.visible;
     let milliseconds = score.timings.build_ms + score.timings.exam_ms;
     let tests = Task::ALL.iter().zip(1..).flat_map(|(task, number)| {
-        let lines = seen.all_items.iter().filter(|line| line.task == *task);
-        lines.zip(1..).map(move |(line, place)| {
-            let number = format!("{number}.{place}");
-            test(seen, line, number, around, longest)
+        let entries = view.all_items.iter().filter(|entry| entry.task == *task);
+        entries.zip(1..).map(move |(entry, position)| {
+            let number = format!("{number}.{position}");
+            test(view, entry, number, context, max_chars)
         })
     });
     json!({
-        "score": seen.counted.points,
+        "score": view.counted.points,
         "execution_time": milliseconds as f64 / 1000.0,
-        "output": truncate(&output(seen), 4 * longest),
+        "output": truncate(&output(view), 4 * max_chars),
         "output_format": "text",
         "test_output_format": "text",
         "test_name_format": "text",
@@ -53,32 +54,32 @@ fn results(seen: &StudentView, around: &FormatContext, longest: usize) -> Value 
     })
 }
 
-/// What stands above all tests. A total that hidden items are part of is not for here.
-fn output(seen: &StudentView) -> String {
-    let all_shown = seen
+/// Returns the text above all tests. It omits the total if hidden items are part of it.
+fn output(view: &StudentView) -> String {
+    let all_shown = view
         .all_items
         .iter()
-        .all(|line| line.visibility.is_shown_now());
-    let points = all_shown.then(|| headline(seen));
+        .all(|entry| entry.visibility.is_shown_now());
+    let points = all_shown.then(|| headline(view));
     let not_all = (!all_shown).then(|| "Some items are not shown yet.".to_owned());
     let parts = [
-        seen.unfinished_notice(),
+        view.unfinished_notice(),
         points,
         not_all,
-        Some(build_report(seen)),
+        Some(build_report(view)),
     ];
     let parts = parts.into_iter().flatten().filter(|part| !part.is_empty());
     parts.collect::<Vec<_>>().join("\n\n")
 }
 
 fn test(
-    seen: &StudentView,
-    line: &ItemView,
+    view: &StudentView,
+    entry: &ItemView,
     number: String,
-    around: &FormatContext,
-    longest: usize,
+    context: &FormatContext,
+    max_chars: usize,
 ) -> Value {
-    let item = &line.item;
+    let item = &entry.item;
     let mut test = Map::new();
     test.insert("name".into(), item.title.clone().into());
     test.insert("name_format".into(), "text".into());
@@ -90,11 +91,11 @@ fn test(
     }
     test.insert(
         "output".into(),
-        truncate(&item_text(seen, item, around), longest).into(),
+        truncate(&item_text(view, item, context), max_chars).into(),
     );
     test.insert("output_format".into(), "text".into());
-    test.insert("tags".into(), json!([line.task]));
-    test.insert("visibility".into(), visibility(line.visibility).into());
+    test.insert("tags".into(), json!([entry.task]));
+    test.insert("visibility".into(), visibility(entry.visibility).into());
     let verdict = serde_json::to_value(&item.verdict).expect("a verdict is text");
     test.insert(
         "extra_data".into(),
@@ -103,7 +104,7 @@ fn test(
     Value::Object(test)
 }
 
-/// None for what is not known yet: a test may have none.
+/// Returns Gradescope's status, or `None` for an item that is not graded yet.
 fn status(verdict: &Verdict) -> Option<&'static str> {
     match verdict {
         Verdict::Pass => Some("passed"),

@@ -1,29 +1,29 @@
-//! What is told of an item beside its points, in lines that every platform can show.
+//! Plain text about an item, for platforms that show only text.
 
 use crate::format::{FormatContext, StudentView};
 use crate::policy::CountedPoints;
 use crate::score::{Hint, ItemScore, Verdict};
 use crate::section::Section;
 
-/// The exam that students can ask by themselves.
+/// The id of the exam that students can run themselves.
 const PRACTICE: &str = "practice";
 
-/// One line a row: `what: …`, `asked: …`. Empty if there is nothing to say.
-pub fn item_text(seen: &StudentView, item: &ItemScore, around: &FormatContext) -> String {
+/// Returns one line per row, such as `what: …` and `asked: …`. Empty if there is nothing to report.
+pub fn item_text(view: &StudentView, item: &ItemScore, context: &FormatContext) -> String {
     let evidence = item.evidence.as_ref();
     let is_passed = item.verdict == Verdict::Pass;
-    let again = seen.visible.exam.id == PRACTICE && !is_passed && !item.message.is_empty();
+    let can_rerun = view.visible.exam.id == PRACTICE && !is_passed && !item.message.is_empty();
     let rows = [
         ("what", Some(item_message(item))),
         ("asked", evidence.map(|evidence| evidence.asked.clone())),
         ("got", evidence.map(|evidence| evidence.got.clone())),
         ("wanted", evidence.map(|evidence| evidence.wanted.clone())),
         ("look", item.look.clone()),
-        ("hint", hint_text(&item.hints, around)),
+        ("hint", hint_text(&item.hints, context)),
         ("read", item.section.as_ref().map(Section::location)),
         (
             "again",
-            again.then(|| item.rerun_command(&seen.visible.rerun_command)),
+            can_rerun.then(|| item.rerun_command(&view.visible.rerun_command)),
         ),
     ];
     let rows = rows.into_iter().filter_map(|(label, text)| {
@@ -33,27 +33,27 @@ pub fn item_text(seen: &StudentView, item: &ItemScore, around: &FormatContext) -
     rows.collect::<Vec<_>>().join("\n")
 }
 
-/// What happened, in a sentence. Empty if all is well, or nothing may be said.
+/// Returns what happened, in one sentence. Empty if the item passed or its message is hidden.
 pub fn item_message(item: &ItemScore) -> String {
     match (item.verdict == Verdict::Pending, item.message.is_empty()) {
-        (true, _) => "not asked yet".to_owned(),
+        (true, _) => item.verdict.label().to_owned(),
         (false, true) => String::new(),
         (false, false) => item.message.clone(),
     }
 }
 
-fn hint_text(hints: &[Hint], around: &FormatContext) -> Option<String> {
-    let one = |hint: &Hint| match around.full_hints {
+fn hint_text(hints: &[Hint], context: &FormatContext) -> Option<String> {
+    let text = |hint: &Hint| match context.full_hints {
         true => hint.hint.clone(),
         false => hint.nudge.clone(),
     };
-    let all: Vec<String> = hints.iter().map(one).collect();
+    let all: Vec<String> = hints.iter().map(text).collect();
     (!all.is_empty()).then(|| all.join(" Or: "))
 }
 
-/// What the compiler and the grader had to say of the files.
-pub fn build_report(seen: &StudentView) -> String {
-    let build = &seen.visible.build;
+/// Returns the messages of the compiler and the notes of the grader about the files.
+pub fn build_report(view: &StudentView) -> String {
+    let build = &view.visible.build;
     let files = build.not_compiled.iter().map(|file| file.message.clone());
     let notes = build.notes.iter().map(|note| format!("note: {note}"));
     files.chain(notes).collect::<Vec<_>>().join("\n\n")
@@ -62,15 +62,15 @@ pub fn build_report(seen: &StudentView) -> String {
 fn lateness_text(counted: CountedPoints) -> String {
     match (counted.late_days, counted.is_closed) {
         (0, _) => String::new(),
-        (_, true) => ", because it came after the last day".to_owned(),
-        (1, false) => ", a day late".to_owned(),
+        (_, true) => ", because it was submitted after the last day".to_owned(),
+        (1, false) => ", one day late".to_owned(),
         (days, false) => format!(", {days} days late"),
     }
 }
 
-/// The points, in words.
-pub fn headline(seen: &StudentView) -> String {
-    let (score, counted) = (&seen.visible, seen.counted);
+/// Returns one line with the points.
+pub fn headline(view: &StudentView) -> String {
+    let (score, counted) = (&view.visible, view.counted);
     let points = format!(
         "{} of {} points, {} exam",
         score.points, score.max_points, score.exam.id

@@ -1,8 +1,8 @@
-//! JUnit's XML: a suite for each task, a case for each item.
+//! JUnit XML with a suite for each task and a test case for each item.
 //!
-//! Written with `maud`, which escapes as XML wants it: a crate for JUnit brings seven others along,
-//! a tenth of the first `cargo grade`. Every element is closed by hand, with `{}`: there are no void
-//! elements in XML.
+//! Written with `maud`, whose escaping is valid XML. A crate for JUnit would add seven others, a
+//! tenth of the compile time of the first `cargo grade`. Every element is closed explicitly with
+//! `{}`, since XML has no void elements.
 
 use maud::{Markup, PreEscaped, html};
 
@@ -12,16 +12,16 @@ use crate::score::{ItemScore, TaskScore, Verdict};
 
 const DECLARATION: PreEscaped<&str> = PreEscaped("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
 
-/// The whole file.
-pub fn render(seen: &StudentView, around: &FormatContext) -> String {
-    let score = &seen.visible;
+/// Renders the file.
+pub fn render(view: &StudentView, context: &FormatContext) -> String {
+    let score = &view.visible;
     let all: Counts = score.items().collect();
     let report = html! {
         (DECLARATION)
         testsuites name={ "pathtracing, " (score.exam.id) " exam" } tests=(all.tests)
             skipped=(all.skipped) failures=(all.failures) errors=(all.errors) {
             @for task in &score.tasks {
-                (suite(seen, task, around))
+                (suite(view, task, context))
             }
         }
         "\n"
@@ -29,14 +29,14 @@ pub fn render(seen: &StudentView, around: &FormatContext) -> String {
     report.into_string().chars().filter(is_xml_char).collect()
 }
 
-fn suite(seen: &StudentView, task: &TaskScore, around: &FormatContext) -> Markup {
+fn suite(view: &StudentView, task: &TaskScore, context: &FormatContext) -> Markup {
     let own: Counts = task.items.iter().collect();
     html! {
         testsuite name=(task.id.id()) tests=(own.tests)
             skipped=(own.skipped) errors=(own.errors) failures=(own.failures) {
             properties {
                 (property("title", &task.title))
-                (property("complete", &seen.visible.complete.to_string()))
+                (property("complete", &view.visible.complete.to_string()))
                 (points_properties(task.points, task.max_points))
             }
             @for item in &task.items {
@@ -45,7 +45,7 @@ fn suite(seen: &StudentView, task: &TaskScore, around: &FormatContext) -> Markup
                         (property("title", &item.title))
                         (points_properties(item.points, item.max_points))
                     }
-                    (status_element(seen, item, around))
+                    (status_element(view, item, context))
                 }
             }
             @if let Some(printed) = &task.printed {
@@ -66,18 +66,18 @@ fn points_properties(points: u32, max_points: u32) -> Markup {
     }
 }
 
-fn status_element(seen: &StudentView, item: &ItemScore, around: &FormatContext) -> Markup {
+fn status_element(view: &StudentView, item: &ItemScore, context: &FormatContext) -> Markup {
     let (message, kind) = (item_message(item), item.verdict.label());
-    let said = item_text(seen, item, around);
+    let text = item_text(view, item, context);
     match Status::from_verdict(&item.verdict) {
         Status::Passed => html! {},
-        Status::Failed => html! { failure message=(message) type=(kind) { (said) } },
-        Status::Error => html! { error message=(message) type=(kind) { (said) } },
-        Status::Skipped => html! { skipped message=(message) type=(kind) { (said) } },
+        Status::Failed => html! { failure message=(message) type=(kind) { (text) } },
+        Status::Error => html! { error message=(message) type=(kind) { (text) } },
+        Status::Skipped => html! { skipped message=(message) type=(kind) { (text) } },
     }
 }
 
-/// What JUnit tells apart.
+/// The result of a test case in JUnit.
 enum Status {
     Passed,
     Failed,
@@ -86,7 +86,8 @@ enum Status {
 }
 
 impl Status {
-    /// A wrong answer is a failure; none at all is an error; what was not asked is skipped.
+    /// Maps a verdict: a wrong answer is a failure, a missing answer an error, and an item that was
+    /// not graded is skipped.
     fn from_verdict(verdict: &Verdict) -> Self {
         match verdict {
             Verdict::Pass => Status::Passed,
@@ -103,7 +104,7 @@ impl Status {
     }
 }
 
-/// How many there are of each.
+/// The number of test cases with each result.
 #[derive(Default)]
 struct Counts {
     tests: usize,
@@ -128,7 +129,7 @@ impl<'a> FromIterator<&'a ItemScore> for Counts {
     }
 }
 
-/// No XML may hold any other, not even escaped.
+/// Returns whether XML allows the character. Other characters are invalid even when escaped.
 fn is_xml_char(character: &char) -> bool {
     matches!(character, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }

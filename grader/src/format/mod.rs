@@ -1,5 +1,5 @@
-//! What learning platforms and build servers read: each format a pure function of what students
-//! may see. None is handed the score itself, so none can leak what the policy hides.
+//! Output formats for learning platforms and build servers. Each renderer is a pure function of a
+//! [`StudentView`] and never gets the score itself, so no format can leak what the policy hides.
 
 mod check50;
 mod classroom50;
@@ -25,24 +25,24 @@ use crate::report::text::{HintDetail, report};
 
 pub use student_view::{ItemView, StudentView};
 
-/// A format, by the platform that reads it.
+/// An output format, named after the platform that reads it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// The score file, for staff: it is written in any case.
+    /// The score file, for staff. It is always written.
     Json,
-    /// The report that is read on a terminal.
+    /// The terminal report.
     Text,
-    /// A page, for students of an exam that they do not have.
+    /// A page for students who do not have the exam.
     Html,
     /// Gradescope's `results.json`.
     Gradescope,
     /// classroom50's `result.json`.
     Classroom50,
-    /// JUnit's XML: a suite for each task.
+    /// JUnit XML with a suite for each task.
     Junit,
-    /// A summary in Markdown; annotations go to standard output.
+    /// A summary in Markdown, with annotations on standard output.
     Github,
-    /// The step output that GitHub Classroom's reporter read.
+    /// The step output for GitHub Classroom's reporter.
     GithubClassroom,
     /// check50's JSON.
     Check50,
@@ -50,30 +50,30 @@ pub enum Format {
     Prairielearn,
 }
 
-/// A format, and where it goes if not to its usual place: `gradescope`, `github=summary.md`.
+/// A format and an optional path, such as `gradescope` or `github=summary.md`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputSpec {
-    /// Which.
+    /// The format.
     pub format: Format,
-    /// Where.
+    /// The file to write, unless it is the format's default file.
     pub path: Option<PathBuf>,
 }
 
-/// What is around a submission, and no part of its score.
+/// Facts about a submission that are not part of its score.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FormatContext {
-    /// The folder of the five files, as its repository names it: `student/src`. Empty at the top.
+    /// The folder of the task files in the repository, such as `student/src`. Empty at the top.
     pub folder: String,
     /// The line where each task's method begins in its file.
     pub method_lines: BTreeMap<Task, u32>,
-    /// What the platform says of the submission.
+    /// Environment variables with which the platform describes the submission.
     pub variables: BTreeMap<&'static str, String>,
-    /// How much is said of recognised mistakes.
+    /// Whether to print full hints, and not only nudges.
     pub full_hints: bool,
 }
 
 impl Format {
-    /// The file's name, where no platform says otherwise.
+    /// Returns the default file name.
     pub fn file(self) -> &'static str {
         match self {
             Format::Json => "score.json",
@@ -89,7 +89,7 @@ impl Format {
         }
     }
 
-    /// What the platform tells by variables, and this format repeats.
+    /// Returns the environment variables that this format copies.
     pub fn variables(self) -> &'static [&'static str] {
         match self {
             Format::Classroom50 => &classroom50::VARIABLES,
@@ -105,38 +105,38 @@ impl Format {
         }
     }
 
-    /// The file's text. None for the score file, which is no matter of what students see.
-    pub fn render(self, seen: &StudentView, around: &FormatContext) -> Option<String> {
+    /// Renders the file. Returns `None` for the score file, which is not for students.
+    pub fn render(self, view: &StudentView, context: &FormatContext) -> Option<String> {
         Some(match self {
             Format::Json => return None,
-            Format::Text => terminal_report(seen, around),
-            Format::Html => html::feedback(&seen.visible),
-            Format::Gradescope => gradescope::render(seen, around),
-            Format::Classroom50 => classroom50::render(seen, around),
-            Format::Junit => junit::render(seen, around),
-            Format::Github => github::summary(seen, around),
-            Format::GithubClassroom => github_classroom::render(seen, around),
-            Format::Check50 => check50::render(seen, around),
-            Format::Prairielearn => prairielearn::render(seen, around),
+            Format::Text => terminal_report(view, context),
+            Format::Html => html::feedback(&view.visible),
+            Format::Gradescope => gradescope::render(view, context),
+            Format::Classroom50 => classroom50::render(view, context),
+            Format::Junit => junit::render(view, context),
+            Format::Github => github::summary(view, context),
+            Format::GithubClassroom => github_classroom::render(view, context),
+            Format::Check50 => check50::render(view, context),
+            Format::Prairielearn => prairielearn::render(view, context),
         })
     }
 }
 
-/// The report on a terminal, without colours.
-fn terminal_report(seen: &StudentView, around: &FormatContext) -> String {
-    let hints = match around.full_hints {
+/// Renders the terminal report without colours.
+fn terminal_report(view: &StudentView, context: &FormatContext) -> String {
+    let hints = match context.full_hints {
         true => HintDetail::Full,
         false => HintDetail::Nudge,
     };
-    let report = report(&seen.visible, None, hints);
+    let report = report(&view.visible, None, hints);
     let mut text = anstream::adapter::strip_str(&report).to_string();
-    if let Some(unfinished) = seen.unfinished_notice() {
+    if let Some(unfinished) = view.unfinished_notice() {
         text.push_str(&format!("  {unfinished}\n"));
     }
     text
 }
 
-/// A value as JSON, with a line end.
+/// Returns a value as JSON, with a newline at the end.
 fn to_json(value: &serde_json::Value) -> String {
     format!("{value:#}\n")
 }
@@ -152,13 +152,13 @@ impl FromStr for OutputSpec {
         let format = Format::from_str(name, false).map_err(|_| {
             let known: Vec<&str> = Format::value_variants().iter().map(|f| f.id()).collect();
             format!(
-                "the formats are {}, each with =PATH if it shall go there",
+                "the formats are {}; append =PATH to choose the file",
                 known.join(", ")
             )
         })?;
         match path {
             Some(path) if format == Format::Json || path.as_os_str().is_empty() => {
-                Err("a path is meant, and score.json goes to --out".to_owned())
+                Err("expected a path after `=`; score.json always goes to --out".to_owned())
             }
             path => Ok(OutputSpec { format, path }),
         }
@@ -166,7 +166,7 @@ impl FromStr for OutputSpec {
 }
 
 impl Format {
-    /// What the command line calls it.
+    /// Returns the name on the command line.
     pub fn id(self) -> &'static str {
         match self {
             Format::Json => "json",

@@ -1,4 +1,4 @@
-//! Where the formats go: the only part of this folder that touches the machine.
+//! Writes the output files. Only this module of the formats accesses files and the environment.
 
 use std::collections::BTreeMap;
 use std::env;
@@ -13,54 +13,55 @@ use crate::given_files::TASK_FILES;
 use crate::report::atomic_write;
 use crate::submission::Submission;
 
-/// The places of the five files in a checkout, as a submission is collected.
+/// The folders of a checkout that may contain the task files, in the order of the search.
 const TASK_FILE_FOLDERS: [&str; 3] = ["", "src", "student/src"];
 
-/// Why a format can not be written.
+/// An error while writing a format.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// The platform has not said whose work it is.
+    /// An environment variable is missing.
     #[error(
-        "--format {format} repeats what its runner says in {variable}, which is not set: run it there, or set all of {all}"
+        "--format {format} needs the environment variable {variable}, which is not set: run it on the platform's runner, or set all of {all}"
     )]
     MissingVariable {
         /// The format.
         format: &'static str,
-        /// What is missing.
+        /// The missing variable.
         variable: &'static str,
-        /// What there must be.
+        /// All variables that the format needs.
         all: String,
     },
-    /// A file can not be read or written.
-    #[error("can not write {}: {source}", path.display())]
+    /// A file cannot be read or written.
+    #[error("cannot write {}: {source}", path.display())]
     Io {
-        /// Which.
+        /// The path of the file.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
 }
 
-/// The files that were asked for, and what is told in them of the surroundings.
+/// The requested output files, and the context to render them.
 #[derive(Clone, Debug, Default)]
 pub struct Outputs {
     files: Vec<Output>,
     context: FormatContext,
 }
 
-/// One format's file.
+/// The output file of one format.
 #[derive(Clone, Debug)]
 struct Output {
     format: Format,
     path: PathBuf,
-    /// What others have written there before us, which stays.
+    /// The text that other steps wrote to the file before. It is kept.
     existing_text: String,
 }
 
 impl Outputs {
-    /// Those that the command line names, in `folder` unless a platform or `PATH` says otherwise.
+    /// Resolves the paths of the requested outputs: the path in the request, else the platform's,
+    /// else a file in `folder`. Fails if the environment lacks a variable that a format needs.
     pub fn new(
-        wanted: &[OutputSpec],
+        specs: &[OutputSpec],
         folder: &Path,
         submitted: &Path,
         submission: &Submission,
@@ -75,29 +76,29 @@ impl Outputs {
                 full_hints,
             },
         };
-        for wanted in wanted {
-            read_variables(wanted.format, &mut outputs.context.variables)?;
-            outputs.files.push(resolve_output(wanted, folder)?);
+        for spec in specs {
+            read_variables(spec.format, &mut outputs.context.variables)?;
+            outputs.files.push(resolve_output(spec, folder)?);
         }
         Ok(outputs)
     }
 
-    /// Writes each file whole. What may be seen is only asked for where there are any.
-    pub fn write(&self, seen: &dyn Fn() -> StudentView) -> Result<(), OutputError> {
+    /// Writes each file atomically. `view` is called only if there are files to write.
+    pub fn write(&self, view: &dyn Fn() -> StudentView) -> Result<(), OutputError> {
         if self.is_empty() {
             return Ok(());
         }
-        let seen = &seen();
+        let view = &view();
         for Output {
             format,
             path,
-            existing_text: before,
+            existing_text,
         } in &self.files
         {
-            let Some(text) = format.render(seen, &self.context) else {
+            let Some(text) = format.render(view, &self.context) else {
                 continue;
             };
-            let text = format!("{before}{text}");
+            let text = format!("{existing_text}{text}");
             atomic_write::write(&text, path).map_err(|source| OutputError::Io {
                 path: path.clone(),
                 source,
@@ -106,19 +107,19 @@ impl Outputs {
         Ok(())
     }
 
-    /// What the runner is to be told on standard output.
-    pub fn runner_commands(&self, seen: &StudentView) -> Option<String> {
+    /// Returns the GitHub annotations to print, if that format is requested.
+    pub fn runner_commands(&self, view: &StudentView) -> Option<String> {
         let mut files = self.files.iter();
         let is_wanted = files.any(|output| output.format == Format::Github);
-        is_wanted.then(|| annotations(seen, &self.context))
+        is_wanted.then(|| annotations(view, &self.context))
     }
 
-    /// Whether nothing was asked for.
+    /// Returns whether no output was requested.
     pub fn is_empty(&self) -> bool {
         self.files.is_empty()
     }
 
-    /// The files that were asked for, but for the score file.
+    /// Returns the paths of the requested files, except the score file.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         let files = self.files.iter();
         let others = files.filter(|output| output.format != Format::Json);
@@ -126,9 +127,9 @@ impl Outputs {
     }
 }
 
-fn resolve_output(wanted: &OutputSpec, folder: &Path) -> Result<Output, OutputError> {
-    let format = wanted.format;
-    // A step's own files: others of the step may have written there already.
+fn resolve_output(spec: &OutputSpec, folder: &Path) -> Result<Output, OutputError> {
+    let format = spec.format;
+    // Other commands of the same step may have written to these files already.
     let shared = match format {
         Format::Github => env::var_os("GITHUB_STEP_SUMMARY"),
         Format::GithubClassroom => env::var_os("GITHUB_OUTPUT"),
@@ -142,11 +143,11 @@ fn resolve_output(wanted: &OutputSpec, folder: &Path) -> Result<Output, OutputEr
         | Format::Prairielearn => None,
     };
     let shared = shared.filter(|path| !path.is_empty()).map(PathBuf::from);
-    let (path, before) = match (&wanted.path, shared) {
+    let (path, existing_text) = match (&spec.path, shared) {
         (Some(path), _) => (path.clone(), String::new()),
         (None, None) => (folder.join(format.file()), String::new()),
         (None, Some(path)) => match fs::read_to_string(&path) {
-            Ok(before) => (path, before),
+            Ok(existing_text) => (path, existing_text),
             Err(error) if error.kind() == io::ErrorKind::NotFound => (path, String::new()),
             Err(source) => return Err(OutputError::Io { path, source }),
         },
@@ -154,11 +155,11 @@ fn resolve_output(wanted: &OutputSpec, folder: &Path) -> Result<Output, OutputEr
     Ok(Output {
         format,
         path,
-        existing_text: before,
+        existing_text,
     })
 }
 
-/// Notes what the platform says, all of which a format needs.
+/// Reads the environment variables that a format needs. Fails if one is missing.
 fn read_variables(
     format: Format,
     known: &mut BTreeMap<&'static str, String>,
@@ -175,27 +176,27 @@ fn read_variables(
     Ok(())
 }
 
-/// The folder of the five files, from the checkout's, which is the current one unless the runner
-/// says otherwise. Empty if they are not below it.
+/// Returns the folder of the task files relative to the checkout, which is `GITHUB_WORKSPACE` or
+/// the current folder. Empty if the files are not below it.
 fn folder_in_checkout(submitted: &Path) -> String {
-    let here = env::current_dir().unwrap_or_default();
-    let submitted = here.join(submitted);
-    let here = env::var_os("GITHUB_WORKSPACE").map_or(here, PathBuf::from);
-    let places = TASK_FILE_FOLDERS.map(|place| submitted.join(place));
-    let holds_some = |place: &PathBuf| {
+    let current = env::current_dir().unwrap_or_default();
+    let submitted = current.join(submitted);
+    let checkout = env::var_os("GITHUB_WORKSPACE").map_or(current, PathBuf::from);
+    let folders = TASK_FILE_FOLDERS.map(|folder| submitted.join(folder));
+    let has_task_files = |folder: &PathBuf| {
         let mut files = TASK_FILES.iter();
-        files.any(|file| place.join(file.name).symlink_metadata().is_ok())
+        files.any(|file| folder.join(file.name).symlink_metadata().is_ok())
     };
-    let place = places.into_iter().find(holds_some);
-    let place = place.and_then(|place| place.canonicalize().ok());
-    let below = place.and_then(|place| {
-        let below = place.strip_prefix(here.canonicalize().ok()?).ok()?;
-        Some(below.to_string_lossy().replace('\\', "/"))
+    let folder = folders.into_iter().find(has_task_files);
+    let folder = folder.and_then(|folder| folder.canonicalize().ok());
+    let relative = folder.and_then(|folder| {
+        let relative = folder.strip_prefix(checkout.canonicalize().ok()?).ok()?;
+        Some(relative.to_string_lossy().replace('\\', "/"))
     });
-    below.unwrap_or_default()
+    relative.unwrap_or_default()
 }
 
-/// The line of each task's method, counted from 1.
+/// Returns the line of each task's method, counted from 1.
 fn find_method_lines(submission: &Submission) -> BTreeMap<Task, u32> {
     let line = |task: Task| {
         let mut files = submission.files.iter();

@@ -1,7 +1,7 @@
 //! PrairieLearn's `/grade/results/results.json`
 //! (<https://prairielearn.readthedocs.io/en/latest/externalGrading/>, "Grading results").
 //!
-//! Where nothing compiles the attempt is not gradable, and costs the student no attempt.
+//! If no file compiles, the submission is marked as not gradable, which costs no attempt.
 
 use serde_json::{Value, json};
 
@@ -9,23 +9,23 @@ use crate::format::item_text::{build_report, headline, item_message, item_text};
 use crate::format::size::{fit, truncate};
 use crate::format::{FormatContext, StudentView};
 
-/// What PrairieLearn takes, in bytes, with room to spare.
+/// The maximum size in bytes, well below PrairieLearn's own limit.
 const MAX_BYTES: usize = 1_000_000;
 
-/// The whole file.
-pub fn render(seen: &StudentView, around: &FormatContext) -> String {
-    fit(MAX_BYTES, |longest| {
-        super::to_json(&results(seen, around, longest))
+/// Renders the file.
+pub fn render(view: &StudentView, context: &FormatContext) -> String {
+    fit(MAX_BYTES, |max_chars| {
+        super::to_json(&results(view, context, max_chars))
     })
 }
 
-fn results(seen: &StudentView, around: &FormatContext, longest: usize) -> Value {
-    let said_of_files = truncate(&build_report(seen), 4 * longest);
-    let counted = seen.counted;
-    if seen.nothing_compiled() {
-        return json!({ "gradable": false, "score": 0.0, "format_errors": [said_of_files] });
+fn results(view: &StudentView, context: &FormatContext, max_chars: usize) -> Value {
+    let build_text = truncate(&build_report(view), 4 * max_chars);
+    let counted = view.counted;
+    if view.nothing_compiled() {
+        return json!({ "gradable": false, "score": 0.0, "format_errors": [build_text] });
     }
-    let tests: Vec<Value> = seen
+    let tests: Vec<Value> = view
         .visible_items()
         .map(|(task, item)| {
             json!({
@@ -33,17 +33,17 @@ fn results(seen: &StudentView, around: &FormatContext, longest: usize) -> Value 
                 "description": task.title,
                 "points": item.points,
                 "max_points": item.max_points,
-                "message": truncate(&item_message(item), longest),
-                "output": truncate(&item_text(seen, item, around), longest),
+                "message": truncate(&item_message(item), max_chars),
+                "output": truncate(&item_text(view, item, context), max_chars),
             })
         })
         .collect();
-    let message = seen.unfinished_notice().unwrap_or_else(|| headline(seen));
+    let message = view.unfinished_notice().unwrap_or_else(|| headline(view));
     json!({
         "gradable": true,
         "score": f64::from(counted.points) / f64::from(counted.max_points.max(1)),
         "message": message,
-        "output": said_of_files,
+        "output": build_text,
         "tests": tests,
     })
 }

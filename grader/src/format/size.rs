@@ -1,18 +1,18 @@
-//! Files that keep within what a platform takes, whatever a submission has to say.
+//! Keeps files within the size limits of platforms, however much text a submission produces.
 
-/// The most characters of each text, one try after the other.
+/// The maximum number of characters per text, in the order in which they are tried.
 const TEXT_LIMITS: [usize; 5] = [4_000, 1_000, 250, 60, 0];
 
-/// The first text of at most `most` bytes, made with texts that are cut shorter and shorter.
-pub fn fit(most: usize, make: impl Fn(usize) -> String) -> String {
-    let mut texts = TEXT_LIMITS.into_iter().map(&make);
-    let fitting = texts.find(|text| text.len() <= most);
-    fitting.unwrap_or_else(|| make(0))
+/// Renders a file with shorter and shorter text limits until it has at most `max_bytes`.
+pub fn fit(max_bytes: usize, render: impl Fn(usize) -> String) -> String {
+    let mut texts = TEXT_LIMITS.into_iter().map(&render);
+    let fitting = texts.find(|text| text.len() <= max_bytes);
+    fitting.unwrap_or_else(|| render(0))
 }
 
-/// The beginning of a text, with a mark where it was cut.
-pub fn truncate(text: &str, longest: usize) -> String {
-    match text.char_indices().nth(longest) {
+/// Truncates a text, and marks the end if it was cut.
+pub fn truncate(text: &str, max_chars: usize) -> String {
+    match text.char_indices().nth(max_chars) {
         None => text.to_owned(),
         Some((end, _)) => format!("{}… (cut)", &text[..end]),
     }
@@ -25,10 +25,10 @@ mod tests {
     #[test]
     fn truncates_texts_until_the_file_fits() {
         let text = "é".repeat(5_000);
-        let made = |most| fit(most, |longest| truncate(&text, longest));
-        assert_eq!(made(100_000), format!("{}… (cut)", "é".repeat(4_000)));
-        assert_eq!(made(600), format!("{}… (cut)", "é".repeat(250)));
-        assert_eq!(made(1), "… (cut)", "nothing is left to cut");
+        let fitted = |max_bytes| fit(max_bytes, |max_chars| truncate(&text, max_chars));
+        assert_eq!(fitted(100_000), format!("{}… (cut)", "é".repeat(4_000)));
+        assert_eq!(fitted(600), format!("{}… (cut)", "é".repeat(250)));
+        assert_eq!(fitted(1), "… (cut)", "nothing is left to cut");
         assert_eq!(truncate("short", 5), "short");
     }
 }

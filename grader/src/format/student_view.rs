@@ -1,99 +1,99 @@
-//! What students may see of a score: all that any format is made of.
+//! The part of a score that students may see. All formats are rendered from it.
 
 use crate::exam::Task;
 use crate::policy::{CountedPoints, Lateness, Policy, Visibility};
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
 
-/// A score without what the policy hides, and without what is the staff's.
+/// A score without what the policy hides, and without notes for staff.
 #[derive(Clone, Debug)]
 pub struct StudentView {
-    /// What may be seen now. The items of a task that may not are one line.
+    /// The score as students may see it now. The hidden items of a task are summed up in one item.
     pub visible: Score,
-    /// Every item, for a platform that shows some of them later.
+    /// All items, for platforms that can show some of them later.
     pub all_items: Vec<ItemView>,
-    /// What it counts for.
+    /// The points that count in the course.
     pub counted: CountedPoints,
 }
 
-/// One item, and who may see it when.
+/// One item, and when students may see it.
 #[derive(Clone, Debug)]
 pub struct ItemView {
-    /// Whose points it counts for.
+    /// The task of the item.
     pub task: Task,
-    /// Without what the policy hides.
+    /// The item, without what the policy hides.
     pub item: ItemScore,
-    /// When it may be seen.
+    /// When students may see the item.
     pub visibility: Visibility,
 }
 
 impl StudentView {
-    /// What this policy lets students see.
+    /// Creates the view that a policy allows.
     pub fn new(score: &Score, policy: &Policy, lateness: Lateness) -> Self {
-        let mut now = score.clone();
-        // On their own machine they ask their own submission.
-        now.rerun_command = RerunCommand::default();
-        let mut later = Vec::new();
-        for task in &mut now.tasks {
+        let mut visible = score.clone();
+        // Students rerun on their own machine, where their own submission is the default.
+        visible.rerun_command = RerunCommand::default();
+        let mut all_items = Vec::new();
+        for task in &mut visible.tasks {
             let is_open =
                 |item: &ItemScore| policy.visibility(&score.exam, &item.id) == Visibility::All;
-            // What code prints while it is asked may tell what it was asked.
+            // Printed text may reveal the questions.
             if !task.items.iter().all(is_open) {
                 task.printed = None;
             }
             for item in &task.items {
                 let visibility = policy.visibility(&score.exam, &item.id);
-                later.push(ItemView {
+                all_items.push(ItemView {
                     task: task.id,
                     item: redact(item, visibility, &hidden_ids(policy, score)),
                     visibility,
                 });
             }
-            task.items = items_shown_now(task, &later);
+            task.items = items_shown_now(task, &all_items);
         }
         StudentView {
-            visible: now,
-            all_items: later,
+            visible,
+            all_items,
             counted: policy.counted_points(score.points, score.max_points, lateness),
         }
     }
 
-    /// All lines that may be seen now, each with its task.
+    /// Returns the items that students may see now, each with its task.
     pub fn visible_items(&self) -> impl Iterator<Item = (&TaskScore, &ItemScore)> {
         let tasks = self.visible.tasks.iter();
         tasks.flat_map(|task| task.items.iter().map(move |item| (task, item)))
     }
 
-    /// What to say as long as not everything has been asked.
+    /// Returns a notice if grading is not complete.
     pub fn unfinished_notice(&self) -> Option<String> {
         let all = self.all_items.len();
-        let asked = self
+        let graded = self
             .all_items
             .iter()
-            .filter(|line| line.item.verdict != Verdict::Pending);
+            .filter(|entry| entry.item.verdict != Verdict::Pending);
         (!self.visible.complete).then(|| {
             format!(
-                "UNFINISHED: {} of {all} items were asked; the others have no points yet",
-                asked.count()
+                "UNFINISHED: {} of {all} items are graded; the others have no points yet",
+                graded.count()
             )
         })
     }
 
-    /// Whether no file of the submission could be compiled.
+    /// Returns whether no task file of the submission compiled.
     pub fn nothing_compiled(&self) -> bool {
         let all = crate::given_files::TASK_FILES.len();
         self.visible.build.not_compiled.len() == all
     }
 }
 
-/// The ids of the items that can not be seen now.
+/// Returns the ids of the items that students may not see now.
 fn hidden_ids(policy: &Policy, score: &Score) -> Vec<String> {
     let items = score.items();
     let hidden = items.filter(|item| !policy.visibility(&score.exam, &item.id).is_shown_now());
     hidden.map(|item| item.id.clone()).collect()
 }
 
-/// The item, as far as it may be seen when it may be seen.
+/// Removes from an item what students may not see even when the item itself is shown.
 fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemScore {
     let mut item = ItemScore {
         staff: None,
@@ -107,12 +107,12 @@ fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemSc
     }
     if let Some(named) = hidden.iter().find(|id| item.message.contains(*id)) {
         let task = named.split('.').next().unwrap_or_default();
-        item.message = format!("rests on the task {task}");
+        item.message = format!("depends on the task {task}");
     }
     match visibility {
         Visibility::All => item,
         Visibility::Feedback | Visibility::AfterDue | Visibility::AfterPublished => {
-            // A panic's words are the submission's: they may repeat the question.
+            // The submission chooses the message of a panic, which may repeat the question.
             if item.verdict == Verdict::Panicked || item.message.starts_with("panicked") {
                 item.message = "panicked".to_owned();
             }
@@ -126,7 +126,7 @@ fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemSc
     }
 }
 
-/// Title and points.
+/// Keeps only the title and the points of an item.
 fn redact_to_points(item: ItemScore) -> ItemScore {
     ItemScore {
         verdict: match item.verdict {
@@ -163,14 +163,14 @@ fn verdict_from_points(points: u32, max_points: u32) -> Verdict {
     }
 }
 
-/// The items of a task that may be seen now, and one line for all that may not.
-fn items_shown_now(task: &TaskScore, lines: &[ItemView]) -> Vec<ItemScore> {
-    let of_task = || lines.iter().filter(|line| line.task == task.id);
-    let open = of_task().filter(|line| line.visibility.is_shown_now());
-    let mut items: Vec<ItemScore> = open.map(|line| line.item.clone()).collect();
+/// Returns the items of a task that students may see now, and one item that sums up the others.
+fn items_shown_now(task: &TaskScore, entries: &[ItemView]) -> Vec<ItemScore> {
+    let of_task = || entries.iter().filter(|entry| entry.task == task.id);
+    let open = of_task().filter(|entry| entry.visibility.is_shown_now());
+    let mut items: Vec<ItemScore> = open.map(|entry| entry.item.clone()).collect();
     let hidden: Vec<&ItemScore> = of_task()
-        .filter(|line| !line.visibility.is_shown_now())
-        .map(|line| &line.item)
+        .filter(|entry| !entry.visibility.is_shown_now())
+        .map(|entry| &entry.item)
         .collect();
     let Some(first) = hidden.first() else {
         return items;

@@ -1,11 +1,11 @@
-//! What the score says of a submission's files.
+//! The score's report on a submission's files.
 
 use crate::build::Build;
 use crate::score::{BuildReport, FileReport};
 use crate::submission::Submission;
 use crate::verdict::{file_line, file_message};
 
-/// What did not compile, and what else is to be said.
+/// Returns the compiler errors, and notes on the submission's files.
 pub(super) fn build_report(submission: &Submission, build: &Build) -> BuildReport {
     let not_compiled = build.not_compiled.iter().map(|(file, why)| FileReport {
         file: (*file).to_owned(),
@@ -18,7 +18,7 @@ pub(super) fn build_report(submission: &Submission, build: &Build) -> BuildRepor
     }
 }
 
-/// What is worth knowing of a submission's files and costs nothing.
+/// Returns notes on the submission's files that do not affect points.
 fn notes(submission: &Submission, build: &Build) -> Vec<String> {
     let mut notes = submission.notes.clone();
     let compiled = submission
@@ -32,7 +32,7 @@ fn notes(submission: &Submission, build: &Build) -> Vec<String> {
         if !changed.is_empty() {
             let (file, changed) = (file.name, changed.join(", "));
             notes.push(format!(
-                "{file}: given methods were changed, at no cost by itself: {changed}"
+                "{file}: given methods were changed, which by itself costs no points: {changed}"
             ));
         }
     }

@@ -1,4 +1,4 @@
-//! What grades submissions: the exam, the builder and the rules, prepared once.
+//! The grader of submissions: exam, builder and policy, prepared once.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -28,7 +28,7 @@ use crate::submission::Submission;
 use crate::verdict::pending_score;
 use crate::workspace::Workspace;
 
-/// All that stays as it is from one version of a submission to the next.
+/// Everything that grading needs and that stays the same between versions of a submission.
 pub struct Grader<'a> {
     arguments: &'a Arguments,
     workspace: Workspace,
@@ -39,34 +39,34 @@ pub struct Grader<'a> {
     builder: Builder,
 }
 
-/// One version of a submission, built.
+/// A submission that has been built.
 pub struct BuiltSubmission {
     build: Build,
     took: Duration,
 }
 
 impl BuiltSubmission {
-    /// Makes a program of a submission, as far as it compiles; says what does not as soon as that is
-    /// known.
+    /// Builds a submission as far as it compiles. `report_errors` is called with files that do not
+    /// compile as soon as they are known.
     fn new(
         builder: &Builder,
         submission: &Submission,
-        tell: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
+        report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
     ) -> Result<Self, BuildError> {
-        let began = Instant::now();
-        let build = builder.build_with_progress(submission, tell)?;
+        let started_at = Instant::now();
+        let build = builder.build_with_progress(submission, report_errors)?;
         Ok(BuiltSubmission {
             build,
-            took: began.elapsed(),
+            took: started_at.elapsed(),
         })
     }
 
-    /// How long that took.
+    /// Returns how long the build took.
     pub(super) fn took(&self) -> Duration {
         self.took
     }
 
-    /// Whether as much of it would compile on any day.
+    /// Returns whether building again would give the same result.
     pub(super) fn is_reproducible(&self) -> bool {
         let mut why = self.build.not_compiled.values();
         why.all(NotCompiled::is_reproducible)
@@ -74,36 +74,42 @@ impl BuiltSubmission {
 }
 
 impl<'a> Grader<'a> {
-    /// Loads the exam, and whatever submissions are built with.
+    /// Loads the exam, and prepares the builder.
     pub fn prepare(arguments: &'a Arguments) -> Result<Self, Error> {
         let workspace = Workspace::find()?;
         let file = exam_file::load(arguments.exam.as_deref())?;
-        // A submission that is nowhere is told of before anything is compiled.
+        // A missing submission is reported before anything is compiled.
         collect(arguments, &workspace)?;
         let builder = with_requested_level(builder(arguments, &workspace)?, arguments)?;
         Grader::new(arguments, workspace, builder, file)
     }
 
-    /// The same for one submission, which is built meanwhile: reading an exam takes a tenth of the
-    /// time that compiling does, and neither waits for the other.
+    /// Does the same for one submission and builds it at the same time. Reading the exam takes a
+    /// tenth of the time of compiling, so the two run in parallel.
     pub(super) fn prepare_and_build(
         arguments: &'a Arguments,
-        tell: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
+        report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
     ) -> Result<(Self, Submission, BuiltSubmission), Error> {
         let workspace = Workspace::find()?;
         let submission = collect(arguments, &workspace)?;
         let (builder, built, file) = thread::scope(|scope| {
             let reading = scope.spawn(|| exam_file::load(arguments.exam.as_deref()));
-            let read = |reading: ScopedJoinHandle<'_, _>| reading.join().expect("it reads a file");
+            let read = |reading: ScopedJoinHandle<'_, _>| {
+                reading.join().expect("reading the exam does not panic")
+            };
             let builder = with_requested_level(builder(arguments, &workspace)?, arguments)?;
-            // The first time, all that took its time: a bad exam need not wait for more.
+            // In the first run, preparing the builder takes longer than reading the exam. Then an
+            // invalid exam is reported before the submission is compiled.
             let (built, file) = match reading.is_finished() {
                 true => {
                     let file = read(reading)?;
-                    (BuiltSubmission::new(&builder, &submission, tell)?, file)
+                    (
+                        BuiltSubmission::new(&builder, &submission, report_errors)?,
+                        file,
+                    )
                 }
                 false => {
-                    let built = BuiltSubmission::new(&builder, &submission, tell)?;
+                    let built = BuiltSubmission::new(&builder, &submission, report_errors)?;
                     (built, read(reading)?)
                 }
             };
@@ -113,7 +119,7 @@ impl<'a> Grader<'a> {
         Ok((grader, submission, built))
     }
 
-    /// The same for whoever brings submissions of their own.
+    /// Prepares a grader without a submission of its own, for callers that bring several.
     pub fn for_many(arguments: &'a Arguments) -> Result<Self, Error> {
         let file = exam_file::load(arguments.exam.as_deref())?;
         let workspace = Workspace::find()?;
@@ -142,12 +148,13 @@ impl<'a> Grader<'a> {
         })
     }
 
-    /// As much of a score as the policy lets students see.
+    /// Returns the part of a score that the policy lets students see.
     pub fn student_view(&self, score: &Score) -> StudentView {
         StudentView::new(score, &self.policy, self.lateness)
     }
 
-    /// The formats that were asked for, in `folder` unless they belong elsewhere.
+    /// Returns the requested output formats. They are written to `folder` unless they have a
+    /// location of their own.
     pub(super) fn outputs(
         &self,
         submission: &Submission,
@@ -158,42 +165,44 @@ impl<'a> Grader<'a> {
         Outputs::new(formats, folder, &submitted, submission, hints)
     }
 
-    /// What the exam is called.
+    /// Returns the identity of the exam.
     pub fn exam_name(&self) -> &ExamName {
         &self.exam_name
     }
 
-    /// What scores follow from, beside submission and exam: compiler, dependencies, reference.
+    /// Returns a hash of everything that scores depend on besides submission and exam: compiler,
+    /// dependencies and reference.
     pub fn builder_identity(&self) -> String {
         self.builder.identity()
     }
 
-    /// How submissions will be kept apart from the machine.
+    /// Returns how submissions will be isolated from the machine.
     pub fn isolation(&self) -> Isolation {
         self.builder.isolation()
     }
 
-    /// The course's rules.
+    /// Returns the course's policy.
     pub fn policy(&self) -> &Policy {
         &self.policy
     }
 
-    /// What is asked: all of the exam, or one task of it and what that needs.
+    /// Returns the exam. With `--task`, it contains only the items of one task and those that they
+    /// need.
     pub fn exam(&self) -> &Exam {
         &self.exam
     }
 
-    /// The submission, as it is now.
+    /// Reads the submission's files as they are now.
     pub fn collect(&self) -> Result<Submission, Error> {
         collect(self.arguments, &self.workspace)
     }
 
-    /// Makes a program of it, as far as it compiles.
+    /// Builds a submission as far as it compiles.
     pub fn build(&self, submission: &Submission) -> Result<BuiltSubmission, Error> {
         Ok(BuiltSubmission::new(&self.builder, submission, |_| {})?)
     }
 
-    /// The score before anything is asked.
+    /// Returns the score before any item is graded.
     pub fn pending_score(&self, submission: &Submission, built: &BuiltSubmission) -> Score {
         let mut score = pending_score(&self.exam, self.exam_name.clone(), &submission.name);
         score.rerun_command = RerunCommand {
@@ -207,8 +216,8 @@ impl<'a> Grader<'a> {
         score
     }
 
-    /// Asks some or all of the exam, and shows the score to `progress` after each item, with the
-    /// answers that are worth a look.
+    /// Grades some or all items of the exam. After each item, `progress` is called with the score
+    /// and the answers to draw.
     pub fn run_exam<E: From<io::Error>>(
         &self,
         exam: &Exam,
@@ -216,15 +225,16 @@ impl<'a> Grader<'a> {
         score: &mut Score,
         mut progress: impl FnMut(&Score, &ReportAnswers) -> Result<(), E>,
     ) -> Result<(), E> {
-        let began = Instant::now();
+        let started_at = Instant::now();
         let budget = budget(self.arguments);
-        run_exam(exam, &built.build, budget, score, |score, exhibits| {
-            score.timings.exam_ms = millis(began.elapsed());
-            progress(score, exhibits)
+        run_exam(exam, &built.build, budget, score, |score, answers| {
+            score.timings.exam_ms = millis(started_at.elapsed());
+            progress(score, answers)
         })
     }
 
-    /// Where the score goes. One task's points are no score.
+    /// Returns the report's files, or `None` with `--task`, since one task's points are not a
+    /// score.
     pub fn files(&self, submission: &Submission) -> Option<ReportFiles> {
         let folder = match &self.arguments.out {
             Some(folder) => folder.clone(),

@@ -1,4 +1,4 @@
-//! The main job, from a command line to a score.
+//! Grades a submission, from the command line to the score.
 
 mod build_report;
 mod grader;
@@ -19,21 +19,21 @@ use crate::verdict::file_message;
 pub use grader::{BuiltSubmission, Grader};
 pub use resolve::{budget, builder, collect, default_folder};
 
-/// A submission's score, and where it was written, if it was.
+/// The score of a submission, and the files in which it was written.
 #[derive(Debug)]
 pub struct GradedSubmission {
     /// The score.
     pub score: Score,
-    /// The files that tell it.
+    /// The report's files, if any were written.
     pub files: Option<ReportFiles>,
-    /// As much of it as students may see.
+    /// The part of the score that students may see.
     pub student_view: StudentView,
-    /// What it follows from, if it may be said again without grading.
+    /// The inputs of the score, if its report may be cached.
     pub cache_key: Option<CacheKey>,
 }
 
 impl GradedSubmission {
-    /// What a runner is to be told on standard output, if one was asked for.
+    /// Returns the commands that a format prints to standard output for the CI runner.
     pub fn commands(&self) -> Option<String> {
         self.files
             .as_ref()?
@@ -42,12 +42,12 @@ impl GradedSubmission {
     }
 }
 
-/// Loads the exam, collects the submission, builds it, asks, judges, scores.
+/// Grades the submission that the command line names, and writes its reports.
 pub fn grade(arguments: &Arguments) -> Result<GradedSubmission, Error> {
-    let began = Instant::now();
-    let tell = print_compile_errors();
-    let (grader, submission, built) = Grader::prepare_and_build(arguments, tell)?;
-    let prepared = began.elapsed().saturating_sub(built.took());
+    let started_at = Instant::now();
+    let print_errors = print_compile_errors();
+    let (grader, submission, built) = Grader::prepare_and_build(arguments, print_errors)?;
+    let prepared = started_at.elapsed().saturating_sub(built.took());
     let exam = grader.exam();
     let mut files = grader.files(&submission);
     if let Some(files) = &mut files {
@@ -62,15 +62,15 @@ pub fn grade(arguments: &Arguments) -> Result<GradedSubmission, Error> {
     );
     let key = key.filter(|_| built.is_reproducible());
     let mut writing = Duration::ZERO;
-    grader.run_exam(exam, &built, &mut score, |score, exhibits| {
-        let began = Instant::now();
+    grader.run_exam(exam, &built, &mut score, |score, answers| {
+        let started_at = Instant::now();
         let files = files.as_mut();
         let written = files.map_or(Ok(()), |files| {
-            files.write(score, exam, exhibits)?;
+            files.write(score, exam, answers)?;
             files.outputs.write(&|| grader.student_view(score))?;
             Ok::<(), Error>(())
         });
-        writing += began.elapsed();
+        writing += started_at.elapsed();
         written
     })?;
     score.timings.stages.prepare = prepared;
@@ -84,12 +84,12 @@ pub fn grade(arguments: &Arguments) -> Result<GradedSubmission, Error> {
     })
 }
 
-/// On standard error, each file once and in short: the report that follows has all the compiler's
-/// words.
+/// Prints the first line of each file's compiler error to standard error, once per file. The report
+/// that follows contains the complete errors.
 fn print_compile_errors() -> impl FnMut(&BTreeMap<&'static str, NotCompiled>) {
-    let mut said = BTreeSet::new();
+    let mut printed = BTreeSet::new();
     move |files| {
-        for (file, why) in files.iter().filter(|(file, _)| said.insert(**file)) {
+        for (file, why) in files.iter().filter(|(file, _)| printed.insert(**file)) {
             let message = file_message(file, why);
             let first = message.lines().next().unwrap_or_default();
             anstream::eprintln!("{file}: {first}; grading the rest");

@@ -1,4 +1,4 @@
-//! What the command line names, found.
+//! Resolves what the command line names.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -12,7 +12,7 @@ use crate::probe::Budget;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
-/// The policy that the command line names, or the default.
+/// Returns the policy that the command line names, or the default.
 pub(super) fn policy(arguments: &Arguments, exam: &Exam) -> Result<Policy, PolicyError> {
     let Some(path) = &arguments.policy else {
         return Ok(Policy::default());
@@ -22,25 +22,27 @@ pub(super) fn policy(arguments: &Arguments, exam: &Exam) -> Result<Policy, Polic
     Ok(policy)
 }
 
-/// How late the submission is, where a platform says so.
+/// Returns how late the submission is, if the platform's metadata are given.
 pub(super) fn lateness(
     arguments: &Arguments,
     policy: &Policy,
 ) -> Result<Lateness, SubmissionTimeError> {
-    let handed_in = arguments
+    let submission_time = arguments
         .gradescope_metadata
         .as_deref()
         .map(SubmissionTime::read);
-    let lateness = handed_in.map(|read| read.map(|handed_in| policy.lateness_of(handed_in)));
+    let lateness =
+        submission_time.map(|read| read.map(|submission_time| policy.lateness_of(submission_time)));
     lateness.unwrap_or(Ok(Lateness::NONE))
 }
 
-/// Where a score goes unless told otherwise.
+/// Returns the default folder for a submission's score.
 pub fn default_folder(workspace: &Workspace, submission: &Submission) -> PathBuf {
     workspace.output_folder().join(&submission.name)
 }
 
-/// What submissions are built with: with the reference, where it is at hand and not declined.
+/// Returns the builder. It uses the reference's parts if they exist and `--no-reference` is not
+/// given.
 pub fn builder(arguments: &Arguments, workspace: &Workspace) -> Result<Builder, BuildError> {
     let builder = Builder::prepare(workspace)?;
     match workspace.reference() {
@@ -49,12 +51,12 @@ pub fn builder(arguments: &Arguments, workspace: &Workspace) -> Result<Builder, 
     }
 }
 
-/// The submission that the command line names.
+/// Reads the submission that the command line names.
 pub fn collect(arguments: &Arguments, workspace: &Workspace) -> Result<Submission, Error> {
     Ok(Submission::collect(&submission_path(arguments, workspace))?)
 }
 
-/// Where it lies.
+/// Returns the path of that submission.
 pub(super) fn submission_path(arguments: &Arguments, workspace: &Workspace) -> PathBuf {
     match &arguments.submission {
         Some(path) => workspace.resolve(path),
@@ -62,7 +64,7 @@ pub(super) fn submission_path(arguments: &Arguments, workspace: &Workspace) -> P
     }
 }
 
-/// What an item may use.
+/// Returns the time budget of an item.
 pub fn budget(arguments: &Arguments) -> Budget {
     Budget {
         cpu: Duration::from_secs(arguments.cpu_limit),

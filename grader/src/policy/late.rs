@@ -1,4 +1,4 @@
-//! From points to what counts: exact, in whole numbers, rounded once at the end.
+//! Converts points to final points, in exact integers, rounded once at the end.
 
 use std::fmt;
 
@@ -9,28 +9,28 @@ use crate::policy::{LatePolicy, PercentBase, Policy, Rounding};
 /// One day, in seconds.
 const DAY: u64 = 24 * 60 * 60;
 
-/// How long after the due time a submission came.
+/// The time between the due time and the submission.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Lateness {
-    /// 0 is in time.
+    /// Seconds after the due time, or 0 if on time.
     pub seconds: u64,
 }
 
 impl Lateness {
-    /// In time.
+    /// On time.
     pub const NONE: Lateness = Lateness { seconds: 0 };
 }
 
-/// What a submission counts for.
+/// The final points of a submission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CountedPoints {
-    /// What it counts for.
+    /// Final points.
     pub points: u32,
-    /// What a perfect one in time counts for.
+    /// Final points of a perfect submission on time.
     pub max_points: u32,
-    /// The begun days after the due time, free ones counted in.
+    /// Number of started days after the due time, including free days.
     pub late_days: u32,
-    /// Whether it came after the last day, and so counts for nothing.
+    /// Whether the submission was made after the last day, and so counts for nothing.
     pub is_closed: bool,
 }
 
@@ -41,7 +41,8 @@ impl fmt::Display for CountedPoints {
 }
 
 impl Policy {
-    /// What `points` of `max_points` count for: scaled, less what lateness costs, capped, rounded.
+    /// Returns the final points for `points` of `max_points`: scaled, reduced for lateness, capped
+    /// and rounded.
     pub fn counted_points(
         &self,
         points: u32,
@@ -51,21 +52,22 @@ impl Policy {
         let out_of = self.points.out_of.unwrap_or(max_points);
         let late_days = self.late.late_days(lateness);
         let is_closed = self.late.closed_after_days.is_some_and(|n| late_days > n);
-        let share = match is_closed {
+        let fraction = match is_closed {
             true => Fraction::NONE,
             false => self
                 .late
                 .fraction(points.min(max_points), max_points, late_days),
         };
         CountedPoints {
-            points: share.apply(out_of, self.points.rounding),
+            points: fraction.apply(out_of, self.points.rounding),
             max_points: out_of,
             late_days,
             is_closed,
         }
     }
 
-    /// How late a submission of this moment is, in seconds since 1970, UTC. None without a due time.
+    /// Returns how late a submission of this time is, in seconds since 1970 UTC. `None` without a
+    /// due time.
     pub fn lateness(&self, submitted: i64) -> Option<Lateness> {
         let seconds = submitted - unix_seconds(self.late.due.as_ref()?)?;
         Some(Lateness {
@@ -75,7 +77,7 @@ impl Policy {
 }
 
 impl LatePolicy {
-    /// The begun days since the due time; none within the time of grace.
+    /// Returns the number of started days since the due time, or 0 within the grace period.
     fn late_days(&self, lateness: Lateness) -> u32 {
         match lateness.seconds <= u64::from(self.grace_minutes) * 60 {
             true => 0,
@@ -84,7 +86,7 @@ impl LatePolicy {
     }
 
     fn fraction(&self, points: u32, max_points: u32, late_days: u32) -> Fraction {
-        // In hundredths of a point, so that percentages are whole numbers.
+        // In hundredths of a point, so that percentages are integers.
         let (points, all) = (u64::from(points) * 100, u64::from(max_points) * 100);
         let days = late_days.saturating_sub(self.free_days);
         if days == 0 {
@@ -107,7 +109,7 @@ impl LatePolicy {
     }
 }
 
-/// A part of the whole, exactly.
+/// An exact fraction.
 #[derive(Clone, Copy, Debug)]
 struct Fraction {
     numerator: u64,
@@ -131,10 +133,10 @@ impl Fraction {
     }
 }
 
-/// Seconds since 1970, UTC. None without a date, a time and an offset.
-pub(super) fn unix_seconds(moment: &Datetime) -> Option<i64> {
-    let (date, time) = (moment.date?, moment.time?);
-    let minutes = match moment.offset? {
+/// Returns the seconds since 1970 UTC. `None` without a date, a time and an offset.
+pub(super) fn unix_seconds(datetime: &Datetime) -> Option<i64> {
+    let (date, time) = (datetime.date?, datetime.time?);
+    let minutes = match datetime.offset? {
         Offset::Z => 0,
         Offset::Custom { minutes } => i64::from(minutes),
     };
@@ -144,9 +146,10 @@ pub(super) fn unix_seconds(moment: &Datetime) -> Option<i64> {
     Some(((days * 24 + hour) * 60 + minute - minutes) * 60 + second)
 }
 
-/// Days since 1970-01-01 (Howard Hinnant, "chrono-Compatible Low-Level Date Algorithms").
+/// Returns the days since 1970-01-01 (Howard Hinnant, "chrono-Compatible Low-Level Date
+/// Algorithms").
 fn days_since_epoch(year: i64, month: i64, day: i64) -> i64 {
-    // Years begin in March, so that the odd day is the last.
+    // Years start in March, so that the leap day is the last one.
     let year = if month <= 2 { year - 1 } else { year };
     let era = year.div_euclid(400);
     let of_era = year.rem_euclid(400);
@@ -186,7 +189,8 @@ mod tests {
         assert_eq!(counts(&out_of("nearest"), 87, Lateness::NONE), 44);
         assert_eq!(counts(&out_of("up"), 87, Lateness::NONE), 44);
         assert_eq!(counts(&out_of("up"), 100, Lateness::NONE), 50);
-        // 10 % of 87 is 8.7, and half of what is left 39.15: nothing is rounded in between.
+        // 10 % of 87 is 8.7, which leaves 78.3, and half of that is 39.15. Nothing is rounded in
+        // between.
         let late = out_of("down") + "\n[late]\npercent_per_day = 10";
         assert_eq!(counts(&late, 87, hours(1)), 39);
     }
@@ -239,17 +243,17 @@ mod tests {
     fn due_times_are_compared_across_time_zones() {
         let due = |text: &str| policy(&format!("[late]\ndue = {text}"));
         // `date -d 2026-11-20T23:59:59+01:00 +%s`
-        let moment = 1_795_215_599;
+        let time = 1_795_215_599;
         for same in ["2026-11-20T23:59:59+01:00", "2026-11-20T22:59:59Z"] {
             let due = due(same);
-            assert_eq!(due.lateness(moment), Some(Lateness::NONE), "{same}");
-            assert_eq!(due.lateness(moment - 9), Some(Lateness::NONE), "{same}");
-            assert_eq!(due.lateness(moment + 9), Some(Lateness { seconds: 9 }));
+            assert_eq!(due.lateness(time), Some(Lateness::NONE), "{same}");
+            assert_eq!(due.lateness(time - 9), Some(Lateness::NONE), "{same}");
+            assert_eq!(due.lateness(time + 9), Some(Lateness { seconds: 9 }));
         }
         assert_eq!(
             unix_seconds(&"2024-02-29T12:00:00Z".parse().unwrap()),
             Some(1_709_208_000)
         );
-        assert_eq!(Policy::default().lateness(moment), None);
+        assert_eq!(Policy::default().lateness(time), None);
     }
 }

@@ -1,7 +1,7 @@
-//! A course's rules, as data: what points count for, what lateness costs, what students see.
+//! A course's policy: how points count, what lateness costs, and what students see.
 //!
-//! Nothing here changes a score: `score.json` says what a submission is worth as if in time, and
-//! what counts follows from it and from the policy.
+//! A policy never changes a score. `score.json` contains the points of a submission regardless of
+//! its time, and the final points are computed from them.
 
 mod late;
 mod read;
@@ -18,82 +18,82 @@ pub use read::PolicyError;
 pub use submission_time::{SubmissionTime, SubmissionTimeError};
 pub use visibility::Visibility;
 
-/// The documented file that says what holds without a policy.
+/// The default policy, as a file with comments on every key.
 pub const DEFAULT: &str = include_str!("default.toml");
 
-/// What counts, and who sees what. `default.toml` says what each line means.
+/// A course's policy. `default.toml` explains every key.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Policy {
-    /// What points count for.
+    /// Conversion of points.
     pub points: PointsPolicy,
-    /// What lateness costs.
+    /// Deductions for late submissions.
     pub late: LatePolicy,
-    /// What students see.
+    /// Visibility of results.
     pub visibility: VisibilityPolicy,
 }
 
-/// What points count for.
+/// The conversion of points to final points.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PointsPolicy {
-    /// What a perfect submission counts for; without it, as much as the exam has.
+    /// Points for a perfect submission. `None` means the exam's points.
     pub out_of: Option<u32>,
-    /// What becomes of fractions, at the very end.
+    /// Rounding of the final points.
     pub rounding: Rounding,
 }
 
-/// What becomes of fractions.
+/// Rounding of fractions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rounding {
-    /// To the whole number below.
+    /// To the integer below.
     Down,
-    /// To the nearest whole number, halves up.
+    /// To the nearest integer, halves up.
     #[default]
     Nearest,
-    /// To the whole number above.
+    /// To the integer above.
     Up,
 }
 
-/// What lateness costs.
+/// Deductions for late submissions.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LatePolicy {
-    /// The last second in time.
+    /// The due time.
     pub due: Option<Datetime>,
-    /// So much later is still in time.
+    /// Grace period after the due time, in minutes.
     pub grace_minutes: u32,
-    /// So many late days cost nothing.
+    /// Number of late days that cost nothing.
     pub free_days: u32,
-    /// What each further day costs.
+    /// Cost of each further day, in percent.
     pub percent_per_day: u32,
-    /// Of what.
+    /// The points to which the percentage refers.
     pub percent_of: PercentBase,
-    /// The most that a late submission can count for, in percent of all points.
+    /// Maximum for a late submission, in percent of all points.
     pub most_percent: u32,
-    /// After so many days, nothing counts.
+    /// Number of days after which a submission counts for nothing.
     pub closed_after_days: Option<u32>,
 }
 
-/// What a percentage is of.
+/// The points to which a percentage refers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PercentBase {
-    /// Of the submission's own points.
+    /// The submission's own points.
     #[default]
     Earned,
-    /// Of all that could be had.
+    /// All points.
     Possible,
 }
 
-/// What students see of an exam's items.
+/// The visibility of an exam's items to students.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct VisibilityPolicy {
-    /// Of the practice exam, which they have.
+    /// For the practice exam, which students have.
     pub practice: Visibility,
-    /// Of any other.
+    /// For all other exams.
     #[serde(rename = "final")]
     pub other_exams: Visibility,
     /// Exceptions, by task or item.

@@ -1,4 +1,4 @@
-//! Reading a policy. One that says what can not be meant is refused, with line and remedy.
+//! Reads policies. An invalid one is rejected with the line and what to do.
 
 use std::fs;
 use std::io;
@@ -8,44 +8,44 @@ use crate::exam::Exam;
 use crate::policy::Policy;
 use crate::policy::late::unix_seconds;
 
-/// Why a policy can not be used.
+/// A policy cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum PolicyError {
-    /// The file can not be read.
+    /// The file cannot be read.
     #[error(
-        "can not read the policy {}: {source}; `cargo grade --policy-default` prints one to begin with",
+        "cannot read the policy {}: {source}; `cargo grade --policy-default` prints one to start from",
         path.display()
     )]
     Io {
-        /// Which.
+        /// Path of the policy.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
-    /// The file is not TOML, or not a policy.
+    /// The file is not TOML, or not a valid policy.
     #[error(
-        "the policy {}, line {line}: {problem}\n  {text}\n`cargo grade --policy-default` prints all keys and what they mean",
+        "the policy {}, line {line}: {problem}\n  {text}\n`cargo grade --policy-default` prints all keys with explanations",
         path.display()
     )]
     Invalid {
-        /// Which.
+        /// Path of the policy.
         path: PathBuf,
-        /// Counted from 1.
+        /// Line number, counted from 1.
         line: usize,
-        /// What stands there.
+        /// Text of the line.
         text: String,
-        /// What is wrong with it.
+        /// The problem with it.
         problem: String,
     },
-    /// An exception for something that the exam does not hold.
+    /// An exception refers to an unknown task or item.
     #[error(
-        "the policy {}: [visibility.items] names `{name}`, and the exam {exam} has no such task or item",
+        "the policy {}: [visibility.items] names `{name}`, but the exam {exam} has no such task or item",
         path.display()
     )]
     UnknownItem {
-        /// Which.
+        /// Path of the policy.
         path: PathBuf,
-        /// What it names.
+        /// The unknown name.
         name: String,
         /// The exam's id.
         exam: String,
@@ -53,7 +53,7 @@ pub enum PolicyError {
 }
 
 impl Policy {
-    /// Reads the file at `path`.
+    /// Reads the policy at `path`.
     pub fn read(path: &Path) -> Result<Policy, PolicyError> {
         let text = fs::read_to_string(path).map_err(|source| PolicyError::Io {
             path: path.to_owned(),
@@ -62,12 +62,13 @@ impl Policy {
         Policy::from_text(path, &text)
     }
 
-    /// Reads a policy that `path` is the name of.
+    /// Parses a policy. `path` is used in error messages only.
     pub fn from_text(path: &Path, text: &str) -> Result<Policy, PolicyError> {
-        Policy::parse(text).map_err(|complaint| complaint.into_error(path, text))
+        Policy::parse(text).map_err(|problem| problem.into_error(path, text))
     }
 
-    /// Refuses exceptions for what this exam does not hold: nobody would miss them.
+    /// Rejects exceptions for items that the exam does not contain. Otherwise a misspelt name would
+    /// go unnoticed.
     pub fn check(&self, path: &Path, exam: &Exam) -> Result<(), PolicyError> {
         let items = exam.items.iter().map(|item| item.id.as_str());
         match self.unmatched_exception(items) {
@@ -94,33 +95,29 @@ impl Policy {
         }
     }
 
-    /// The key whose value can not be meant, and what is wrong with it.
+    /// Returns the key with an invalid value, and the problem with it.
     fn problem(&self) -> Option<(&'static str, &'static str)> {
         let late = &self.late;
-        let is_moment = late
+        let is_valid_time = late
             .due
             .as_ref()
             .is_none_or(|due| unix_seconds(due).is_some());
         [
+            (self.points.out_of == Some(0), "out_of", "must not be 0"),
             (
-                self.points.out_of == Some(0),
-                "out_of",
-                "nothing is out of 0",
-            ),
-            (
-                !is_moment,
+                !is_valid_time,
                 "due",
-                "a moment is meant, such as 2026-11-20T23:59:59+01:00",
+                "must be a date and time with an offset, such as 2026-11-20T23:59:59+01:00",
             ),
             (
                 late.percent_per_day > 100,
                 "percent_per_day",
-                "more than 100 percent",
+                "must not exceed 100",
             ),
             (
                 late.most_percent > 100,
                 "most_percent",
-                "more than 100 percent",
+                "must not exceed 100",
             ),
         ]
         .into_iter()
@@ -128,7 +125,7 @@ impl Policy {
     }
 }
 
-/// What is wrong, and at which byte.
+/// A problem at a byte offset of the text.
 struct Problem {
     offset: usize,
     problem: String,
@@ -147,7 +144,7 @@ impl Problem {
     }
 }
 
-/// The byte where the line of this key begins.
+/// Returns the byte offset of the line that starts with this key.
 fn line_offset(text: &str, key: &str) -> usize {
     let mut begin = 0;
     for line in text.split_inclusive('\n') {
@@ -175,9 +172,9 @@ mod tests {
             line.split_once(" = ").map(|_| line.to_owned())
         };
         let lines = DEFAULT.lines();
-        let said = lines.map(|line| shown(line).unwrap_or_else(|| line.to_owned()));
-        let said: Vec<String> = said.collect();
-        let policy = Policy::parse(&said.join("\n")).ok().unwrap();
+        let lines_with_examples = lines.map(|line| shown(line).unwrap_or_else(|| line.to_owned()));
+        let lines_with_examples: Vec<String> = lines_with_examples.collect();
+        let policy = Policy::parse(&lines_with_examples.join("\n")).ok().unwrap();
         assert_eq!(policy.points.out_of, Some(50));
         assert!(policy.late.due.is_some() && policy.late.closed_after_days.is_some());
         assert_eq!(policy.visibility.items.len(), 2);

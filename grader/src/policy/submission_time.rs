@@ -1,5 +1,5 @@
-//! When a submission was handed in and due, as Gradescope tells its autograders: in a file
-//! `submission_metadata.json`
+//! The submission time and the due date from the file `submission_metadata.json` that Gradescope
+//! gives to autograders
 //! (<https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/>).
 
 use std::fs;
@@ -12,39 +12,39 @@ use toml::value::Datetime;
 use crate::policy::Policy;
 use crate::policy::late::{Lateness, unix_seconds};
 
-/// The two moments, in seconds since 1970, UTC.
+/// The times at which a submission was made and due, in seconds since 1970 UTC.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SubmissionTime {
     submitted: i64,
-    /// None where the assignment has no due date.
+    /// `None` if the assignment has no due date.
     due: Option<i64>,
 }
 
-/// The platform's file can not be used: nothing that a student could mend.
+/// The platform's file cannot be used. Students cannot fix this.
 #[derive(Debug, thiserror::Error)]
 pub enum SubmissionTimeError {
-    /// It can not be read.
-    #[error("can not read Gradescope's {}: {source}", path.display())]
+    /// The file cannot be read.
+    #[error("cannot read Gradescope's {}: {source}", path.display())]
     Io {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
-        /// The system's words.
+        /// The system's error.
         source: io::Error,
     },
-    /// It is not what Gradescope documents.
+    /// The file does not have the documented format.
     #[error(
-        "{} does not say when the submission was handed in and due ({why}): leave --gradescope-metadata away, and nothing counts as late",
+        "{} has no valid submission time and due date ({why}); without --gradescope-metadata, nothing counts as late",
         path.display()
     )]
     Invalid {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong.
+        /// The problem with it.
         why: String,
     },
 }
 
-/// What is read of the file. There is more in it, and it may become more still.
+/// The fields that are read. The file has others, which are ignored.
 #[derive(Deserialize)]
 struct Metadata {
     created_at: String,
@@ -80,19 +80,19 @@ impl SubmissionTime {
 }
 
 fn parse_time(text: &str) -> Result<i64, String> {
-    let moment: Option<Datetime> = text.parse().ok();
-    let seconds = moment.as_ref().and_then(unix_seconds);
-    seconds.ok_or_else(|| format!("{text:?} is no moment"))
+    let datetime: Option<Datetime> = text.parse().ok();
+    let seconds = datetime.as_ref().and_then(unix_seconds);
+    seconds.ok_or_else(|| format!("{text:?} is not a date and time"))
 }
 
 impl Policy {
-    /// How late that is: by the policy's due time, else by the platform's.
-    pub fn lateness_of(&self, handed_in: SubmissionTime) -> Lateness {
+    /// Returns how late a submission is by the policy's due time, or else by the platform's.
+    pub fn lateness_of(&self, submission: SubmissionTime) -> Lateness {
         let late = |due: i64| Lateness {
-            seconds: u64::try_from(handed_in.submitted - due).unwrap_or(0),
+            seconds: u64::try_from(submission.submitted - due).unwrap_or(0),
         };
-        let by_policy = self.lateness(handed_in.submitted);
-        by_policy.unwrap_or(handed_in.due.map_or(Lateness::NONE, late))
+        let by_policy = self.lateness(submission.submitted);
+        by_policy.unwrap_or(submission.due.map_or(Lateness::NONE, late))
     }
 }
 
@@ -109,11 +109,11 @@ mod tests {
 
     #[test]
     fn platform_due_date_applies_without_a_policy_due_date() {
-        let handed_in = parse_with_due(r#""2026-11-20T23:00:00.000000-08:00""#).unwrap();
+        let submission = parse_with_due(r#""2026-11-20T23:00:00.000000-08:00""#).unwrap();
         let silent = Policy::default();
-        assert_eq!(silent.lateness_of(handed_in), Lateness { seconds: 10 });
+        assert_eq!(silent.lateness_of(submission), Lateness { seconds: 10 });
         let own: Policy = toml::from_str("[late]\ndue = 2026-11-21T07:00:05Z").unwrap();
-        assert_eq!(own.lateness_of(handed_in), Lateness { seconds: 5 });
+        assert_eq!(own.lateness_of(submission), Lateness { seconds: 5 });
         let without = parse_with_due("null").unwrap();
         assert_eq!(silent.lateness_of(without), Lateness::NONE);
         let early = parse_with_due(r#""2026-11-22T00:00:00.000000-08:00""#).unwrap();
@@ -124,7 +124,7 @@ mod tests {
     fn reports_an_invalid_time() {
         assert_eq!(
             parse_with_due(r#""tomorrow""#),
-            Err("\"tomorrow\" is no moment".to_owned())
+            Err("\"tomorrow\" is not a date and time".to_owned())
         );
         assert!(
             SubmissionTime::parse("{}")

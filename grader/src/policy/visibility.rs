@@ -1,21 +1,21 @@
-//! What students see of an item.
+//! The visibility of an item's results to students.
 
 use serde::Deserialize;
 
 use crate::exam_file::ExamName;
 use crate::policy::Policy;
 
-/// The exam that students have, with its keys.
+/// Id of the exam that students have, including its answer keys.
 const PRACTICE_EXAM: &str = "practice";
 
-/// How much students see of an item, from all to nothing.
+/// The part of an item that students see, from everything to nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Visibility {
-    /// What was asked, what came, what is right.
+    /// The question, the submission's answer and the expected answer.
     All,
-    /// What went wrong, in words; no question and no answer, from which an exam could be pieced
-    /// together.
+    /// The error message and hints, but no questions or answers, from which students could
+    /// reconstruct the exam.
     Feedback,
     /// Title and points.
     Points,
@@ -28,7 +28,7 @@ pub enum Visibility {
 }
 
 impl Visibility {
-    /// Whether students see that there is such an item, as soon as it is graded.
+    /// Returns whether students see the item as soon as it is graded.
     pub fn is_shown_now(self) -> bool {
         match self {
             Visibility::All | Visibility::Feedback | Visibility::Points => true,
@@ -38,7 +38,7 @@ impl Visibility {
 }
 
 impl Policy {
-    /// What students see of this item of this exam.
+    /// Returns what students see of an item of this exam.
     pub fn visibility(&self, exam: &ExamName, item: &str) -> Visibility {
         let task = item.split('.').next().unwrap_or(item);
         let exceptions = &self.visibility.items;
@@ -49,7 +49,7 @@ impl Policy {
         })
     }
 
-    /// An exception that is neither a task nor an item of these.
+    /// Returns an exception that matches neither a task nor an item.
     pub(super) fn unmatched_exception<'a>(
         &self,
         items: impl Iterator<Item = &'a str> + Clone,

@@ -1,33 +1,34 @@
-//! How long an item may take.
+//! Time budgets of items.
 
 use std::time::{Duration, Instant};
 
 use super::fault::TimeLimit;
 
-/// What one item may use.
+/// The time budget of an item.
 #[derive(Clone, Copy, Debug)]
 pub struct Budget {
-    /// CPU time, which is what counts.
+    /// Limit of CPU time. This is the limit that matters.
     pub cpu: Duration,
 }
 
 impl Budget {
-    /// Wall time is only a back-stop: on a machine under load it says nothing of the code.
+    /// Returns the limit of wall time. It is generous, because on a busy machine wall time says
+    /// nothing about the code.
     pub fn wall(self) -> Duration {
         4 * self.cpu + Duration::from_secs(5)
     }
 }
 
-/// When the item was asked, and what it may use.
+/// Tracks how much of its budget an item has used.
 pub(super) struct BudgetTracker {
     started: Instant,
-    /// What the process had used when it was first looked at.
+    /// CPU time of the process at the first check.
     cpu_at_first_check: Option<Duration>,
     budget: Budget,
 }
 
 impl BudgetTracker {
-    /// Begins now.
+    /// Starts the clock.
     pub(super) fn start(budget: Budget) -> Self {
         BudgetTracker {
             started: Instant::now(),
@@ -36,9 +37,9 @@ impl BudgetTracker {
         }
     }
 
-    /// Which time is over, if any is, now that the process has used so much. What it had used when
-    /// this was asked first does not count: most items are answered before anybody asks, and to find
-    /// out takes longer than they do.
+    /// Returns the exceeded limit, if there is one. CPU time before the first check does not count:
+    /// most items are answered before that, and reading the time at their start would take longer
+    /// than they do.
     pub(super) fn exceeded(&mut self, cpu_now: Option<Duration>) -> Option<TimeLimit> {
         self.cpu_at_first_check = self.cpu_at_first_check.or(cpu_now);
         let cpu = cpu_now.zip(self.cpu_at_first_check);

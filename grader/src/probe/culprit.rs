@@ -1,7 +1,7 @@
-//! Which element of an item it is that has no answer: an item is asked in one go, and when the
-//! program ends or hangs, all that is known is that one of them did it.
+//! Finds the element that crashes or hangs the program. The elements of an item are sent together,
+//! so a fault alone does not tell which of them caused it.
 //!
-//! For whoever looks for the mistake; no point hangs on it.
+//! The result only helps to find the mistake. It does not affect points.
 
 use std::io;
 use std::ops::Range;
@@ -13,36 +13,37 @@ use super::subset::subset;
 use super::{Budget, Launcher};
 use crate::exam::Item;
 
-/// Most honest items take less in all, so a single element of one that takes so long hangs.
+/// Most correct items take less than this in total, so an element that takes longer hangs.
 const BUDGET: Budget = Budget {
     cpu: Duration::from_millis(250),
 };
 
-/// The question and the first element of it that end or hang a fresh program, if they still do
-/// when they are asked alone.
+/// Returns the indices of the first question and element that crash or hang a fresh program, if
+/// they still do so when run alone.
 pub fn culprit(launcher: &Launcher, item: &Item) -> io::Result<Option<(usize, usize)>> {
-    let questions = item.questions.iter().map(|asked| &asked.question);
+    let questions = item.questions.iter().map(|question| &question.question);
     let Some(number) = first_fault(launcher, questions.clone().cloned())? else {
         return Ok(None);
     };
     let question = &item.questions[number].question;
 
-    // In two steps, each of which meets one fault: a hang costs its whole budget.
-    let mut within = 0..question.count();
-    for length in [isqrt_up(within.len()), 1] {
-        let parts: Vec<Range<usize>> = chunks(within, length).collect();
-        let asked = parts
+    // Two steps of about √n questions each, instead of one question per element. Each step ends at
+    // its first fault, because a hang uses up its whole budget.
+    let mut suspects = 0..question.count();
+    for length in [isqrt_up(suspects.len()), 1] {
+        let parts: Vec<Range<usize>> = chunks(suspects, length).collect();
+        let subsets = parts
             .iter()
             .map(|elements| subset(question, elements.clone()));
-        match first_fault(launcher, asked)? {
-            Some(faulty) => within = parts[faulty].clone(),
+        match first_fault(launcher, subsets)? {
+            Some(faulty) => suspects = parts[faulty].clone(),
             None => return Ok(None),
         }
     }
-    Ok(Some((number, within.start)))
+    Ok(Some((number, suspects.start)))
 }
 
-/// The first of these that has no answer.
+/// Returns the index of the first question without an answer.
 fn first_fault(
     launcher: &Launcher,
     questions: impl Iterator<Item = Question>,
@@ -63,7 +64,7 @@ fn chunks(range: Range<usize>, length: usize) -> impl Iterator<Item = Range<usiz
         .map(move |start| start..end.min(start + length))
 }
 
-/// The square root, rounded up; 1 for nothing.
+/// Returns the square root, rounded up, but at least 1.
 fn isqrt_up(count: usize) -> usize {
     count.saturating_sub(1).isqrt() + 1
 }

@@ -1,48 +1,48 @@
-//! What can come instead of an answer.
+//! Faults: why there is no answer.
 
 use std::fmt;
 use std::time::Duration;
 
 use crate::signatures::NoAnswerReason;
 
-/// Why there is no answer. Every one costs the item, and the probe.
+/// The reason why there is no answer. A fault ends the probe and fails the item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// The item's time is over.
+    /// The item exceeded a time limit.
     TimedOut(TimeLimit),
-    /// Memory ran out.
+    /// The memory limit was exceeded.
     OutOfMemory,
     /// The process ended.
     Crashed(Crash),
-    /// What came is no answer to what was asked.
+    /// The answer is invalid.
     Protocol(String),
 }
 
-/// Which time was over.
+/// A time limit that was exceeded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TimeLimit {
-    /// So much CPU time was used.
+    /// The limit of CPU time.
     Cpu(Duration),
-    /// It waited for so long without using its CPU time.
+    /// The limit of wall time: the process waited without using its CPU time.
     Wall(Duration),
 }
 
-/// How a process ended before it had answered.
+/// The way in which a process ended before it answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Crash {
-    /// It recursed until its stack was full.
+    /// Its stack overflowed.
     StackOverflow,
-    /// It left by itself.
+    /// It exited with this code.
     Exited(i32),
-    /// The system ended it.
+    /// It was ended by this signal.
     Signal(i32),
-    /// Somebody ended it who is neither itself nor its limits, and it held little memory: where
-    /// memory runs out, the system ends whom it likes.
+    /// It was killed from outside while it used little memory. If the machine runs out of memory,
+    /// the system may kill any process.
     Killed,
 }
 
 impl Fault {
-    /// As much of it as tells mistakes apart.
+    /// Reduces the fault to what distinguishes known mistakes.
     pub fn no_answer_reason(&self) -> NoAnswerReason {
         match self {
             Fault::TimedOut(_) => NoAnswerReason::Time,
@@ -59,7 +59,7 @@ impl fmt::Display for Fault {
         match self {
             Fault::TimedOut(TimeLimit::Cpu(limit)) => write!(
                 f,
-                "stopped after {} s of computing: an endless loop?",
+                "stopped after {} s of CPU time: is there an endless loop?",
                 limit.as_secs_f64()
             ),
             Fault::TimedOut(TimeLimit::Wall(limit)) => write!(
@@ -67,22 +67,22 @@ impl fmt::Display for Fault {
                 "stopped after {} s: is it waiting for something?",
                 limit.as_secs_f64()
             ),
-            Fault::OutOfMemory => f.write_str("out of memory: does something grow without end?"),
+            Fault::OutOfMemory => f.write_str("out of memory: does something grow without limit?"),
             Fault::Crashed(Crash::StackOverflow) => {
-                f.write_str("the stack overflowed: recursion without end?")
+                f.write_str("the stack overflowed: is there an endless recursion?")
             }
             Fault::Crashed(Crash::Exited(code)) => write!(
                 f,
-                "the program ended (exit code {code}) before it had answered"
+                "the program ended (exit code {code}) before it answered"
             ),
             Fault::Crashed(Crash::Signal(signal)) => {
-                write!(f, "the program was ended by signal {signal}")
+                write!(f, "the program was killed by signal {signal}")
             }
             Fault::Crashed(Crash::Killed) => f.write_str(
-                "the system has ended the program (signal 9), which held little memory: give this \
-                 machine more, or grade fewer at once",
+                "the system killed the program (signal 9) although it used little memory: give this \
+                 machine more memory, or grade fewer submissions at once",
             ),
-            Fault::Protocol(why) => write!(f, "what came back is no answer: {why}"),
+            Fault::Protocol(why) => write!(f, "the program sent an invalid answer: {why}"),
         }
     }
 }

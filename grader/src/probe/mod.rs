@@ -1,5 +1,5 @@
-//! Asking a probe: questions go in, answers come out, and nothing that happens there can hold the
-//! grader up.
+//! Starts probes and exchanges questions and answers with them. Nothing that a probe does can block
+//! the grader.
 
 mod budget;
 mod culprit;
@@ -30,18 +30,18 @@ pub use culprit::culprit;
 pub use fault::{Crash, Fault, TimeLimit};
 pub use subset::subset;
 
-/// How much is kept of what a submission prints.
+/// Maximum amount of a submission's output that is stored.
 const MAX_OUTPUT_BYTES: usize = 64 << 10;
-/// How often a probe that is silent is looked at.
+/// Polling interval for a silent probe.
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
-/// How long the last words of a probe that has ended may take to arrive.
+/// Time to wait for the remaining output of a probe that has ended.
 const OUTPUT_TIMEOUT: Duration = Duration::from_millis(200);
 
-/// How long a probe may take to be gone after it has closed its pipe: all of its memory is to be
-/// given back, on a machine that may be busy.
+/// Time to wait for a probe to end after it has closed its pipe. Freeing its memory may take a
+/// while on a busy machine.
 const EXIT_TIMEOUT: Duration = Duration::from_secs(2);
 
-// What Rust's runtime says on its way out.
+// Parts of messages that the Rust runtime prints when it ends the process.
 const STACK_OVERFLOW: &str = "has overflowed its stack";
 const OUT_OF_MEMORY: &str = "memory allocation of ";
 const RUNTIME_MESSAGES: [&str; 4] = [
@@ -57,33 +57,34 @@ pub struct Probe {
     process: Process,
     streams: Streams,
     output: Capture,
-    /// The most memory that it was seen to hold, in bytes.
+    /// Maximum memory use that was observed, in bytes.
     memory: u64,
 }
 
 /// Starts probes of one submission.
 #[derive(Clone, Debug)]
 pub struct Launcher {
-    /// The program.
+    /// Path of the program.
     pub program: PathBuf,
-    /// How it is kept apart.
+    /// The sandbox in which it runs.
     pub sandbox: Sandbox,
 }
 
 impl Launcher {
-    /// Address space of a probe, of which 64 MiB are stack.
+    /// Address space of a probe, in bytes. Its stack uses 64 MiB of it.
     const MEMORY_LIMIT: u64 = 1 << 30;
-    /// A probe serves a whole task, whose items are judged by their own time. This many items' time
-    /// ends it even if the grader itself is killed.
+    /// A probe serves a whole task, and each item has its own time limit. The CPU time of this many
+    /// items ends the probe even if the grader itself is killed.
     const MAX_ITEMS_PER_TASK: u32 = 30;
-    /// Who holds more of it than this and is killed, has itself to blame: honest ones hold a tenth.
+    /// A probe that is killed while using more than this is considered out of memory. Correct
+    /// solutions use less than half of it.
     const LARGE_MEMORY: u64 = Self::MEMORY_LIMIT / 4;
 
-    /// Starts a process that waits for its first question. On Linux it ends with the thread that
-    /// starts it, so that it does not outlive a grader that is killed.
+    /// Starts a probe that waits for questions. On Linux it ends with the thread that started it,
+    /// so that it does not outlive a killed grader.
     ///
-    /// Before that question none of the submission's code runs: what fails until then is our fault, or
-    /// the machine's.
+    /// No code of the submission runs before the first question, so a failure up to then is the
+    /// fault of the grader or the machine.
     pub fn start(&self, budget: Budget) -> io::Result<Probe> {
         let folder = self.program.parent().unwrap_or(Path::new("."));
         let mut command = Command::new(&self.program);
@@ -96,9 +97,9 @@ impl Launcher {
         let mut process = self
             .sandbox
             .start(command, folder, Profile::Probe, limits)?;
-        let stdin = process.child.stdin.take().expect("it is piped");
-        let stdout = process.child.stdout.take().expect("it is piped");
-        let stderr = process.child.stderr.take().expect("it is piped");
+        let stdin = process.child.stdin.take().expect("the stream is piped");
+        let stdout = process.child.stdout.take().expect("the stream is piped");
+        let stderr = process.child.stderr.take().expect("the stream is piped");
         let mut probe = Probe {
             process,
             streams: Streams::open(stdin, stdout),
@@ -108,9 +109,9 @@ impl Launcher {
         match probe.ask([], budget) {
             Ok(_) => Ok(probe),
             Err(fault) => {
-                let said = probe.finish();
+                let output = probe.finish();
                 Err(io::Error::other(format!(
-                    "{fault}, and nothing was asked yet: see `cargo grade --doctor` {said}"
+                    "{fault}, before the first question: see `cargo grade --doctor` {output}"
                 )))
             }
         }
@@ -118,21 +119,22 @@ impl Launcher {
 }
 
 impl Probe {
-    /// Asks all questions at once and takes the answers as they come. After a fault the probe is
-    /// of no more use.
+    /// Sends all questions at once and receives the answers. After a fault the probe cannot be used
+    /// again.
     pub fn ask<'a>(
         &mut self,
         questions: impl IntoIterator<Item = &'a Question>,
         budget: Budget,
     ) -> Result<Vec<Answer>, Fault> {
-        // The last one asks nothing: bytes that came before its answer were not asked for.
+        // The last question only marks the end. It detects answers that do not belong to a
+        // question.
         let questions: Vec<&Question> = questions.into_iter().chain([&Question::Done]).collect();
         let nonces = nonces(questions.len());
         let mut batch = Batch::default();
         for (nonce, question) in nonces.iter().zip(questions) {
-            batch
-                .add(*nonce, question)
-                .map_err(|error| Fault::Protocol(format!("can not be asked: {error}")))?;
+            batch.add(*nonce, question).map_err(|error| {
+                Fault::Protocol(format!("the question cannot be encoded: {error}"))
+            })?;
             if batch.is_full() {
                 self.streams.send(mem::take(&mut batch));
             }
@@ -144,25 +146,29 @@ impl Probe {
         for nonce in nonces {
             let frame = self.next_frame(&mut watch)?;
             if frame.nonce != nonce {
-                return Err(Fault::Protocol("an answer to no question".to_owned()));
+                return Err(Fault::Protocol(
+                    "an answer that belongs to no question".to_owned(),
+                ));
             }
             answers.push(frame.answer().map_err(protocol_fault)?);
         }
         match answers.pop() {
             Some(Answer::Done) => Ok(answers),
-            _ => Err(Fault::Protocol("an answer of another kind".to_owned())),
+            _ => Err(Fault::Protocol("an answer of the wrong kind".to_owned())),
         }
     }
 
-    /// Ends the probe. What the submission has printed, the beginning of it, without the
-    /// runtime's own last words.
+    /// Ends the probe. Returns the beginning of what the submission printed, without the messages
+    /// of the Rust runtime.
     pub fn finish(mut self) -> String {
         self.process.kill();
         self.output.wait_for_end(OUTPUT_TIMEOUT);
-        let words = self.output.head();
-        let lines = words
-            .lines()
-            .filter(|line| !RUNTIME_MESSAGES.iter().any(|words| line.contains(words)));
+        let output = self.output.head();
+        let lines = output.lines().filter(|line| {
+            !RUNTIME_MESSAGES
+                .iter()
+                .any(|message| line.contains(message))
+        });
         lines.collect::<Vec<_>>().join("\n")
     }
 
@@ -180,7 +186,7 @@ impl Probe {
                 self.process.kill();
                 return Err(Fault::TimedOut(over));
             }
-            // A child of the probe may hold the pipe open: do not wait for its end.
+            // A child process of the probe may keep the pipe open, so do not wait for it to close.
             if self.process.exit_reason().is_some() {
                 return match self.streams.next(OUTPUT_TIMEOUT) {
                     Ok(Ok(frame)) => Ok(frame),
@@ -190,9 +196,10 @@ impl Probe {
         }
     }
 
-    /// Why the probe ended. Its words are diagnosis only: no verdict here earns a point.
+    /// Determines why the probe ended. Its output is used for diagnosis only and cannot earn
+    /// points.
     fn post_mortem(&mut self) -> Fault {
-        // It may have closed its pipe and live on.
+        // The probe may have closed its pipe without ending.
         let deadline = Instant::now() + EXIT_TIMEOUT;
         let ended = loop {
             match self.process.exit_reason() {
@@ -206,26 +213,26 @@ impl Probe {
                 false => Fault::Crashed(Crash::Killed),
             };
         }
-        let ending = self.process.kill();
+        let exit_reason = self.process.kill();
         self.output.wait_for_end(OUTPUT_TIMEOUT);
-        let words = self.output.head();
-        match ending {
+        let output = self.output.head();
+        match exit_reason {
             Some(ExitReason::Code(code)) => Fault::Crashed(Crash::Exited(code)),
-            // The runtime's own words, on its way out.
-            Some(ExitReason::Signal(_)) if words.contains(STACK_OVERFLOW) => {
+            // Messages of the Rust runtime.
+            Some(ExitReason::Signal(_)) if output.contains(STACK_OVERFLOW) => {
                 Fault::Crashed(Crash::StackOverflow)
             }
-            Some(ExitReason::Signal(_)) if words.contains(OUT_OF_MEMORY) => Fault::OutOfMemory,
+            Some(ExitReason::Signal(_)) if output.contains(OUT_OF_MEMORY) => Fault::OutOfMemory,
             Some(ExitReason::Signal(signal)) => Fault::Crashed(Crash::Signal(signal)),
             None => Fault::Crashed(Crash::Signal(0)),
         }
     }
 }
 
-/// Nothing that a submission could know or guess.
+/// Returns random numbers that a submission cannot guess.
 fn nonces(count: usize) -> Vec<u64> {
     let mut bytes = vec![0; 8 * count];
-    getrandom::fill(&mut bytes).expect("the system has random numbers");
+    getrandom::fill(&mut bytes).expect("the system provides random numbers");
     let (nonces, _) = bytes.as_chunks();
     nonces
         .iter()
@@ -245,7 +252,7 @@ mod tests {
     fn kills_a_program_that_closes_its_pipe_and_keeps_running() {
         use std::os::unix::fs::PermissionsExt;
 
-        // Length and number of a question are those of its answer; the fifth kind asks nothing more.
+        // Answers the first question by echoing its length and nonce with the kind `Done` (5).
         let script = "#!/bin/sh\nhead -c 12\nprintf '\\005'\nexec 1>&-\nexec sleep 600\n";
         let folder = tempfile::TempDir::new().unwrap();
         let program = folder.path().join("program");
@@ -259,13 +266,13 @@ mod tests {
             cpu: Duration::from_secs(10),
         };
         let mut probe = launcher.start(budget).unwrap();
-        let began = Instant::now();
+        let started_at = Instant::now();
         let fault = probe.ask([], budget).unwrap_err();
         assert!(
             matches!(fault, Fault::Crashed(Crash::Signal(_))),
             "{fault:?}"
         );
-        assert!(began.elapsed() < budget.wall());
+        assert!(started_at.elapsed() < budget.wall());
         assert!(probe.process.exit_reason().is_some());
     }
 
@@ -278,9 +285,11 @@ mod tests {
         let budget = Budget {
             cpu: Duration::from_secs(1),
         };
-        let error = launcher.start(budget).expect_err("it says nothing");
+        let error = launcher
+            .start(budget)
+            .expect_err("the program sends no answer");
         assert!(
-            error.to_string().contains("nothing was asked yet"),
+            error.to_string().contains("before the first question"),
             "{error}"
         );
     }

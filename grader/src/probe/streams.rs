@@ -1,8 +1,8 @@
-//! The two threads beside a probe's pipe. A probe that never reads must not block our writing, and one
-//! that never answers must not block our clock.
+//! The threads that write to and read from a probe's pipes, so that a probe that never reads or
+//! never answers does not block the grader.
 //!
-//! Questions and answers cross in batches: a system call, or waking a thread, costs as much as many
-//! questions.
+//! Questions and answers are exchanged in batches, because a system call or waking a thread takes
+//! as long as many questions.
 
 use std::io::{BufReader, Read, Write};
 use std::mem;
@@ -14,43 +14,43 @@ use std::vec;
 use protocol::Question;
 use protocol::wire::{self, Frame, WireError};
 
-/// As much as a pipe holds.
+/// Capacity of a pipe, in bytes.
 const BATCH_BYTES: usize = 1 << 16;
 
-/// Questions that go out as one.
+/// Questions that are sent together.
 #[derive(Debug, Default)]
 pub(super) struct Batch {
     frames: Vec<u8>,
-    /// Of each question, the longest answer that is taken.
+    /// Maximum size of the answer to each question.
     limits: Vec<usize>,
 }
 
 impl Batch {
-    /// One more.
+    /// Adds a question.
     pub(super) fn add(&mut self, nonce: u64, question: &Question) -> Result<(), WireError> {
         self.frames = wire::append_question(mem::take(&mut self.frames), nonce, question)?;
         self.limits.push(question.max_answer_bytes());
         Ok(())
     }
 
-    /// Whether it is time to send it.
+    /// Returns whether the batch should be sent.
     pub(super) fn is_full(&self) -> bool {
         self.frames.len() >= BATCH_BYTES
     }
 }
 
-/// Both directions.
+/// Channels to both threads.
 #[derive(Debug)]
 pub(super) struct Streams {
     questions: Sender<Vec<u8>>,
     limits: Sender<Vec<usize>>,
     answers: Receiver<Result<Vec<Frame>, WireError>>,
-    /// What has come, and was not asked for yet.
+    /// Frames that were received but not requested yet.
     received: vec::IntoIter<Frame>,
 }
 
 impl Streams {
-    /// Begins to write and to read; both end with the pipe, or with this.
+    /// Starts both threads. They end when their pipe is closed or this value is dropped.
     pub(super) fn open(
         stdin: impl Write + Send + 'static,
         stdout: impl Read + Send + 'static,
@@ -68,22 +68,22 @@ impl Streams {
         }
     }
 
-    /// Sends these questions. If a thread has gone, what it should have read is missed later.
+    /// Sends a batch. If a thread has ended, the missing answer is noticed later.
     pub(super) fn send(&self, batch: Batch) {
         self.limits.send(batch.limits).ok();
         self.questions.send(batch.frames).ok();
     }
 
-    /// The next answer, whatever it is.
+    /// Returns the next frame, whatever it contains.
     pub(super) fn next(
         &mut self,
-        patience: Duration,
+        timeout: Duration,
     ) -> Result<Result<Frame, WireError>, RecvTimeoutError> {
         loop {
             if let Some(frame) = self.received.next() {
                 return Ok(Ok(frame));
             }
-            match self.answers.recv_timeout(patience)? {
+            match self.answers.recv_timeout(timeout)? {
                 Ok(frames) => self.received = frames.into_iter(),
                 Err(error) => return Ok(Err(error)),
             }
@@ -98,7 +98,7 @@ fn write(mut stdin: impl Write, batches: Receiver<Vec<u8>>) {
             .and_then(|()| stdin.flush())
             .is_err()
         {
-            return; // Whoever waits for the answer sees that it ended.
+            return; // The reading thread notices that the pipe is closed.
         }
     }
 }
@@ -110,22 +110,22 @@ fn read(
 ) {
     let mut stdout = BufReader::with_capacity(BATCH_BYTES, stdout);
     for limits in batches {
-        let mut here = Vec::new();
+        let mut frames = Vec::new();
         for limit in limits {
-            // What has come is handed on before anybody waits for more.
-            if stdout.buffer().is_empty() && !here.is_empty() {
-                answered.send(Ok(mem::take(&mut here))).ok();
+            // Pass on what was received before waiting for more.
+            if stdout.buffer().is_empty() && !frames.is_empty() {
+                answered.send(Ok(mem::take(&mut frames))).ok();
             }
             match wire::read(&mut stdout, limit) {
-                Ok(frame) => here.push(frame),
+                Ok(frame) => frames.push(frame),
                 Err(error) => {
-                    answered.send(Ok(here)).ok();
+                    answered.send(Ok(frames)).ok();
                     answered.send(Err(error)).ok();
                     return;
                 }
             }
         }
-        if answered.send(Ok(here)).is_err() {
+        if answered.send(Ok(frames)).is_err() {
             return;
         }
     }

@@ -1,11 +1,11 @@
-//! Some of the elements of a question, as a question of their own.
+//! Selects some elements of a question.
 
 use std::ops::Range;
 
 use protocol::{Question, Rays, Samples};
 
-/// The same question with these elements only. What has one element, or is answered as a whole,
-/// stays whole.
+/// Returns a question with only these elements. A question with a single element, such as a tree or
+/// a path-traced picture, is returned unchanged.
 pub fn subset(question: &Question, elements: Range<usize>) -> Question {
     let some = |rays: &Rays| Rays::List(rays.to_vec()[elements.clone()].to_vec());
     match question {
@@ -37,14 +37,10 @@ pub fn subset(question: &Question, elements: Range<usize>) -> Question {
             max_leaf_size: *max_leaf_size,
             rays: some(rays),
         },
-        Question::BBox {
-            min,
-            max,
-            queries: shots,
-        } => Question::BBox {
+        Question::BBox { min, max, queries } => Question::BBox {
             min: *min,
             max: *max,
-            queries: shots[elements].to_vec(),
+            queries: queries[elements].to_vec(),
         },
         Question::Build { .. } | Question::Radiance { .. } | Question::Done => question.clone(),
     }

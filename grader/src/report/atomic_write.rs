@@ -1,4 +1,4 @@
-//! Files that are whole at any moment, because they appear in one step.
+//! Atomic writes: a file is complete at any moment, even if the process is killed.
 
 use std::fs;
 use std::io::{self, Write};
@@ -8,8 +8,8 @@ use tempfile::NamedTempFile;
 
 use crate::system;
 
-/// Writes a file for whoever may read its folder, which is made if it is not there: to a temporary
-/// file beside it, then in its place.
+/// Writes a file that everyone with access to its folder can read. Creates the folder if it does
+/// not exist. The text goes to a temporary file in the same folder, which is then renamed.
 pub fn write(text: &str, path: &Path) -> io::Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder)?;

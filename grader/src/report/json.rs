@@ -2,9 +2,10 @@
 
 use crate::score::Score;
 
-/// The score as JSON, with a line end.
+/// Returns the score as JSON, with a newline at the end.
 pub fn to_string(score: &Score) -> String {
-    let mut text = serde_json::to_string_pretty(score).expect("a score has no maps of odd keys");
+    let mut text =
+        serde_json::to_string_pretty(score).expect("all map keys of a score are strings");
     text.push('\n');
     text
 }

@@ -1,4 +1,4 @@
-//! What people and programs read: each format a function of the score.
+//! Reports for people and programs, rendered from a score.
 
 pub mod atomic_write;
 pub mod html;

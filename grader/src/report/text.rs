@@ -1,4 +1,4 @@
-//! The report on a terminal: for a student, at 80 columns.
+//! The terminal report, for students, 80 columns wide.
 
 use std::fmt::{self, Write};
 
@@ -12,7 +12,7 @@ use crate::section::Section;
 
 const WIDTH: usize = 80;
 const BAR_WIDTH: usize = 20;
-/// The most lines that are shown of a compiler's message.
+/// The maximum number of lines of a compiler message.
 const MAX_COMPILER_LINES: usize = 20;
 
 const STRONG: Style = Style::new().bold();
@@ -21,20 +21,20 @@ const GOOD: Style = AnsiColor::Green.on_default();
 const PART: Style = AnsiColor::Yellow.on_default();
 const BAD: Style = AnsiColor::Red.on_default();
 
-/// How much is said of a mistake that is recognised.
+/// How much a hint about a recognised mistake says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HintDetail {
-    /// A question that leads there.
+    /// A question that points toward the mistake.
     Nudge,
-    /// What is wrong.
+    /// A description of the mistake.
     Full,
 }
 
-/// The whole report, with colours: the stream that takes it drops them where they do not belong.
-/// With `only`, that task alone.
+/// Renders the report with ANSI colours, which the output stream strips if necessary. With `only`,
+/// the report covers that task alone.
 pub fn report(score: &Score, only: Option<Task>, hints: HintDetail) -> String {
     let mut text = String::new();
-    write_report(&mut text, score, only, hints).expect("text takes text");
+    write_report(&mut text, score, only, hints).expect("writing to a string cannot fail");
     text
 }
 
@@ -54,13 +54,13 @@ fn write_report(
     for task in &tasks {
         write_task_line(out, task)?;
     }
-    // A single line stands at the task's item already.
-    let told = score
+    // A message of one line is repeated at the items of the task.
+    let compiler_messages = score
         .build
         .not_compiled
         .iter()
         .filter(|file| file.message.contains('\n'));
-    for file in told {
+    for file in compiler_messages {
         write_compiler_message(out, &file.message)?;
     }
     for task in &tasks {
@@ -68,13 +68,14 @@ fn write_report(
         let failing: Vec<&ItemScore> = failing
             .filter(|item| item.points < item.max_points)
             .collect();
-        // Of many tasks the first item that fails is enough to begin with; of one, all that say more.
-        let says_more = |item: &&&ItemScore| only.is_some() && item.evidence.is_some();
-        let others = failing.iter().skip(1).filter(says_more);
-        let shown: Vec<&&ItemScore> = failing.first().into_iter().chain(others).collect();
-        for line in &shown {
-            write_item(out, line, hints)?;
-            write_rerun_command(out, &line.rerun_command(&score.rerun_command))?;
+        // The first failing item of each task is enough to start with. A report on a single task
+        // also has the other items that have evidence.
+        let is_extra = |item: &&&ItemScore| only.is_some() && item.evidence.is_some();
+        let extra = failing.iter().skip(1).filter(is_extra);
+        let shown: Vec<&&ItemScore> = failing.first().into_iter().chain(extra).collect();
+        for item in &shown {
+            write_item(out, item, hints)?;
+            write_rerun_command(out, &item.rerun_command(&score.rerun_command))?;
         }
         let others = failing.len() - shown.len();
         match only {
@@ -100,9 +101,9 @@ fn write_headline(out: &mut String, score: &Score) -> fmt::Result {
     let points = format!("{} / {}", score.points, score.max_points);
     let gap = WIDTH.saturating_sub(2 + title.chars().count() + points.len());
     writeln!(out, "{STRONG}{title}{:gap$}{points}{STRONG:#}\n", "")?;
-    // Of one's own work there is nothing to say.
+    // Students who grade their own work need no isolation.
     if score.isolation > Isolation::None {
-        writeln!(out, "{FAINT}  kept apart: {}{FAINT:#}\n", score.isolation)?;
+        writeln!(out, "{FAINT}  isolation: {}{FAINT:#}\n", score.isolation)?;
     }
     Ok(())
 }
@@ -147,11 +148,11 @@ fn write_compiler_message(out: &mut String, message: &str) -> fmt::Result {
 
 fn write_item(out: &mut String, item: &ItemScore, hints: HintDetail) -> fmt::Result {
     let style = points_style(item.points, item.max_points);
-    let words = item.verdict.label();
-    let gap = (WIDTH - 2).saturating_sub(item.id.chars().count() + words.chars().count());
+    let verdict = item.verdict.label();
+    let gap = (WIDTH - 2).saturating_sub(item.id.chars().count() + verdict.chars().count());
     writeln!(
         out,
-        "\n  {STRONG}{}{STRONG:#}{:gap$}{style}{words}{style:#}",
+        "\n  {STRONG}{}{STRONG:#}{:gap$}{style}{verdict}{style:#}",
         item.id, ""
     )?;
     for line in wrap(&item.title, WIDTH - 4) {
@@ -182,21 +183,21 @@ fn write_item(out: &mut String, item: &ItemScore, hints: HintDetail) -> fmt::Res
     Ok(())
 }
 
-/// What the mistakes that a wrong answer looks like would do well to hear, if it looks like any.
-fn hint_text(known: &[Hint], hints: HintDetail) -> Option<String> {
-    let one = |known: &Hint| match hints {
-        HintDetail::Nudge => known.nudge.clone(),
-        HintDetail::Full => known.hint.clone(),
+/// Joins the hints of an item. Returns `None` if there are none.
+fn hint_text(hints: &[Hint], detail: HintDetail) -> Option<String> {
+    let text = |hint: &Hint| match detail {
+        HintDetail::Nudge => hint.nudge.clone(),
+        HintDetail::Full => hint.hint.clone(),
     };
-    let all: Vec<String> = known.iter().map(one).collect();
-    let more = match hints {
+    let all: Vec<String> = hints.iter().map(text).collect();
+    let more = match detail {
         HintDetail::Nudge => " (--hints says more)",
         HintDetail::Full => "",
     };
     (!all.is_empty()).then(|| format!("{}{more}", all.join(" Or: ")))
 }
 
-/// A label and its text, wrapped within the width, later lines indented.
+/// Writes a label and its text, wrapped to the width, with later lines indented.
 fn write_row(out: &mut String, label: &str, text: &str) -> fmt::Result {
     const INDENT: usize = 12;
     let mut lines = wrap(text, WIDTH - INDENT).into_iter();
@@ -210,8 +211,8 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
     for paragraph in text.lines() {
         let mut line = String::new();
         for word in paragraph.split_whitespace() {
-            let room = line.chars().count() + 1 + word.chars().count() <= width;
-            if !line.is_empty() && !room {
+            let fits = line.chars().count() + 1 + word.chars().count() <= width;
+            if !line.is_empty() && !fits {
                 lines.push(std::mem::take(&mut line));
             }
             if !line.is_empty() {
@@ -224,12 +225,12 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// How to ask the same again.
+/// Writes the command that grades the item again.
 fn write_rerun_command(out: &mut String, command: &str) -> fmt::Result {
     writeln!(out, "    {FAINT}{:<7} {command}{FAINT:#}", "again")
 }
 
-/// How many items are not shown, and how to see them.
+/// Writes the number of failing items that are not shown, and `how` to see them.
 fn write_hidden_count(out: &mut String, count: usize, how: &str) -> fmt::Result {
     let items = match count {
         0 => return Ok(()),

@@ -1,29 +1,29 @@
-//! How far a submission is kept apart from the machine.
+//! Levels of isolation between a submission and the machine.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// How submissions were kept apart from the machine, from none to best. What each level promises
-/// stands in `grader/SECURITY.md`.
+/// How well submissions are isolated from the machine, from not at all to best.
+/// `grader/SECURITY.md` says what each level promises.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, clap::ValueEnum,
 )]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Isolation {
-    /// Limits on time and memory only: for one's own work.
+    /// Limits on time and memory only, for your own work.
     None,
-    /// The program may call little of the system; the compiler may read what its user may.
+    /// The program may make few system calls; the compiler may read whatever its user may.
     SeccompOnly,
-    /// The same, and neither can open files but those that it needs.
+    /// In addition, both can open only the files that they need.
     NoNamespaces,
-    /// The same, and neither sees other files, processes or networks at all.
+    /// In addition, neither can see other files, processes or networks.
     Full,
 }
 
 impl Isolation {
-    /// From best to none.
+    /// All levels, from best to none.
     pub const ALL: [Self; 4] = [
         Isolation::Full,
         Isolation::NoNamespaces,
@@ -31,7 +31,7 @@ impl Isolation {
         Isolation::None,
     ];
 
-    /// As it is written on the command line and in `score.json`.
+    /// Returns the name used on the command line and in `score.json`.
     pub fn name(self) -> &'static str {
         match self {
             Isolation::None => "none",

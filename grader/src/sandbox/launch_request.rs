@@ -1,4 +1,4 @@
-//! What the launcher is told, and how: in its arguments, before the program that it starts.
+//! The request that the grader passes to the launcher as an argument, before the program to start.
 
 use std::path::PathBuf;
 
@@ -7,37 +7,37 @@ use serde::{Deserialize, Serialize};
 use crate::sandbox::isolation::Isolation;
 use crate::system::Limits;
 
-/// The first argument of a program of ours that is to be the launcher.
+/// The first argument of a process that is to run as the launcher.
 pub(super) const LAUNCH_FLAG: &str = "--launch-confined";
 
-/// What the launcher writes to standard output when all is in place: from the next byte on, it is
-/// the confined program that writes. Without it, the fault is ours.
+/// The byte that the launcher writes to standard output once the sandbox is in place. All further
+/// output comes from the confined program. If the byte is missing, the fault is the grader's.
 pub(super) const READY: u8 = b'+';
 
-/// What a program is allowed. Everything else is refused.
+/// The system access that a program is granted. Everything else is refused.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Profile {
-    /// A submission's own program: computes, and speaks through the pipes that it was given. No
-    /// file, no socket, no process. It has to be linked statically.
+    /// A submission's program: it computes, and communicates through the pipes that it inherits.
+    /// It may not open files or sockets, or start processes, so it must be linked statically.
     Probe,
-    /// The compiler and the linker that it starts.
+    /// The compiler, and the linker that it starts.
     Compiler {
-        /// The files and folders that they may read and run.
+        /// The files and folders that they may read and execute.
         readable: Vec<PathBuf>,
-        /// The folder that they may write in.
+        /// The folder that they may write to.
         writable: PathBuf,
     },
 }
 
-/// One start.
+/// The launcher's instructions for starting one program.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct LaunchRequest {
-    /// What has to be in place; nothing less will do.
+    /// The required level. If it cannot be reached, nothing is started.
     pub(super) level: Isolation,
-    /// The process that starts it, at whose end it ends.
+    /// The grader's process id. A probe is killed when the grader ends.
     pub(super) grader: u32,
-    /// What is allowed.
+    /// The access to grant.
     pub(super) profile: Profile,
-    /// What may be used.
+    /// The resource limits.
     pub(super) limits: Limits,
 }

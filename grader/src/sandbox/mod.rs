@@ -1,12 +1,12 @@
-//! Starting a program that we do not trust, with limits, and ending it whatever it does.
+//! Runs untrusted programs under limits, and makes sure that they end.
 //!
-//! One's own work runs at level `none`: a process group of its own, an empty environment, limits on
-//! memory and CPU as far as the [`system`](crate::system) has them. Others' runs behind a *launcher*,
-//! which is this very program started once more: it gives up, one after the other, all that the
-//! program after it shall not have, and then becomes that program. All of that is Linux; unsupported
-//! there is no level but `none`.
+//! Your own work runs at level `none`: in its own process group, with an empty environment, and
+//! with limits on memory and CPU time as far as the [`system`](crate::system) supports them. Other
+//! people's code is started by a *launcher*: the grader's own executable, started once more. It
+//! drops its privileges one after the other and then executes the untrusted program. The launcher
+//! works on Linux only; on other systems, `none` is the only level.
 //!
-//! What each level promises, and what none does, stands in `grader/SECURITY.md`.
+//! `grader/SECURITY.md` says what each level promises and what no level does.
 
 mod isolation;
 mod launch_request;
@@ -41,55 +41,57 @@ pub struct Sandbox {
     launcher: PathBuf,
 }
 
-/// The first thing in the `main` of each program that opens a [`Sandbox`]: if it was started as the
-/// launcher, it does that work and nothing else. `None` for everyone else.
+/// Runs this process as the launcher if it was started as one, and returns its exit code. Returns
+/// `None` otherwise.
+///
+/// Every program that uses a [`Sandbox`] must call this first in its `main`.
 pub fn run_as_launcher() -> Option<ExitCode> {
     let mut arguments = env::args_os().skip(1);
     if arguments.next()? != LAUNCH_FLAG {
         return None;
     }
     Some(platform::launch(arguments).unwrap_or_else(|error| {
-        // Read by the grader: nothing else was started yet.
+        // The grader reads this from standard error: the program itself has not been started.
         eprint!("{error}");
         ExitCode::FAILURE
     }))
 }
 
 impl Sandbox {
-    /// No more than limits: for one's own work. Costs nothing.
+    /// Returns a sandbox that only sets limits, for your own work. It needs no launcher.
     pub fn none() -> Self {
         Sandbox::at(Isolation::None)
     }
 
-    /// This level and no less: where the machine does not reach it, nothing starts.
+    /// Returns a sandbox of this level. On a machine that does not support it, nothing starts.
     pub fn at(level: Isolation) -> Self {
         Sandbox {
             level,
-            // Also if the program's file was replaced meanwhile.
+            // Refers to the running executable even if its file has been replaced since.
             launcher: PathBuf::from("/proc/self/exe"),
         }
     }
 
-    /// With another program as the launcher, whose `main` begins with [`launched`]: for programs
-    /// whose own does not, such as tests.
+    /// Uses another executable as the launcher, for programs such as tests whose own `main` does
+    /// not begin with [`run_as_launcher`]. That of `launcher` must.
     pub fn with_launcher(self, launcher: PathBuf) -> Self {
         Sandbox { launcher, ..self }
     }
 
-    /// The level.
+    /// Returns the level of isolation.
     pub fn level(&self) -> Isolation {
         self.level
     }
 
-    /// Whether programs are kept apart from the machine at all.
+    /// Returns whether programs are isolated from the machine at all.
     pub fn confines(&self) -> bool {
         self.level > Isolation::None
     }
 
     /// Starts a program in `folder`. Its environment is what `command` sets, and nothing else.
     ///
-    /// Whoever starts it must be the thread that stays to its end: on Linux, what is confined ends
-    /// with the *thread* that started it.
+    /// Call it from a thread that lives as long as the program: on Linux, a confined program is
+    /// killed when the *thread* that started it ends.
     pub fn start(
         &self,
         mut command: Command,
@@ -100,7 +102,7 @@ impl Sandbox {
         if !self.confines() {
             return Process::start(&mut command, folder, limits);
         }
-        let order = LaunchRequest {
+        let request = LaunchRequest {
             level: self.level,
             grader: std::process::id(),
             profile,
@@ -109,7 +111,7 @@ impl Sandbox {
         let mut launch = Command::new(&self.launcher);
         launch
             .arg(LAUNCH_FLAG)
-            .arg(serde_json::to_string(&order)?)
+            .arg(serde_json::to_string(&request)?)
             .arg(command.get_program())
             .args(command.get_args())
             .env_clear();

@@ -1,4 +1,4 @@
-//! A program that was started, and its end.
+//! A started program and how it ends.
 
 use std::io::{self, Read};
 use std::path::Path;
@@ -8,18 +8,18 @@ use std::time::Duration;
 use crate::sandbox::launch_request::READY;
 use crate::system::{self, ExitReason, Limits};
 
-/// The most that is read of a launcher's words.
+/// The most that is read of a launcher's error message, in bytes.
 const MAX_REASON_BYTES: u64 = 4 << 10;
 
 /// A running program, with pipes to its three standard streams. Killed when dropped.
 #[derive(Debug)]
 pub struct Process {
-    /// The process itself, or the launcher that stays beside it.
+    /// The program's process, or the launcher that supervises it.
     pub child: Child,
 }
 
 impl Process {
-    /// Starts `program` in `folder`, in a process group of its own.
+    /// Starts a program in `folder`, in its own process group.
     pub(super) fn start(command: &mut Command, folder: &Path, limits: Limits) -> io::Result<Self> {
         system::use_own_process_group(command);
         let process = Process::spawn(command, folder)?;
@@ -27,21 +27,30 @@ impl Process {
         Ok(process)
     }
 
-    /// Starts a launcher, which makes a session and limits of its own, and waits until it is done.
-    /// Its words, if it is not, are the error: that is never the fault of what it would have started.
+    /// Starts a launcher, which sets up its own session and limits, and waits until the sandbox is
+    /// in place. If the launcher fails, its message becomes the error. Such a failure is never the
+    /// fault of the program that it was to start.
     pub(super) fn launch(command: &mut Command, folder: &Path) -> io::Result<Self> {
         let mut process = Process::spawn(command, folder)?;
         let mut first = [0];
-        let stdout = process.child.stdout.as_mut().expect("it is piped");
+        let stdout = process
+            .child
+            .stdout
+            .as_mut()
+            .expect("standard output is piped");
         match stdout.read_exact(&mut first) {
             Ok(()) if first == [READY] => Ok(process),
             Ok(()) | Err(_) => {
                 let mut reason = String::new();
-                let stderr = process.child.stderr.take().expect("it is piped");
+                let stderr = process
+                    .child
+                    .stderr
+                    .take()
+                    .expect("standard error is piped");
                 stderr.take(MAX_REASON_BYTES).read_to_string(&mut reason)?;
                 Err(io::Error::other(match reason.as_str() {
-                    "" => "the launcher ended without a word",
-                    words => words,
+                    "" => "the launcher ended without an error message",
+                    message => message,
                 }))
             }
         }
@@ -57,17 +66,17 @@ impl Process {
         Ok(Process { child })
     }
 
-    /// The CPU time used so far, if the system tells it.
+    /// Returns the CPU time used so far, if the system reports it.
     pub fn cpu_time(&self) -> Option<Duration> {
         system::cpu_time(&self.child)
     }
 
-    /// The memory that it holds now, in bytes, if the system tells it.
+    /// Returns the resident memory in bytes, if the system reports it.
     pub fn memory(&self) -> Option<u64> {
         system::memory(&self.child)
     }
 
-    /// How the process ended, if it has.
+    /// Returns how the process ended, or `None` if it is still running.
     pub fn exit_reason(&mut self) -> Option<ExitReason> {
         self.child
             .try_wait()
@@ -76,13 +85,13 @@ impl Process {
             .map(system::exit_reason)
     }
 
-    /// Ends the process and all of its group.
+    /// Kills the process and its process group, and returns how it ended.
     pub fn kill(&mut self) -> Option<ExitReason> {
-        if let Some(ending) = self.exit_reason() {
-            return Some(ending);
+        if let Some(reason) = self.exit_reason() {
+            return Some(reason);
         }
         system::kill_group(&self.child);
-        // A killed process is gone in no time: SIGKILL can not be refused.
+        // This wait is short: a process cannot ignore SIGKILL.
         self.child.kill().ok();
         self.child.wait().ok().map(system::exit_reason)
     }
@@ -95,15 +104,15 @@ impl Drop for Process {
 }
 
 impl ExitReason {
-    /// Whether the process says that all went well. Worth nothing from one that we do not trust.
+    /// Returns whether the process exited with code 0. Proves nothing for an untrusted program.
     pub fn is_success(self) -> bool {
         self == ExitReason::Code(0)
     }
 
-    /// Whether somebody has ended it who is neither itself nor one of its limits: those end a process
-    /// by other signals. Where memory runs out, that is the system.
+    /// Returns whether the process was killed from outside, neither by itself nor by one of its
+    /// limits, which use other signals. When memory runs out, the system does this.
     pub fn is_external_kill(self) -> bool {
-        /// SIGKILL, everywhere.
+        /// The number of SIGKILL on every system.
         const KILL: i32 = 9;
         self == ExitReason::Signal(KILL)
     }

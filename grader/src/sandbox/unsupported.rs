@@ -1,13 +1,13 @@
-//! Systems without a sandbox of ours: nothing that needs one is started.
+//! The launcher on systems without a sandbox: it always fails.
 
 use std::ffi::OsString;
 use std::io;
 use std::process::ExitCode;
 
-/// Refuses.
+/// Fails: this system has no sandbox.
 pub(super) fn launch(_: impl Iterator<Item = OsString>) -> io::Result<ExitCode> {
     Err(io::Error::new(
         io::ErrorKind::Unsupported,
-        "only Linux keeps programs apart: grade others' work there, in a virtual machine or container",
+        "isolation needs Linux: grade other people's work there, or in a Linux virtual machine or container",
     ))
 }

@@ -1,4 +1,5 @@
-//! From files on disk. Links are not followed, and what is no regular file is not opened.
+//! Reads a submission from a folder on disk. Links are not followed, and only regular files are
+//! read.
 
 use std::fs;
 use std::io::{self, Read};
@@ -11,7 +12,7 @@ use super::{
 use crate::given_files::TASK_FILES;
 use crate::system;
 
-/// What lies where this folder holds the five files.
+/// Reads the task files of a folder, and the Rust files beside them.
 pub(super) fn read(folder: &Path) -> Result<SubmissionFiles, SubmissionError> {
     let paths = candidate_paths(folder);
     let source = source_folder::find(paths.iter().map(String::as_str));
@@ -23,7 +24,7 @@ pub(super) fn read(folder: &Path) -> Result<SubmissionFiles, SubmissionError> {
     Ok(read_files(&list_files(&folder.join(source))))
 }
 
-/// What these files are, by the names that they go by.
+/// Reads the files with these names and paths.
 pub(super) fn read_files(files: &[(String, PathBuf)]) -> SubmissionFiles {
     let mut contents = SubmissionFiles::default();
     for (name, path) in files {
@@ -39,18 +40,21 @@ pub(super) fn read_files(files: &[(String, PathBuf)]) -> SubmissionFiles {
     contents
 }
 
-/// All places of one of the five files that count, from this folder, with `/`.
+/// Returns the paths of all task files in folders where they may be, relative to `folder` and with
+/// `/`.
 fn candidate_paths(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
     let mut tops: Vec<String> = names.filter(|name| folder.join(name).is_dir()).collect();
     tops.sort();
-    let below = |top: &String| CANDIDATES.map(|place| join(top, place));
-    let places = CANDIDATES.map(str::to_owned).into_iter();
-    let paths = places.chain(tops.iter().flat_map(below)).flat_map(|place| {
-        let names = TASK_FILES.iter().map(|file| file.name);
-        names.map(|name| join(&place, name)).collect::<Vec<_>>()
-    });
+    let below = |top: &String| CANDIDATES.map(|candidate| join(top, candidate));
+    let folders = CANDIDATES.map(str::to_owned).into_iter();
+    let paths = folders
+        .chain(tops.iter().flat_map(below))
+        .flat_map(|candidate| {
+            let names = TASK_FILES.iter().map(|file| file.name);
+            names.map(|name| join(&candidate, name)).collect::<Vec<_>>()
+        });
     paths
         .filter(|path| folder.join(path).symlink_metadata().is_ok())
         .collect()
@@ -63,7 +67,7 @@ fn join(folder: &str, name: &str) -> String {
     }
 }
 
-/// The names in a folder.
+/// Returns the names and paths of a folder's entries.
 fn list_files(folder: &Path) -> Vec<(String, PathBuf)> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let file = |entry: fs::DirEntry| {

@@ -1,7 +1,6 @@
-//! Collecting a submission: five files from a folder or an archive, and nothing else.
+//! Collects a submission: the five task files from a folder or an archive, and nothing else.
 //!
-//! An archive is read in memory and never unpacked: of all that it holds only these files are
-//! looked at, by their exact names.
+//! An archive is read in memory and never unpacked. Files are selected by their exact names.
 
 mod archive;
 mod folder;
@@ -15,89 +14,90 @@ use crate::sanitize::sanitize;
 
 pub use archive::{Archive, ArchiveError, Listing, Member};
 
-/// The longest file that is read, in bytes; ours have about 10,000.
+/// The longest file that is read, in bytes. The reference's files have about 10,000.
 const MAX_FILE_BYTES: u64 = 1 << 20;
-/// The most other files that are named in a report.
+/// The most notes about other files in a report.
 const MAX_NOTES: usize = 20;
-/// The most characters that are shown of a name.
+/// The most characters of a name that are shown.
 const MAX_NAME_CHARS: usize = 200;
 
-/// Five files as they were handed in.
+/// The five task files as they were submitted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Submission {
-    /// The folder's or archive's name, for reports.
+    /// The name of the folder or archive, for reports.
     pub name: String,
-    /// The text of each of the five files, in lecture order, or why there is none.
+    /// The text of each task file, in lecture order, or the reason why there is none.
     pub files: Vec<(TaskFile, Result<String, TaskFileError>)>,
-    /// What lies beside them, and that it does not count.
+    /// Notes about other files that were found, which are not graded.
     pub notes: Vec<String>,
 }
 
-/// Why one of the five files can not be graded. Its tasks earn nothing; the others are graded.
+/// Reasons why a task file cannot be graded. Its tasks score nothing; the other files are graded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TaskFileError {
-    /// It is not there.
+    /// It does not exist.
     #[error("{0} is missing")]
     Missing(&'static str),
     /// It is a folder, a link or a device.
     #[error("{0} is not a regular file")]
     NotRegular(&'static str),
-    /// It is longer than any honest file.
+    /// It is longer than any reasonable solution.
     #[error("{0} is longer than 1 MiB")]
     TooLong(&'static str),
-    /// It is not text.
-    #[error("{name} is not UTF-8 text: byte {byte} belongs to no character")]
+    /// It is not valid UTF-8.
+    #[error("{name} is not UTF-8 text: byte {byte} is invalid")]
     NotText {
         /// The file.
         name: &'static str,
-        /// The first byte that is wrong, counted from 1.
+        /// The position of the first invalid byte, counted from 1.
         byte: usize,
     },
-    /// The system does not let us read it.
-    #[error("{name} can not be read: {why}")]
+    /// The system cannot read it.
+    #[error("cannot read {name}: {why}")]
     Io {
         /// The file.
         name: &'static str,
-        /// The system's words.
+        /// The system's message.
         why: String,
     },
 }
 
-/// Why there is no submission at all: a matter for whoever typed the command.
+/// Reasons why a path has no submission to grade. These are usage errors.
 #[derive(Debug, thiserror::Error)]
 pub enum SubmissionError {
-    /// There is nothing at this place.
+    /// The path does not exist.
     #[error("there is no {0}: name the folder with the five files, such as `student`")]
     NotFound(PathBuf),
     /// It is a device, a pipe or a socket.
     #[error("{0} is neither a folder nor a file: name the folder that holds the five files")]
     NotFileOrFolder(PathBuf),
-    /// It holds none of the five.
+    /// It has none of the five files.
     #[error(
-        "{0} holds none of camera.rs, triangle.rs, sphere.rs, bbox.rs, bvh.rs, nor does its src/ or student/src/"
+        "{0} has none of camera.rs, triangle.rs, sphere.rs, bbox.rs and bvh.rs, and neither has its src/ or student/src/"
     )]
     NoTaskFiles(PathBuf),
-    /// It holds them more than once.
-    #[error("{path} holds several submissions, in {}: name one of them", folders.join(", "))]
+    /// It has several folders with task files.
+    #[error("{path} has several submissions, in {}: name one of them", folders.join(", "))]
     Ambiguous {
-        /// Where.
+        /// The folder or archive.
         path: PathBuf,
-        /// The folders that hold one each.
+        /// The folders that have task files.
         folders: Vec<String>,
     },
-    /// It is a file, and not an archive that can be graded.
+    /// It is a file, but not an archive that can be read.
     #[error("{path}: {why}")]
     Archive {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The reason.
         why: ArchiveError,
     },
 }
 
 impl Submission {
-    /// Reads the five files at the top of a folder or archive, else in its `src/`, else its
-    /// `student/src/`; else in the same places of the one folder in it that has any.
+    /// Reads the task files from the top level of a folder or archive, or else from its `src/` or
+    /// `student/src/`. If there are none, looks in the same three folders of its only subfolder
+    /// that has any.
     pub fn collect(path: &Path) -> Result<Self, SubmissionError> {
         if path.is_dir() {
             return Ok(Submission::from_contents(
@@ -118,7 +118,7 @@ impl Submission {
         })
     }
 
-    /// Single files, each with the name that it was handed in by, wherever it lies now.
+    /// Reads a submission from single files, each given by its submitted name and its path on disk.
     pub fn from_files(name: &str, files: &[(String, PathBuf)]) -> Self {
         Submission::from_contents(name.to_owned(), folder::read_files(files))
     }
@@ -140,33 +140,33 @@ impl Submission {
     }
 }
 
-/// What was found where the five files lie.
+/// The files found in the folder that has the task files.
 #[derive(Debug, Default)]
 struct SubmissionFiles {
-    /// Those of the five that are there.
+    /// The task files found, by name.
     task_files: BTreeMap<&'static str, Result<Vec<u8>, TaskFileError>>,
-    /// Other Rust files, with their bytes where they are to be compared.
+    /// Other Rust files by name, with their bytes if they are to be compared with given files.
     other_files: BTreeMap<String, Vec<u8>>,
 }
 
-/// The exact name of one of the five files. Anything else, however alike, is another file.
+/// Returns the name of the task file with exactly this name. A similar name is another file.
 fn task_file_name(name: &str) -> Option<&'static str> {
     let mut files = TASK_FILES.into_iter();
     files.find(|file| file.name == name).map(|file| file.name)
 }
 
-/// Whether students were given a file of this name.
+/// Returns whether students were given a file of this name.
 fn is_given_file(name: &str) -> bool {
     let mut given = GIVEN_FILES.iter().chain([&MAIN_FILE]);
     given.any(|(given, _)| *given == name)
 }
 
-/// A name as it can be shown: without anything that moves on a terminal.
+/// Returns a name that is safe to print: shortened, and with control characters escaped.
 fn display_name(name: &str) -> String {
     sanitize(name, MAX_NAME_CHARS).replace('\n', "\\n")
 }
 
-/// What people call the folder; `student/.` and the like are resolved first.
+/// Returns the name of a folder or file, after resolving paths such as `student/.`.
 fn folder_name(path: &Path) -> String {
     let resolved = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let name = resolved.file_name().unwrap_or(resolved.as_os_str());
@@ -183,18 +183,18 @@ fn decode(name: &'static str, bytes: Vec<u8>) -> Result<String, TaskFileError> {
     })
 }
 
-/// What lies beside the five files. None of it is used, and nobody shall wonder why.
-fn notes(beside: &BTreeMap<String, Vec<u8>>) -> Vec<String> {
+/// Returns notes that say which other files were found, and that they are not used.
+fn notes(other_files: &BTreeMap<String, Vec<u8>>) -> Vec<String> {
     let given = |name: &str| {
         let given = GIVEN_FILES.into_iter().chain([MAIN_FILE]);
         given.into_iter().find(|(given, _)| *given == name)
     };
     let note = |(name, bytes): (&String, &Vec<u8>)| match given(name) {
-        // The reference's own main names another crate; it only draws pictures.
+        // The `main.rs` of the reference names another crate; it only renders pictures.
         Some((main, _)) if main == MAIN_FILE.0 => None,
         Some((_, text)) => {
             let theirs = String::from_utf8_lossy(bytes);
-            // Line ends are a matter between git, editors and systems.
+            // Compares by line: git and editors may change line endings.
             let same = theirs.lines().eq(text.lines());
             (!same).then(|| format!("{name} differs from the given one, which is used"))
         }
@@ -203,5 +203,9 @@ fn notes(beside: &BTreeMap<String, Vec<u8>>) -> Vec<String> {
             display_name(name)
         )),
     };
-    beside.iter().filter_map(note).take(MAX_NOTES).collect()
+    other_files
+        .iter()
+        .filter_map(note)
+        .take(MAX_NOTES)
+        .collect()
 }

@@ -1,20 +1,21 @@
-//! Where the five files lie among others: pure.
+//! Finds the folder with the task files in a list of paths, without any I/O.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::task_file_name;
 
-/// In this order.
+/// Folders that may have the task files, in order of preference.
 pub(super) const CANDIDATES: [&str; 3] = ["", "src", "student/src"];
-/// What systems put beside people's own folders.
+/// A folder of metadata that macOS adds to archives.
 const MACOS_METADATA: &str = "__MACOSX";
 
-/// Nobody can tell which of these folders is meant.
+/// Several top-level folders have task files, so it is unclear which one is meant.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct AmbiguousSource(pub(super) Vec<String>);
 
-/// The folder of the five files, of a listing's paths: one of the places, else the same in the
-/// only top folder that has any, as archives of people and of GitHub have it. None if none has.
+/// Returns the folder that has the task files, given the paths of all files. It is one of
+/// [`CANDIDATES`], or else one of them inside the only top-level folder that has any, as in
+/// archives made by people or by GitHub. Returns `None` if there is no such folder.
 pub(super) fn find<'a>(
     paths: impl IntoIterator<Item = &'a str>,
 ) -> Result<Option<String>, AmbiguousSource> {
@@ -23,18 +24,21 @@ pub(super) fn find<'a>(
         task_file_name(name).map(|_| folder)
     };
     let folders: BTreeSet<&str> = paths.into_iter().filter_map(folder).collect();
-    if let Some(place) = CANDIDATES.iter().find(|place| folders.contains(**place)) {
-        return Ok(Some((*place).to_owned()));
+    if let Some(candidate) = CANDIDATES
+        .iter()
+        .find(|candidate| folders.contains(**candidate))
+    {
+        return Ok(Some((*candidate).to_owned()));
     }
 
     let mut tops: BTreeMap<&str, usize> = BTreeMap::new();
     for folder in folders {
         let (top, below) = folder.split_once('/').unwrap_or((folder, ""));
-        let place = CANDIDATES.iter().position(|place| *place == below);
-        if let Some(place) = place.filter(|_| top != MACOS_METADATA && !top.starts_with('.')) {
+        let rank = CANDIDATES.iter().position(|candidate| *candidate == below);
+        if let Some(rank) = rank.filter(|_| top != MACOS_METADATA && !top.starts_with('.')) {
             tops.entry(top)
-                .and_modify(|best| *best = place.min(*best))
-                .or_insert(place);
+                .and_modify(|best| *best = rank.min(*best))
+                .or_insert(rank);
         }
     }
     if tops.len() > 1 {
@@ -43,7 +47,7 @@ pub(super) fn find<'a>(
         ));
     }
     let only = tops.into_iter().next();
-    Ok(only.map(|(top, place)| match CANDIDATES[place] {
+    Ok(only.map(|(top, rank)| match CANDIDATES[rank] {
         "" => top.to_owned(),
         below => format!("{top}/{below}"),
     }))
@@ -53,39 +57,39 @@ pub(super) fn find<'a>(
 mod tests {
     use super::*;
 
-    fn found(paths: &[&str]) -> Result<Option<String>, AmbiguousSource> {
+    fn find_in(paths: &[&str]) -> Result<Option<String>, AmbiguousSource> {
         find(paths.iter().copied())
     }
 
     #[test]
     fn prefers_the_top_then_src_then_student_src() {
         let all = ["student/src/bvh.rs", "src/bvh.rs", "bvh.rs"];
-        assert_eq!(found(&all), Ok(Some(String::new())));
-        assert_eq!(found(&all[..2]), Ok(Some("src".to_owned())));
-        assert_eq!(found(&all[..1]), Ok(Some("student/src".to_owned())));
+        assert_eq!(find_in(&all), Ok(Some(String::new())));
+        assert_eq!(find_in(&all[..2]), Ok(Some("src".to_owned())));
+        assert_eq!(find_in(&all[..1]), Ok(Some("student/src".to_owned())));
     }
 
     #[test]
     fn looks_inside_a_single_top_folder() {
         let of_github = ["hw-main/README.md", "hw-main/student/src/camera.rs"];
         assert_eq!(
-            found(&of_github),
+            find_in(&of_github),
             Ok(Some("hw-main/student/src".to_owned()))
         );
         let of_a_mac = ["alice/bvh.rs", "__MACOSX/alice/._bvh.rs", "__MACOSX/bvh.rs"];
-        assert_eq!(found(&of_a_mac), Ok(Some("alice".to_owned())));
+        assert_eq!(find_in(&of_a_mac), Ok(Some("alice".to_owned())));
     }
 
     #[test]
     fn reports_two_candidate_folders() {
         let two = ["alice/bvh.rs", "bob/bvh.rs"];
         let names = ["alice", "bob"].map(str::to_owned).to_vec();
-        assert_eq!(found(&two), Err(AmbiguousSource(names)));
+        assert_eq!(find_in(&two), Err(AmbiguousSource(names)));
     }
 
     #[test]
     fn ignores_other_names_and_other_folders() {
         let others = ["Camera.rs", "cam\u{435}ra.rs", "grader/a/starter/camera.rs"];
-        assert_eq!(found(&others), Ok(None));
+        assert_eq!(find_in(&others), Ok(None));
     }
 }

@@ -1,4 +1,4 @@
-//! Limits of other processes, and what they have used: Linux alone tells and takes them.
+//! Resource limits and usage of other processes, which only Linux supports.
 
 use std::fs;
 use std::io;
@@ -12,8 +12,8 @@ use super::{CPU_GRACE_SECONDS, Limits};
 
 /// Sets the limits of a process that has just been started.
 pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
-    // The child has run for a moment without limits. It is still starting: a probe does
-    // nothing before its first question, which is sent after this.
+    // The child has been running for a moment without limits. This is safe: a probe does nothing
+    // before its first question, which is sent later.
     for (resource, most) in [
         (Resource::As, limits.memory),
         (Resource::Cpu, limits.cpu.as_secs().max(1)),
@@ -31,7 +31,7 @@ pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
             ),
         };
         match prlimit(pid(child), resource, rlimit) {
-            // It has ended already, which whoever waits for it will see.
+            // The process has already ended; the caller will see that when it waits for it.
             Ok(_) | Err(rustix::io::Errno::SRCH) => {}
             Err(error) => return Err(error.into()),
         }
@@ -39,11 +39,11 @@ pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
     Ok(())
 }
 
-/// The CPU time that a process has used so far.
+/// Returns the CPU time that a process has used so far.
 pub fn cpu_time(child: &Child) -> Option<Duration> {
     let stat = fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
-    // The second field, a name in parentheses, may hold spaces: count after its end. utime
-    // and stime are fields 14 and 15 (proc_pid_stat(5)).
+    // The second field is a name in parentheses that may contain spaces, so count from its end.
+    // utime and stime are fields 14 and 15 (proc_pid_stat(5)).
     let (_, fields) = stat.rsplit_once(')')?;
     let mut fields = fields.split_whitespace().skip(11);
     let ticks = fields.next()?.parse::<u64>().ok()? + fields.next()?.parse::<u64>().ok()?;
@@ -51,7 +51,7 @@ pub fn cpu_time(child: &Child) -> Option<Duration> {
     Some(Duration::from_secs_f64(ticks as f64 / hertz as f64))
 }
 
-/// The memory that a process holds now, in bytes.
+/// Returns the resident memory of a process, in bytes.
 pub fn memory(child: &Child) -> Option<u64> {
     let pages = fs::read_to_string(format!("/proc/{}/statm", child.id())).ok()?;
     let pages: u64 = pages.split_whitespace().nth(1)?.parse().ok()?;

@@ -1,4 +1,4 @@
-//! Linux, macOS and their like: process groups, signals, modes of files.
+//! Linux, macOS and other Unix systems: process groups, signals and file modes.
 
 use std::fs::{File, Permissions};
 use std::io;
@@ -13,15 +13,16 @@ use rustix::process::{Pid, Signal, kill_process_group};
 
 use super::ExitReason;
 
-/// Starts the program in a process group of its own, which can be ended as one.
+/// Makes the command start in its own process group, which can be killed as a whole.
 pub fn use_own_process_group(command: &mut Command) {
     command.process_group(0);
 }
 
-/// A command for a program that starts others, all of which end when its standard input does: so
-/// does what holds the other end, however it ends. That is for whoever starts it to hold.
+/// Returns a command that runs `program` in its own process group and kills the group when its
+/// standard input closes. The caller keeps the other end of that pipe open, so the group ends with
+/// the caller, even if the caller is killed.
 pub fn command_killed_at_eof(program: &Path) -> Command {
-    // The shell's own words about what it ends are of no interest.
+    // Discards what the shell prints about the processes that it kills.
     const SCRIPT: &str = r#"
         exec 3<&0
         { read -r _ <&3; kill -KILL 0; } >/dev/null 2>&1 &
@@ -36,14 +37,14 @@ pub fn command_killed_at_eof(program: &Path) -> Command {
     command
 }
 
-/// Ends all processes of the child's group.
+/// Kills all processes in the child's process group.
 pub fn kill_group(child: &Child) {
     if let Some(pid) = pid(child) {
         kill_process_group(pid, Signal::KILL).ok();
     }
 }
 
-/// How a process ended.
+/// Returns how a process ended.
 pub fn exit_reason(status: ExitStatus) -> ExitReason {
     match status.code() {
         Some(code) => ExitReason::Code(code),
@@ -51,27 +52,27 @@ pub fn exit_reason(status: ExitStatus) -> ExitReason {
     }
 }
 
-/// Lets everybody read a file who may read its folder: temporary ones are for their owner only.
+/// Makes a file readable by everyone. Temporary files are created readable by their owner only.
 pub fn make_readable(file: &File) -> io::Result<()> {
     file.set_permissions(Permissions::from_mode(0o644))
 }
 
-/// Lets everybody run a program who can reach it.
+/// Makes a file executable by everyone.
 pub fn make_executable(file: &File) -> io::Result<()> {
     file.set_permissions(Permissions::from_mode(0o755))
 }
 
-/// Lets everybody look into a folder.
+/// Lets everyone list and enter a folder.
 pub fn make_folder_accessible(folder: &Path) -> io::Result<()> {
     std::fs::set_permissions(folder, Permissions::from_mode(0o755))
 }
 
-/// Makes a symbolic link at `path`.
+/// Creates a symbolic link at `path` that points to `original`.
 pub fn symlink(original: &Path, path: &Path) -> io::Result<()> {
     std::os::unix::fs::symlink(original, path)
 }
 
-/// Opens a regular file that has one name. `None` if it is something else.
+/// Opens a regular file that has a single hard link. Returns `None` for anything else.
 pub fn open_file_without_hard_links(path: &Path) -> io::Result<Option<File>> {
     let Some(file) = open_regular_file(path)? else {
         return Ok(None);
@@ -80,13 +81,14 @@ pub fn open_file_without_hard_links(path: &Path) -> io::Result<Option<File>> {
     Ok(has_one_name.then_some(file))
 }
 
-/// Opens a regular file in one step: what else lies there is never followed, waited for, or changed
-/// between a look and the opening. `None` if it is something else.
+/// Opens a regular file without following a symbolic link or waiting for a pipe. The type is
+/// checked after opening, so the file cannot be replaced in between. Returns `None` for anything
+/// else.
 pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
     let flags = OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::CLOEXEC | OFlags::RDONLY;
     let file = match rustix::fs::open(path, flags, Mode::empty()) {
         Ok(file) => File::from(file),
-        // A link; a socket.
+        // A symbolic link or a socket.
         Err(Errno::LOOP | Errno::NXIO) => return Ok(None),
         Err(error) => return Err(error.into()),
     };
@@ -94,7 +96,7 @@ pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
     Ok(is_file.then_some(file))
 }
 
-/// The room that is left on the disk of a folder, in bytes, if the system tells it.
+/// Returns the free space on a folder's disk, in bytes, if the system reports it.
 pub fn free_space(folder: &Path) -> Option<u64> {
     let disk = rustix::fs::statvfs(folder).ok()?;
     Some(disk.f_bavail.saturating_mul(disk.f_frsize))

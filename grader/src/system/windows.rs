@@ -1,46 +1,47 @@
-//! Windows: no process groups, no signals, and files inherit who may read them.
+//! Windows: no process groups, no signals, and files inherit their permissions.
 
 use std::fs::File;
 use std::io;
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus};
 
-use super::Ending;
+use super::ExitReason;
 
-/// Nothing: there are no process groups.
-pub fn own_group(_: &mut Command) {}
+/// Does nothing: Windows has no process groups.
+pub fn use_own_process_group(_: &mut Command) {}
 
-/// Nothing: the child alone is ended by whoever started it.
+/// Does nothing: the caller kills only the child itself.
 pub fn kill_group(_: &Child) {}
 
-/// How a process ended. A crash is an exit code too, far below zero.
-pub fn ending(status: ExitStatus) -> Ending {
-    Ending::Code(status.code().unwrap_or(-1))
+/// Returns how a process ended. A crash is an exit code too, far below zero.
+pub fn exit_reason(status: ExitStatus) -> ExitReason {
+    ExitReason::Code(status.code().unwrap_or(-1))
 }
 
-/// Nothing: a file inherits its folder's readers.
-pub fn readable_by_all(_: &File) -> io::Result<()> {
+/// Does nothing: a file inherits its folder's permissions.
+pub fn make_readable(_: &File) -> io::Result<()> {
     Ok(())
 }
 
-/// Nothing: what may be run is said by a file's name.
-pub fn runnable_by_all(_: &File) -> io::Result<()> {
+/// Does nothing: whether a file is executable depends on its extension.
+pub fn make_executable(_: &File) -> io::Result<()> {
     Ok(())
 }
 
-/// Makes a symbolic link at `path`.
-pub fn link(original: &Path, path: &Path) -> io::Result<()> {
+/// Creates a symbolic link at `path` that points to `original`.
+pub fn symlink(original: &Path, path: &Path) -> io::Result<()> {
     std::os::windows::fs::symlink_file(original, path)
 }
 
-/// The same as [`open_file`].
-pub fn open_regular(path: &Path) -> io::Result<Option<File>> {
-    open_file(path)
+/// Opens a regular file, like [`open_regular_file`]. Hard links are not checked.
+pub fn open_file_without_hard_links(path: &Path) -> io::Result<Option<File>> {
+    open_regular_file(path)
 }
 
-/// Opens a regular file. Links need rights here that students do not have.
-pub fn open_file(path: &Path) -> io::Result<Option<File>> {
-    // Not all that is there can be opened.
+/// Opens a regular file. Returns `None` for anything else. Creating a symbolic link needs
+/// privileges on Windows that students do not have.
+pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
+    // Checked first, because not everything else can be opened.
     if !path.symlink_metadata()?.is_file() {
         return Ok(None);
     }
@@ -48,17 +49,17 @@ pub fn open_file(path: &Path) -> io::Result<Option<File>> {
     Ok(file.metadata()?.is_file().then_some(file))
 }
 
-/// Nothing: a folder inherits its readers.
-pub fn open_to_all(_: &Path) -> io::Result<()> {
+/// Does nothing: a folder inherits its permissions.
+pub fn make_folder_accessible(_: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Not told.
+/// Returns `None`: not available on this system.
 pub fn free_space(_: &Path) -> Option<u64> {
     None
 }
 
-/// A command for the program, which nothing ends but itself.
-pub fn tied(program: &Path) -> Command {
+/// Returns a command that runs `program`. It is not killed when its standard input closes.
+pub fn command_killed_at_eof(program: &Path) -> Command {
     Command::new(program)
 }

@@ -1,4 +1,5 @@
-//! `cargo grade --watch`: grades again whenever a file is saved, what failed last time first.
+//! `cargo grade --watch`: grades again whenever a file is saved, starting with the items that
+//! failed last time.
 
 mod save_watcher;
 mod screen;
@@ -17,36 +18,37 @@ use crate::submission::Submission;
 use crate::watch::save_watcher::SaveWatcher;
 use crate::watch::screen::{Phase, Screen};
 
-/// Grades until it is stopped from outside, or fails.
+/// Grades until the process is stopped or an error occurs.
 pub fn watch(arguments: &Arguments, hints: HintDetail) -> Result<Infallible, Error> {
     let grader = Grader::prepare(arguments)?;
-    let saves = SaveWatcher::new(|| grader.collect().ok());
+    let watcher = SaveWatcher::new(|| grader.collect().ok());
     let mut screen = Screen::open(arguments.task, hints);
     let mut submission = grader.collect()?;
     let mut last: Option<Score> = None;
     let mut page = arguments.open.then(|| grader.files(&submission)).flatten();
     loop {
-        match grade_version(&grader, &submission, &saves, last.as_ref(), &mut screen) {
+        match grade_version(&grader, &submission, &watcher, last.as_ref(), &mut screen) {
             Ok(score) => {
                 last = Some(score);
-                // Once: from now on it reloads itself.
+                // Only once: from now on, the page reloads itself.
                 if let Some(files) = page.take() {
                     desktop::show(&files.page);
                 }
             }
-            // What is on the screen is of an older version: the next round begins at once.
+            // The screen shows an older version, so grade the new one at once.
             Err(Interruption::Saved) => {}
             Err(Interruption::Failed(error)) => return Err(error),
         }
-        submission = saves.wait_for_change(&submission);
+        submission = watcher.wait_for_change(&submission);
     }
 }
 
-/// One version of the submission: what failed last time, then everything. In the end the screen waits.
+/// Grades one version of the submission: first the items that failed last time, then all of them.
+/// Afterwards the screen shows that the grader waits for the next version.
 fn grade_version(
     grader: &Grader,
     submission: &Submission,
-    saves: &SaveWatcher,
+    watcher: &SaveWatcher,
     last: Option<&Score>,
     screen: &mut Screen,
 ) -> Result<Score, Interruption> {
@@ -54,80 +56,62 @@ fn grade_version(
         screen.show(last, Phase::Compiling)?;
     }
     let built = grader.build(submission)?;
-    let go_on = || match saves.has_changed_since(submission) {
+    let stop_if_saved = || match watcher.has_changed_since(submission) {
         true => Err(Interruption::Saved),
         false => Ok(()),
     };
 
     let failed = last.map(|last| failed_items(grader.exam(), last));
-    // What passed last time stands until it is asked again.
+    // Items that passed last time are shown as passed until they are tested again.
     let mut shown = grader.pending_score(submission, &built);
     if let (Some(last), Some(failed)) = (last, &failed) {
         shown.tasks.clone_from(&last.tasks);
         shown.update_totals();
-        let mut asked = 0;
+        let mut done = 0;
         grader.run_exam(failed, &built, &mut shown, |score, _| {
-            asked += 1;
-            let of = failed.items.len();
-            screen.show(
-                score,
-                Phase::RegradingFailed {
-                    done: asked,
-                    total: of,
-                },
-            )?;
-            go_on()
+            done += 1;
+            let total = failed.items.len();
+            screen.show(score, Phase::RegradingFailed { done, total })?;
+            stop_if_saved()
         })?;
     }
 
     let mut score = grader.pending_score(submission, &built);
     let exam = grader.exam();
     let mut files = grader.files(submission);
-    let mut asked = 0;
-    grader.run_exam(exam, &built, &mut score, |score, exhibits| {
-        asked += 1;
-        let of = exam.items.len();
+    let mut done = 0;
+    grader.run_exam(exam, &built, &mut score, |score, answers| {
+        done += 1;
+        let total = exam.items.len();
         if let Some(files) = &mut files {
             files.write_score(score)?;
         }
         match (score.complete, &failed) {
             (true, _) => screen.show(score, Phase::Waiting)?,
-            (false, Some(_)) => screen.show(
-                &shown,
-                Phase::Grading {
-                    done: asked,
-                    total: of,
-                },
-            )?,
-            (false, None) => screen.show(
-                score,
-                Phase::Grading {
-                    done: asked,
-                    total: of,
-                },
-            )?,
+            (false, Some(_)) => screen.show(&shown, Phase::Grading { done, total })?,
+            (false, None) => screen.show(score, Phase::Grading { done, total })?,
         }
-        // Its reader is elsewhere: who looks at the screen does not wait for the page.
+        // After the screen, which should not wait for the page.
         if let Some(files) = &mut files {
-            files.write_page(score, exam, exhibits)?;
+            files.write_page(score, exam, answers)?;
         }
-        go_on()
+        stop_if_saved()
     })?;
     Ok(score)
 }
 
-/// The items that were not passed, and what they need.
+/// Returns an exam of the items that lost points and the items that they require.
 fn failed_items(exam: &Exam, last: &Score) -> Exam {
     let lost = last.items().filter(|item| item.points < item.max_points);
     let lost: Vec<&str> = lost.map(|item| item.id.as_str()).collect();
     exam.with_needed_items(|item| lost.contains(&item.id.as_str()))
 }
 
-/// Why a round came to no end.
+/// Reasons why grading a version was interrupted.
 enum Interruption {
-    /// A file was saved meanwhile.
+    /// A file was saved in the meantime.
     Saved,
-    /// The fault is ours.
+    /// The grader failed.
     Failed(Error),
 }
 

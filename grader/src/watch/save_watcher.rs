@@ -1,24 +1,24 @@
-//! When a submission has been saved: by reading its five files again and again.
+//! Detects when a submission has been saved, by polling its five files.
 //!
-//! Events of the file system would come sooner by some milliseconds, and not at all on network
-//! drives, in containers and in virtual machines. Five small files are read in 50 µs.
+//! File system events would be a few milliseconds faster, but they are not delivered on network
+//! drives, in containers and in virtual machines. Reading five small files takes 50 µs.
 
 use std::thread;
 use std::time::Duration;
 
 use crate::submission::Submission;
 
-/// How often is looked.
+/// Time between two reads of the files.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
-/// A submission that may be saved at any time.
+/// Watches a submission that may be saved at any time.
 pub struct SaveWatcher<'a> {
     collect: Box<dyn Fn() -> Option<Submission> + 'a>,
     pause: Box<dyn Fn() + 'a>,
 }
 
 impl<'a> SaveWatcher<'a> {
-    /// Of what `collect` reads; while it is nowhere, that is nothing.
+    /// Watches the submission that `collect` reads, which returns `None` while there is none.
     pub fn new(collect: impl Fn() -> Option<Submission> + 'a) -> Self {
         SaveWatcher {
             collect: Box::new(collect),
@@ -26,13 +26,13 @@ impl<'a> SaveWatcher<'a> {
         }
     }
 
-    /// Whether the submission is another one by now.
+    /// Returns whether the submission now differs from `last`.
     pub fn has_changed_since(&self, last: &Submission) -> bool {
         (self.collect)().is_some_and(|now| now != *last)
     }
 
-    /// Waits for the next version: one that is seen twice in a row, because editors write a file
-    /// in several steps, and many a one takes it away before.
+    /// Waits for the next version and returns it. It must be read twice in a row, because editors
+    /// write a file in several steps, and some delete it first.
     pub fn wait_for_change(&self, last: &Submission) -> Submission {
         let mut before = None;
         loop {
@@ -61,30 +61,30 @@ mod tests {
         })
     }
 
-    /// What is read, look after look.
-    fn watcher_reading(looks: Vec<Option<Submission>>) -> SaveWatcher<'static> {
-        let looks = RefCell::new(looks.into_iter());
+    /// Returns a watcher that reads these versions one after the other.
+    fn watcher_reading(reads: Vec<Option<Submission>>) -> SaveWatcher<'static> {
+        let reads = RefCell::new(reads.into_iter());
         SaveWatcher {
-            collect: Box::new(move || looks.borrow_mut().next().expect("it need not look on")),
+            collect: Box::new(move || reads.borrow_mut().next().expect("it does not read again")),
             pause: Box::new(|| {}),
         }
     }
 
     #[test]
     fn waits_until_two_reads_agree() {
-        let looks = ["old", "old", "", "half", "whole", "whole"];
-        let saves = watcher_reading(looks.map(version).to_vec());
+        let reads = ["old", "old", "", "half", "whole", "whole"];
+        let watcher = watcher_reading(reads.map(version).to_vec());
         assert_eq!(
-            Some(saves.wait_for_change(&version("old").unwrap())),
+            Some(watcher.wait_for_change(&version("old").unwrap())),
             version("whole")
         );
     }
 
     #[test]
     fn waits_for_a_missing_folder_to_return() {
-        let saves = watcher_reading(vec![version("new"), None, version("new"), version("new")]);
+        let watcher = watcher_reading(vec![version("new"), None, version("new"), version("new")]);
         assert_eq!(
-            Some(saves.wait_for_change(&version("old").unwrap())),
+            Some(watcher.wait_for_change(&version("old").unwrap())),
             version("new")
         );
     }

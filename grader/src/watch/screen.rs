@@ -1,5 +1,5 @@
-//! What stands on the terminal while it is watched: always one page, drawn over the last one in a
-//! single write, so that nothing flickers. Where there is no terminal, report after report.
+//! The terminal output of `--watch`: a single page, redrawn in one write so that it does not
+//! flicker. Without a terminal, reports are printed one after the other.
 
 use std::io;
 
@@ -9,30 +9,30 @@ use crate::exam::Task;
 use crate::report::text::{HintDetail, report};
 use crate::score::Score;
 
-/// How far it is.
+/// The current phase of grading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// The compiler is at it.
+    /// The submission is being compiled.
     Compiling,
-    /// What failed last time is being asked.
+    /// The items that failed last time are being tested.
     RegradingFailed {
-        /// So many items.
+        /// The number of items tested so far.
         done: usize,
-        /// Of so many.
+        /// The number of items to test.
         total: usize,
     },
-    /// All is being asked.
+    /// All items are being tested.
     Grading {
-        /// So many items.
+        /// The number of items tested so far.
         done: usize,
-        /// Of so many.
+        /// The number of items to test.
         total: usize,
     },
-    /// All is asked.
+    /// All items have been tested.
     Waiting,
 }
 
-/// Where reports go.
+/// The output that reports are shown on.
 pub struct Screen {
     term: Term,
     task: Option<Task>,
@@ -40,42 +40,39 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// Standard output. With `only`, reports are of that task alone.
-    pub fn open(only: Option<Task>, hints: HintDetail) -> Self {
+    /// Opens standard output. If a task is given, reports show that task only.
+    pub fn open(task: Option<Task>, hints: HintDetail) -> Self {
         let term = Term::buffered_stdout();
         if term.is_term() {
-            // What stood there before is kept above.
+            // Scrolls up what is on the screen, so that it is not overwritten.
             let rows = usize::from(term.size().0);
             let _ = term.write_str(&"\n".repeat(rows));
         }
-        Screen {
-            term,
-            task: only,
-            hints,
-        }
+        Screen { term, task, hints }
     }
 
-    /// Shows a score, whole or not.
-    pub fn show(&mut self, score: &Score, state: Phase) -> io::Result<()> {
+    /// Shows a score, complete or not.
+    pub fn show(&mut self, score: &Score, phase: Phase) -> io::Result<()> {
         let report = report(score, self.task, self.hints);
         if self.term.is_term() {
-            self.draw(&status_line(score, state), &report)
-        } else if state == Phase::Waiting {
+            self.draw(&status_line(score, phase), &report)
+        } else if phase == Phase::Waiting {
             anstream::print!("{report}");
-            anstream::println!("{}\n", status_line(score, state).trim());
+            anstream::println!("{}\n", status_line(score, phase).trim());
             Ok(())
         } else {
             Ok(())
         }
     }
 
-    /// As much as there is room for. A line that were broken would push all others down.
+    /// Draws as much as fits. Lines are truncated, because a wrapped line would push the others
+    /// down.
     fn draw(&self, line: &str, report: &str) -> io::Result<()> {
         let (rows, columns) = self.term.size();
         let (rows, columns) = (usize::from(rows), usize::from(columns));
         let fits = rows.saturating_sub(2);
         let lines: Vec<&str> = std::iter::once(line).chain(report.lines()).collect();
-        let cut = (lines.len() > fits).then_some("  … the rest: cargo grade --task TASK");
+        let cut = (lines.len() > fits).then_some("  … to see the rest: cargo grade --task TASK");
         let kept = lines
             .len()
             .min(fits - usize::from(cut.is_some() && fits > 0));
@@ -91,30 +88,26 @@ impl Screen {
     }
 }
 
-/// What is said above the report.
-fn status_line(score: &Score, state: Phase) -> String {
+/// Returns the line above the report.
+fn status_line(score: &Score, phase: Phase) -> String {
     let name = &score.submission;
     let seconds = |millis: u64| format!("{:.1} s", millis as f64 / 1e3);
-    match state {
+    match phase {
         Phase::Compiling => format!("  {name}: compiling …"),
-        Phase::RegradingFailed {
-            done: asked,
-            total: of,
-        } => {
-            format!("  {name}: asking what failed before, {asked} of {of} …")
+        Phase::RegradingFailed { done, total } => {
+            format!("  {name}: testing what failed before, {done} of {total} …")
         }
-        Phase::Grading {
-            done: asked,
-            total: of,
-        } => format!("  {name}: asking everything, {asked} of {of} …"),
+        Phase::Grading { done, total } => {
+            format!("  {name}: testing everything, {done} of {total} …")
+        }
         Phase::Waiting => format!(
-            "  {name}: graded in {}; save a file to grade again, Ctrl-C ends",
+            "  {name}: graded in {}; save a file to grade again, or press Ctrl-C to stop",
             seconds(score.timings.build_ms + score.timings.exam_ms)
         ),
     }
 }
 
-/// With colours only where they are wanted.
+/// Removes the colours from a line unless the output should have them.
 fn strip_unwanted_colours(line: &str) -> String {
     match anstream::AutoStream::choice(&io::stdout()) {
         anstream::ColorChoice::Never => anstream::adapter::strip_str(line).to_string(),

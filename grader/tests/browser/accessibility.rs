@@ -1,13 +1,14 @@
-//! What axe-core finds: all of WCAG 2.2 AA that a program can tell, and its best practices.
+//! Accessibility, checked with axe-core: WCAG 2.2 AA as far as a program can check it, and best
+//! practices.
 
 use crate::chromium::Chromium;
 use crate::devtools::{DESKTOP, Tab, Viewer};
 use crate::pages;
 
-/// axe-core 4.14.1 by Deque Systems, MPL-2.0, as its package has it.
+/// axe-core 4.14.1 by Deque Systems, MPL-2.0, as it is in its npm package.
 const AXE: &str = include_str!("axe/axe.min.js");
 
-/// What is wrong with the page that is loaded, with all of it unfolded.
+/// Opens everything on the loaded page, and returns the violations that axe-core finds.
 fn violations(tab: &mut Tab) -> Vec<String> {
     tab.eval("for (const details of document.querySelectorAll('details')) details.open = true; 0");
     tab.eval(&format!("{AXE}; 0"));
@@ -42,10 +43,10 @@ fn axe_finds_the_problems_of_a_broken_page() {
     let broken = page
         .replace("<html lang=\"en\">", "<html>")
         .replace("<body>", "<body><img src=\"data:,\"><a href=\"#next\"></a>");
-    let place = pages::STARTER.with_file_name("broken.html");
-    std::fs::write(&place, broken).unwrap();
+    let path = pages::STARTER.with_file_name("broken.html");
+    std::fs::write(&path, broken).unwrap();
     let mut tab = chromium.tab();
-    tab.load(&place, DESKTOP);
+    tab.load(&path, DESKTOP);
     let found = violations(&mut tab);
     for rule in ["html-has-lang", "image-alt", "link-name"] {
         assert!(found.iter().any(|text| text.starts_with(rule)), "{found:?}");

@@ -1,4 +1,4 @@
-//! Finding Chromium, and ending it.
+//! Finds, starts and stops Chromium.
 
 use std::env;
 use std::io::{BufRead, BufReader, Write};
@@ -17,9 +17,10 @@ const NAMES: [&str; 5] = [
     "chrome",
 ];
 
-const SKIP_NOTICE: &[u8] = b"SKIPPED, no Chromium: the page was not tested in a browser\n";
+const SKIP_NOTICE: &[u8] =
+    b"SKIPPED: there is no Chromium, so the page was not tested in a browser\n";
 
-/// A browser of one's own, with a profile that vanishes with it.
+/// A browser with its own temporary profile.
 pub struct Chromium {
     process: Child,
     address: String,
@@ -27,22 +28,23 @@ pub struct Chromium {
 }
 
 impl Chromium {
-    /// Starts it. None, and loudly, where there is none and none is required.
+    /// Starts Chromium. Returns `None` with a notice if it is not installed, and panics if `CI` is
+    /// set.
     pub fn start() -> Option<Self> {
         let Some(program) = find() else {
             assert!(
                 env::var_os("CI").is_none(),
-                "CI is set, and there is no Chromium: apt-get install chromium"
+                "CI is set, but there is no Chromium: apt-get install chromium"
             );
-            // Not `eprintln!`, which a passing test swallows.
+            // A passing test hides the output of `eprintln!`.
             std::io::stderr().write_all(SKIP_NOTICE).unwrap();
             return None;
         };
         let profile = TempDir::new().unwrap();
         let mut process = Command::new(program)
             .args(["--headless=new", "--remote-debugging-port=0"])
-            // Where tests run there is often no user namespace to make a sandbox of; the pages
-            // are our own.
+            // Test machines often do not allow the user namespaces that the sandbox needs, and the
+            // pages are trusted.
             .args([
                 "--no-sandbox",
                 "--disable-gpu",
@@ -65,8 +67,8 @@ impl Chromium {
             .by_ref()
             .map_while(Result::ok)
             .find_map(|line| Some(line.strip_prefix("DevTools listening on ")?.to_owned()))
-            .expect("Chromium says where it listens");
-        // Read on, or it would block when it has much to complain of.
+            .expect("Chromium prints its address");
+        // Keeps reading, so that Chromium never blocks on a full pipe.
         std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
         Some(Chromium {
             process,
@@ -75,7 +77,7 @@ impl Chromium {
         })
     }
 
-    /// A tab of its own.
+    /// Opens a tab.
     pub fn tab(&self) -> Tab {
         Tab::open(&self.address)
     }
@@ -83,7 +85,7 @@ impl Chromium {
 
 impl Drop for Chromium {
     fn drop(&mut self) {
-        // It may have ended by itself.
+        // The process may have ended already.
         let _ = self.process.kill();
         let _ = self.process.wait();
     }

@@ -1,6 +1,7 @@
 //! As much of the DevTools protocol as these tests need: <https://chromedevtools.github.io>.
 //!
-//! By hand, on a WebSocket: the crates that speak all of it are a hundred others.
+//! Written by hand on top of a WebSocket, since crates for the whole protocol bring a hundred
+//! others.
 
 use std::net::TcpStream;
 use std::path::Path;
@@ -9,10 +10,10 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
-/// No answer takes longer.
+/// The timeout for reading a message.
 const READ_TIMEOUT: Duration = Duration::from_secs(60);
 
-/// What a reader's machine is like.
+/// The display settings of the reader.
 #[derive(Clone, Copy)]
 pub struct Viewer {
     pub width: u32,
@@ -20,14 +21,14 @@ pub struct Viewer {
     pub reduced_motion: bool,
 }
 
-/// At a desk, by day.
+/// A desktop in light mode.
 pub const DESKTOP: Viewer = Viewer {
     width: 1200,
     dark: false,
     reduced_motion: false,
 };
 
-/// One tab, and all that it has reported.
+/// A browser tab, and the events that it has reported.
 pub struct Tab {
     socket: WebSocket<TcpStream>,
     session: Option<String>,
@@ -36,7 +37,7 @@ pub struct Tab {
 }
 
 impl Tab {
-    /// Opens a tab of the browser that listens at `address`.
+    /// Opens a tab of the browser at `address`.
     pub fn open(address: &str) -> Self {
         let host = address.strip_prefix("ws://").unwrap();
         let host = host.split('/').next().unwrap();
@@ -61,7 +62,7 @@ impl Tab {
         tab
     }
 
-    /// Loads a file, and waits until it is there.
+    /// Loads a file, and waits until it is loaded.
     pub fn load(&mut self, file: &Path, reader: Viewer) {
         let metrics = json!({
             "width": reader.width, "height": 900, "deviceScaleFactor": 1, "mobile": reader.width < 600,
@@ -84,7 +85,7 @@ impl Tab {
         self.wait_until_loaded();
     }
 
-    /// Waits until a page is there, from now on.
+    /// Waits until the page has loaded.
     pub fn wait_until_loaded(&mut self) {
         let is_load = |event: &Value| event["method"] == "Page.loadEventFired";
         while !self.events.iter().any(is_load) {
@@ -93,7 +94,7 @@ impl Tab {
         self.events.retain(|event| !is_load(event));
     }
 
-    /// The value of an expression, awaited if it is a promise.
+    /// Evaluates an expression. If the result is a promise, waits for its value.
     pub fn eval(&mut self, expression: &str) -> Value {
         let arguments = json!({
             "expression": expression, "awaitPromise": true, "returnByValue": true, "userGesture": true,
@@ -107,14 +108,14 @@ impl Tab {
         answer["result"]["value"].clone()
     }
 
-    /// From now on the page is one to be printed.
+    /// Switches the page to print layout.
     pub fn emulate_print(&mut self) {
         self.call("Emulation.setEmulatedMedia", json!({ "media": "print" }));
     }
 
-    /// Presses a key and lets it go; `code` is the number that Windows has for it.
+    /// Presses and releases a key. `code` is its Windows virtual key code.
     pub fn press(&mut self, key: &str, code: u32) {
-        // Enter is a character as well, and only as such opens things.
+        // Enter must also send a character, or it does not open anything.
         let text = if key == "Enter" { "\r" } else { "" };
         for kind in ["keyDown", "keyUp"] {
             let arguments = json!({
@@ -124,9 +125,10 @@ impl Tab {
         }
     }
 
-    /// Errors on the console since the page was loaded: exceptions, what the policy has refused.
+    /// Returns the errors on the console since the page was loaded, such as exceptions and
+    /// violations of the content security policy.
     pub fn errors(&mut self) -> Vec<String> {
-        // What was reported before this answer has arrived.
+        // Receives the events that were sent before this answer.
         self.eval("0");
         let is_error = |event: &&Value| match event["method"].as_str() {
             Some("Runtime.exceptionThrown") => true,
@@ -138,8 +140,8 @@ impl Tab {
         errors.map(|event| event["params"].to_string()).collect()
     }
 
-    /// All that was asked of any network or disk since the page was loaded, but for the page and
-    /// for what lies in it.
+    /// Returns the URLs that were requested since the page was loaded, except the page itself and
+    /// embedded data.
     pub fn requests(&mut self) -> Vec<String> {
         self.eval("0");
         let events = self.events.iter();
@@ -169,7 +171,8 @@ impl Tab {
         }
     }
 
-    /// One message: the answer to what was sent last, or None for an event, which is kept.
+    /// Reads one message. Returns the answer to the last call, or `None` for an event, which is
+    /// kept.
     fn read_message(&mut self) -> Option<Value> {
         let message = self.socket.read().unwrap();
         let message: Value = serde_json::from_str(message.to_text().unwrap()).ok()?;

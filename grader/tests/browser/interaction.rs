@@ -1,4 +1,4 @@
-//! What can be done on the page: by hand, by keyboard, and for those who want no motion.
+//! Interaction with the page: by mouse, by keyboard, and with reduced motion.
 
 use crate::chromium::Chromium;
 use crate::devtools::{DESKTOP, Tab, Viewer};
@@ -9,7 +9,7 @@ const FLICKER: &str = "document.querySelector('#triangle\\\\.picture .flicker')"
 const CLIP_PATH: &str =
     "document.querySelector('#triangle\\\\.picture .stage .got').style.clipPath";
 
-/// The page with wrong pictures.
+/// Opens the page with wrong pictures.
 fn open_noisy_page(chromium: &Chromium, reader: Viewer) -> Tab {
     let mut tab = chromium.tab();
     tab.load(&pages::NOISY, reader);
@@ -47,7 +47,7 @@ fn flicker_is_off_until_started_and_can_be_stopped() {
     assert_eq!(tab.eval(&pressed), "false");
     tab.eval(&format!("{FLICKER}.click()"));
     assert_eq!(tab.eval(&pressed), "true");
-    // The picture changes by itself, twice.
+    // The picture changes twice without a click.
     let change = "new Promise((done) => {
         let left = 2;
         const seen = new MutationObserver(() => { left -= 1; if (!left) { seen.disconnect(); done(true); } });
@@ -90,7 +90,7 @@ fn a_wrong_pixel_is_marked_in_every_picture_with_a_replay_command() {
         tab.eval(&format!("{picture}.querySelectorAll('.marks a').length")),
         5
     );
-    // A click on a mark unfolds what is said of it; the marks follow.
+    // A click on a mark opens the details of the pixel, and rings appear in all pictures.
     let click = format!(
         "new Promise((done) => {{
             const spot = {picture}.querySelector('.spot');
@@ -104,16 +104,16 @@ fn a_wrong_pixel_is_marked_in_every_picture_with_a_replay_command() {
         tab.eval(&format!("{picture}.querySelectorAll('.ring').length")),
         frames
     );
-    let told = tab.eval(&format!("{picture}.querySelector('.spot').textContent"));
-    let told = told.as_str().unwrap();
+    let details = tab.eval(&format!("{picture}.querySelector('.spot').textContent"));
+    let details = details.as_str().unwrap();
     for part in [
         "ray from (0, 0, 0) toward",
         "got",
         "wanted",
-        "Ask it again: cargo grade",
+        "Run it again: cargo grade",
         "--replay triangle.picture#",
     ] {
-        assert!(told.contains(part), "{told}");
+        assert!(details.contains(part), "{details}");
     }
 }
 
@@ -126,8 +126,8 @@ fn another_view_can_be_chosen() {
     let alt = "document.querySelector('#triangle\\\\.picture .stage .wanted').alt";
     let first = tab.eval(alt);
     tab.eval("document.querySelector('#triangle\\\\.picture input[value=uv]').click()");
-    assert_eq!(tab.eval(alt), "uv, right");
-    assert_ne!(first, "uv, right");
+    assert_eq!(tab.eval(alt), "uv, expected");
+    assert_ne!(first, "uv, expected");
     let rows = "[...document.querySelectorAll('#triangle\\\\.picture .row')].filter((row) => !row.hidden).length";
     assert_eq!(tab.eval(rows), 1);
 }
@@ -142,7 +142,7 @@ fn the_keyboard_reaches_and_opens_everything() {
     assert_eq!(tab.eval("document.activeElement.className"), "skip");
     tab.press("Enter", 13);
     assert_eq!(tab.eval("location.hash"), "#next");
-    // From there the first stop is the item to mend, folded or not.
+    // The next stop is the link to the item to fix, which opens that item.
     tab.press("Tab", 9);
     let href = tab.eval("document.activeElement.getAttribute('href')");
     let fold = format!(
@@ -168,15 +168,15 @@ fn a_watched_page_reloads_and_keeps_open_sections() {
     };
     let text = std::fs::read_to_string(&*pages::NOISY).unwrap();
     let watched = text.replace("<body>", "<body data-reload>");
-    let place = pages::NOISY.with_file_name("watched.html");
-    std::fs::write(&place, &watched).unwrap();
+    let path = pages::NOISY.with_file_name("watched.html");
+    std::fs::write(&path, &watched).unwrap();
     let mut tab = chromium.tab();
-    tab.load(&place, DESKTOP);
+    tab.load(&path, DESKTOP);
     let [opened, folded] = ["bbox-passed", "triangle.inside"]
         .map(|id| format!("document.getElementById('{id}').open"));
     tab.eval(&format!("{opened} = true; {folded} = false; 0"));
-    std::fs::write(&place, watched.replace("<h1>", "<h1>newer ")).unwrap();
-    // Its reader is at the editor.
+    std::fs::write(&path, watched.replace("<h1>", "<h1>newer ")).unwrap();
+    // The reader is in the editor, so the page does not have the focus.
     tab.eval("document.hasFocus = () => false; 0");
     tab.wait_until_loaded();
     let title = tab.eval("document.querySelector('h1').textContent");

@@ -1,5 +1,5 @@
-//! The page of the real binary in a real browser: Chromium without a window, spoken to by its
-//! DevTools protocol. Where there is none the tests say so and pass; with `CI` set it is required.
+//! Tests of the report page in headless Chromium, which is driven by its DevTools protocol. Without
+//! Chromium the tests print a notice and pass, or fail if `CI` is set.
 
 mod accessibility;
 mod chromium;

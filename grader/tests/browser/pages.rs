@@ -1,4 +1,4 @@
-//! Pages of several submissions, as the real binary writes them, each graded once.
+//! Report pages of several submissions, written by the real binary. Each is graded once.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 
-/// All is right.
+/// Everything is correct.
 pub static PERFECT: LazyLock<PathBuf> = LazyLock::new(|| page("perfect", |_| {}));
 
 /// Nothing is written yet.
@@ -17,13 +17,13 @@ pub static STARTER: LazyLock<PathBuf> = LazyLock::new(|| {
     })
 });
 
-/// Every picture is wrong, in all that it is judged by and nowhere the same: the largest page.
+/// Every quantity in every picture is wrong, and differs from pixel to pixel: the largest page.
 pub static NOISY: LazyLock<PathBuf> = LazyLock::new(|| page("noisy", add_noise));
 
-/// Fails in many ways, and would take the page over if it could.
+/// Fails in many ways, and tries to take over the page.
 pub static HOSTILE: LazyLock<PathBuf> = LazyLock::new(|| page("broken", add_hostile_text));
 
-/// All four.
+/// Returns all four pages.
 pub fn all() -> [&'static Path; 4] {
     [&PERFECT, &STARTER, &NOISY, &HOSTILE].map(|page| page.as_path())
 }
@@ -32,14 +32,14 @@ fn add_noise(source: &Path) {
     let noise = "(ray.dir.x * 7e4).sin() * (ray.dir.y * 9e4).cos()";
     let distance = format!("distance: t + t * ({noise}).max(0.0),");
     let normal = format!("normal: glam::Vec3::splat({noise}) + ray.dir,");
-    let place = "(place * sensor + (place * 5e4).map(f32::sin))";
+    let fraction = "(fraction * sensor + (fraction * 5e4).map(f32::sin))";
     let smooth =
         "normal: (w * self.p0.normal + u * self.p1.normal + v * self.p2.normal).normalize(),";
     let [leaf, larger] = [
         "max_leaf_size: max_leaf_size.max(1)",
         "max_leaf_size: 2 * max_leaf_size",
     ];
-    replace(source, "camera.rs", "(place * sensor)", place);
+    replace(source, "camera.rs", "(fraction * sensor)", fraction);
     replace(source, "triangle.rs", "distance: t,", &distance);
     replace(source, "triangle.rs", smooth, &normal);
     replace(source, "sphere.rs", "distance: t,", &distance);
@@ -48,9 +48,9 @@ fn add_noise(source: &Path) {
 }
 
 fn add_hostile_text(source: &Path) {
-    let words = r#"</script><script>document.title = \"taken\"</script><img src=x onerror='document.title = 1'>\u{202e}"#;
+    let attack = r#"</script><script>document.title = \"taken\"</script><img src=x onerror='document.title = 1'>\u{202e}"#;
     let panic = format!(
-        "if ray.dir.x > 0.0 {{ println!(\"{words}\"); panic!(\"{words}\"); }} Some(Trace {{"
+        "if ray.dir.x > 0.0 {{ println!(\"{attack}\"); panic!(\"{attack}\"); }} Some(Trace {{"
     );
     for case in ["exiting", "not_compiling", "printing"] {
         copy(
@@ -61,7 +61,8 @@ fn add_hostile_text(source: &Path) {
     replace(source, "triangle.rs", "Some(Trace {", &panic);
 }
 
-/// The page of the reference, changed. It stays in the target folder until the next run.
+/// Returns the page of a changed copy of the reference. It stays in the target folder until the
+/// next run.
 fn page(name: &str, prepare: impl FnOnce(&Path)) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("pages")
@@ -92,10 +93,10 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Replaces text that must be there.
+/// Replaces text in a file, and panics if the file does not contain it.
 fn replace(source: &Path, file: &str, from: &str, to: &str) {
     let path = source.join(file);
     let text = fs::read_to_string(&path).unwrap();
-    assert!(text.contains(from), "{file} has no {from:?} any more");
+    assert!(text.contains(from), "{file} does not contain {from:?}");
     fs::write(path, text.replace(from, to)).unwrap();
 }

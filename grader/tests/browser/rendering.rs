@@ -1,4 +1,4 @@
-//! The page as it is read: at any width, by day and night, on paper, whoever wrote it.
+//! Rendering of the page: at any width, in light and dark mode, in print, and with hostile content.
 
 use crate::chromium::Chromium;
 use crate::devtools::{DESKTOP, Viewer};
@@ -35,23 +35,23 @@ fn detects_a_page_that_runs_an_injected_script() {
     let page = std::fs::read_to_string(&*pages::STARTER).unwrap();
     let script =
         "<script>document.title = 'taken'</script><img src=\"https://example.org/x.png\"></main>";
-    let place = pages::STARTER.with_file_name("taken.html");
-    std::fs::write(&place, page.replace("</main>", script)).unwrap();
+    let path = pages::STARTER.with_file_name("taken.html");
+    std::fs::write(&path, page.replace("</main>", script)).unwrap();
     let mut tab = chromium.tab();
-    tab.load(&place, DESKTOP);
-    // The policy lets neither through, and says so.
+    tab.load(&path, DESKTOP);
+    // The content security policy blocks both, and logs it.
     let errors = tab.errors().join("\n");
     assert!(
         errors.contains("script-src") && errors.contains("img-src"),
         "{errors}"
     );
     assert_ne!(tab.eval("document.title"), "taken");
-    // Without the policy it would be.
+    // Without the policy, the script runs.
     let open = page
         .replace("Content-Security-Policy", "x")
         .replace("</main>", script);
-    std::fs::write(&place, open).unwrap();
-    tab.load(&place, DESKTOP);
+    std::fs::write(&path, open).unwrap();
+    tab.load(&path, DESKTOP);
     assert_eq!(tab.eval("document.title"), "taken");
     assert_eq!(tab.requests(), ["https://example.org/x.png"]);
 }

@@ -1,4 +1,4 @@
-//! Secrets that nobody may find, and listeners that nobody may reach.
+//! Secrets that no submission may find, and listeners that none may contact.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -10,17 +10,17 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use tempfile::TempDir;
 
-/// Where the grader keeps what it uses again.
+/// The grader's cache folder.
 const GRADE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/grade");
 
-/// Planted anew for each run.
+/// The secrets and listeners of one run.
 pub struct Canaries {
     folder: TempDir,
-    /// In a file that everyone on this machine may read.
+    /// A secret in a file that everyone on this machine may read.
     key: String,
-    /// In the grader's environment.
+    /// A secret in the grader's environment.
     secret: String,
-    /// Part of the name of everything that an entry leaves behind on purpose.
+    /// Part of the names of all files that entries leave behind on purpose.
     pub mark: String,
     tcp: TcpListener,
     udp: UdpSocket,
@@ -28,12 +28,12 @@ pub struct Canaries {
 }
 
 impl Canaries {
-    /// The variable in the grader's environment.
+    /// The name of the variable in the grader's environment.
     pub const VARIABLE: &str = "HOSTILE_SECRET";
 
     pub fn plant() -> Self {
         let token = || format!("{:016x}", getrandom::u64().expect("random numbers"));
-        let folder = TempDir::new().expect("a folder");
+        let folder = TempDir::new().expect("temporary folder");
         let local = (Ipv4Addr::LOCALHOST, 0);
         let canaries = Canaries {
             key: format!("canary{}", token()),
@@ -44,7 +44,7 @@ impl Canaries {
             unix: UnixListener::bind(folder.path().join("socket")).expect("a socket"),
             folder,
         };
-        fs::write(canaries.key_file(), &canaries.key).expect("a file");
+        fs::write(canaries.key_file(), &canaries.key).expect("the file can be written");
         canaries.tcp.set_nonblocking(true).expect("a socket");
         canaries.udp.set_nonblocking(true).expect("a socket");
         canaries.unix.set_nonblocking(true).expect("a socket");
@@ -59,15 +59,15 @@ impl Canaries {
         &self.secret
     }
 
-    /// A place for the grader's files, beside the key.
+    /// Returns the folder for the grader's report files, beside the key.
     pub fn out(&self) -> PathBuf {
         self.folder.path().join("out")
     }
 
-    /// What an entry's text may name.
+    /// Returns the values of the placeholders in an entry's text.
     pub fn placeholders(&self) -> [(&'static str, String); 8] {
         let port = |address: std::io::Result<std::net::SocketAddr>| {
-            address.expect("it is bound").port().to_string()
+            address.expect("the socket is bound").port().to_string()
         };
         [
             ("KEY", self.key_file().display().to_string()),
@@ -84,35 +84,35 @@ impl Canaries {
         ]
     }
 
-    /// The secrets that stand in a text, as they are, backwards, or in base 64.
+    /// Returns the secrets that a text contains, as they are, reversed, or in base 64.
     pub fn secrets_in(&self, text: &str) -> Vec<&'static str> {
-        let stands = |secret: &str| {
-            let backwards: String = secret.chars().rev().collect();
+        let is_in_text = |secret: &str| {
+            let reversed: String = secret.chars().rev().collect();
             let encoded = STANDARD.encode(secret);
-            [secret, &backwards, encoded.trim_end_matches('=')]
+            [secret, &reversed, encoded.trim_end_matches('=')]
                 .into_iter()
-                .any(|form| text.contains(form))
+                .any(|encoding| text.contains(encoding))
         };
         let all = [
             ("the key's file", &self.key),
             ("the environment", &self.secret),
         ];
-        let found = all.into_iter().filter(|(_, secret)| stands(secret));
+        let found = all.into_iter().filter(|(_, secret)| is_in_text(secret));
         found.map(|(what, _)| what).collect()
     }
 
-    /// The listeners that somebody has reached.
+    /// Returns the listeners that were contacted.
     pub fn reached_listeners(&self) -> Vec<&'static str> {
-        let came = |result: std::io::Result<()>| match result {
+        let is_contacted = |result: std::io::Result<()>| match result {
             Ok(()) => true,
             Err(error) => error.kind() != ErrorKind::WouldBlock,
         };
         let all = [
-            ("TCP", came(self.tcp.accept().map(drop))),
-            ("UDP", came(self.udp.recv(&mut [0; 8]).map(drop))),
-            ("a Unix socket", came(self.unix.accept().map(drop))),
+            ("TCP", is_contacted(self.tcp.accept().map(drop))),
+            ("UDP", is_contacted(self.udp.recv(&mut [0; 8]).map(drop))),
+            ("a Unix socket", is_contacted(self.unix.accept().map(drop))),
         ];
-        let reached = all.into_iter().filter(|(_, came)| *came);
+        let reached = all.into_iter().filter(|(_, is_contacted)| *is_contacted);
         reached.map(|(what, _)| what).collect()
     }
 }

@@ -1,4 +1,4 @@
-//! What must hold after every run, whatever was graded.
+//! The checks after every run, whatever was graded.
 
 use std::sync::LazyLock;
 
@@ -10,18 +10,18 @@ use crate::canary::Canaries;
 use crate::entry::Entry;
 use crate::run::GraderRun;
 
-/// The most memory that the grader itself may take, in bytes.
+/// The most memory that the grader itself may use, in bytes.
 const MAX_MEMORY: u64 = 256 << 20;
-/// The most files that it may have open at once. Three streams, three for each program that it has
-/// started, and what it reads or writes just then.
+/// The most files that it may have open at once: three streams, three for each program that it has
+/// started, and those that it is reading or writing.
 const MAX_OPEN_FILES: usize = 32;
-/// Stands in what entries print and must never reach a page as it is.
+/// Markup that entries print, which must never be on the page unescaped.
 const MARKUP: &str = "<b id=forged>";
 
-/// What entries print where they reach what they should not.
+/// The start of the line that entries print if they reach something that they should not.
 const REACHED_PREFIX: &str = "reached: ";
 
-/// Something that did not hold.
+/// A check that failed.
 #[derive(Debug)]
 pub struct Violation {
     pub kind: ViolationKind,
@@ -30,41 +30,37 @@ pub struct Violation {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ViolationKind {
-    /// Points for nothing.
+    /// The submission got points that it did not earn.
     Forged,
-    /// A secret came out, or somebody was told.
+    /// A secret was found in the output, or a listener was contacted.
     Leaked,
-    /// Something is there that was not.
+    /// The system is not in the same state as before.
     LeftBehind,
-    /// The grader did not do its own work.
+    /// The grader did not work correctly.
     Harmed,
 }
 
-/// All that did not hold.
+/// Returns all failed checks. If `baseline` is given, the score must be the same.
 pub fn violations(
     entry: &Entry,
     run: &GraderRun,
-    as_before: Option<&GraderRun>,
+    baseline: Option<&GraderRun>,
     canaries: &Canaries,
-    came: Vec<String>,
+    changes: Vec<String>,
 ) -> Vec<Violation> {
     let mut all = Vec::new();
-    let mut found = |finding, what| {
-        all.push(Violation {
-            kind: finding,
-            what,
-        })
-    };
-    came.into_iter()
+    let mut found = |kind, what| all.push(Violation { kind, what });
+    changes
+        .into_iter()
         .for_each(|what| found(ViolationKind::LeftBehind, what));
-    for place in canaries.reached_listeners() {
-        found(ViolationKind::Leaked, format!("{place} was reached"));
+    for listener in canaries.reached_listeners() {
+        found(ViolationKind::Leaked, format!("{listener} was contacted"));
     }
     for text in [Some(&run.printed), run.score.as_ref(), run.page.as_ref()] {
         for secret in text.map_or(Vec::new(), |text| canaries.secrets_in(text)) {
             found(
                 ViolationKind::Leaked,
-                format!("a secret of {secret} came out"),
+                format!("the output contains the secret from {secret}"),
             );
         }
     }
@@ -82,7 +78,7 @@ pub fn violations(
         let megabytes = run.memory >> 20;
         found(
             ViolationKind::Harmed,
-            format!("the grader took {megabytes} MiB"),
+            format!("the grader used {megabytes} MiB"),
         );
     }
     if run.open_files > MAX_OPEN_FILES {
@@ -125,45 +121,45 @@ pub fn violations(
         Some(score) => check_points(entry, &score, &mut found),
         None => found(
             ViolationKind::Harmed,
-            "there is no score that can be read".to_owned(),
+            "there is no readable score".to_owned(),
         ),
     }
-    if let Some(before) = as_before
+    if let Some(before) = baseline
         && before.reproducible_score() != run.reproducible_score()
     {
         found(
             ViolationKind::Harmed,
-            "honest work is graded otherwise than before".to_owned(),
+            "the reference is graded differently than before".to_owned(),
         );
     }
     all
 }
 
-/// What is wrong with the reports themselves.
+/// Returns a message for each problem with the reports themselves.
 fn report_problems(run: &GraderRun) -> Vec<String> {
-    let mut unfit = Vec::new();
+    let mut problems = Vec::new();
     let score = run.score.as_deref().unwrap_or_default();
     let value: Value = serde_json::from_str(score).unwrap_or_default();
     if let Err(why) = SCHEMA.0.validate(&value, SCHEMA.1) {
-        unfit.push(format!("the score is not valid: {why}"));
+        problems.push(format!("the score is not valid: {why}"));
     }
     if value["complete"] != true {
-        unfit.push("the score is not complete".to_owned());
+        problems.push("the score is not complete".to_owned());
     }
     if !has_no_control_characters(&run.printed) {
-        unfit.push("a control character reaches the terminal".to_owned());
+        problems.push("a control character reaches the terminal".to_owned());
     }
     let page = run.page.as_deref().unwrap_or_default();
     if page.contains(MARKUP) || !has_no_control_characters(page) || !page.ends_with("</html>") {
-        unfit.push("the page is not whole, or not escaped".to_owned());
+        problems.push("the page is not complete, or not escaped".to_owned());
     }
     if page.len() > 20 << 20 || score.len() > 2 << 20 || run.printed.len() > 1 << 20 {
-        unfit.push("a report is as long as a submission likes".to_owned());
+        problems.push("a report is too long".to_owned());
     }
-    unfit
+    problems
 }
 
-/// Whether nothing in it moves on a terminal.
+/// Returns whether a text has no control characters other than line breaks.
 fn has_no_control_characters(text: &str) -> bool {
     !text.contains(|c: char| c.is_control() && c != '\n')
 }
@@ -181,28 +177,28 @@ static SCHEMA: LazyLock<(Schemas, SchemaIndex)> = LazyLock::new(|| {
     (schemas, index)
 });
 
-/// Whether each task has the points that it may have, and each item such a verdict.
+/// Checks that each task has permitted points, and each item a permitted verdict.
 fn check_points(entry: &Entry, score: &Value, found: &mut impl FnMut(ViolationKind, String)) {
     let tasks = score["tasks"].as_array();
     for task in tasks.into_iter().flatten() {
         let id = task["id"].as_str().unwrap_or_default();
         let points = task["points"].as_u64().unwrap_or_default();
-        let honest = entry
+        let expected = entry
             .base_points()
             .into_iter()
             .find(|(task, _)| *task == id);
-        let honest = honest.map_or(0, |(_, points)| points);
+        let expected = expected.map_or(0, |(_, points)| points);
         match entry.expect.points.get(id) {
-            None if points > honest => {
+            None if points > expected => {
                 found(
                     ViolationKind::Forged,
-                    format!("{id}: {points} points instead of {honest}"),
+                    format!("{id}: {points} points instead of {expected}"),
                 );
             }
-            None if points < honest => {
+            None if points < expected => {
                 found(
                     ViolationKind::Harmed,
-                    format!("{id}: {points} points instead of {honest}"),
+                    format!("{id}: {points} points instead of {expected}"),
                 );
             }
             None => {}

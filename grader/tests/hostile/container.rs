@@ -1,4 +1,4 @@
-//! What the usual container takes away, as far as it matters here.
+//! The restrictions of an ordinary container, as far as they matter here.
 
 use std::collections::BTreeMap;
 
@@ -16,8 +16,8 @@ const NAMESPACES: i32 = libc::CLONE_NEWCGROUP
     | libc::CLONE_NEWUSER
     | libc::CLONE_NEWUTS;
 
-/// From here on, for this process and all that it starts: no namespaces, no mounts. Docker's own
-/// filter answers the same; like it, this one says that there is no `clone3`.
+/// Forbids namespaces and mounts for this process and all that it starts. Like Docker's filter, it
+/// returns the same error codes, and makes `clone3` appear not to exist.
 pub fn enter() {
     let refused = [
         libc::SYS_unshare,
@@ -31,23 +31,23 @@ pub fn enter() {
     let each = (0..32)
         .map(|bit| NAMESPACES & (1 << bit))
         .filter(|flag| *flag != 0);
-    let asks_for = |flag: i32| {
+    let has_flag = |flag: i32| {
         let flag = flag as u64;
-        let flagged = SeccompCmpOp::MaskedEq(flag);
-        let condition = SeccompCondition::new(0, SeccompCmpArgLen::Qword, flagged, flag);
+        let is_set = SeccompCmpOp::MaskedEq(flag);
+        let condition = SeccompCondition::new(0, SeccompCmpArgLen::Qword, is_set, flag);
         SeccompRule::new(vec![condition.expect("the first argument")]).expect("a rule")
     };
-    calls.insert(libc::SYS_clone, each.map(asks_for).collect());
+    calls.insert(libc::SYS_clone, each.map(has_flag).collect());
     refuse(calls, libc::EPERM);
     refuse([(libc::SYS_clone3, Vec::new())].into(), libc::ENOSYS);
 }
 
-fn refuse(calls: BTreeMap<i64, Vec<SeccompRule>>, answer: i32) {
+fn refuse(calls: BTreeMap<i64, Vec<SeccompRule>>, error: i32) {
     let architecture = std::env::consts::ARCH
         .try_into()
-        .expect("one that is known");
-    let answer = SeccompAction::Errno(answer as u32);
-    let filter = SeccompFilter::new(calls, SeccompAction::Allow, answer, architecture);
+        .expect("a supported architecture");
+    let action = SeccompAction::Errno(error as u32);
+    let filter = SeccompFilter::new(calls, SeccompAction::Allow, action, architecture);
     let program: BpfProgram = filter.expect("a filter").try_into().expect("a program");
-    apply_filter(&program).expect("the system takes it");
+    apply_filter(&program).expect("the filter is installed");
 }

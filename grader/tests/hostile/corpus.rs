@@ -1,4 +1,4 @@
-//! All entries, one after the other, and the closing line.
+//! Runs the entries one after the other, and prints a summary.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +15,7 @@ use crate::run::{self, GraderRun};
 use crate::syscalls;
 use crate::system_state::SystemState;
 
-/// What the command line asks for.
+/// The entries and levels selected on the command line.
 struct Selection {
     all: bool,
     contained: bool,
@@ -24,7 +24,7 @@ struct Selection {
 }
 
 impl Selection {
-    /// Flags of the usual test harness are none of ours, and pass.
+    /// Reads the command line. Flags of the usual test harness are ignored.
     fn from_arguments() -> Self {
         let arguments: Vec<String> = std::env::args().skip(1).collect();
         let (flags, names): (Vec<String>, _) = arguments
@@ -76,31 +76,31 @@ pub fn main() -> ExitCode {
         .levels
         .iter()
         .map(|level| run_at_level(&entries, *level));
-    // Every level is tried, also after one that does not hold.
+    // Collected, so that every level is run even after one that does not hold.
     match held.collect::<Vec<bool>>().contains(&false) {
         false => ExitCode::SUCCESS,
         true => ExitCode::FAILURE,
     }
 }
 
-/// An idea that the list of all ideas does not know would be thought to be missing.
+/// Checks that README.md lists every entry, since it is meant to be a complete list of attacks.
 fn assert_listed(entries: &[Entry], list: &Path) {
-    let list = fs::read_to_string(list).expect("there is a list");
+    let list = fs::read_to_string(list).expect("README.md can be read");
     for entry in entries {
         let listed = list.contains(&format!("`{}`", entry.name));
         assert!(listed, "{} is not in README.md", entry.name);
     }
 }
 
-/// Whether all entries hold at one level.
+/// Runs all entries at one level, and returns whether they hold.
 fn run_at_level(entries: &[Entry], level: Isolation) -> bool {
-    let honest = Entry::reference();
-    // Whatever is compiled once is compiled here.
-    run::grade(&honest, &Canaries::plant(), level);
-    let first = match grade_and_check(&honest, None, level) {
+    let reference = Entry::reference();
+    // The first run compiles what all later runs share.
+    run::grade(&reference, &Canaries::plant(), level);
+    let first = match grade_and_check(&reference, None, level) {
         Ok(run) => run,
-        Err(broken) => {
-            print_result("BROKEN", &honest, &broken);
+        Err(violations) => {
+            print_result("BROKEN", &reference, &violations);
             return false;
         }
     };
@@ -110,19 +110,23 @@ fn run_at_level(entries: &[Entry], level: Isolation) -> bool {
     let mut tally = Tally::default();
     for entry in &here {
         let own = grade_and_check(entry, None, level);
-        // Also after one that went wrong: whether it harms the next is what this is about.
-        let next = grade_and_check(&honest, Some(&first), level);
-        let broken: Vec<Violation> = [own, next]
+        // Even if the entry did not hold: the point is whether it affects the next submission.
+        let next = grade_and_check(&reference, Some(&first), level);
+        let violations: Vec<Violation> = [own, next]
             .into_iter()
             .filter_map(Result::err)
             .flatten()
             .collect();
-        tally.count(&broken);
-        let verdict = if broken.is_empty() { "held" } else { "BROKEN" };
-        print_result(verdict, entry, &broken);
+        tally.count(&violations);
+        let verdict = if violations.is_empty() {
+            "held"
+        } else {
+            "BROKEN"
+        };
+        print_result(verdict, entry, &violations);
     }
     println!(
-        "{level}: hostile {} of {} held, forged {}, leaked {}, left {}; {} are for better levels",
+        "{level}: {} of {} hostile entries held, {} forged, {} leaked, {} left something; {} need a better level",
         tally.held,
         here.len(),
         tally.forged,
@@ -133,58 +137,53 @@ fn run_at_level(entries: &[Entry], level: Isolation) -> bool {
     tally.held == here.len() && forbidden_calls_fail(level)
 }
 
-/// Whether none of the calls that no submission may make is let through.
+/// Returns whether all system calls that no submission may make are refused.
 fn forbidden_calls_fail(level: Isolation) -> bool {
     if level == Isolation::None {
         return true;
     }
-    let open = syscalls::allowed_calls(level);
-    println!("{level}: system calls let through: {open:?}");
-    open.is_empty()
+    let allowed = syscalls::allowed_calls(level);
+    println!("{level}: system calls that got through: {allowed:?}");
+    allowed.is_empty()
 }
 
-fn print_result(verdict: &str, entry: &Entry, broken: &[Violation]) {
-    /// The most findings of one entry that are told.
+fn print_result(verdict: &str, entry: &Entry, violations: &[Violation]) {
+    /// The most violations of one entry that are printed.
     const MOST: usize = 10;
     println!("{verdict:>6}  {}: {}", entry.name, entry.expect.does);
-    // What is left is often for a reason that is told as well.
-    let (left, others): (Vec<_>, Vec<_>) = broken
+    // Leftovers come last: the other violations often explain them.
+    let (left, others): (Vec<_>, Vec<_>) = violations
         .iter()
-        .partition(|broken| broken.kind == ViolationKind::LeftBehind);
-    for broken in others.into_iter().chain(left).take(MOST) {
-        println!("        {:?}: {}", broken.kind, broken.what);
+        .partition(|violation| violation.kind == ViolationKind::LeftBehind);
+    for violation in others.into_iter().chain(left).take(MOST) {
+        println!("        {:?}: {}", violation.kind, violation.what);
     }
 }
 
 impl Tally {
-    fn count(&mut self, broken: &[Violation]) {
-        let has = |finding| usize::from(broken.iter().any(|broken| broken.kind == finding));
-        self.held += usize::from(broken.is_empty());
+    fn count(&mut self, violations: &[Violation]) {
+        let has = |kind| usize::from(violations.iter().any(|violation| violation.kind == kind));
+        self.held += usize::from(violations.is_empty());
         self.forged += has(ViolationKind::Forged);
         self.leaked += has(ViolationKind::Leaked);
         self.left_behind += has(ViolationKind::LeftBehind);
     }
 }
 
-/// Grades one entry and looks at all that it may have done. `as_before`: what an honest one got.
+/// Grades one entry and checks everything that it may have done. If `baseline` is given, the score
+/// must be the same.
 fn grade_and_check(
     entry: &Entry,
-    as_before: Option<&GraderRun>,
+    baseline: Option<&GraderRun>,
     level: Isolation,
 ) -> Result<GraderRun, Vec<Violation>> {
     let canaries = Canaries::plant();
     let before = SystemState::snapshot(&canaries);
     let run = run::grade(entry, &canaries, level);
     let after = SystemState::snapshot(&canaries);
-    let broken = violations(
-        entry,
-        &run,
-        as_before,
-        &canaries,
-        before.differences(&after),
-    );
-    match broken.is_empty() {
+    let violations = violations(entry, &run, baseline, &canaries, before.differences(&after));
+    match violations.is_empty() {
         true => Ok(run),
-        false => Err(broken),
+        false => Err(violations),
     }
 }

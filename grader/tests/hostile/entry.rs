@@ -1,4 +1,4 @@
-//! One hostile submission: what it changes in an honest one, and what may come of it.
+//! One hostile submission: its changes to a correct one, and its permitted results.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,53 +12,55 @@ use crate::canary::Canaries;
 use crate::packaging::{Packaging, pack};
 
 const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
-/// What is put into one of the five. All other files lie beside them, or in their place.
+/// The file whose text is appended to one of the task files. All other files are put beside the
+/// task files, or replace them.
 const ATTACK_FILE: &str = "attack.rs";
 const EXPECT_FILE: &str = "expect.toml";
 
-/// A folder of `entries/`.
+/// A folder in `entries/`.
 pub struct Entry {
     pub name: String,
     pub expect: Expectation,
     folder: Option<PathBuf>,
 }
 
-/// `expect.toml`.
+/// The contents of `expect.toml`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
-    /// In words: "It ...".
+    /// A description of the attack in one sentence: "It …".
     pub does: String,
-    /// Below this level it is known to do harm, and is passed over.
+    /// The lowest level that holds against this attack; it is skipped at lower levels.
     #[serde(default = "Expectation::any_level")]
     pub least: Isolation,
-    /// The honest files that it changes.
+    /// The task files that it changes.
     #[serde(default)]
     base: Base,
-    /// The file that `attack.rs` is put at the end of.
+    /// The task file to which `attack.rs` is appended.
     into: Option<String>,
-    /// The methods of that file in which `attack()` is called first of all.
+    /// The methods of that file that call `attack()` first.
     #[serde(default)]
     within: Vec<String>,
-    /// What is called there.
+    /// The statement that is inserted into these methods.
     #[serde(default = "Expectation::default_call")]
     call: String,
-    /// As what it is handed in, if not as a folder.
+    /// The form in which it is submitted, if not as a plain folder.
     pack: Option<Packaging>,
-    /// Words of the reason why it is not graded at all.
+    /// Part of the message with which it is rejected, if it is not graded.
     pub refused: Option<String>,
-    /// The most points of each task that it touches. Every other task has what is honest.
+    /// The most points for each task that it affects. All other tasks must score as without the
+    /// attack.
     #[serde(default)]
     pub points: BTreeMap<String, u64>,
-    /// What may become of the items of those tasks that are not passed.
+    /// The permitted verdicts of items of those tasks, besides `pass`.
     #[serde(default)]
     pub verdicts: Vec<String>,
-    /// What the report must say.
+    /// Text that the report must contain.
     pub says: Option<String>,
-    /// In seconds.
+    /// The longest wall time, in seconds.
     #[serde(default = "default_wall_seconds")]
     wall: u64,
-    /// Not among the quick ones.
+    /// Whether it runs only with `--all` or by name.
     #[serde(default)]
     pub slow: bool,
     #[serde(default)]
@@ -83,24 +85,25 @@ impl Expectation {
     }
 }
 
-/// Some ten times what one takes on a machine of its own: nobody else's load shall break an entry.
+/// Returns the default limit: about ten times what an entry takes on an idle machine, so that other
+/// load does not make it fail.
 fn default_wall_seconds() -> u64 {
     240
 }
 
 impl Entry {
-    /// All entries, by name.
+    /// Reads all entries, sorted by name.
     pub fn all(folder: &Path) -> Vec<Self> {
         let mut folders: Vec<PathBuf> = fs::read_dir(folder)
-            .expect("there is a corpus")
-            .map(|entry| entry.expect("it can be read").path())
+            .expect("the corpus exists")
+            .map(|entry| entry.expect("the folder can be read").path())
             .collect();
         folders.sort();
         folders.into_iter().map(Entry::read).collect()
     }
 
     fn read(folder: PathBuf) -> Self {
-        let name = folder.file_name().expect("it has a name");
+        let name = folder.file_name().expect("the folder has a name");
         let name = name.to_string_lossy().into_owned();
         let text = fs::read_to_string(folder.join(EXPECT_FILE))
             .unwrap_or_else(|error| panic!("{name}/{EXPECT_FILE}: {error}"));
@@ -111,11 +114,11 @@ impl Entry {
         }
     }
 
-    /// The reference as it stands.
+    /// Returns the reference without any change.
     pub fn reference() -> Self {
         Entry {
-            name: "honest".to_owned(),
-            expect: toml::from_str("does = 'It is right.'\nwall = 300").expect("it is good"),
+            name: "reference".to_owned(),
+            expect: toml::from_str("does = 'It is correct.'\nwall = 300").expect("valid TOML"),
             folder: None,
         }
     }
@@ -124,7 +127,7 @@ impl Entry {
         Duration::from_secs(self.expect.wall)
     }
 
-    /// The points of camera, triangle, sphere, bbox, build, traverse without the attack.
+    /// Returns the points of each task without the attack.
     pub fn base_points(&self) -> [(&'static str, u64); 6] {
         let tasks = [
             ("camera", 15),
@@ -140,75 +143,80 @@ impl Entry {
         }
     }
 
-    /// Writes the submission into a new folder; returns what is handed in. `places` are what its text
-    /// names as `@NAME@`.
-    pub fn write(&self, place: &Path, canaries: &Canaries) -> PathBuf {
-        self.write_folder(place, &canaries.placeholders());
+    /// Writes the submission into a new folder, and returns the path to submit. Placeholders
+    /// `@NAME@` in its text are filled in.
+    pub fn write(&self, folder: &Path, canaries: &Canaries) -> PathBuf {
+        self.write_folder(folder, &canaries.placeholders());
         match self.expect.pack {
-            Some(how) => pack(place, how, &canaries.key_file()),
-            None => place.to_owned(),
+            Some(packaging) => pack(folder, packaging, &canaries.key_file()),
+            None => folder.to_owned(),
         }
     }
 
-    fn write_folder(&self, place: &Path, places: &[(&str, String)]) {
+    fn write_folder(&self, target: &Path, placeholders: &[(&str, String)]) {
         let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        let honest = match self.expect.base {
+        let base = match self.expect.base {
             Base::Reference => project.join("reference/src"),
             Base::Starter => project.join("grader/starter"),
         };
-        fs::create_dir_all(place).expect("a folder");
+        fs::create_dir_all(target).expect("the folder can be created");
         for file in TASK_FILES {
-            fs::copy(honest.join(file), place.join(file)).expect("a file");
+            fs::copy(base.join(file), target.join(file)).expect("the file can be copied");
         }
         let Some(folder) = &self.folder else {
             return;
         };
-        copy_with_placeholders_filled(folder, place, places);
+        copy_with_placeholders_filled(folder, target, placeholders);
         if let Some(into) = &self.expect.into {
-            let mut text = fs::read_to_string(place.join(into)).expect("one of the five");
+            let mut text = fs::read_to_string(target.join(into)).expect("a task file");
             for method in &self.expect.within {
                 text = insert_first_statement(&text, method, &self.expect.call);
             }
-            let attack = fs::read_to_string(folder.join(ATTACK_FILE)).expect("an attack");
-            text.push_str(&fill_placeholders(&attack, places));
-            fs::write(place.join(into), text).expect("a file");
+            let attack =
+                fs::read_to_string(folder.join(ATTACK_FILE)).expect("the attack can be read");
+            text.push_str(&fill_placeholders(&attack, placeholders));
+            fs::write(target.join(into), text).expect("the file can be written");
         }
     }
 }
 
-/// All that lies in an entry's folder beside the attack, folders too.
-fn copy_with_placeholders_filled(folder: &Path, place: &Path, places: &[(&str, String)]) {
-    for file in fs::read_dir(folder).expect("it was read").flatten() {
+/// Copies everything in an entry's folder except the attack itself, including subfolders.
+fn copy_with_placeholders_filled(folder: &Path, target: &Path, placeholders: &[(&str, String)]) {
+    for file in fs::read_dir(folder)
+        .expect("the folder can be read")
+        .flatten()
+    {
         let (name, path) = (file.file_name(), file.path());
         if path.is_dir() {
-            fs::create_dir_all(place.join(&name)).expect("a folder");
-            copy_with_placeholders_filled(&path, &place.join(name), places);
+            fs::create_dir_all(target.join(&name)).expect("the folder can be created");
+            copy_with_placeholders_filled(&path, &target.join(name), placeholders);
         } else if name != ATTACK_FILE && name != EXPECT_FILE {
-            let text = fs::read_to_string(path).expect("text");
-            fs::write(place.join(name), fill_placeholders(&text, places)).expect("a file");
+            let text = fs::read_to_string(path).expect("the file is text");
+            fs::write(target.join(name), fill_placeholders(&text, placeholders))
+                .expect("the file can be written");
         }
     }
 }
 
-/// The text with a call as the first statement of a method.
+/// Inserts a call as the first statement of a method.
 fn insert_first_statement(text: &str, method: &str, call: &str) -> String {
     let start = text
         .find(&format!("fn {method}("))
         .unwrap_or_else(|| panic!("there is no method {method}"));
-    let body = start + text[start..].find("{\n").expect("it has a body") + 2;
+    let body = start + text[start..].find("{\n").expect("the method has a body") + 2;
     format!("{}        {call}\n{}", &text[..body], &text[body..])
 }
 
-/// `@NAME@` becomes the place, `@{1000x(}` a thousand parentheses.
-fn fill_placeholders(text: &str, places: &[(&str, String)]) -> String {
+/// Replaces `@NAME@` by the value of that name, and `@{1000x(}` by a thousand parentheses.
+fn fill_placeholders(text: &str, placeholders: &[(&str, String)]) -> String {
     let mut text = text.to_owned();
-    for (name, place) in places {
-        text = text.replace(&format!("@{name}@"), place);
+    for (name, value) in placeholders {
+        text = text.replace(&format!("@{name}@"), value);
     }
     while let Some(start) = text.find("@{") {
-        let end = start + text[start..].find('}').expect("it is closed");
-        let (count, what) = text[start + 2..end].split_once('x').expect("COUNTxTEXT");
-        let repeated = what.repeat(count.parse().expect("a count"));
+        let end = start + text[start..].find('}').expect("the brace is closed");
+        let (count, repeated) = text[start + 2..end].split_once('x').expect("COUNTxTEXT");
+        let repeated = repeated.repeat(count.parse().expect("a count"));
         text.replace_range(start..=end, &repeated);
     }
     text

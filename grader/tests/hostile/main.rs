@@ -1,16 +1,16 @@
-//! The corpus of hostile submissions: each is graded by the real binary, with an honest one before
-//! and after it, and afterwards nothing may be forged, leaked or left.
+//! The corpus of hostile submissions. Each is graded by the real program, with a correct submission
+//! before and after it, and nothing may be forged, leaked or left behind.
 //!
 //! ```text
-//! cargo test -p grader --test hostile                  the quick ones
-//! cargo test -p grader --test hostile -- --all         all of them: bombs take minutes
-//! cargo test -p grader --test hostile -- C02 flood     those with such names
+//! cargo test -p grader --test hostile                  runs the quick entries
+//! cargo test -p grader --test hostile -- --all         runs all entries: bombs take minutes
+//! cargo test -p grader --test hostile -- C02 flood     runs entries whose names contain these
 //! ... -- --full --seccomp-only                         at these levels, not at the best one here
 //! ... -- --contained                                   as in a container: no namespaces, no mounts
 //! ```
 //!
-//! What each does, and what may come of it, stands in its folder: `entries/ID-NAME/expect.toml`. Which
-//! ideas there are, and where each is tried: `README.md`.
+//! `entries/ID-NAME/expect.toml` describes each entry and its permitted results. `README.md` lists
+//! all known attacks and where each is tested.
 
 #[cfg(target_os = "linux")]
 mod canary;
@@ -40,7 +40,7 @@ fn main() -> ExitCode {
     corpus::main()
 }
 
-/// What is left of a process is only known where `/proc` tells it.
+/// Skips the corpus: without `/proc`, leftover processes cannot be found.
 #[cfg(not(target_os = "linux"))]
 fn main() -> ExitCode {
     eprintln!("SKIPPED: the hostile corpus needs Linux");

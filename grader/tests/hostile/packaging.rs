@@ -1,5 +1,5 @@
-//! Submissions that are not handed in as five plain files: archives that nobody's program makes, and
-//! folders that lie.
+//! Submissions that are not five plain files in a folder: archives that no ordinary program makes,
+//! and folders with unusual files.
 
 use std::fs::{self, File, Permissions};
 use std::io::{Cursor, Write};
@@ -14,46 +14,46 @@ use tar::{Builder, EntryType, Header};
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-/// What is made of an honest folder.
+/// The form in which a folder of task files is submitted.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Packaging {
-    /// A member whose path climbs out of the archive.
+    /// A zip with a path that leads out of the archive.
     Climbing,
-    /// A member with an absolute path.
+    /// A zip with an absolute path.
     Absolute,
-    /// A link to the key in the place of a file.
+    /// A tar with a link to the key in place of a file.
     LinkToTheKey,
-    /// A link to a folder, and a file in it.
+    /// A tar with a link to a folder, and a file in it.
     LinkedFolder,
-    /// A second name for a file of the machine.
+    /// A tar with a hard link to a file of the machine.
     HardLink,
-    /// A pipe, which nobody ever writes to.
+    /// A tar with a pipe that nothing writes to.
     Pipe,
-    /// A file of 256 MiB that is packed small.
+    /// A zip with a file of 256 MiB that compresses well.
     Bomb,
-    /// More files than anybody has.
+    /// A zip with more files than the limit.
     ManyFiles,
-    /// Names with escapes, line ends, and letters that run backwards.
+    /// A tar with a name of escapes, line breaks, and text that runs backwards.
     OddNames,
-    /// Nothing.
+    /// An empty file.
     Empty,
-    /// Half of an archive.
+    /// The first half of a zip.
     Truncated,
-    /// Something else altogether.
+    /// An archive of another kind.
     OtherKind,
-    /// A folder with a file of 10 GB, all of it a hole.
+    /// A folder with a sparse file of 10 GB.
     Sparse,
-    /// A folder in which one file has all rights, and the next has none.
+    /// A folder in which one file has all permissions, and another has none.
     OddModes,
-    /// A folder with a pipe in the place of a file.
+    /// A folder with a pipe in place of a file.
     PipeOnDisk,
 }
 
-/// Makes it of the folder; returns what is handed in.
-pub fn pack(folder: &Path, pack: Packaging, key: &Path) -> PathBuf {
+/// Packs the folder, and returns the path to submit.
+pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
     let files = read_files(folder);
-    match pack {
+    match packaging {
         Packaging::Climbing => write_zip(folder, &files, Some("../../bvh.rs")),
         Packaging::Absolute => write_zip(folder, &files, Some("/bvh.rs")),
         Packaging::OddNames => {
@@ -91,28 +91,29 @@ pub fn pack(folder: &Path, pack: Packaging, key: &Path) -> PathBuf {
         Packaging::OtherKind => write_archive(folder, "zip", b"Rar!\x1a\x07\x01\x00"),
         Packaging::Truncated => {
             let whole = write_zip(folder, &files, None);
-            let bytes = fs::read(&whole).expect("it was written");
-            fs::write(&whole, &bytes[..bytes.len() / 2]).expect("a file");
+            let bytes = fs::read(&whole).expect("the archive can be read");
+            fs::write(&whole, &bytes[..bytes.len() / 2]).expect("the file can be written");
             whole
         }
         Packaging::Sparse => {
-            let file = File::create(folder.join("camera.rs")).expect("a file");
-            file.set_len(10 << 30).expect("a hole");
+            let file = File::create(folder.join("camera.rs")).expect("the file can be created");
+            file.set_len(10 << 30)
+                .expect("the file system supports sparse files");
             folder.to_owned()
         }
         Packaging::OddModes => {
             for (name, mode) in [("camera.rs", 0), ("sphere.rs", 0o6777)] {
                 let mode = Permissions::from_mode(mode);
-                fs::set_permissions(folder.join(name), mode).expect("it is ours");
+                fs::set_permissions(folder.join(name), mode).expect("the file can be changed");
             }
             folder.to_owned()
         }
         Packaging::PipeOnDisk => {
-            fs::remove_file(folder.join("camera.rs")).expect("it is ours");
+            fs::remove_file(folder.join("camera.rs")).expect("the file can be changed");
             let made = Command::new("mkfifo")
                 .arg(folder.join("camera.rs"))
                 .status();
-            assert!(made.expect("Linux has it").success());
+            assert!(made.expect("Linux has mkfifo").success());
             folder.to_owned()
         }
     }
@@ -120,12 +121,14 @@ pub fn pack(folder: &Path, pack: Packaging, key: &Path) -> PathBuf {
 
 type Files = Vec<(String, Vec<u8>)>;
 
-/// The folder's files, by name.
+/// Returns the names and contents of the folder's files, `camera.rs` first.
 fn read_files(folder: &Path) -> Files {
-    let entries = fs::read_dir(folder).expect("it was written").flatten();
+    let entries = fs::read_dir(folder)
+        .expect("the folder can be read")
+        .flatten();
     let file = |entry: fs::DirEntry| {
-        let name = entry.file_name().into_string().expect("it is ours");
-        (name, fs::read(entry.path()).expect("it is a file"))
+        let name = entry.file_name().into_string().expect("the name is UTF-8");
+        (name, fs::read(entry.path()).expect("the file can be read"))
     };
     let mut files: Files = entries.map(file).collect();
     files.sort_by_key(|(name, _)| name != "camera.rs");
@@ -134,7 +137,7 @@ fn read_files(folder: &Path) -> Files {
 
 fn write_archive(folder: &Path, extension: &str, bytes: &[u8]) -> PathBuf {
     let path = folder.with_extension(extension);
-    fs::write(&path, bytes).expect("a file");
+    fs::write(&path, bytes).expect("the file can be written");
     path
 }
 
@@ -143,43 +146,51 @@ fn write_zip(folder: &Path, files: &[(String, Vec<u8>)], also: Option<&str>) -> 
     let also = also.map(|name| (name.to_owned(), Vec::new()));
     for (name, bytes) in files.iter().chain(&also) {
         let options = SimpleFileOptions::default();
-        writer.start_file(name.as_str(), options).expect("a name");
-        writer.write_all(bytes).expect("there is memory");
+        writer
+            .start_file(name.as_str(), options)
+            .expect("the name is valid");
+        writer.write_all(bytes).expect("writing to memory succeeds");
     }
-    let bytes = writer.finish().expect("it is whole").into_inner();
+    let bytes = writer
+        .finish()
+        .expect("the archive is complete")
+        .into_inner();
     write_archive(folder, "zip", &bytes)
 }
 
 type Member<'a> = (&'a str, EntryType, Option<&'a Path>);
 
-/// Other members first: whoever unpacks one by one meets them first.
+/// Writes a tar. The other members come first, so that a program that unpacks one by one reads them
+/// first.
 fn write_tar(folder: &Path, files: &[(String, Vec<u8>)], others: &[Member]) -> PathBuf {
     let compressed = GzEncoder::new(Vec::new(), Compression::fast());
     let mut builder = Builder::new(compressed);
     for (name, kind, target) in others {
         let mut header = header(name, *kind, 0);
         if let Some(target) = target {
-            header.set_link_name(target).expect("it fits");
+            header.set_link_name(target).expect("the name fits");
         }
         header.set_cksum();
-        builder.append(&header, &[][..]).expect("there is memory");
+        builder
+            .append(&header, &[][..])
+            .expect("writing to memory succeeds");
     }
     for (name, bytes) in files {
         let mut header = header(name, EntryType::Regular, bytes.len());
         header.set_cksum();
         builder
             .append(&header, bytes.as_slice())
-            .expect("there is memory");
+            .expect("writing to memory succeeds");
     }
     let bytes = builder.into_inner().and_then(GzEncoder::finish);
-    write_archive(folder, "tar.gz", &bytes.expect("it is whole"))
+    write_archive(folder, "tar.gz", &bytes.expect("the archive is complete"))
 }
 
-/// The name as it is: the crate's own way would refuse some.
+/// Returns a header with exactly this name; the crate's own method rejects some names.
 fn header(name: &str, kind: EntryType, size: usize) -> Header {
     let mut header = Header::new_ustar();
-    let place = &mut header.as_ustar_mut().expect("it is one").name;
-    place[..name.len()].copy_from_slice(name.as_bytes());
+    let field = &mut header.as_ustar_mut().expect("it is a ustar header").name;
+    field[..name.len()].copy_from_slice(name.as_bytes());
     header.set_entry_type(kind);
     header.set_size(size as u64);
     header.set_mode(0o644);

@@ -1,4 +1,4 @@
-//! One run of the real binary, watched from outside.
+//! Runs the real program and measures it from outside.
 
 use std::fs;
 use std::io::Read;
@@ -13,23 +13,23 @@ use serde_json::Value;
 use crate::canary::Canaries;
 use crate::entry::Entry;
 
-/// What became of one run.
+/// The result of one run of the grader.
 pub struct GraderRun {
-    /// Not there if it had to be ended.
+    /// `None` if it took too long and was killed.
     pub exit_code: Option<i32>,
     pub elapsed: Duration,
-    /// The most memory that the grader itself has used, in bytes.
+    /// Peak memory of the grader itself, in bytes.
     pub memory: u64,
-    /// The most files that it has had open at once.
+    /// The most files that it had open at once.
     pub open_files: usize,
-    /// Both streams.
+    /// Standard output and standard error.
     pub printed: String,
     pub score: Option<String>,
     pub page: Option<String>,
 }
 
 impl GraderRun {
-    /// The score file without what may differ from run to run.
+    /// Returns the score file without the timings, which differ from run to run.
     pub fn reproducible_score(&self) -> Option<Value> {
         let mut score: Value = serde_json::from_str(self.score.as_ref()?).ok()?;
         let fields = score.as_object_mut()?;
@@ -38,20 +38,21 @@ impl GraderRun {
     }
 }
 
-/// Whatever outlives its parent becomes ours, and is found.
+/// Makes this process the parent of all descendants that outlive their own parent, so that it can
+/// find them.
 pub fn become_subreaper() {
     let own = rustix::process::getpid();
     rustix::process::set_child_subreaper(Some(own)).expect("Linux can do this");
 }
 
-/// Grades one submission. Never waits for longer than it may take.
+/// Grades one submission. Kills the grader if it takes longer than the entry may.
 pub fn grade(entry: &Entry, canaries: &Canaries, level: Isolation) -> GraderRun {
-    let folder = tempfile::TempDir::new().expect("a folder");
+    let folder = tempfile::TempDir::new().expect("temporary folder");
     let submission = folder.path().join("submission");
     let submission = entry.write(&submission, canaries);
     let out = canaries.out();
 
-    let began = Instant::now();
+    let started = Instant::now();
     let mut child = Command::new(env!("CARGO_BIN_EXE_grader"))
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .arg(&submission)
@@ -67,20 +68,20 @@ pub fn grade(entry: &Entry, canaries: &Canaries, level: Isolation) -> GraderRun 
         .spawn()
         .expect("the grader starts");
     let printed = [
-        read(child.stdout.take().expect("it is piped")),
-        read(child.stderr.take().expect("it is piped")),
+        read(child.stdout.take().expect("standard output is piped")),
+        read(child.stderr.take().expect("standard error is piped")),
     ];
-    let mut most = PeakUsage::default();
-    let exit_code = wait_for_exit(&mut child, began + entry.wall(), &mut most);
-    let took = began.elapsed();
+    let mut peak = PeakUsage::default();
+    let exit_code = wait_for_exit(&mut child, started + entry.wall(), &mut peak);
+    let elapsed = started.elapsed();
     let text = |name| fs::read_to_string(out.join(name)).ok();
     GraderRun {
         exit_code,
-        elapsed: took,
-        memory: most.memory,
-        open_files: most.files,
+        elapsed,
+        memory: peak.memory,
+        open_files: peak.files,
         printed: printed
-            .map(|thread| thread.join().expect("it reads"))
+            .map(|thread| thread.join().expect("the reader thread does not panic"))
             .concat(),
         score: text("score.json"),
         page: text("report.html"),
@@ -95,7 +96,7 @@ fn read(mut pipe: impl Read + Send + 'static) -> JoinHandle<String> {
     })
 }
 
-/// What the grader itself has held at once.
+/// The peak resource usage of the grader itself.
 #[derive(Default)]
 struct PeakUsage {
     memory: u64,
@@ -111,12 +112,12 @@ impl PeakUsage {
     }
 }
 
-fn wait_for_exit(child: &mut Child, deadline: Instant, most: &mut PeakUsage) -> Option<i32> {
+fn wait_for_exit(child: &mut Child, deadline: Instant, peak: &mut PeakUsage) -> Option<i32> {
     loop {
-        if let Some(status) = child.try_wait().expect("it is ours") {
+        if let Some(status) = child.try_wait().expect("it is our child") {
             return status.code();
         }
-        most.sample(child);
+        peak.sample(child);
         if Instant::now() >= deadline {
             child.kill().ok();
             child.wait().ok();

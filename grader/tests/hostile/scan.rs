@@ -1,8 +1,9 @@
-//! Calls that no submission may make, made one after the other by a program with `unsafe` code:
-//! what the compiler refuses is no wall. Built by `calls.rs`, run in the place of a submission.
+//! Makes system calls that no submission may make, one after the other, with `unsafe` code, which
+//! the compiler would not allow in a submission. `syscalls.rs` compiles it and runs it in place of
+//! a submission.
 //!
-//! A line for each call that was not refused. Arguments are such that a call that is let through
-//! does no harm.
+//! Prints a line for each call that was not refused. The arguments are chosen so that a call that
+//! gets through does no harm.
 
 use std::io::Error;
 
@@ -10,26 +11,26 @@ unsafe extern "C" {
     fn syscall(number: i64, ...) -> i64;
 }
 
-/// Refused: no permission, no access, no such call, no such file.
+/// Error codes of a refused call: EPERM, EACCES, ENOSYS, ENOENT.
 const REFUSED: [i32; 4] = [1, 13, 38, 2];
 
 fn main() {
     let parent = std::os::unix::process::parent_id() as i64;
     let here = c"/".as_ptr() as i64;
     let name = c"hostile".as_ptr() as i64;
-    let room = [0_u64; 64];
-    let room = room.as_ptr() as i64;
-    // Numbers of x86_64.
+    let buffer = [0_u64; 64];
+    let buffer = buffer.as_ptr() as i64;
+    // The numbers are those of x86_64.
     let calls: [(&str, i64, [i64; 5]); 61] = [
         ("open", 2, [here, 0, 0, 0, 0]),
         ("openat", 257, [-100, here, 0, 0, 0]),
-        ("openat2", 437, [-100, here, room, 24, 0]),
-        ("open_by_handle_at", 304, [-100, room, 0, 0, 0]),
-        ("name_to_handle_at", 303, [-100, here, room, room, 0]),
-        ("stat", 4, [here, room, 0, 0, 0]),
-        ("statx", 332, [-100, here, 0, 0xfff, room]),
+        ("openat2", 437, [-100, here, buffer, 24, 0]),
+        ("open_by_handle_at", 304, [-100, buffer, 0, 0, 0]),
+        ("name_to_handle_at", 303, [-100, here, buffer, buffer, 0]),
+        ("stat", 4, [here, buffer, 0, 0, 0]),
+        ("statx", 332, [-100, here, 0, 0xfff, buffer]),
         ("access", 21, [here, 0, 0, 0, 0]),
-        ("readlink", 89, [here, room, 64, 0, 0]),
+        ("readlink", 89, [here, buffer, 64, 0, 0]),
         ("mkdir", 83, [name, 0o700, 0, 0, 0]),
         ("unlink", 87, [name, 0, 0, 0, 0]),
         ("symlink", 88, [here, name, 0, 0, 0]),
@@ -45,16 +46,16 @@ fn main() {
         ("socket, vsock", 41, [40, 1, 0, 0, 0]),
         ("socket, packet", 41, [17, 3, 0, 0, 0]),
         ("socket, alg", 41, [38, 5, 0, 0, 0]),
-        ("socketpair", 53, [1, 2, 0, room, 0]),
-        ("io_uring_setup", 425, [1, room, 0, 0, 0]),
+        ("socketpair", 53, [1, 2, 0, buffer, 0]),
+        ("io_uring_setup", 425, [1, buffer, 0, 0, 0]),
         ("kill the parent", 62, [parent, 0, 0, 0, 0]),
         ("kill everyone", 62, [-1, 0, 0, 0, 0]),
         ("kill the group", 62, [0, 0, 0, 0, 0]),
         ("tgkill the parent", 234, [parent, parent, 0, 0, 0]),
         ("pidfd_open", 434, [parent, 0, 0, 0, 0]),
         ("ptrace", 101, [16, parent, 0, 0, 0]),
-        ("process_vm_readv", 310, [parent, room, 0, room, 0]),
-        ("process_vm_writev", 311, [parent, room, 0, room, 0]),
+        ("process_vm_readv", 310, [parent, buffer, 0, buffer, 0]),
+        ("process_vm_writev", 311, [parent, buffer, 0, buffer, 0]),
         ("kcmp", 312, [parent, parent, 1, 0, 0]),
         ("unshare", 272, [0x1000_0000, 0, 0, 0, 0]),
         ("setns", 308, [0, 0, 0, 0, 0]),
@@ -65,27 +66,32 @@ fn main() {
         ("setpgid", 109, [0, 0, 0, 0, 0]),
         ("setresuid", 117, [0, 0, 0, 0, 0]),
         ("setgroups", 116, [0, 0, 0, 0, 0]),
-        ("capset", 126, [room, room, 0, 0, 0]),
+        ("capset", 126, [buffer, buffer, 0, 0, 0]),
         ("personality", 135, [0xffff_ffff, 0, 0, 0, 0]),
         ("shmget", 29, [0, 4096, 0o1600, 0, 0]),
         ("semget", 64, [0, 1, 0o1600, 0, 0]),
         ("msgget", 68, [0, 0o1600, 0, 0, 0]),
         ("mq_open", 240, [name, 0o102, 0o600, 0, 0]),
         ("memfd_create", 319, [name, 0, 0, 0, 0]),
-        ("add_key", 248, [c"user".as_ptr() as i64, name, room, 8, -2]),
+        (
+            "add_key",
+            248,
+            [c"user".as_ptr() as i64, name, buffer, 8, -2],
+        ),
         ("keyctl", 250, [0, -2, 0, 0, 0]),
-        ("bpf", 321, [0, room, 64, 0, 0]),
-        ("perf_event_open", 298, [room, 0, -1, -1, 0]),
+        ("bpf", 321, [0, buffer, 64, 0, 0]),
+        ("perf_event_open", 298, [buffer, 0, -1, -1, 0]),
         ("userfaultfd", 323, [1, 0, 0, 0, 0]),
         ("flock", 73, [1, 8, 0, 0, 0]),
-        ("ioctl TIOCSTI", 16, [0, 0x5412, room, 0, 0]),
+        ("ioctl TIOCSTI", 16, [0, 0x5412, buffer, 0, 0]),
         ("fcntl F_SETOWN", 72, [0, 8, parent, 0, 0]),
         ("setpriority", 141, [0, 0, 0, 0, 0]),
-        // The child, if there is one, says so and ends.
+        // Both processes print a line if this succeeds; the child then exits.
         ("fork", 57, [0, 0, 0, 0, 0]),
     ];
     for (what, number, [a, b, c, d, e]) in calls {
-        // SAFETY: every pointer is to memory that outlives the call and has room for its answer.
+        // SAFETY: every pointer refers to memory that outlives the call and is large enough for the
+        // result.
         let answer = unsafe { syscall(number, a, b, c, d, e, 0_i64) };
         let error = Error::last_os_error().raw_os_error().unwrap_or(0);
         let refused = answer < 0 && REFUSED.contains(&error);

@@ -1,5 +1,5 @@
-//! What the compiler refuses is no wall: calls to the system, made by a program with `unsafe` code
-//! in the place of a submission.
+//! Makes system calls in place of a submission, with a program that has `unsafe` code: the sandbox
+//! must hold even if a submission gets around the compiler's ban on `unsafe`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -17,17 +17,17 @@ const LIMITS: Limits = Limits {
     file: 0,
 };
 const WALL_LIMIT: Duration = Duration::from_secs(60);
-/// Its last line.
+/// The last line that the program prints.
 const END_LINE: &str = "end";
 
-/// The calls that are not refused at this level. Not to be asked at `none`: there they leave
-/// something behind.
+/// Returns the system calls that are not refused at this level. Do not use it for level `none`,
+/// where the calls leave something behind.
 pub fn allowed_calls(level: Isolation) -> Vec<String> {
     if !cfg!(target_arch = "x86_64") {
-        eprintln!("SKIPPED: the numbers of system calls are known for x86_64 only");
+        eprintln!("SKIPPED: system call numbers are known for x86_64 only");
         return Vec::new();
     }
-    let folder = TempDir::new().expect("a folder");
+    let folder = TempDir::new().expect("temporary folder");
     let program = build_scanner(folder.path());
     let launcher = PathBuf::from(env!("CARGO_BIN_EXE_grader"));
     let sandbox = Sandbox::at(level).with_launcher(launcher);
@@ -37,28 +37,32 @@ pub fn allowed_calls(level: Isolation) -> Vec<String> {
         Profile::Probe,
         LIMITS,
     );
-    let mut process = started.expect("it starts");
-    let stdout = process.child.stdout.take().expect("it is piped");
-    let said = Capture::start(stdout, 1 << 16);
+    let mut process = started.expect("the sandbox starts the program");
+    let stdout = process
+        .child
+        .stdout
+        .take()
+        .expect("standard output is piped");
+    let output = Capture::start(stdout, 1 << 16);
     let deadline = Instant::now() + WALL_LIMIT;
     while process.exit_reason().is_none() && Instant::now() < deadline {
         thread::sleep(Duration::from_millis(5));
     }
     process.kill();
-    said.wait_for_end(Duration::from_secs(1));
+    output.wait_for_end(Duration::from_secs(1));
 
-    let said = said.head();
-    let open = said
+    let output = output.head();
+    let allowed = output
         .lines()
         .filter(|line| *line != END_LINE)
         .map(str::to_owned);
-    match said.ends_with("end\n") {
-        true => open.collect(),
-        false => vec![format!("did not come to its end: {said:?}")],
+    match output.ends_with("end\n") {
+        true => allowed.collect(),
+        false => vec![format!("did not run to its end: {output:?}")],
     }
 }
 
-/// Linked as a submission is that is to be confined.
+/// Compiles the program, linked statically like a confined submission.
 fn build_scanner(folder: &Path) -> PathBuf {
     let program = folder.join("scan");
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());

@@ -1,4 +1,4 @@
-//! What may outlive a submission: processes, files, objects of the kernel's.
+//! Processes, files and kernel objects that may outlive a submission.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 
 use crate::canary::Canaries;
 
-/// How long a process that was killed may take to be gone.
+/// The longest time that a killed process may take to disappear.
 const EXIT_TIMEOUT: Duration = Duration::from_millis(500);
 
-/// All there is of such things, as lines of text.
+/// A snapshot of processes, files and kernel objects, as lines of text.
 pub struct SystemState(BTreeSet<String>);
 
 impl SystemState {
@@ -32,17 +32,17 @@ impl SystemState {
         SystemState(all)
     }
 
-    /// What is there and was not, or is not and was.
+    /// Returns the lines that were added or removed.
     pub fn differences(&self, after: &SystemState) -> Vec<String> {
         self.0.symmetric_difference(&after.0).cloned().collect()
     }
 }
 
-/// A table of the kernel's, without the numbers that age.
+/// Returns the lines of a kernel table, without the fields that change by themselves.
 fn kernel_table(list: &str) -> Vec<String> {
     let text = fs::read_to_string(Path::new("/proc").join(list)).unwrap_or_default();
-    // The second to fourth words of a key tell its flags, users and age.
-    let lasting = |line: &str| match list {
+    // The second to fourth words of a key are its flags, users and age.
+    let stable = |line: &str| match list {
         "keys" => {
             let mut words = line.split_whitespace();
             let name = words.next().unwrap_or_default().to_owned();
@@ -54,17 +54,18 @@ fn kernel_table(list: &str) -> Vec<String> {
     };
     let lines = text.lines().filter(|line| !line.trim().is_empty());
     lines
-        .map(|line| format!("{list}: {}", lasting(line)))
+        .map(|line| format!("{list}: {}", stable(line)))
         .collect()
 }
 
-/// Processes that were left to us. Gives those that were just killed the time to be gone.
+/// Returns the processes whose parent has exited, which makes them children of this process. Waits
+/// for processes that were just killed to disappear.
 fn adopted_processes() -> Vec<String> {
     let deadline = Instant::now() + EXIT_TIMEOUT;
     loop {
-        let orphans = children();
-        if orphans.is_empty() || Instant::now() >= deadline {
-            return orphans;
+        let processes = children();
+        if processes.is_empty() || Instant::now() >= deadline {
+            return processes;
         }
         thread::sleep(Duration::from_millis(5));
     }
@@ -72,11 +73,11 @@ fn adopted_processes() -> Vec<String> {
 
 fn children() -> Vec<String> {
     let own = std::process::id().to_string();
-    let processes = fs::read_dir("/proc").expect("Linux has it").flatten();
+    let processes = fs::read_dir("/proc").expect("Linux has /proc").flatten();
     let stats = processes.filter_map(|entry| fs::read_to_string(entry.path().join("stat")).ok());
     stats
         .filter_map(|stat| {
-            // `pid (name) state ppid ...`; the name may hold anything.
+            // `pid (name) state ppid ...`; the name may contain anything.
             let (name, rest) = stat.rsplit_once(')')?;
             let mut words = rest.split_whitespace();
             let (state, parent) = (words.next()?, words.next()?);
@@ -85,11 +86,11 @@ fn children() -> Vec<String> {
         .collect()
 }
 
-/// Files that an entry has left on purpose, wherever everybody may write.
+/// Returns the files that an entry has left on purpose, in folders where everyone may write.
 fn marked_files(mark: &str) -> Vec<String> {
     let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let home = std::env::var_os("HOME").map(PathBuf::from);
-    let places = [
+    let folders = [
         Some(PathBuf::from("/tmp")),
         Some(PathBuf::from("/var/tmp")),
         Some(PathBuf::from("/dev/shm")),
@@ -97,10 +98,10 @@ fn marked_files(mark: &str) -> Vec<String> {
         Some(project),
         home,
     ];
-    let entries = places
+    let entries = folders
         .iter()
         .flatten()
-        .filter_map(|place| fs::read_dir(place).ok());
+        .filter_map(|folder| fs::read_dir(folder).ok());
     let paths = entries
         .flat_map(Iterator::flatten)
         .map(|entry| entry.path());
@@ -110,16 +111,16 @@ fn marked_files(mark: &str) -> Vec<String> {
         .collect()
 }
 
-/// What the grader keeps from one submission to the next: nothing of it may change.
+/// Returns the files that the grader reuses for later submissions, which must not change.
 fn cache_entries() -> Vec<String> {
     let grade = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/grade");
     let mut found = Vec::new();
     for cache in ["dependencies", "parts"] {
         list_files(&grade.join(cache), &mut found);
     }
-    let rooms = fs::read_dir(grade.join("work")).into_iter().flatten();
-    let rooms = rooms.flatten().map(|room| room.path());
-    found.extend(rooms.map(|room| format!("room {}", room.display())));
+    let build_dirs = fs::read_dir(grade.join("work")).into_iter().flatten();
+    let build_dirs = build_dirs.flatten().map(|entry| entry.path());
+    found.extend(build_dirs.map(|path| format!("build directory {}", path.display())));
     found
 }
 
@@ -132,7 +133,7 @@ fn list_files(folder: &Path, found: &mut Vec<String>) {
         if metadata.is_dir() {
             list_files(&path, found);
         }
-        // A folder's own time changes when somebody uses it.
+        // A folder's time changes whenever it is used.
         let detail = match metadata.is_dir() {
             true => String::new(),
             false => format!(" {} {:?}", metadata.len(), metadata.modified().ok()),

@@ -1,4 +1,4 @@
-//! An exam that can not be asked is refused before anything is, with the place and what to do.
+//! Invalid exams are rejected before grading starts, with the position of the error and a remedy.
 
 use std::io::Write;
 use std::process::Stdio;
@@ -7,7 +7,7 @@ use insta::assert_snapshot;
 
 use crate::harness::{Submission, grader};
 
-/// A good exam of one item.
+/// A valid exam with one item.
 const VALID_EXAM: &str = r#"{
   "schema": 1,
   "id": "small",
@@ -20,7 +20,7 @@ const VALID_EXAM: &str = r#"{
       "look": "Inside all three slabs at once.",
       "questions": [
         {
-          "question": { "bbox": { "min": [-1, -1, -1], "max": [1, 1, 1], "shots": [
+          "question": { "bbox": { "min": [-1, -1, -1], "max": [1, 1, 1], "queries": [
             [{ "origin": [-3, 0, 0], "dir": [1, 0, 0], "range": [0, null] }, [0, null]],
             [{ "origin": [-3, 0, 0], "dir": [-1, 0, 0], "range": [0, null] }, [0, null]]
           ] } },
@@ -36,7 +36,7 @@ fn rejection(exam: impl AsRef<[u8]>) -> String {
     let path = submission.path().join("exam.json");
     let graded = submission.grade_with(&["--exam", path.to_str().unwrap()]);
     assert_eq!(graded.exit_code(), 2, "{}", graded.error());
-    assert!(graded.score.is_none(), "nothing was asked");
+    assert!(graded.score.is_none(), "nothing was graded");
     graded.error().replace(path.to_str().unwrap(), "exam.json")
 }
 
@@ -79,12 +79,12 @@ fn reads_an_exam_from_standard_input() {
 fn rejects_invalid_exams_with_position_and_remedy() {
     let cases = [
         ("empty", String::new()),
-        ("cut off", VALID_EXAM[..200].to_owned()),
+        ("truncated", VALID_EXAM[..200].to_owned()),
         (
-            "tells of nothing",
+            "signatures of unknown elements",
             VALID_EXAM.replace(
                 "\"look\"",
-                r#""tells": {"elements": [9], "wrong": []}, "look""#,
+                r#""signatures": {"elements": [9], "mistake_answers": []}, "look""#,
             ),
         ),
         ("unknown key", VALID_EXAM.replace("\"look\"", "\"clue\"")),
@@ -112,29 +112,29 @@ fn rejects_invalid_exams_with_position_and_remedy() {
             "key of another kind",
             VALID_EXAM.replace(
                 r#""spans": { "spans": [[2, 4], null] }"#,
-                r#""tree": { "judged": [] }"#,
+                r#""tree": { "checks": [] }"#,
             ),
         ),
         (
-            "shows too little",
-            VALID_EXAM.replace(r#""key":"#, r#""shown": { "slabs": "AA" }, "key":"#),
+            "too little drawing data",
+            VALID_EXAM.replace(r#""key":"#, r#""drawing_data": { "slabs": "AA" }, "key":"#),
         ),
         (
             "key too short",
             VALID_EXAM.replace("[[2, 4], null]", "[[2, 4]]"),
         ),
         (
-            "needs what is not there",
+            "needs an unknown item",
             VALID_EXAM.replace("\"points\"", "\"needs\": [\"bbox.other\"], \"points\""),
         ),
     ];
-    let refusals = cases.map(|(name, exam)| format!("{name}:\n  {}", rejection(exam)));
-    assert_snapshot!(refusals.join("\n"));
+    let rejections = cases.map(|(name, exam)| format!("{name}:\n  {}", rejection(exam)));
+    assert_snapshot!(rejections.join("\n"));
 }
 
 #[test]
 fn rejects_exams_that_are_not_utf8() {
-    assert!(rejection(b"\xff\xfe").starts_with("error: the exam exam.json, "));
+    assert!(rejection(b"\xff\xfe").starts_with("error: the exam exam.json is not valid: "));
 }
 
 #[test]
@@ -142,9 +142,7 @@ fn names_a_missing_exam_file() {
     let graded = Submission::reference("any").grade_with(&["--exam", "nowhere.json"]);
     assert_eq!(graded.exit_code(), 2);
     assert!(
-        graded
-            .error()
-            .contains("can not read the exam nowhere.json"),
+        graded.error().contains("cannot read the exam nowhere.json"),
         "{}",
         graded.error()
     );

@@ -1,10 +1,10 @@
-//! Whatever is handed in, there is a report, and the other tasks' points are untouched.
+//! Faulty submissions: each gets a report, and the points of other tasks do not change.
 
 use insta::assert_snapshot;
 
 use crate::harness::{FULL_POINTS, Submission};
 
-/// The points of a submission whose only fault is in these tasks, by place in lecture order.
+/// Returns full points except for these tasks, which are given by their index in lecture order.
 fn full_points_except(zero: &[usize]) -> Vec<u64> {
     let mut points = FULL_POINTS.to_vec();
     zero.iter().for_each(|&task| points[task] = 0);
@@ -15,7 +15,7 @@ const SPHERE: usize = 2;
 const BUILD: usize = 4;
 const TRAVERSE: usize = 5;
 
-/// Points of the other tasks, where this one is at fault: all, but for what rests on it.
+/// Returns the points of all tasks except the faulty one.
 fn points_of_other_tasks(points: &[u64], fault: usize) -> u64 {
     points
         .iter()
@@ -71,9 +71,9 @@ fn a_file_that_does_not_compile_costs_its_own_task() {
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
     assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
     assert_snapshot!(graded.report());
-    // Before the others are compiled without it: that takes four times as long.
-    let said = "sphere.rs: error[E0609]: no field `direction` on type `&Ray`; grading the rest\n";
-    assert!(graded.error().ends_with(said), "{}", graded.error());
+    // Printed before the other files are compiled without it, which takes four times as long.
+    let line = "sphere.rs: error[E0609]: no field `direction` on type `&Ray`; grading the rest\n";
+    assert!(graded.error().ends_with(line), "{}", graded.error());
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn a_changed_signature_costs_its_own_task_though_a_given_file_fails_to_compile()
 
 #[test]
 fn finds_errors_that_the_compiler_reports_one_after_the_other() {
-    // The compiler stops at the first before it can see the second.
+    // The compiler stops at the first error, before it sees the second.
     let graded =
         Submission::case("not_compiling").with("camera.rs", "struct Camera fn new fn sample_ray (");
     let graded = graded.grade();
@@ -120,19 +120,19 @@ fn writes_a_report_if_nothing_compiles() {
 fn a_panic_costs_the_items_that_trigger_it() {
     let graded = Submission::case("panicking").grade();
     assert!(graded.verdicts("sphere").contains(&"panicked".to_owned()));
-    // One point of `traverse` is for a tree with spheres in it.
+    // One point of `traverse` is for a tree that contains spheres.
     assert_eq!(points_of_other_tasks(&graded.points(), SPHERE), 84);
     assert_snapshot!(graded.report());
 }
 
 #[test]
 fn a_panic_in_a_constructor_is_reported_like_any_other() {
-    let stubborn = "        assert!(aspect_ratio <= 1.0, \"too wide\");\n        Camera {\n            vertical_fov,";
-    let graded = Submission::reference("stubborn")
+    let asserting = "        assert!(aspect_ratio <= 1.0, \"too wide\");\n        Camera {\n            vertical_fov,";
+    let graded = Submission::reference("asserting")
         .with_replaced(
             "camera.rs",
             "        Camera {\n            vertical_fov,",
-            stubborn,
+            asserting,
         )
         .grade();
     assert!(graded.verdicts("camera").contains(&"panicked".to_owned()));
@@ -218,7 +218,7 @@ fn notes_a_changed_given_method() {
     let note = &graded.score()["build"]["notes"][0];
     assert_eq!(
         note,
-        "bbox.rs: given methods were changed, at no cost by itself: center"
+        "bbox.rs: given methods were changed, which by itself costs no points: center"
     );
 }
 
@@ -234,7 +234,8 @@ fn unsafe_code_does_not_compile() {
 
 #[test]
 fn does_not_reuse_a_build_of_files_with_the_same_modification_time() {
-    // Zips and tars unpack with old times; a build by time would serve the other's program.
+    // Archives restore old modification times. A build that compares times would reuse the program
+    // of the other submission.
     let old = std::time::SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(315_532_800);
     let aged = |submission: Submission| {
         for file in crate::harness::TASK_FILES {

@@ -1,4 +1,4 @@
-//! A submission is graded once as it is, unless somebody wants it anew.
+//! The cached report: an unchanged submission is graded once, unless `--fresh` is given.
 
 use std::fs;
 use std::path::PathBuf;
@@ -8,7 +8,7 @@ use crate::harness::{Submission, grader, workspace};
 
 const NOTICE: &str = "Nothing has changed since this was graded";
 
-/// Grades it with few items, in its usual place; what was said.
+/// Grades a submission with a small exam into the default output folder. Returns the output.
 fn grade_output(submission: &Submission, arguments: &[&str]) -> String {
     let exam_file = submission.path().join("../exam.json");
     fs::write(&exam_file, small_exam("few")).unwrap();
@@ -23,19 +23,19 @@ fn grade_output(submission: &Submission, arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// The usual place, as if nothing of this name had been graded yet.
+/// Returns the default output folder of this name, after removing what earlier runs left there.
 fn clean_output_folder(name: &str) -> PathBuf {
-    let place = workspace().join("target/grade").join(name);
-    fs::remove_dir_all(&place).ok();
-    place
+    let folder = workspace().join("target/grade").join(name);
+    fs::remove_dir_all(&folder).ok();
+    folder
 }
 
 #[test]
 fn prints_the_cached_report_if_nothing_changed() {
-    let place = clean_output_folder("told-again");
-    let submission = Submission::reference("told-again");
+    let folder = clean_output_folder("cached-unchanged");
+    let submission = Submission::reference("cached-unchanged");
     let first = grade_output(&submission, &[]);
-    let score = fs::read(place.join("score.json")).unwrap();
+    let score = fs::read(folder.join("score.json")).unwrap();
     let second = grade_output(&submission, &[]);
     assert!(
         !first.contains(NOTICE) && second.contains(NOTICE),
@@ -44,32 +44,32 @@ fn prints_the_cached_report_if_nothing_changed() {
     assert_eq!(
         lines_without(&second, NOTICE),
         lines_without(&first, NOTICE),
-        "but for that, the same is said"
+        "otherwise the output is the same"
     );
-    assert_eq!(fs::read(place.join("score.json")).unwrap(), score);
+    assert_eq!(fs::read(folder.join("score.json")).unwrap(), score);
     assert!(!grade_output(&submission, &["--fresh"]).contains(NOTICE));
 
-    // What it is required to have is no part of the score.
+    // The required points are not part of the score.
     assert!(grade_output(&submission, &["--require", "1"]).contains(NOTICE));
-    fs::remove_dir_all(place).unwrap();
+    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
 fn grades_again_after_any_change() {
-    let place = clean_output_folder("graded-anew");
-    let submission = Submission::reference("graded-anew");
+    let folder = clean_output_folder("cached-changed");
+    let submission = Submission::reference("cached-changed");
     grade_output(&submission, &[]);
     assert!(
         !grade_output(&submission, &["--hints"]).contains(NOTICE),
         "options"
     );
     grade_output(&submission, &[]);
-    fs::write(place.join("score.json"), "{\"points\": 100}").unwrap();
+    fs::write(folder.join("score.json"), "{\"points\": 100}").unwrap();
     assert!(
         !grade_output(&submission, &[]).contains(NOTICE),
         "the score"
     );
-    fs::write(place.join("earlier.json"), "{\"key\": ").unwrap();
+    fs::write(folder.join("earlier.json"), "{\"key\": ").unwrap();
     assert!(
         !grade_output(&submission, &[]).contains(NOTICE),
         "half a record"
@@ -78,23 +78,23 @@ fn grades_again_after_any_change() {
     let submission =
         submission.with_replaced("sphere.rs", "discriminant < 0.0", "discriminant < 1e-9");
     assert!(!grade_output(&submission, &[]).contains(NOTICE), "a file");
-    fs::remove_dir_all(place).unwrap();
+    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
 fn does_not_cache_results_that_may_differ_next_time() {
-    let place = clean_output_folder("crashing-again");
+    let folder = clean_output_folder("cached-crashing");
     let head = "pub fn hit(&self, ray: &Ray) -> Option<Trace> {";
     let crash = format!("{head}\n        std::process::abort();");
     let submission =
-        Submission::reference("crashing-again").with_replaced("sphere.rs", head, &crash);
+        Submission::reference("cached-crashing").with_replaced("sphere.rs", head, &crash);
     let report = grade_output(&submission, &[]);
     assert!(report.contains("crashed"), "{report}");
     assert!(!grade_output(&submission, &[]).contains(NOTICE));
-    fs::remove_dir_all(place).unwrap();
+    fs::remove_dir_all(folder).unwrap();
 }
 
-/// The lines that do not hold this, nor are empty.
+/// Returns the lines that do not contain `word` and are not empty.
 fn lines_without<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
     let lines = text.lines().filter(|line| !line.is_empty());
     lines.filter(|line| !line.contains(word)).collect()

@@ -1,4 +1,4 @@
-//! What people type, and what they are told.
+//! Command line arguments, and what they print.
 
 use std::fs;
 
@@ -28,7 +28,7 @@ fn a_path_without_a_submission_is_a_usage_error() {
     let (code, error) = exit_code_and_error(&[empty.path().to_str().unwrap()]);
     assert_eq!(code, 2);
     assert!(
-        error.contains("holds none of camera.rs, triangle.rs"),
+        error.contains("has none of camera.rs, triangle.rs"),
         "{error}"
     );
 
@@ -84,18 +84,18 @@ fn an_unknown_task_lists_the_known_ones() {
 
 #[test]
 fn finds_the_task_files_at_the_top_in_src_and_in_student_src() {
-    for place in ["src", "student/src"] {
+    for folder in ["src", "student/src"] {
         let mut submission = Submission::reference("checkout");
         for file in crate::harness::TASK_FILES {
             let text = fs::read(submission.path().join(file)).unwrap();
             submission = submission
                 .without(file)
-                .with(&format!("{place}/{file}"), text);
+                .with(&format!("{folder}/{file}"), text);
         }
         assert_eq!(
             submission.grade_with(&["--task", "bbox"]).exit_code(),
             0,
-            "{place}"
+            "{folder}"
         );
     }
 }
@@ -127,11 +127,11 @@ fn timings_list_each_stage() {
         let number = line.unwrap().split_whitespace().last().unwrap();
         number.parse::<f64>().unwrap()
     };
-    // No compiler is done in less, and what was not asked took no time.
+    // No compiler is faster, and a task that was not graded took no time.
     assert!(millis("compiling") > 10.0, "{report}");
-    assert!(millis("asking: camera") > 0.0, "{report}");
-    assert_eq!(millis("asking: traverse"), 0.0, "{report}");
-    assert!(millis("together") > millis("compiling"), "{report}");
+    assert!(millis("answering: camera") > 0.0, "{report}");
+    assert_eq!(millis("answering: traverse"), 0.0, "{report}");
+    assert!(millis("total") > millis("compiling"), "{report}");
 }
 
 #[test]
@@ -143,14 +143,14 @@ fn replays_one_question() {
         .iter()
         .find(|item| item["verdict"] == "panicked")
         .unwrap();
-    let place = format!(
+    let question = format!(
         "{}#{}",
         item["id"].as_str().unwrap(),
         item["evidence"]["number"]
     );
     let output = grader()
         .arg(submission.path())
-        .args(["--replay", &place])
+        .args(["--replay", &question])
         .output()
         .unwrap();
     assert_snapshot!(String::from_utf8(output.stdout).unwrap());
@@ -160,13 +160,16 @@ fn replays_one_question() {
 fn an_unknown_question_lists_the_known_ones() {
     let (code, error) = exit_code_and_error(&["--replay", "sphere.nothing#1"]);
     assert_eq!(code, 2);
-    assert!(error.contains("there are: sphere."), "{error}");
+    assert!(
+        error.contains("the items of this task are: sphere."),
+        "{error}"
+    );
     let (code, error) = exit_code_and_error(&["--replay", "sphere"]);
     assert_eq!(code, 2);
     assert!(error.contains("such as sphere.from_inside#7"), "{error}");
 }
 
-/// Elsewhere there always is a desktop.
+/// Other systems always have a desktop.
 #[cfg(target_os = "linux")]
 #[test]
 fn without_a_desktop_prints_the_path_of_the_page_and_succeeds() {
@@ -184,11 +187,11 @@ fn without_a_desktop_prints_the_path_of_the_page_and_succeeds() {
     assert_eq!(output.status.code(), Some(0), "{error}");
     let page = out.join("report.html");
     assert!(page.is_file());
-    let told = format!("there is no desktop here: open {} yourself", page.display());
-    assert!(error.contains(&told), "{error}");
-    let told = String::from_utf8(output.stdout).unwrap();
+    let line = format!("there is no desktop: open {} yourself", page.display());
+    assert!(error.contains(&line), "{error}");
+    let report = String::from_utf8(output.stdout).unwrap();
     assert!(
-        told.lines().any(|line| line.ends_with("report.html")),
-        "{told}"
+        report.lines().any(|line| line.ends_with("report.html")),
+        "{report}"
     );
 }

@@ -1,11 +1,12 @@
-//! Who may touch whom: by what Cargo knows, not by asking.
+//! Allowed dependencies between crates, checked with `cargo tree`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
 use crate::harness::workspace;
 
-/// All that a package is built with, however far down, in this format. Without what only tests need.
+/// Returns all dependencies of a package in this format, direct and indirect, except
+/// dev-dependencies.
 fn tree(package: &str, format: &str) -> String {
     let output = Command::new(env!("CARGO"))
         .args(["tree", "--offline", "--locked", "--prefix=none"])
@@ -22,7 +23,7 @@ fn tree(package: &str, format: &str) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// The names of all those.
+/// Returns the names of all dependencies of a package.
 fn dependencies(package: &str) -> BTreeSet<String> {
     let text = tree(package, "{p}");
     let names = text
@@ -36,10 +37,10 @@ fn dependencies(package: &str) -> BTreeSet<String> {
 
 fn forbidden_dependencies(package: &str, forbidden: &[&str]) -> Vec<String> {
     let dependencies = dependencies(package);
-    let met = forbidden
+    let found = forbidden
         .iter()
         .filter(|name| dependencies.contains(**name));
-    met.map(|name| (*name).to_owned()).collect()
+    found.map(|name| (*name).to_owned()).collect()
 }
 
 #[test]
@@ -62,7 +63,7 @@ fn judging_depends_on_no_process_or_terminal_crates() {
         "reference",
         "author",
     ];
-    // What processes, sandboxes and terminals need.
+    // Crates for processes, sandboxes and terminals.
     let machine = ["rustix", "landlock", "clap", "anstream", "tempfile"];
     assert_eq!(forbidden_dependencies("judging", &ours), [""; 0]);
     assert_eq!(forbidden_dependencies("judging", &machine), [""; 0]);
@@ -100,8 +101,8 @@ fn student_crates_do_not_depend_on_the_grader() {
     assert_eq!(forbidden_dependencies("protocol", &["framework"]), [""; 0]);
 }
 
-/// Of `syn`, one takes as long as a tenth of the rest: `serde`, `clap` and `thiserror` are held back in
-/// the lock file until `maud` and `landlock` follow them.
+/// A second version of `syn` would add a tenth to the compile time. So the lock file holds back
+/// `serde`, `clap` and `thiserror` until `maud` and `landlock` use the same version.
 #[test]
 fn the_grader_has_no_crate_in_two_versions() {
     let text = tree("grader", "{p}");
@@ -119,8 +120,8 @@ fn the_grader_has_no_crate_in_two_versions() {
     assert_eq!(versions, BTreeMap::new());
 }
 
-/// Cargo would else compile them, and all that rests on them, twice before the first grade: for the
-/// grader, and for what submissions are linked with.
+/// With different features, Cargo would compile these crates twice before the first grade: once for
+/// the grader, and once for submissions.
 #[test]
 fn crates_shared_with_submissions_have_the_same_features() {
     let of = |package| -> BTreeMap<String, String> {

@@ -1,4 +1,4 @@
-//! One builder that drives every test: a submission, a command line, what came of it.
+//! The test harness: builds a submission, runs the grader on it, and reads the results.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,32 +9,32 @@ use tempfile::TempDir;
 
 pub const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 
-/// The points of camera, triangle, sphere, bbox, build, traverse.
+/// The full points of camera, triangle, sphere, bbox, build and traverse.
 pub const FULL_POINTS: [u64; 6] = [15, 20, 15, 10, 20, 20];
 
-/// The folder of the whole project.
+/// Returns the folder of the workspace.
 pub fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// A submission in a folder of its own, which vanishes with it.
+/// A submission in a temporary folder, which is deleted when dropped.
 pub struct Submission {
     folder: TempDir,
     name: String,
 }
 
 impl Submission {
-    /// The five files of the reference.
+    /// Copies the task files of the reference.
     pub fn reference(name: &str) -> Self {
         Submission::copy_of(name, &workspace().join("reference/src"))
     }
 
-    /// The five files of the starter.
+    /// Copies the task files of the starter.
     pub fn starter(name: &str) -> Self {
         Submission::copy_of(name, &workspace().join("grader/starter"))
     }
 
-    /// The reference, with the files of `tests/submissions/NAME` in place of its own.
+    /// Copies the reference, with the files of `tests/submissions/NAME` instead of its own.
     pub fn case(name: &str) -> Self {
         let submission = Submission::reference(name);
         let case = workspace().join("grader/tests/submissions").join(name);
@@ -72,24 +72,24 @@ impl Submission {
         self
     }
 
-    /// Replaces text that must be there.
+    /// Replaces text in a file, and panics if the file does not contain it.
     pub fn with_replaced(self, file: &str, from: &str, to: &str) -> Self {
         let text = fs::read_to_string(self.path().join(file)).unwrap();
-        assert!(text.contains(from), "{file} has no {from:?} any more");
+        assert!(text.contains(from), "{file} does not contain {from:?}");
         self.with(file, text.replace(from, to))
     }
 
-    /// As on a student's machine.
+    /// Grades as on a student's machine, without the reference.
     pub fn grade(&self) -> GradeRun {
         self.grade_with(&[])
     }
 
-    /// As on a student's machine, with more arguments.
+    /// Grades as on a student's machine, with additional arguments.
     pub fn grade_with(&self, arguments: &[&str]) -> GradeRun {
         self.run(&[&["--no-reference"], arguments].concat())
     }
 
-    /// As on the staff's machines.
+    /// Grades as on a staff machine, with the reference.
     pub fn grade_with_reference(&self) -> GradeRun {
         self.run(&[])
     }
@@ -111,31 +111,34 @@ impl Submission {
     }
 }
 
-/// The program itself, run from the workspace's folder.
+/// Returns a command that runs the grader in the workspace folder.
 pub fn grader() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
     command.current_dir(workspace());
     command
 }
 
-/// What came of one run.
+/// The results of one run.
 pub struct GradeRun {
     pub output: Output,
-    /// Where the submission lies.
+    /// The folder of the submission.
     submission: PathBuf,
-    /// The score file's bytes, if there is one.
+    /// The contents of the score file, if there is one.
     pub score: Option<Vec<u8>>,
 }
 
 impl GradeRun {
     pub fn exit_code(&self) -> i32 {
-        self.output.status.code().expect("it was not killed")
+        self.output
+            .status
+            .code()
+            .expect("the grader was not killed")
     }
 
-    /// What is read on a terminal, but for the last lines: where the files are.
+    /// Returns the terminal report without the paths of the written files.
     pub fn report(&self) -> String {
         let text = String::from_utf8(self.output.stdout.clone()).unwrap();
-        // In the commands that it gives: another folder in each run.
+        // The reported commands name the submission's folder, which differs in each run.
         let text = text.replace(&*self.submission.to_string_lossy(), "SUBMISSION");
         let is_place = |line: &&str| line.ends_with("score.json") || line.ends_with("report.html");
         let lines = text.lines().filter(|line| !is_place(line));
@@ -155,7 +158,7 @@ impl GradeRun {
         serde_json::from_slice(self.score.as_ref().unwrap()).unwrap()
     }
 
-    /// The points of each task, in lecture order.
+    /// Returns the points of each task, in lecture order.
     pub fn points(&self) -> Vec<u64> {
         let score = self.score();
         let tasks = score["tasks"].as_array().unwrap();
@@ -165,7 +168,7 @@ impl GradeRun {
             .collect()
     }
 
-    /// The verdicts of one task's items, each once.
+    /// Returns the distinct verdicts of a task's items, sorted.
     pub fn verdicts(&self, task: &str) -> Vec<String> {
         let score = self.score();
         let tasks = score["tasks"].as_array().unwrap();

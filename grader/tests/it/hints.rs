@@ -1,11 +1,11 @@
-//! A wrong answer that is a known mistake's earns its hint, and one that is like none earns none.
+//! Hints: a known mistake gets its hint, and an unknown one gets none.
 
 use insta::assert_snapshot;
 use serde_json::Value;
 
 use crate::harness::{GradeRun, Submission};
 
-/// Whoever takes the far root, by other formulas than the catalogue's.
+/// A solution that takes the far root first, with other formulas than the catalogue of mistakes.
 fn far_first() -> Submission {
     Submission::reference("far-first").with_replaced(
         "sphere.rs",

@@ -1,5 +1,5 @@
-//! Others' code, through the real binary: what it tries goes well where nothing keeps it apart,
-//! and is refused at every level that does.
+//! Untrusted code, graded by the real binary: every attempt succeeds without isolation, and fails
+//! at every isolation level.
 
 use std::fs;
 use std::path::Path;
@@ -12,8 +12,8 @@ use tempfile::TempDir;
 
 use crate::harness::{FULL_POINTS, GradeRun, Submission, grader};
 
-/// Every level that keeps submissions apart. Where a machine lacks one, its tests are skipped, and
-/// said to be; where `CI` is set, that is a failure.
+/// Every isolation level. If a machine does not support a level, its tests are skipped with a
+/// message, or fail if `CI` is set.
 const LEVELS: [&str; 3] = ["full", "no-namespaces", "seccomp-only"];
 const SECRET: &str = "the final exam";
 
@@ -40,7 +40,7 @@ fn make_readable_by_all(folder: &Path) {
     fs::set_permissions(folder, fs::Permissions::from_mode(0o755)).unwrap();
 }
 
-/// The reference, with something that is done before the camera's rays are made.
+/// The reference, with code that runs before each camera ray is made.
 fn running(what: &str) -> Submission {
     let method = "let height = 2.0 * framework";
     Submission::reference("mallory").with_replaced(
@@ -50,7 +50,7 @@ fn running(what: &str) -> Submission {
     )
 }
 
-/// What the submission printed while it was asked for the camera's rays.
+/// Returns what the submission printed during the camera task.
 fn camera_output(graded: &GradeRun) -> String {
     let printed = &graded.score()["tasks"][0]["printed"];
     printed.as_str().unwrap_or_default().to_owned()
@@ -60,26 +60,27 @@ fn grade_at(submission: &Submission, level: &str) -> GradeRun {
     submission.grade_with(&["--isolation", level])
 }
 
-/// Whether the machine has this level, from what the doctor says of it.
+/// Returns whether `--doctor` reports that this machine supports a level.
 fn is_available(level: &str) -> bool {
-    static TOLD: LazyLock<String> = LazyLock::new(|| {
+    static DIAGNOSIS: LazyLock<String> = LazyLock::new(|| {
         let output = grader().arg("--doctor").output().unwrap();
         String::from_utf8(output.stdout).unwrap()
     });
-    let told = &*TOLD;
-    let mut lines = told.lines().map(str::split_whitespace);
-    let holds = lines.any(|mut words| words.next() == Some(level) && words.next() == Some("holds"));
+    let diagnosis = &*DIAGNOSIS;
+    let mut lines = diagnosis.lines().map(str::split_whitespace);
+    let works = lines.any(|mut words| words.next() == Some(level) && words.next() == Some("works"));
     assert!(
-        holds || std::env::var_os("CI").is_none(),
-        "no {level} here:\n{told}"
+        works || std::env::var_os("CI").is_none(),
+        "isolation {level} does not work here:\n{diagnosis}"
     );
-    if !holds {
-        eprintln!("SKIPPED: isolation {level} does not hold here:\n{told}");
+    if !works {
+        eprintln!("SKIPPED: isolation {level} does not work here:\n{diagnosis}");
     }
-    holds
+    works
 }
 
-/// It prints `done` where nothing keeps it apart, and at no level that does; and earns its points.
+/// Asserts that an attempt succeeds without isolation and fails at every level, and that the
+/// submission still gets full points.
 #[track_caller]
 fn assert_blocked(attempt: &str) {
     let submission = running(&format!("if {attempt} {{ println!(\"done\"); }}"));
@@ -157,7 +158,7 @@ fn loops_recursion_and_allocation_cost_only_their_task() {
         for level in LEVELS.into_iter().filter(|level| is_available(level)) {
             let graded = submission.grade_with(&["--isolation", level, "--cpu-limit", "1"]);
             assert_eq!(graded.verdicts("camera"), [verdict], "{level}");
-            // But for the picture, which needs a camera.
+            // Not `traverse`: its picture needs a camera.
             assert_eq!(graded.points()[1..5], FULL_POINTS[1..5], "{level}");
         }
     }
@@ -172,7 +173,7 @@ fn untrusted_code_is_graded_at_the_best_level_and_the_report_says_so() {
     assert_eq!(graded.points(), FULL_POINTS);
     assert_eq!(graded.score()["isolation"], "full");
     assert!(
-        graded.report().contains("kept apart: full"),
+        graded.report().contains("isolation: full"),
         "{}",
         graded.report()
     );
@@ -190,34 +191,37 @@ fn no_process_survives_a_killed_grader() {
             .stdout(Stdio::null())
             .spawn()
             .unwrap();
-        let probe = wait_for(|| child(grader.id()).filter(|pid| is_probe(*pid)));
+        let probe = eventually(|| child(grader.id()).filter(|pid| is_probe(*pid)));
         grader.kill().unwrap();
         grader.wait().unwrap();
-        wait_for(|| (!Path::new(&format!("/proc/{probe}")).exists()).then_some(()));
+        eventually(|| (!Path::new(&format!("/proc/{probe}")).exists()).then_some(()));
     }
 }
 
-/// The only child of a process.
+/// Returns the only child of a process.
 fn child(pid: u32) -> Option<u32> {
     let children = fs::read_to_string(format!("/proc/{pid}/task/{pid}/children")).ok()?;
     children.split_whitespace().next()?.parse().ok()
 }
 
-/// Whether it is no longer the launcher, and not the compiler's.
+/// Returns whether the process is a probe, and neither the launcher nor the compiler.
 fn is_probe(pid: u32) -> bool {
-    let words = fs::read(format!("/proc/{pid}/cmdline")).unwrap_or_default();
-    let first = words.split(|byte| *byte == 0).next().unwrap_or_default();
+    let arguments = fs::read(format!("/proc/{pid}/cmdline")).unwrap_or_default();
+    let first = arguments
+        .split(|byte| *byte == 0)
+        .next()
+        .unwrap_or_default();
     first == b"/probe" || first.starts_with(b"/proc/self/fd/")
 }
 
-/// What there is sooner or later.
-fn wait_for<T>(mut found: impl FnMut() -> Option<T>) -> T {
+/// Waits until `found` returns a value.
+fn eventually<T>(mut found: impl FnMut() -> Option<T>) -> T {
     let deadline = Instant::now() + Duration::from_secs(60);
     loop {
         if let Some(found) = found() {
             return found;
         }
-        assert!(Instant::now() < deadline, "it does not come");
+        assert!(Instant::now() < deadline, "timed out");
         thread::sleep(Duration::from_millis(5));
     }
 }

@@ -1,5 +1,6 @@
-//! The real binary on real submissions. Each module is one thing that people rely on; each folder
-//! in `tests/submissions` is one idea of a submission, as the files in which it differs.
+//! Tests that run the real binary on real submissions. Each module tests one promise to the users.
+//! Each folder in `tests/submissions` is one kind of submission, and has only the files that differ
+//! from the reference.
 
 mod bad_exams;
 mod bad_submissions;
@@ -12,6 +13,7 @@ mod harness;
 mod hints;
 #[cfg(target_os = "linux")]
 mod isolation;
+mod language;
 #[cfg(target_os = "linux")]
 mod ordinary_user;
 mod packages;

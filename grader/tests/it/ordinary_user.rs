@@ -1,5 +1,5 @@
-//! Others' code, graded by somebody who is not root. Where root runs the tests, that is nobody; else
-//! all other tests are such ones already.
+//! Untrusted code, graded by an unprivileged user. The test does something only if root runs the
+//! tests: otherwise all tests run unprivileged anyway.
 
 use std::fs::{self, Permissions};
 use std::os::unix::fs::{PermissionsExt, chown};
@@ -11,10 +11,10 @@ use serde_json::Value;
 use crate::faults::workspace::WorkspaceCopy;
 use crate::harness::{Submission, workspace};
 
-/// A user that every system has, and that owns nothing.
+/// A user that exists on every system and owns nothing.
 const NOBODY: u32 = 65_534;
-/// What root's home holds is for root alone. In a world of its own, the home is empty but for the
-/// folders that the rest of the arguments up to `--` name.
+/// Only root may read root's home. So the script mounts an empty home in its own mount namespace,
+/// with only the folders that are given before `--`.
 const SCRIPT: &str = r#"
     set -e
     mount --make-rprivate / || exit 99
@@ -44,13 +44,13 @@ fn skip(why: &str) {
     eprintln!("SKIPPED: {why}");
 }
 
-/// The folder of the compiler that runs these tests.
+/// Returns the folder of the toolchain that runs these tests.
 fn toolchain_folder() -> PathBuf {
     let cargo = Path::new(env!("CARGO"));
     cargo.ancestors().nth(2).unwrap().to_owned()
 }
 
-/// Grades as nobody. None where there is no way to become that.
+/// Grades as the user `nobody`. Returns `None` if this system does not allow that.
 fn grade_as_nobody(submission: &Submission, arguments: &[&str]) -> Option<Value> {
     let copy = WorkspaceCopy::with_dependencies();
     let grade = copy.path().join("target/grade");
@@ -84,8 +84,9 @@ fn grade_as_nobody(submission: &Submission, arguments: &[&str]) -> Option<Value>
     command.env("CARGO", toolchain_folder().join("bin/cargo"));
     let output = command.current_dir(copy.path()).output().ok()?;
     let error = String::from_utf8_lossy(&output.stderr);
-    let lacks = ["unshare: ", "mount: ", "setpriv: "];
-    if lacks.iter().any(|lack| error.starts_with(lack)) || output.status.code() == Some(99) {
+    let programs = ["unshare: ", "mount: ", "setpriv: "];
+    if programs.iter().any(|program| error.starts_with(program)) || output.status.code() == Some(99)
+    {
         return None;
     }
     assert_eq!(output.status.code(), Some(0), "{error}");
@@ -96,7 +97,7 @@ fn grade_as_nobody(submission: &Submission, arguments: &[&str]) -> Option<Value>
 #[test]
 fn an_unprivileged_user_grades_untrusted_code_as_well_as_root() {
     if !is_root() {
-        eprintln!("this test is run by an ordinary user, as all others are");
+        eprintln!("SKIPPED: all tests run as an unprivileged user already");
         return;
     }
     let key = tempfile::TempDir::new().unwrap();
@@ -104,7 +105,7 @@ fn an_unprivileged_user_grades_untrusted_code_as_well_as_root() {
     fs::write(key.path().join("key"), "the final exam").unwrap();
     let key = key.path().join("key");
 
-    // It tries what is in its user's power, and is right otherwise.
+    // Tries what its user may do, and is correct otherwise.
     let attempt = format!(
         "if std::fs::read({key:?}).is_ok() || std::net::UdpSocket::bind(\"127.0.0.1:0\").is_ok() {{ \
          println!(\"done\"); }}"
@@ -114,7 +115,7 @@ fn an_unprivileged_user_grades_untrusted_code_as_well_as_root() {
     let mallory = mallory.with_replaced("camera.rs", method, &format!("{attempt}\n{method}"));
     for level in ["none", "seccomp-only", "no-namespaces", "full"] {
         let Some(score) = grade_as_nobody(&mallory, &["--isolation", level]) else {
-            skip("root can not become nobody here: it takes unshare, mount and setpriv");
+            skip("cannot switch to the user nobody: this needs unshare, mount and setpriv");
             return;
         };
         let printed = score["tasks"][0]["printed"].as_str().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! A package that would not grade is told before it is uploaded.
+//! `--doctor --package` finds problems in a package before it is uploaded.
 
 use std::fs;
 use std::io::{Cursor, Write};
@@ -15,12 +15,12 @@ const SETUP: (&str, &str) = ("setup.sh", "#!/bin/sh\n");
 const RUN: (&str, &str) = ("run_autograder", "#!/bin/sh\n");
 const POLICY: (&str, &str) = ("pathtracing/policy.toml", "");
 const GRADE: (&str, &str) = ("pathtracing/grade", "#!/bin/sh\n");
-/// What is only looked for.
+/// Other files, which only need to exist.
 const OTHER_FILES: [(&str, &str); 6] = [
     ("pathtracing/grader/src/main.rs", ""),
     ("pathtracing/student/framework/src/lib.rs", ""),
     ("pathtracing/reference/src/bvh.rs", ""),
-    ("pathtracing/reference/carried/lib.rs", ""),
+    ("pathtracing/reference/substitution/lib.rs", ""),
     (
         "pathtracing/crates/registry/cache/x/landlock-0.4.7.crate",
         "",
@@ -31,10 +31,10 @@ const OTHER_FILES: [(&str, &str); 6] = [
     ),
 ];
 
-/// What is wrong, the files that show it, and the mode of all of them.
+/// A description of the problem, the files that have it, and the mode of all files.
 type Case<'a> = (&'a str, Vec<(&'a str, &'a str)>, u32);
 
-/// A zip with these files, as they are.
+/// Returns a zip with these files.
 fn make_zip(files: &[(&str, &str)], mode: u32) -> Vec<u8> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, text) in files {
@@ -47,7 +47,7 @@ fn make_zip(files: &[(&str, &str)], mode: u32) -> Vec<u8> {
     archive.finish().unwrap().into_inner()
 }
 
-/// What is said of a zip with these files, and the exit code.
+/// Checks a zip with these files. Returns the exit code and the output.
 fn check_files(files: &[(&str, &str)], mode: u32) -> (i32, String) {
     check_bytes(&make_zip(files, mode))
 }
@@ -59,7 +59,7 @@ fn check_bytes(bytes: &[u8]) -> (i32, String) {
     check_path(&path)
 }
 
-/// What is said of the package at this place, which is called as its last part is.
+/// Checks the package at this path. The output is returned without the path of its folder.
 fn check_path(path: &Path) -> (i32, String) {
     let output = grader()
         .args(["--doctor", "--package"])
@@ -72,15 +72,15 @@ fn check_path(path: &Path) -> (i32, String) {
     (output.status.code().unwrap(), text.replace(&folder, ""))
 }
 
-/// A whole package, but for one file, which is another one or not there.
+/// Returns a complete package, in which the file `name` is removed, or replaced by `file`.
 fn package_except<'a>(
     exam: &'a str,
     name: &str,
     file: Option<(&'a str, &'a str)>,
 ) -> Vec<(&'a str, &'a str)> {
-    let whole = [SETUP, RUN, GRADE, ("pathtracing/exam.json", exam), POLICY];
-    let whole = whole.into_iter().chain(OTHER_FILES);
-    whole
+    let files = [SETUP, RUN, GRADE, ("pathtracing/exam.json", exam), POLICY];
+    let files = files.into_iter().chain(OTHER_FILES);
+    files
         .filter(|(other, _)| *other != name)
         .chain(file)
         .collect()
@@ -91,7 +91,7 @@ fn a_complete_package_has_no_problems() {
     let (code, text) = check_files(&package_except(&small_exam("final"), "", None), 0o755);
     assert_eq!(
         (code, text.as_str()),
-        (0, "package.zip: nothing is wrong with it\n")
+        (0, "package.zip: no problems found\n")
     );
 }
 
@@ -107,16 +107,24 @@ fn reports_each_problem_with_a_remedy() {
             vec![("mine/setup.sh", ""), ("mine/run_autograder", "")],
             0o755,
         ),
-        ("nothing in it", vec![], 0o755),
-        ("line ends", with(SETUP.0, "#!/bin/sh\r\n"), 0o755),
-        ("line ends below", with(GRADE.0, "#!/bin/sh\r\n"), 0o755),
-        ("no first line", with(RUN.0, "echo"), 0o755),
+        ("empty", vec![], 0o755),
+        (
+            "Windows line endings",
+            with(SETUP.0, "#!/bin/sh\r\n"),
+            0o755,
+        ),
+        (
+            "Windows line endings in a subfolder",
+            with(GRADE.0, "#!/bin/sh\r\n"),
+            0o755,
+        ),
+        ("no shebang line", with(RUN.0, "echo"), 0o755),
         ("not executable", without(""), 0o644),
-        ("practice", with(exam, &practice), 0o755),
-        // Cut off before any answer, so that the place stays when the reference's tree changes.
-        ("an exam's beginning", with(exam, &good[..100]), 0o755),
+        ("practice exam", with(exam, &practice), 0o755),
+        // Truncated before any answer, so that the error position does not depend on the exam.
+        ("truncated exam", with(exam, &good[..100]), 0o755),
         ("no exam, no crates", vec![SETUP, RUN, POLICY], 0o755),
-        ("no script below", without(GRADE.0), 0o755),
+        ("no grading script", without(GRADE.0), 0o755),
         ("no solution", without(OTHER_FILES[2].0), 0o755),
         (
             "not written on Linux",
@@ -124,7 +132,7 @@ fn reports_each_problem_with_a_remedy() {
             0o755,
         ),
         (
-            "policy",
+            "invalid policy",
             with(POLICY.0, "[visibility.items]\ncamra = 'all'"),
             0o755,
         ),
@@ -137,24 +145,24 @@ fn reports_each_problem_with_a_remedy() {
     }
     let (code, text) = check_bytes(b"not a zip");
     assert_eq!(code, 2);
-    all.push_str(&format!("-- no zip\n{text}\n"));
+    all.push_str(&format!("-- not a zip\n{text}\n"));
     let marked = with(OTHER_FILES[0].0, "fn main() { todo!() }");
     let mut damaged = make_zip(&marked, 0o755);
-    let place = damaged.windows(4).position(|bytes| bytes == b"todo");
-    damaged[place.unwrap()] = b'T';
+    let offset = damaged.windows(4).position(|bytes| bytes == b"todo");
+    damaged[offset.unwrap()] = b'T';
     let (code, text) = check_bytes(&damaged);
     assert_eq!(code, 2);
     all.push_str(&format!("-- damaged\n{text}"));
     insta::assert_snapshot!(all);
 }
 
-/// With a crate, but none that only Linux needs.
+/// Returns a package with a crate, but without those that only Linux needs.
 fn package_without_linux_crates(exam: &str) -> Vec<(&str, &str)> {
     let other = ("pathtracing/crates/registry/cache/x/glam-0.34.crate", "");
     package_except(exam, OTHER_FILES[4].0, Some(other))
 }
 
-/// Writes these files below a folder.
+/// Writes files below a folder.
 fn write_files(folder: &Path, files: &[(&str, &[u8])]) {
     for (name, bytes) in files {
         let path = folder.join(name);
@@ -170,7 +178,7 @@ fn recognises_package_folders_and_lists_missing_files() {
     fs::create_dir(&package).unwrap();
     let (code, nothing) = check_path(&package);
     assert!(
-        code == 2 && nothing.contains("it is no package"),
+        code == 2 && nothing.contains("it is not a package"),
         "{nothing}"
     );
 
@@ -179,7 +187,7 @@ fn recognises_package_folders_and_lists_missing_files() {
     let entry = ("autograder.py", b"".as_slice());
     write_files(&package, &[entry, ("pathtracing.zip", &zip)]);
     let (code, text) = check_path(&package);
-    assert_eq!((code, &*text), (0, "package: nothing is wrong with it\n"));
+    assert_eq!((code, &*text), (0, "package: no problems found\n"));
     for broken in [b"not a zip".as_slice(), &make_zip(&OTHER_FILES, 0o644)] {
         write_files(&package, &[("pathtracing.zip", broken)]);
         let (code, text) = check_path(&package);
@@ -191,7 +199,7 @@ fn recognises_package_folders_and_lists_missing_files() {
     write_files(&template, &[workflow, ("reference/src/bvh.rs", b"")]);
     let (code, text) = check_path(&template);
     assert_eq!(code, 2);
-    for told in ["there is no student/src/bvh.rs", "it holds reference"] {
-        assert!(text.contains(told), "{text}");
+    for problem in ["there is no student/src/bvh.rs", "it has reference"] {
+        assert!(text.contains(problem), "{text}");
     }
 }

@@ -1,4 +1,4 @@
-//! What a course decides by itself: what points count for, and that a slip in saying so is told.
+//! Course policies: how points count, and how mistakes in a policy file are reported.
 
 use insta::assert_snapshot;
 use serde_json::Value;
@@ -6,14 +6,14 @@ use serde_json::Value;
 use crate::formats::{grade_in_all_formats, small_exam};
 use crate::harness::{Submission, grader};
 
-/// What is said of a policy, in which nothing is graded.
+/// Returns the error message for a policy file, and checks that nothing was graded.
 fn rejection(policy: &str) -> String {
     let submission = Submission::starter("any").with("policy.toml", policy);
     let path = submission.path().join("policy.toml");
     let path = path.to_str().unwrap();
     let graded = submission.grade_with(&["--policy", path]);
     assert_eq!(graded.exit_code(), 2, "{policy}: {}", graded.error());
-    assert!(graded.score.is_none(), "nothing was asked");
+    assert!(graded.score.is_none(), "nothing was graded");
     graded.error().replace(path, "policy.toml")
 }
 
@@ -39,8 +39,8 @@ fn the_policy_scales_points_but_not_the_score() {
     let graded = submission.grade_with(&["--policy", path.to_str().unwrap()]);
     let points = graded.score()["points"].as_u64().unwrap();
     let counted = (2 * points * 30 + 100) / 200;
-    let told = format!("  counts for {counted} of 30 points");
-    assert!(graded.report().contains(&told), "{}", graded.report());
+    let line = format!("  counts for {counted} of 30 points");
+    assert!(graded.report().contains(&line), "{}", graded.report());
 }
 
 #[test]
@@ -65,9 +65,9 @@ fn late_gradescope_submissions_are_reduced_and_reported() {
     let points = results["extra_data"]["points"].as_u64().unwrap();
     let counted = (points * 9 + 5) / 10;
     assert_eq!(results["score"], counted);
-    let told = format!("counts for {counted} of {points} points, a day late");
+    let line = format!("counts for {counted} of {points} points, one day late");
     let output = results["output"].as_str().unwrap();
-    assert!(output.contains(&told), "{output}");
+    assert!(output.contains(&line), "{output}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the score file promises to whoever reads it.
+//! Guarantees of the score file.
 
 use insta::assert_snapshot;
 use serde_json::Value;
@@ -16,7 +16,7 @@ fn the_reference_gets_full_points() {
 #[test]
 fn windows_line_endings_and_byte_order_marks_change_nothing() {
     let windows = |text: String| format!("\u{feff}{}", text.replace('\n', "\r\n"));
-    let read = |place: &str| std::fs::read_to_string(workspace().join(place)).unwrap();
+    let read = |path: &str| std::fs::read_to_string(workspace().join(path)).unwrap();
     let mut submission = Submission::reference("windows");
     for file in TASK_FILES {
         submission = submission.with(file, windows(read(&format!("reference/src/{file}"))));
@@ -76,7 +76,7 @@ fn every_score_file_matches_the_published_schema() {
             panic!("{error}");
         }
     }
-    // The check can fail.
+    // The validation can fail.
     let mut score = Submission::starter("starter").grade().score();
     score["tasks"][0]["items"][0]["verdict"] = "splendid".into();
     assert!(schemas.validate(&score, schema).is_err());

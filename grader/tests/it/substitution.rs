@@ -1,4 +1,4 @@
-//! One mistake costs once: what rests on a failed task is asked again with the reference's part.
+//! One mistake costs once: what depends on a failed task is graded again with the reference's part.
 
 use insta::assert_snapshot;
 
@@ -7,7 +7,8 @@ use crate::harness::{FULL_POINTS, Submission};
 const BBOX: usize = 3;
 const TRAVERSE: usize = 5;
 
-/// A box test for rays that go up, right and back: it does not swap what they cross first.
+/// A box test that works only for rays with positive directions, since it does not swap entry and
+/// exit.
 fn without_swap() -> Submission {
     Submission::reference("no-swap").with_replaced(
         "bbox.rs",
@@ -22,7 +23,7 @@ fn a_wrong_box_test_does_not_cost_traversal_points() {
     let points = submission.grade_with_reference().points();
     assert!(points[BBOX] < FULL_POINTS[BBOX], "{points:?}");
     assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE]);
-    // Without the reference nobody can tell.
+    // Without the reference, the traversal cannot be judged.
     assert!(submission.grade().points()[TRAVERSE] < FULL_POINTS[TRAVERSE]);
     assert!(
         submission
@@ -51,7 +52,7 @@ fn a_wrong_traversal_with_a_wrong_box_test_costs_both() {
 
 #[test]
 fn finds_two_mistakes_that_hide_each_other() {
-    // Boxes that do not look at `times`, and a walk that asks for the times from 0 to 0.
+    // A box test that ignores `times`, and a traversal that passes the interval from 0 to 0.
     let graded = Submission::reference("hiding")
         .with_replaced(
             "bbox.rs",
@@ -66,7 +67,7 @@ fn finds_two_mistakes_that_hide_each_other() {
     let points = graded.grade_with_reference().points();
     assert!(points[BBOX] < FULL_POINTS[BBOX], "{points:?}");
     assert_eq!(points[TRAVERSE], 0);
-    // By itself, the walk goes well.
+    // On its own, the traversal seems correct.
     assert!(graded.grade().points()[TRAVERSE] > 15);
 }
 

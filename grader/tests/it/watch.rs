@@ -1,4 +1,4 @@
-//! `--watch`, where it is no terminal that takes the reports.
+//! `--watch` with an output that is not a terminal.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -6,7 +6,7 @@ use std::process::{Child, ChildStdout, Stdio};
 
 use crate::harness::{Submission, grader};
 
-/// A grader that waits for saves, and ends with the test.
+/// A grader that waits for changes. It is killed when dropped.
 struct WatchProcess {
     child: Child,
     lines: BufReader<ChildStdout>,
@@ -26,7 +26,7 @@ impl WatchProcess {
         WatchProcess { child, lines }
     }
 
-    /// The next report, up to the line that says that it waits.
+    /// Returns the next report, up to the line that says that the grader waits.
     fn report(&mut self) -> String {
         let lines = self.lines.by_ref().lines().map(Result::unwrap);
         let mut report = String::new();
@@ -37,7 +37,7 @@ impl WatchProcess {
             report += &line;
             report.push('\n');
         }
-        panic!("it has ended: {report}");
+        panic!("the grader has ended: {report}");
     }
 }
 
@@ -70,7 +70,7 @@ fn grades_every_save_and_updates_the_score_file() {
     assert!(report.contains("100 / 100"), "{report}");
     assert_eq!(score(), (Some(100), Some(true)));
 
-    // Away for a while, as with editors that write another file and rename it.
+    // Missing for a while, as with editors that write another file and rename it.
     let aside = submission.path().join("sphere.away");
     fs::rename(&sphere, &aside).unwrap();
     let report = watching.report();

@@ -1,105 +1,104 @@
-//! What is wrong with a tree: the first of what is judged, as the judge sees it.
+//! Finds the first thing that is wrong with a tree, in the order in which the judge checks.
 
 use super::{BuildCase, NodePosition};
 use crate::drawing::numbers::pluralize;
 use crate::exam::TreeCheck;
 use crate::judge::tree::{self, FULL_MARKS_RATIO};
 
-/// What is wrong.
+/// The first thing that is wrong with a tree.
 #[derive(Clone)]
 pub(super) enum Flaw<'a> {
-    /// A box does not hold all that is below it.
+    /// The box of a node does not contain everything below it.
     TooSmall(NodePosition<'a>),
-    /// A box is larger than it need be.
+    /// The box of a node is larger than necessary.
     TooLarge(NodePosition<'a>),
-    /// A leaf holds too many.
+    /// A leaf has too many primitives.
     LeafTooLarge(NodePosition<'a>),
-    /// A leaf holds half of all or more.
+    /// A leaf has half of the primitives or more.
     NotSplit(NodePosition<'a>),
-    /// A node was split that may be a leaf.
+    /// A node was split although it could be a leaf.
     NeedlessSplit(NodePosition<'a>),
-    /// Primitives are in no leaf, or in several.
+    /// Some primitives are in no leaf, or in several.
     Partition {
-        /// Those in none.
+        /// The primitives that are in no leaf.
         missing: Vec<usize>,
-        /// Those in more than one.
+        /// The primitives that are in more than one leaf.
         duplicated: Vec<usize>,
     },
-    /// It costs so many times what the sweep's does.
+    /// The tree's SAH cost, as a multiple of the exact sweep's.
     Cost(f64),
-    /// Nothing that is judged.
+    /// Nothing that is judged is wrong.
     None,
 }
 
-/// The first flaw of a tree.
-pub(super) fn find<'a>(task: &BuildCase, placed: &[NodePosition<'a>]) -> Flaw<'a> {
-    let parts = task.judged.iter();
-    if let Some(flaw) = parts
+/// Returns the first flaw of a tree.
+pub(super) fn find<'a>(case: &BuildCase, positions: &[NodePosition<'a>]) -> Flaw<'a> {
+    let checks = case.checks.iter();
+    if let Some(flaw) = checks
         .clone()
-        .find_map(|part| find_in_part(*part, task, placed))
+        .find_map(|check| find_for_check(*check, case, positions))
     {
         return flaw;
     }
-    match task.sweep_cost {
+    match case.sweep_cost {
         None => Flaw::None,
-        Some(sweep) => find_partition_flaw(task, placed).unwrap_or_else(|| {
-            let cells = placed.iter().map(|node| node.cell);
-            Flaw::Cost(tree::cost(cells) / sweep)
+        Some(sweep) => find_partition_flaw(case, positions).unwrap_or_else(|| {
+            let reached = positions.iter().map(|node| node.reached);
+            Flaw::Cost(tree::cost(reached) / sweep)
         }),
     }
 }
 
-fn find_in_part<'a>(
-    part: TreeCheck,
-    task: &BuildCase,
-    placed: &[NodePosition<'a>],
+fn find_for_check<'a>(
+    check: TreeCheck,
+    case: &BuildCase,
+    positions: &[NodePosition<'a>],
 ) -> Option<Flaw<'a>> {
-    let most = task.max_leaf_size as usize;
-    let all = task.shapes.len();
-    let find = |is: &dyn Fn(&NodePosition) -> bool| placed.iter().find(|node| is(node)).copied();
-    let is_leaf = |node: &NodePosition| node.cell.leaf_primitives.is_some();
-    match part {
-        TreeCheck::Partition => find_partition_flaw(task, placed),
+    let max = case.max_leaf_size as usize;
+    let all = case.shapes.len();
+    let find = |is: &dyn Fn(&NodePosition) -> bool| positions.iter().find(|node| is(node)).copied();
+    let is_leaf = |node: &NodePosition| node.reached.leaf_primitives.is_some();
+    match check {
+        TreeCheck::Partition => find_partition_flaw(case, positions),
         TreeCheck::Contains => {
-            find(&|node| !tree::containment_deviation(node.cell).is_right()).map(Flaw::TooSmall)
+            find(&|node| !tree::containment_deviation(node.reached).is_right()).map(Flaw::TooSmall)
         }
         TreeCheck::Tight => {
-            find(&|node| !tree::tightness_deviation(node.cell).is_right()).map(Flaw::TooLarge)
+            find(&|node| !tree::tightness_deviation(node.reached).is_right()).map(Flaw::TooLarge)
         }
-        TreeCheck::Split => {
-            find(&|node| all > 1 && is_leaf(node) && 2 * node.cell.count >= all).map(Flaw::NotSplit)
-        }
+        TreeCheck::Split => find(&|node| all > 1 && is_leaf(node) && 2 * node.reached.count >= all)
+            .map(Flaw::NotSplit),
         TreeCheck::LeafSize => {
-            find(&|node| is_leaf(node) && node.cell.count > most).map(Flaw::LeafTooLarge)
+            find(&|node| is_leaf(node) && node.reached.count > max).map(Flaw::LeafTooLarge)
         }
         TreeCheck::Stops => {
-            find(&|node| !is_leaf(node) && node.cell.count <= most).map(Flaw::NeedlessSplit)
+            find(&|node| !is_leaf(node) && node.reached.count <= max).map(Flaw::NeedlessSplit)
         }
     }
 }
 
-fn find_partition_flaw<'a>(task: &BuildCase, placed: &[NodePosition<'a>]) -> Option<Flaw<'a>> {
-    let mut leaves_of = vec![0; task.shapes.len()];
-    let leaves = placed
+fn find_partition_flaw<'a>(case: &BuildCase, positions: &[NodePosition<'a>]) -> Option<Flaw<'a>> {
+    let mut leaves_of = vec![0; case.shapes.len()];
+    let leaves = positions
         .iter()
-        .filter_map(|node| node.cell.leaf_primitives.as_ref());
+        .filter_map(|node| node.reached.leaf_primitives.as_ref());
     for &primitive in leaves.flatten() {
         leaves_of[primitive] += 1;
     }
     let of = |is: fn(i32) -> bool| -> Vec<usize> {
-        let places = leaves_of.iter().enumerate();
-        let places = places.filter(|(_, leaves)| is(**leaves));
-        places.map(|(place, _)| place).collect()
+        let primitives = leaves_of.iter().enumerate();
+        let primitives = primitives.filter(|(_, leaves)| is(**leaves));
+        primitives.map(|(primitive, _)| primitive).collect()
     };
-    let (lost, doubled) = (of(|leaves| leaves == 0), of(|leaves| leaves > 1));
-    (!lost.is_empty() || !doubled.is_empty()).then_some(Flaw::Partition {
-        missing: lost,
-        duplicated: doubled,
+    let (missing, duplicated) = (of(|leaves| leaves == 0), of(|leaves| leaves > 1));
+    (!missing.is_empty() || !duplicated.is_empty()).then_some(Flaw::Partition {
+        missing,
+        duplicated,
     })
 }
 
 impl<'a> Flaw<'a> {
-    /// The node that it is about.
+    /// Returns the node that has the flaw, if a single node has it.
     pub(super) fn node(&self) -> Option<&NodePosition<'a>> {
         match self {
             Flaw::TooSmall(node)
@@ -111,56 +110,56 @@ impl<'a> Flaw<'a> {
         }
     }
 
-    /// What is marked with it.
+    /// Returns the legend of the marked node.
     pub(super) fn label(&self) -> &'static str {
         match self {
-            Flaw::TooSmall(_) => "got: a box that does not hold all below it",
+            Flaw::TooSmall(_) => "got: a box that does not contain everything",
             Flaw::TooLarge(_) => "got: a box that is too large",
-            Flaw::LeafTooLarge(_) | Flaw::NotSplit(_) => "got: a leaf that holds too many",
-            Flaw::NeedlessSplit(_) => "got: a node that need not be split",
+            Flaw::LeafTooLarge(_) | Flaw::NotSplit(_) => "got: a leaf with too many primitives",
+            Flaw::NeedlessSplit(_) => "got: a split node that should be a leaf",
             Flaw::Partition { .. } | Flaw::Cost(_) | Flaw::None => "",
         }
     }
 
-    /// In a sentence.
-    pub(super) fn caption(&self, task: &BuildCase) -> String {
-        let (all, most) = (task.shapes.len(), task.max_leaf_size);
+    /// Returns a sentence that describes the flaw.
+    pub(super) fn caption(&self, case: &BuildCase) -> String {
+        let (all, max) = (case.shapes.len(), case.max_leaf_size);
         match self {
             Flaw::TooSmall(node) => format!(
-                "The box of node {} does not hold all that is below it.",
-                node.cell.index
+                "The box of node {} does not contain everything below the node.",
+                node.reached.index
             ),
             Flaw::TooLarge(node) => format!(
-                "The box of node {} is larger than what is below it needs.",
-                node.cell.index
+                "The box of node {} is larger than necessary.",
+                node.reached.index
             ),
             Flaw::LeafTooLarge(node) => format!(
-                "Leaf {} holds {}; a leaf may hold {most}.",
-                node.cell.index,
-                pluralize(node.cell.count, "primitive", "primitives")
+                "Leaf {} has {}; the maximum is {max}.",
+                node.reached.index,
+                pluralize(node.reached.count, "primitive", "primitives")
             ),
             Flaw::NotSplit(node) => format!(
-                "Leaf {} holds {} of {all} primitives: they were hardly split.",
-                node.cell.index, node.cell.count
+                "Leaf {} has {} of {all} primitives: the tree is hardly split.",
+                node.reached.index, node.reached.count
             ),
             Flaw::NeedlessSplit(node) => format!(
-                "Node {} was split over {}, though {most} may be in a leaf.",
-                node.cell.index,
-                pluralize(node.cell.count, "primitive", "primitives")
+                "Node {} is split although it has only {}; up to {max} belong in one leaf.",
+                node.reached.index,
+                pluralize(node.reached.count, "primitive", "primitives")
             ),
             Flaw::Partition {
-                missing: lost,
-                duplicated: doubled,
+                missing,
+                duplicated,
             } => format!(
-                "Of {all} primitives, in no leaf: {}; in more than one: {}.",
-                lost.len(),
-                doubled.len()
+                "Of {all} primitives, {} in no leaf and {} in more than one.",
+                pluralize(missing.len(), "is", "are"),
+                pluralize(duplicated.len(), "is", "are")
             ),
             Flaw::Cost(ratio) => format!(
-                "Your tree costs {ratio:.2} times what it does with the best split at every node; \
-                 {FULL_MARKS_RATIO} times is good enough."
+                "Your tree costs {ratio:.2} times as much as the tree with the best split at every \
+                 node; up to {FULL_MARKS_RATIO} times earns full marks."
             ),
-            Flaw::None => "Your tree, and the one with the best split at every node.".to_owned(),
+            Flaw::None => "Your tree, and the tree with the best split at every node.".to_owned(),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The primitives and boxes that a flaw is about, along the axis that tells least.
+//! The primitives and boxes that a flaw is about, projected to two axes.
 
 use glam::{DVec2, DVec3, dvec2};
 use protocol::Shape;
@@ -14,34 +14,34 @@ use crate::drawing::window::Window;
 use crate::drawing_data::Sweep;
 use crate::judge::tree::bounds::Bounds;
 
-/// More primitives than these are not drawn one by one.
+/// The maximum number of primitives that are drawn one by one.
 const MAX_PRIMITIVES: usize = 250;
-/// More marks than these hide each other.
+/// The maximum number of marks. More would hide each other.
 const MAX_MARKS: usize = 60;
-/// A row of so few is drawn with the sides that they went to.
+/// The maximum number of primitives for which the first split is drawn.
 const MAX_ROW_PRIMITIVES: usize = 32;
 
 const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 
-/// What there is to see of the flaw, and what it means.
+/// Draws the flaw, if it can be drawn, with its legend.
 pub(super) fn draw(
     sheet: &mut Sheet,
-    task: &BuildCase,
+    case: &BuildCase,
     sweep: Option<&Sweep>,
-    placed: &[NodePosition],
+    positions: &[NodePosition],
     flaw: &Flaw,
 ) {
     match flaw {
         Flaw::TooSmall(node) | Flaw::TooLarge(node) => {
-            draw_boxes(sheet, task, &primitives_below(placed, node), node);
+            draw_boxes(sheet, case, &primitives_below(positions, node), node);
         }
         Flaw::Partition {
-            missing: lost,
-            duplicated: doubled,
-        } => draw_partition(sheet, task, lost, doubled),
-        Flaw::Cost(_) if task.shapes.len() <= MAX_ROW_PRIMITIVES => {
+            missing,
+            duplicated,
+        } => draw_partition(sheet, case, missing, duplicated),
+        Flaw::Cost(_) if case.shapes.len() <= MAX_ROW_PRIMITIVES => {
             if let Some(plane) = sweep.and_then(|sweep| sweep.plane) {
-                draw_row(sheet, task, placed, plane);
+                draw_row(sheet, case, positions, plane);
             }
         }
         Flaw::LeafTooLarge(_)
@@ -52,7 +52,7 @@ pub(super) fn draw(
     }
 }
 
-/// Two of the axes.
+/// The plane of two axes.
 #[derive(Clone, Copy)]
 struct Plane(usize, usize);
 
@@ -66,7 +66,7 @@ impl Plane {
         format!("{} to the right, {} up", AXIS_NAMES[a], AXIS_NAMES[b])
     }
 
-    /// The one in which `axis` is seen, beside the longer of the two others.
+    /// Returns the plane of `axis` and the longer of the two other axes.
     fn containing(axis: usize, size: DVec3) -> Plane {
         let (p, q) = ((axis + 1) % 3, (axis + 2) % 3);
         let other = if size[p] >= size[q] { p } else { q };
@@ -74,12 +74,15 @@ impl Plane {
     }
 }
 
-fn draw_boxes(sheet: &mut Sheet, task: &BuildCase, primitives: &[usize], node: &NodePosition) {
-    let (needs, has) = (node.cell.tight_bounds, Bounds::of_node(node.cell.node));
+fn draw_boxes(sheet: &mut Sheet, case: &BuildCase, primitives: &[usize], node: &NodePosition) {
+    let (needs, has) = (
+        node.reached.tight_bounds,
+        Bounds::of_node(node.reached.node),
+    );
     let out = |axis: usize| {
         let below = (needs.min[axis] - has.min[axis]).abs();
         let above = (needs.max[axis] - has.max[axis]).abs();
-        // What is not a number is the worst.
+        // NaN counts as infinitely far off.
         let out = below.max(above);
         if below.is_nan() || above.is_nan() {
             f64::INFINITY
@@ -97,21 +100,21 @@ fn draw_boxes(sheet: &mut Sheet, task: &BuildCase, primitives: &[usize], node: &
     let near = got.into_iter().filter(|at| at.distance(right[0]) < reach);
     let seen: Vec<DVec2> = right.into_iter().chain(near).collect();
 
-    sheet.title(&format!("node {}: {}", node.cell.index, plane.name()));
-    let part = sheet.panel(sphere::panel_height(&seen));
-    let window = Window::around(part, seen);
+    sheet.title(&format!("node {}: {}", node.reached.index, plane.name()));
+    let panel = sheet.panel(sphere::panel_height(&seen));
+    let window = Window::around(panel, seen);
     let canvas = &mut sheet.canvas;
-    let shapes = primitives.iter().map(|&place| &task.shapes[place]);
+    let shapes = primitives.iter().map(|&index| &case.shapes[index]);
     draw_outlines(canvas, &window, plane, shapes);
     draw_frame(canvas, &window, right, LineStyle::Right);
     draw_frame(canvas, &window, got, LineStyle::Wrong);
     sheet.add_legend(
         Symbol::Line(LineStyle::Right),
-        "wanted: around all that is below the node",
+        "wanted: the tightest box around the contents",
     );
     let min_max = [has.min, has.max].map(point);
-    let words = format!("got: {} to {}", min_max[0], min_max[1]);
-    sheet.add_legend(Symbol::Line(LineStyle::Wrong), &words);
+    let text = format!("got: {} to {}", min_max[0], min_max[1]);
+    sheet.add_legend(Symbol::Line(LineStyle::Wrong), &text);
 }
 
 fn draw_frame(canvas: &mut Canvas, window: &Window, [min, max]: [DVec2; 2], line: LineStyle) {
@@ -123,9 +126,9 @@ fn draw_frame(canvas: &mut Canvas, window: &Window, [min, max]: [DVec2; 2], line
     }
 }
 
-fn draw_partition(sheet: &mut Sheet, task: &BuildCase, lost: &[usize], doubled: &[usize]) {
+fn draw_partition(sheet: &mut Sheet, case: &BuildCase, missing: &[usize], duplicated: &[usize]) {
     let mut all = Bounds::EMPTY;
-    for shape in task.shapes {
+    for shape in case.shapes {
         all.enclose(Bounds::of_shape(shape));
     }
     let size = all.max - all.min;
@@ -135,64 +138,83 @@ fn draw_partition(sheet: &mut Sheet, task: &BuildCase, lost: &[usize], doubled: 
     let plane = Plane::containing(longest, size);
     let seen = [all.min, all.max].map(|corner| plane.project(corner));
     sheet.title(&plane.name());
-    let part = sheet.panel(sphere::panel_height(&seen));
-    let window = Window::around(part, seen);
+    let panel = sheet.panel(sphere::panel_height(&seen));
+    let window = Window::around(panel, seen);
     let canvas = &mut sheet.canvas;
-    draw_outlines(canvas, &window, plane, task.shapes.iter());
-    let mut mark = |places: &[usize], mark: Mark| {
-        for &place in places.iter().take(MAX_MARKS) {
-            let bounds = Bounds::of_shape(&task.shapes[place]);
+    draw_outlines(canvas, &window, plane, case.shapes.iter());
+    let mut mark = |indices: &[usize], mark: Mark| {
+        for &index in indices.iter().take(MAX_MARKS) {
+            let bounds = Bounds::of_shape(&case.shapes[index]);
             let middle = plane.project(0.5 * (bounds.min + bounds.max));
-            canvas.mark(window.to_page(middle), mark);
+            canvas.mark(window.page_position(middle), mark);
         }
     };
-    mark(lost, Mark::Wrong);
-    mark(doubled, Mark::Origin);
-    if !lost.is_empty() {
+    mark(missing, Mark::Wrong);
+    mark(duplicated, Mark::Origin);
+    if !missing.is_empty() {
         sheet.add_legend(Symbol::Mark(Mark::Wrong), "got: in no leaf");
     }
-    if !doubled.is_empty() {
+    if !duplicated.is_empty() {
         sheet.add_legend(Symbol::Mark(Mark::Origin), "got: in more than one leaf");
     }
 }
 
-/// A few primitives in a row: those of one side of the root above the line, the others below.
-fn draw_row(sheet: &mut Sheet, task: &BuildCase, placed: &[NodePosition], (axis, at): (u8, f32)) {
+/// Draws the first split along one axis: the primitives of one child above the line, those of the
+/// other below it.
+fn draw_row(
+    sheet: &mut Sheet,
+    case: &BuildCase,
+    positions: &[NodePosition],
+    (axis, at): (u8, f32),
+) {
     let axis = usize::from(axis.min(2));
-    let place = |primitive: &usize| {
-        let bounds = Bounds::of_shape(&task.shapes[*primitive]);
+    let center_along_axis = |primitive: &usize| {
+        let bounds = Bounds::of_shape(&case.shapes[*primitive]);
         0.5 * (bounds.min[axis] + bounds.max[axis])
     };
-    let sides: Vec<Vec<f64>> = placed
+    let sides: Vec<Vec<f64>> = positions
         .iter()
         .filter(|node| node.level == 1)
-        .map(|node| primitives_below(placed, node).iter().map(place).collect())
+        .map(|node| {
+            primitives_below(positions, node)
+                .iter()
+                .map(center_along_axis)
+                .collect()
+        })
         .collect();
     let all = sides.iter().flatten().map(|x| dvec2(*x, 0.0));
     sheet.title(&format!("the first split, along {}", AXIS_NAMES[axis]));
-    let part = sheet.panel(74.0);
-    let window = Window::around(part, all.chain([dvec2(at.into(), 0.0)]));
+    let panel = sheet.panel(74.0);
+    let window = Window::around(panel, all.chain([dvec2(at.into(), 0.0)]));
     let canvas = &mut sheet.canvas;
-    let y = 0.5 * (part.min.y + part.max.y);
-    canvas.line(dvec2(part.min.x, y), dvec2(part.max.x, y), LineStyle::Grid);
+    let y = 0.5 * (panel.min.y + panel.max.y);
+    canvas.line(
+        dvec2(panel.min.x, y),
+        dvec2(panel.max.x, y),
+        LineStyle::Grid,
+    );
     for (side, up) in sides.iter().zip([-1.0, 1.0]) {
-        for x in side.iter().map(|x| window.to_page(dvec2(*x, 0.0)).x) {
+        for x in side.iter().map(|x| window.page_position(dvec2(*x, 0.0)).x) {
             let (from, to) = (dvec2(x - 1.5, y), dvec2(x + 1.5, y + 20.0 * up));
             canvas.area(from, to, Fill::Tint(Ink::Wrong, 1.0));
         }
     }
-    let x = window.to_page(dvec2(at.into(), 0.0)).x;
-    canvas.line(dvec2(x, part.min.y), dvec2(x, part.max.y), LineStyle::Right);
+    let x = window.page_position(dvec2(at.into(), 0.0)).x;
+    canvas.line(
+        dvec2(x, panel.min.y),
+        dvec2(x, panel.max.y),
+        LineStyle::Right,
+    );
     sheet.add_legend(
         Symbol::Line(LineStyle::Right),
-        "wanted: the best plane between two of them",
+        "wanted: the best splitting plane",
     );
     let counts: Vec<String> = sides.iter().map(|side| side.len().to_string()).collect();
-    let words = format!("got: {}, one side up, the other down", counts.join(" and "));
-    sheet.add_legend(Symbol::Area(Fill::Tint(Ink::Wrong, 1.0)), &words);
+    let text = format!("got: {}, one child above, one below", counts.join(" and "));
+    sheet.add_legend(Symbol::Area(Fill::Tint(Ink::Wrong, 1.0)), &text);
 }
 
-/// The primitives as they are seen, the first of many.
+/// Draws the outlines of the first [`MAX_PRIMITIVES`] primitives.
 fn draw_outlines<'a>(
     canvas: &mut Canvas,
     window: &Window,
@@ -200,7 +222,7 @@ fn draw_outlines<'a>(
     shapes: impl Iterator<Item = &'a Shape>,
 ) {
     let fill = Fill::Tint(Ink::Text, 0.12);
-    let page = |at: DVec3| window.to_page(plane.project(at));
+    let page = |at: DVec3| window.page_position(plane.project(at));
     let mut triangles = Vec::new();
     for shape in shapes.take(MAX_PRIMITIVES) {
         match *shape {
@@ -211,7 +233,7 @@ fn draw_outlines<'a>(
                 triangles.push(corners.map(|corner| page(corner.as_dvec3())));
             }
             Shape::Sphere { center, radius, .. } => {
-                let radius = window.to_page_length(radius.into());
+                let radius = window.page_length(radius.into());
                 canvas.circle(page(center.as_dvec3()), radius, LineStyle::Grid, fill);
             }
         }

@@ -1,4 +1,4 @@
-//! A tree as bars, one for each level: a node is as wide as its share of the primitives.
+//! A tree as rows of bars, one row per level. The width of a node is its share of the primitives.
 
 use glam::{DVec2, dvec2};
 
@@ -10,13 +10,14 @@ use crate::drawing_data::{LevelNode, Sweep};
 
 /// The height of a level.
 const ROW_HEIGHT: f64 = 19.0;
-/// Right of it stand the costs.
+/// The right end of the bars. The costs are to the right of it.
 const RIGHT: f64 = WIDTH - 52.0;
-/// A level with more nodes is drawn without their borders.
+/// The maximum number of nodes that are drawn in a level.
 const MAX_NODES: usize = 2_000;
 
-/// The levels of a tree over `all` primitives that costs `total`, if that is known. Returns with
-/// which sign the marked node is marked.
+/// Draws the levels of a tree over `all` primitives, and the cost of each. `total` is the cost of
+/// the whole tree, or NaN if it is unknown. Returns the symbol with which the node `mark` is
+/// marked.
 pub(super) fn draw(
     sheet: &mut Sheet,
     nodes: &[LevelNode],
@@ -24,9 +25,9 @@ pub(super) fn draw(
     total: f64,
     mark: MarkedNode,
 ) -> Symbol {
-    let mut sign = Symbol::None;
+    let mut symbol = Symbol::None;
     let top = sheet.y;
-    let x = |place: u32| RIGHT * f64::from(place) / f64::from(all.max(1));
+    let x = |count: u32| RIGHT * f64::from(count) / f64::from(all.max(1));
     let canvas = &mut sheet.canvas;
     canvas.text(
         dvec2(WIDTH - 2.0, top - 6.0),
@@ -60,10 +61,10 @@ pub(super) fn draw(
         );
         if level <= deepest && to.x - from.x > 14.0 {
             canvas.rectangle(from, to, LineStyle::Wrong, Fill::None);
-            sign = Symbol::Line(LineStyle::Wrong);
+            symbol = Symbol::Line(LineStyle::Wrong);
         } else {
             canvas.mark(0.5 * (from + to), Mark::Wrong);
-            sign = Symbol::Mark(Mark::Wrong);
+            symbol = Symbol::Mark(Mark::Wrong);
         }
     }
     sheet.advance(ROW_HEIGHT * f64::from(deepest + 1));
@@ -81,11 +82,11 @@ pub(super) fn draw(
         sheet.advance(ROW_HEIGHT);
     }
     sheet.advance(4.0);
-    sign
+    symbol
 }
 
 fn draw_node(canvas: &mut Canvas, node: &LevelNode, [from, to]: [f64; 2], y: f64) {
-    /// So wide a number is.
+    /// The width of a digit.
     const DIGIT_WIDTH: f64 = 8.0;
 
     let times = if node.is_leaf { node.count.max(1) } else { 1 };
@@ -96,7 +97,7 @@ fn draw_node(canvas: &mut Canvas, node: &LevelNode, [from, to]: [f64; 2], y: f64
     } else {
         ROW_HEIGHT - 3.0
     };
-    // A gap between neighbours, as far as there is room for one.
+    // A small gap between neighbours, narrower for narrow nodes.
     let gap = (0.1 * (to - from)).min(1.0);
     let (low, high): (DVec2, DVec2) = (dvec2(from, y), dvec2(to - gap, y + height));
     let fill = Fill::Tint(Ink::Text, 0.1 + 0.75 * area.sqrt());
@@ -105,9 +106,9 @@ fn draw_node(canvas: &mut Canvas, node: &LevelNode, [from, to]: [f64; 2], y: f64
     } else {
         canvas.area(low, high, fill);
     }
-    let words = node.count.to_string();
-    if to - from > DIGIT_WIDTH * (words.len() as f64 + 0.5) {
+    let text = node.count.to_string();
+    if to - from > DIGIT_WIDTH * (text.len() as f64 + 0.5) {
         let at = dvec2(0.5 * (from + to), y + 13.0);
-        canvas.text(at, Anchor::Middle, Ink::Text, &words);
+        canvas.text(at, Anchor::Middle, Ink::Text, &text);
     }
 }

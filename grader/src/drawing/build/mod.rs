@@ -1,5 +1,5 @@
-//! A tree that was built: what is wrong with it, and its upper levels above those of the best
-//! split at every node, which the exam tells.
+//! A tree that the submission built: its flaw, and its upper levels above those of the tree with
+//! the best split at every node, which comes with the exam.
 
 mod flaw;
 mod geometry;
@@ -20,57 +20,57 @@ use crate::judge::tree::reached_nodes::reached_nodes;
 use flaw::Flaw;
 use node_positions::NodePosition;
 
-/// What was asked, and what is judged of it.
+/// A question about building a tree, and what is judged.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BuildCase<'a> {
     /// The primitives.
     pub(super) shapes: &'a [Shape],
-    /// The most of them in a leaf.
+    /// The maximum number of primitives in a leaf.
     pub(super) max_leaf_size: u32,
-    /// What must hold.
-    pub(super) judged: &'a [TreeCheck],
-    /// The cost of the sweep's tree, where that of the submission's is judged.
+    /// The properties that are checked.
+    pub(super) checks: &'a [TreeCheck],
+    /// The cost of the exact sweep's tree, if the cost is judged.
     pub(super) sweep_cost: Option<f64>,
-    /// The sweep's tree, if it is told.
-    pub(super) shown: &'a DrawingData,
+    /// The exact sweep's tree, if the exam has it.
+    pub(super) drawing_data: &'a DrawingData,
 }
 
 const TITLE: &str = "The tree by levels, each node as wide as its share of the primitives";
 
-/// The drawing.
-pub(super) fn draw(task: &BuildCase, answer: Option<&Answer>) -> Option<Drawing> {
+/// Draws the submitted tree.
+pub(super) fn draw(case: &BuildCase, answer: Option<&Answer>) -> Option<Drawing> {
     let tree = tree_answer(answer)?;
-    let sweep = match task.shown {
+    let sweep = match case.drawing_data {
         DrawingData::Sweep(sweep) => Some(sweep),
         DrawingData::None | DrawingData::Slabs(_) | DrawingData::Traversals(_) => None,
     };
-    let reached = match reached_nodes(task.shapes, tree) {
+    let reached = match reached_nodes(case.shapes, tree) {
         Ok(nodes) => nodes,
-        Err(mistake) => {
+        Err(defect) => {
             let mut sheet = Sheet::default();
             draw_sweep(&mut sheet, sweep?);
-            let caption = format!("Your nodes are no tree: {}.", mistake.got);
+            let caption = format!("Your nodes do not form a tree: {}.", defect.got);
             return Some(sheet.finish(TITLE, caption));
         }
     };
-    let placed = node_positions::positions(&reached);
-    let root = placed.first()?;
-    let flaw = flaw::find(task, &placed);
+    let positions = node_positions::positions(&reached);
+    let root = positions.first()?;
+    let flaw = flaw::find(case, &positions);
 
     let mut sheet = Sheet::default();
-    geometry::draw(&mut sheet, task, sweep, &placed, &flaw);
+    geometry::draw(&mut sheet, case, sweep, &positions, &flaw);
     sheet.title("your tree");
     let mark = flaw
         .node()
-        .map(|node| (node.level, node.start, node.cell.count as u32));
-    let own = node_positions::upper_levels(&placed);
+        .map(|node| (node.level, node.start, node.reached.count as u32));
+    let own = node_positions::upper_levels(&positions);
     let total = tree::cost(&reached);
-    let sign = levels::draw(&mut sheet, &own, root.cell.count as u32, total, mark);
+    let symbol = levels::draw(&mut sheet, &own, root.reached.count as u32, total, mark);
     if let Some(sweep) = sweep {
         draw_sweep(&mut sheet, sweep);
     }
-    draw_legend(&mut sheet, task, &flaw, sign, total);
-    Some(sheet.finish(TITLE, flaw.caption(task)))
+    draw_legend(&mut sheet, case, &flaw, symbol, total);
+    Some(sheet.finish(TITLE, flaw.caption(case)))
 }
 
 fn tree_answer(answer: Option<&Answer>) -> Option<&Tree> {
@@ -91,47 +91,47 @@ fn draw_sweep(sheet: &mut Sheet, sweep: &Sweep) {
         return;
     };
     sheet.title("with the best split at every node");
-    // What lies deeper is not told.
+    // The exam has only the upper levels, so the total is unknown.
     let total = f64::NAN;
     levels::draw(sheet, &sweep.nodes, all, total, None);
 }
 
-fn draw_legend(sheet: &mut Sheet, task: &BuildCase, flaw: &Flaw, sign: Symbol, cost: f64) {
+fn draw_legend(sheet: &mut Sheet, case: &BuildCase, flaw: &Flaw, symbol: Symbol, cost: f64) {
     let interior = Fill::Tint(Ink::Text, 0.5);
     sheet.add_legend(
         Symbol::Area(interior),
-        "a split node; the stronger, the larger its box",
+        "a split node; stronger colour: larger box",
     );
     sheet.add_legend(
         Symbol::Area(Fill::None),
-        "half as high: a leaf; numbers: primitives",
+        "half height: a leaf; numbers: primitives",
     );
     if flaw.node().is_some() {
-        sheet.add_legend(sign, flaw.label());
+        sheet.add_legend(symbol, flaw.label());
     }
-    match task.sweep_cost {
+    match case.sweep_cost {
         Some(sweep) => {
-            let words = format!(
-                "SAH cost: {}; with the best splits {}",
+            let text = format!(
+                "SAH cost: {}; with the best splits: {}",
                 short(cost),
                 short(sweep)
             );
-            sheet.add_legend(Symbol::None, &words);
+            sheet.add_legend(Symbol::None, &text);
         }
         None => sheet.add_legend(Symbol::None, "right: what each level adds to the SAH cost"),
     }
 }
 
-/// A node that is marked: its level, and the primitives to the left of it and below it.
+/// The marked node: its level, the number of primitives to the left of it, and the number in it.
 type MarkedNode = Option<(u32, u32, u32)>;
 
-/// The places of the primitives below a node.
-fn primitives_below(placed: &[NodePosition], node: &NodePosition) -> Vec<usize> {
+/// Returns the indices of the primitives below a node.
+fn primitives_below(positions: &[NodePosition], node: &NodePosition) -> Vec<usize> {
     let inside = |other: &&NodePosition| {
-        let range = node.start..node.start.saturating_add(node.cell.count as u32);
+        let range = node.start..node.start.saturating_add(node.reached.count as u32);
         other.level >= node.level && range.contains(&other.start)
     };
-    let leaves = placed.iter().filter(inside);
-    let leaves = leaves.filter_map(|leaf| leaf.cell.leaf_primitives.as_deref());
+    let leaves = positions.iter().filter(inside);
+    let leaves = leaves.filter_map(|leaf| leaf.reached.leaf_primitives.as_deref());
     leaves.flatten().copied().collect()
 }

@@ -1,59 +1,68 @@
-//! A tree's nodes with their places in a drawing by levels.
+//! The positions of a tree's nodes in a drawing by levels.
 
 use crate::drawing_data::{LevelNode, Sweep};
 use crate::judge::tree::reached_nodes::ReachedNode;
 
-/// A node, how deep it is, and how many primitives are to the left of it.
+/// A node, its depth, and the number of primitives to the left of it.
 #[derive(Clone, Copy)]
 pub(super) struct NodePosition<'a> {
-    pub(super) cell: &'a ReachedNode<'a>,
+    pub(super) reached: &'a ReachedNode<'a>,
     pub(super) level: u32,
     pub(super) start: u32,
 }
 
-/// All nodes, the root first.
-pub(super) fn positions<'a>(cells: &'a [ReachedNode<'a>]) -> Vec<NodePosition<'a>> {
-    let last = cells.iter().map(|cell| cell.index as usize).max();
-    let mut by_place = vec![None; last.map_or(0, |last| last + 1)];
-    for cell in cells {
-        by_place[cell.index as usize] = Some(cell);
+/// Returns the positions of all nodes, the root first.
+pub(super) fn positions<'a>(nodes: &'a [ReachedNode<'a>]) -> Vec<NodePosition<'a>> {
+    let last = nodes.iter().map(|reached| reached.index as usize).max();
+    let mut by_index = vec![None; last.map_or(0, |last| last + 1)];
+    for reached in nodes {
+        by_index[reached.index as usize] = Some(reached);
     }
-    let cell_at = |place: u32| by_place.get(place as usize).copied().flatten();
+    let reached_at = |index: u32| by_index.get(index as usize).copied().flatten();
 
-    let mut placed = Vec::new();
+    let mut positions = Vec::new();
     let mut open: Vec<(&ReachedNode, u32, u32)> =
-        cells.first().map(|root| (root, 0, 0)).into_iter().collect();
-    while let Some((cell, level, start)) = open.pop() {
-        placed.push(NodePosition { cell, level, start });
-        if cell.leaf_primitives.is_some() {
+        nodes.first().map(|root| (root, 0, 0)).into_iter().collect();
+    while let Some((reached, level, start)) = open.pop() {
+        positions.push(NodePosition {
+            reached,
+            level,
+            start,
+        });
+        if reached.leaf_primitives.is_some() {
             continue;
         }
-        if let (Some(left), Some(right)) = (cell_at(cell.node.l), cell_at(cell.node.r)) {
+        if let (Some(left), Some(right)) = (reached_at(reached.node.l), reached_at(reached.node.r))
+        {
             let middle = start.saturating_add(left.count as u32);
             open.push((right, level + 1, middle));
             open.push((left, level + 1, start));
         }
     }
-    placed
+    positions
 }
 
-/// The upper levels, as the exam tells those of the sweep.
-pub(super) fn upper_levels(placed: &[NodePosition]) -> Vec<LevelNode> {
-    let root = placed
+/// Returns the upper levels, in the form in which the exam stores those of the exact sweep.
+pub(super) fn upper_levels(positions: &[NodePosition]) -> Vec<LevelNode> {
+    let root = positions
         .first()
-        .map_or(f64::NAN, |root| root.cell.tight_bounds.area());
-    let upper = placed.iter().filter(|node| node.level < Sweep::LEVELS);
+        .map_or(f64::NAN, |root| root.reached.tight_bounds.area());
+    let upper = positions.iter().filter(|node| node.level < Sweep::LEVELS);
     upper
         .map(|node| {
-            let area = node.cell.tight_bounds.area() / root;
-            let is_leaf = node.cell.leaf_primitives.is_some();
-            let times = if is_leaf { node.cell.count as f64 } else { 1.0 };
+            let area = node.reached.tight_bounds.area() / root;
+            let is_leaf = node.reached.leaf_primitives.is_some();
+            let times = if is_leaf {
+                node.reached.count as f64
+            } else {
+                1.0
+            };
             LevelNode {
                 level: node.level,
                 start: node.start,
-                count: node.cell.count as u32,
+                count: node.reached.count as u32,
                 is_leaf,
-                // A node that holds nothing has no area.
+                // An empty node has no area.
                 cost: if area.is_finite() { area * times } else { 0.0 } as f32,
             }
         })

@@ -1,5 +1,5 @@
-//! A ray of the camera: where it goes through the sensor; or from the side, where its start, its
-//! length or its range is what is wrong.
+//! A camera ray: where it goes through the sensor, or, if its direction is right, its origin,
+//! length and range from the side.
 
 mod front;
 mod sensor;
@@ -12,26 +12,30 @@ use super::Drawing;
 
 use sensor::Sensor;
 
-/// One place on a camera's film.
+/// One sample of a camera, and the expected direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CameraQuery {
     /// The camera.
     pub(super) camera: PinholeCamera,
-    /// The place.
+    /// The sample.
     pub(super) sample: Sample,
-    /// Where its ray goes.
+    /// The expected direction of the ray.
     pub(super) wanted: DVec3,
 }
 
-/// The drawing.
-pub(super) fn draw(aim: &CameraQuery, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
+/// Draws one camera ray.
+pub(super) fn draw(
+    query: &CameraQuery,
+    element: usize,
+    answer: Option<&Answer>,
+) -> Option<Drawing> {
     let got = ray_answer(element, answer);
-    let sensor = Sensor::new(&aim.camera)?;
-    let wanted = sensor_crossing(aim.wanted)?;
-    if let Some(ray) = got.filter(|ray| is_direction_right(ray, aim.wanted)) {
-        return Some(side::draw(aim, &ray, &sensor));
+    let sensor = Sensor::new(&query.camera)?;
+    let wanted = sensor_crossing(query.wanted)?;
+    if let Some(ray) = got.filter(|ray| is_direction_right(ray, query.wanted)) {
+        return Some(side::draw(query, &ray, &sensor));
     }
-    Some(front::draw(aim, &sensor, wanted, got))
+    Some(front::draw(query, &sensor, wanted, got))
 }
 
 fn ray_answer(element: usize, answer: Option<&Answer>) -> Option<Ray> {
@@ -52,13 +56,14 @@ fn ray_answer(element: usize, answer: Option<&Answer>) -> Option<Ray> {
     }
 }
 
-/// Where what goes this way crosses the plane z = -1; nowhere if it does not go forward.
+/// Returns the point where a direction crosses the plane z = -1, or `None` if it does not point
+/// forward.
 fn sensor_crossing(dir: DVec3) -> Option<DVec2> {
-    let place = dir.truncate() / -dir.z;
-    (dir.z < 0.0 && place.is_finite()).then_some(place)
+    let point = dir.truncate() / -dir.z;
+    (dir.z < 0.0 && point.is_finite()).then_some(point)
 }
 
-/// Only to choose what is drawn: the judge has finer measures.
+/// Chooses what is drawn, and nothing else: the judge has finer tolerances.
 fn is_direction_right(ray: &Ray, wanted: DVec3) -> bool {
     let dir = ray.dir.as_dvec3().normalize_or_zero();
     dir.distance(wanted) <= 1e-3

@@ -7,14 +7,14 @@ use crate::drawing::canvas::Canvas;
 use crate::drawing::ink::LineStyle;
 use crate::drawing::window::{Panel, Window};
 
-/// The rectangle at z = -1, and the pixels that divide it.
+/// The sensor, a rectangle at z = -1, and the number of pixels across and up.
 pub(super) struct Sensor {
     pub(super) size: DVec2,
     pub(super) film: UVec2,
 }
 
 impl Sensor {
-    /// As the task describes it. None of a camera that is none.
+    /// Creates the sensor as the task describes it. Returns `None` if it has no area or no pixels.
     pub(super) fn new(camera: &PinholeCamera) -> Option<Sensor> {
         let height = 2.0 * (0.5 * f64::from(camera.vertical_fov)).to_radians().tan();
         let size = dvec2(f64::from(camera.aspect_ratio) * height, height);
@@ -29,32 +29,32 @@ impl Sensor {
         self.size / self.film.as_dvec2()
     }
 
-    /// The lower left corner of a pixel.
+    /// Returns the lower left corner of a pixel.
     pub(super) fn corner(&self, pixel: DVec2) -> DVec2 {
         pixel * self.pixel_size() - 0.5 * self.size
     }
 }
 
-/// The borders between all pixels.
+/// Draws the borders between all pixels.
 pub(super) fn draw_grid(canvas: &mut Canvas, window: &Window, sensor: &Sensor) {
     let half = 0.5 * sensor.size;
-    let part = Panel {
-        min: window.to_page(dvec2(-half.x, half.y)),
-        max: window.to_page(dvec2(half.x, -half.y)),
+    let panel = Panel {
+        min: window.page_position(dvec2(-half.x, half.y)),
+        max: window.page_position(dvec2(half.x, -half.y)),
     };
-    draw_grid_in(canvas, part, window, sensor);
+    draw_grid_in(canvas, panel, window, sensor);
 }
 
-/// The borders between pixels, as far as they are in this part of the page.
-pub(super) fn draw_grid_in(canvas: &mut Canvas, part: Panel, window: &Window, sensor: &Sensor) {
-    /// More lines than that are no grid.
+/// Draws the borders between the pixels inside a panel.
+pub(super) fn draw_grid_in(canvas: &mut Canvas, panel: Panel, window: &Window, sensor: &Sensor) {
+    /// The maximum number of lines per direction.
     const MAX_LINES: f64 = 80.0;
 
     let half = 0.5 * sensor.size;
-    let (low, high) = (window.to_page(-half), window.to_page(half));
-    let min = dvec2(low.x, high.y).max(part.min);
-    let max = dvec2(high.x, low.y).min(part.max);
-    let step = window.to_page(sensor.pixel_size()) - window.to_page(DVec2::ZERO);
+    let (low, high) = (window.page_position(-half), window.page_position(half));
+    let min = dvec2(low.x, high.y).max(panel.min);
+    let max = dvec2(high.x, low.y).min(panel.max);
+    let step = window.page_position(sensor.pixel_size()) - window.page_position(DVec2::ZERO);
     let lines = |from: f64, to: f64, start: f64, step: f64| {
         let first = ((from - start) / step).ceil().max(0.0);
         let last = ((to - start) / step).floor().min(first + MAX_LINES);

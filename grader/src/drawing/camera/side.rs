@@ -13,24 +13,24 @@ use crate::drawing::ink::{Ink, LineStyle};
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
 
-/// The drawing, in the plane of -z and the wanted ray.
-pub(super) fn draw(aim: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {
-    let lateral = aim.wanted.truncate().try_normalize().unwrap_or(DVec2::Y);
+/// Draws the plane of -z and the expected ray.
+pub(super) fn draw(query: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {
+    let lateral = query.wanted.truncate().try_normalize().unwrap_or(DVec2::Y);
     let see = |point: DVec3| dvec2(-point.z, point.truncate().dot(lateral));
     let (start, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
     let tip = see(start + dir);
     let length = dir.length();
     let mut sheet = Sheet::default();
-    let part = sheet.panel(170.0);
+    let panel = sheet.panel(170.0);
     let near = |at: &DVec2| at.length() < 4.0;
     let seen = [
         DVec2::ZERO,
         dvec2(1.3, 0.5),
         dvec2(1.0, -0.5),
-        see(aim.wanted),
+        see(query.wanted),
     ];
     let others = [tip, see(start)].into_iter().filter(near);
-    let window = Window::around(part, seen.into_iter().chain(others));
+    let window = Window::around(panel, seen.into_iter().chain(others));
 
     let canvas = &mut sheet.canvas;
     let half = 0.5 * sensor.size.max_element();
@@ -45,9 +45,9 @@ pub(super) fn draw(aim: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {
             canvas.arrow(from, to, line, ink);
         }
     };
-    arrow(DVec2::ZERO, see(aim.wanted), LineStyle::Right, Ink::Right);
+    arrow(DVec2::ZERO, see(query.wanted), LineStyle::Right, Ink::Right);
     arrow(see(start), tip, LineStyle::Wrong, Ink::Wrong);
-    canvas.mark(window.to_page(DVec2::ZERO), Mark::Origin);
+    canvas.mark(window.page_position(DVec2::ZERO), Mark::Origin);
     if see(start).length() > 1e-4
         && let Some((at, _)) = window.pin_to_border(see(start))
     {
@@ -66,13 +66,13 @@ pub(super) fn draw(aim: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {
         Symbol::Line(LineStyle::Right),
         "wanted: from (0, 0, 0), length 1, range [0, ∞]",
     );
-    let words = format!(
+    let text = format!(
         "got: from {}, length {}, range {}",
         describe::point(ray.origin),
         describe::number(length as f32),
         describe::interval(ray.range)
     );
-    sheet.add_legend(Symbol::Line(LineStyle::Wrong), &words);
+    sheet.add_legend(Symbol::Line(LineStyle::Wrong), &text);
     sheet.add_legend(
         Symbol::Line(LineStyle::Behind),
         "all directions of length 1 end here",
@@ -82,7 +82,7 @@ pub(super) fn draw(aim: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {
     sheet.finish(title, caption(ray, length))
 }
 
-/// The unit circle, as far as it is before the camera.
+/// Draws the part of the unit circle that is in front of the camera.
 fn draw_unit_arc(canvas: &mut Canvas, window: &Window) {
     const STEPS: i32 = 24;
 
@@ -115,19 +115,19 @@ fn caption(ray: &Ray, length: f64) -> String {
     let start = ray.origin.as_dvec3().length();
     if is_off(start, 0.0) {
         let origin = describe::point(ray.origin);
-        format!("Your ray goes the right way, but starts at {origin}.")
+        format!("Your ray has the right direction, but starts at {origin}.")
     } else if is_off(length, 1.0) {
         let length = describe::number(length as f32);
-        format!("Your ray goes the right way, but its direction has length {length}.")
+        format!("Your direction points the right way, but has length {length}; it must be 1.")
     } else if ray.range != Interval::AHEAD {
         let range = describe::interval(ray.range);
-        format!("Your ray goes the right way, but only {range} of it counts.")
+        format!("Your ray has the right direction, but its range is {range}; it must be [0, ∞].")
     } else {
-        "Your ray goes the right way.".to_owned()
+        "Your ray has the right direction.".to_owned()
     }
 }
 
-/// Only to choose the words. What is not a number is off.
+/// Chooses the caption, and nothing else. NaN is off.
 fn is_off(value: f64, wanted: f64) -> bool {
     let is_close = (value - wanted).abs() <= 1e-3;
     !is_close

@@ -1,4 +1,4 @@
-//! What drawings say of mistakes that people make.
+//! Captions of common mistakes.
 
 mod rays;
 mod trees;
@@ -9,15 +9,15 @@ use protocol::{Answer, ElementOutcome, Ray, Shape, Trace};
 use super::draw;
 use crate::exam::{ExamQuestion, ExpectedHit};
 
-fn caption(asked: &ExamQuestion, answer: Answer) -> String {
-    let drawing = draw(asked, 0, Some(&answer));
+fn caption(question: &ExamQuestion, answer: Answer) -> String {
+    let drawing = draw(question, 0, Some(&answer));
     drawing.map_or("(nothing)".to_owned(), |drawing| drawing.caption)
 }
 
-/// A line for each answer.
-fn captions(asked: &ExamQuestion, answers: impl IntoIterator<Item = Answer>) -> String {
+/// Returns one line per answer.
+fn captions(question: &ExamQuestion, answers: impl IntoIterator<Item = Answer>) -> String {
     let answers = answers.into_iter();
-    let lines: Vec<String> = answers.map(|answer| caption(asked, answer)).collect();
+    let lines: Vec<String> = answers.map(|answer| caption(question, answer)).collect();
     lines.join("\n")
 }
 

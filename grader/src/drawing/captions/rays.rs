@@ -1,4 +1,4 @@
-//! Rays, shapes and boxes.
+//! Captions of rays, shapes and boxes.
 
 use glam::{UVec2, Vec2, Vec3, vec2, vec3};
 use insta::assert_snapshot;
@@ -10,13 +10,13 @@ use super::{ahead, ball, caption, captions, hit, hits, trace};
 use crate::drawing_data::DrawingData;
 use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, RayCheck};
 
-fn sphere(ray: Ray, judged: HitCheck, hit: Option<ExpectedHit>) -> ExamQuestion {
+fn sphere(ray: Ray, check: HitCheck, hit: Option<ExpectedHit>) -> ExamQuestion {
     let question = Question::Shapes {
         shapes: vec![ball(0.0, 7)],
         rays: Rays::List(vec![ray]),
     };
     let key = Key::Hits {
-        checks: vec![judged],
+        checks: vec![check],
         hits: vec![hit],
     };
     ExamQuestion::new(question, key)
@@ -54,37 +54,40 @@ fn captions_of_hits_with_another_wrong_field() {
         hits(Some(trace))
     };
     let ray = ahead(0.0, f32::INFINITY);
-    let asked = |part| sphere(ray, part, Some(hit(4.0)));
+    let exam_question = |check| sphere(ray, check, Some(hit(4.0)));
     let lines = [
         caption(
-            &asked(HitCheck::Position),
+            &exam_question(HitCheck::Position),
             with(|trace| trace.position.z = 4.0),
         ),
         caption(
-            &asked(HitCheck::Normal),
+            &exam_question(HitCheck::Normal),
             with(|trace| trace.normal = Vec3::NEG_Z),
         ),
         caption(
-            &asked(HitCheck::Normal),
+            &exam_question(HitCheck::Normal),
             with(|trace| trace.normal = vec3(0.0, 1.0, 1.0)),
         ),
         caption(
-            &asked(HitCheck::Normal),
+            &exam_question(HitCheck::Normal),
             with(|trace| trace.normal = Vec3::ZERO),
         ),
         caption(
-            &asked(HitCheck::UnitNormal),
+            &exam_question(HitCheck::UnitNormal),
             with(|trace| trace.normal *= 2.0),
         ),
         caption(
-            &asked(HitCheck::Uv),
+            &exam_question(HitCheck::Uv),
             with(|trace| trace.uv = vec2(0.5, 0.25)),
         ),
         caption(
-            &asked(HitCheck::Origin),
+            &exam_question(HitCheck::Origin),
             with(|trace| trace.origin = Vec3::ONE),
         ),
-        caption(&asked(HitCheck::Material), with(|trace| trace.material = 0)),
+        caption(
+            &exam_question(HitCheck::Material),
+            with(|trace| trace.material = 0),
+        ),
     ];
     assert_snapshot!(lines.join("\n"));
 }
@@ -97,7 +100,7 @@ fn captions_of_box_intervals() {
         queries: vec![(Ray::new(Vec3::ZERO, Vec3::X), Interval::AHEAD)],
     };
     let always = Interval::new(f32::NEG_INFINITY, f32::INFINITY);
-    let asked = |span| ExamQuestion {
+    let exam_question = |span| ExamQuestion {
         question: question.clone(),
         key: Key::Spans { spans: vec![span] },
         drawing_data: DrawingData::Slabs(vec![[Interval::new(2.0, 4.0), always, always]]),
@@ -106,10 +109,10 @@ fn captions_of_box_intervals() {
     let answer = |span| Answer::Spans(vec![ElementOutcome::Value(span)]);
     let lines = [
         captions(
-            &asked(span(2.0, 4.0)),
+            &exam_question(span(2.0, 4.0)),
             [None, span(0.0, f32::INFINITY)].map(answer),
         ),
-        captions(&asked(None), [span(4.0, 2.0)].map(answer)),
+        captions(&exam_question(None), [span(4.0, 2.0)].map(answer)),
     ];
     assert_snapshot!(lines.join("\n"));
 }
@@ -125,7 +128,7 @@ fn captions_of_camera_rays() {
         pixel: UVec2::new(2, 2),
         offset: Vec2::ZERO,
     };
-    let asked = ExamQuestion::new(
+    let exam_question = ExamQuestion::new(
         Question::Camera {
             camera,
             samples: Samples::List(vec![sample]),
@@ -157,5 +160,5 @@ fn captions_of_camera_rays() {
         ray.within(0.0, 1.0),
     ];
     let answers = rays.map(|ray| Answer::Rays(vec![ElementOutcome::Value(ray)]));
-    assert_snapshot!(captions(&asked, answers));
+    assert_snapshot!(captions(&exam_question, answers));
 }

@@ -1,4 +1,4 @@
-//! Trees, built and walked.
+//! Captions of trees that were built or traversed.
 
 use glam::vec3;
 use insta::assert_snapshot;
@@ -20,7 +20,7 @@ fn node(x: [f32; 2], leaf: Option<[u32; 2]>, [l, r]: [u32; 2]) -> TreeNode {
     }
 }
 
-/// Two balls, far apart, in a leaf each.
+/// A tree over two distant balls, with one leaf each.
 fn two_leaf_tree() -> Vec<TreeNode> {
     vec![
         node([-1.0, 11.0], None, [1, 2]),
@@ -31,19 +31,13 @@ fn two_leaf_tree() -> Vec<TreeNode> {
 
 #[test]
 fn captions_of_built_trees() {
-    let asked = |judged: &[TreeCheck], max_leaf_size, sweep_cost| {
+    let exam_question = |checks: &[TreeCheck], max_leaf_size, sweep_cost| {
         let question = Question::Build {
             shapes: vec![ball(0.0, 0), ball(10.0, 1)],
             max_leaf_size,
         };
-        let judged = judged.to_vec();
-        ExamQuestion::new(
-            question,
-            Key::Tree {
-                checks: judged,
-                sweep_cost,
-            },
-        )
+        let checks = checks.to_vec();
+        ExamQuestion::new(question, Key::Tree { checks, sweep_cost })
     };
     let tree = |nodes: Vec<TreeNode>| {
         let order = vec![0, 1];
@@ -53,9 +47,9 @@ fn captions_of_built_trees() {
             order,
         }))
     };
-    let with = |place: usize, node: TreeNode| {
+    let with = |index: usize, node: TreeNode| {
         let mut nodes = two_leaf_tree();
-        nodes[place] = node;
+        nodes[index] = node;
         tree(nodes)
     };
     let one_leaf = || tree(vec![node([-1.0, 11.0], Some([0, 2]), [0, 0])]);
@@ -64,25 +58,28 @@ fn captions_of_built_trees() {
     let twice = || with(2, node([-1.0, 1.0], Some([0, 1]), [0, 0]));
     let circle = || with(2, node([9.0, 11.0], None, [0, 1]));
     let lines = [
-        caption(&asked(&[TreeCheck::Contains], 1, None), half()),
-        caption(&asked(&[TreeCheck::Tight], 1, None), wide()),
-        caption(&asked(&[TreeCheck::Partition], 1, None), twice()),
-        caption(&asked(&[TreeCheck::LeafSize], 1, None), one_leaf()),
-        caption(&asked(&[TreeCheck::Split], 1, None), one_leaf()),
-        caption(&asked(&[TreeCheck::Stops], 2, None), tree(two_leaf_tree())),
-        caption(&asked(&[], 1, Some(1.0)), tree(two_leaf_tree())),
-        caption(&asked(&[], 1, None), circle()),
+        caption(&exam_question(&[TreeCheck::Contains], 1, None), half()),
+        caption(&exam_question(&[TreeCheck::Tight], 1, None), wide()),
+        caption(&exam_question(&[TreeCheck::Partition], 1, None), twice()),
+        caption(&exam_question(&[TreeCheck::LeafSize], 1, None), one_leaf()),
+        caption(&exam_question(&[TreeCheck::Split], 1, None), one_leaf()),
+        caption(
+            &exam_question(&[TreeCheck::Stops], 2, None),
+            tree(two_leaf_tree()),
+        ),
+        caption(&exam_question(&[], 1, Some(1.0)), tree(two_leaf_tree())),
+        caption(&exam_question(&[], 1, None), circle()),
     ];
     assert_snapshot!(lines.join("\n"));
 }
 
 #[test]
 fn captions_of_traversals() {
-    // The leaf to the right holds what is before the ray as well, and the ray misses its box.
+    // The ray misses the box of the right leaf, which has a second primitive as a decoy.
     let mut nodes = two_leaf_tree();
     nodes[2].size = 2;
     let span = |min, max| Some(Interval::new(min, max));
-    let asked = |third: Option<Interval>| {
+    let exam_question = |third: Option<Interval>| {
         let step = |node, is_entered, span| TraversalStep {
             node,
             is_entered,
@@ -117,10 +114,13 @@ fn captions_of_traversals() {
     };
     let lines = [
         captions(
-            &asked(None),
+            &exam_question(None),
             [answer(2, 1.0), answer(3, 1.0), answer(0, 6.0), hits(None)],
         ),
-        captions(&asked(span(5.0, 7.0)), [answer(2, 1.0), answer(2, 6.0)]),
+        captions(
+            &exam_question(span(5.0, 7.0)),
+            [answer(2, 1.0), answer(2, 6.0)],
+        ),
     ];
     assert_snapshot!(lines.join("\n"));
 }

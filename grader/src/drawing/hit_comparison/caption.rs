@@ -1,4 +1,4 @@
-//! What is wrong with a hit, in a sentence.
+//! Captions that say what is wrong with a hit.
 
 use glam::DVec3;
 
@@ -7,22 +7,24 @@ use crate::describe;
 use crate::drawing::numbers::short;
 
 impl HitComparison {
-    /// What is wrong, in a sentence.
+    /// Returns a sentence that says what is wrong with the submitted hit.
     pub(in crate::drawing) fn caption(&self) -> String {
         match (self.wanted, self.got) {
-            (None, HitAnswer::NoAnswer) => "Right is no hit; your code gave no answer.".to_owned(),
+            (None, HitAnswer::NoAnswer) => {
+                "The ray hits nothing; your code gave no answer.".to_owned()
+            }
             (Some(wanted), HitAnswer::NoAnswer) => format!(
-                "Right is a hit at {}; your code gave no answer.",
+                "The ray hits at {}; your code gave no answer.",
                 short(wanted.distance)
             ),
-            (None, HitAnswer::Miss) => "Right is no hit.".to_owned(),
+            (None, HitAnswer::Miss) => "The ray hits nothing.".to_owned(),
             (None, HitAnswer::Hit(got)) => format!(
-                "Right is no hit; you answer one at {}{}.",
+                "The ray hits nothing; your code reports a hit at {}{}.",
                 short(got.distance),
                 self.range_note(got.distance)
             ),
             (Some(wanted), HitAnswer::Miss) => format!(
-                "You answer no hit; the ray hits at {}.",
+                "Your code reports no hit; the ray hits at {}.",
                 short(wanted.distance)
             ),
             (Some(wanted), HitAnswer::Hit(got)) => self.difference(&wanted, &got),
@@ -37,39 +39,39 @@ impl HitComparison {
         match self.limited_range() {
             Some(range) => format!(", outside the range {}", describe::interval(range)),
             None if distance < 0.0 => ", behind the ray's origin".to_owned(),
-            None => ", which is no distance".to_owned(),
+            None => ", which is not a distance".to_owned(),
         }
     }
 
     fn difference(&self, wanted: &DrawnHit, got: &DrawnHit) -> String {
         match self.focus {
             Focus::Distance => format!(
-                "You answer a hit at {}{}; the first that counts is at {}.",
+                "Your code reports a hit at {}{}; the first hit in range is at {}.",
                 number(got.distance),
                 self.range_note(got.distance),
                 number(wanted.distance)
             ),
             Focus::Position => format!(
-                "You answer the position {}; the ray hits at {}.",
+                "Your position is {}; the ray hits at {}.",
                 describe::point(got.position.as_vec3()),
                 describe::point(wanted.position.as_vec3())
             ),
             Focus::Normal => normal_difference(wanted.normal, got.normal),
             Focus::Uv => format!(
-                "You answer uv {}; right is {}.",
+                "Your uv is {}; the correct uv is {}.",
                 describe::uv(got.uv.as_vec2()),
                 describe::uv(wanted.uv.as_vec2())
             ),
             Focus::Origin => format!(
-                "You name {} as the ray's origin; it starts at {}.",
+                "Your hit says that the ray starts at {}; it starts at {}.",
                 describe::point(got.origin.as_vec3()),
                 describe::point(wanted.origin.as_vec3())
             ),
             Focus::Material => {
                 let name =
-                    |met: &DrawnHit| met.material.map_or("none".to_owned(), |id| id.to_string());
+                    |hit: &DrawnHit| hit.material.map_or("none".to_owned(), |id| id.to_string());
                 format!(
-                    "You name material {}; what is hit has {}.",
+                    "Your hit has material {}; the shape has material {}.",
                     name(got),
                     name(wanted)
                 )
@@ -78,7 +80,7 @@ impl HitComparison {
     }
 }
 
-/// A distance with all digits that are judged.
+/// Formats a distance with all the digits that are judged.
 fn number(value: f64) -> String {
     describe::number(value as f32)
 }
@@ -93,7 +95,7 @@ fn normal_difference(wanted: DVec3, got: DVec3) -> String {
     }
     let degrees = got.angle_between(wanted).to_degrees();
     match degrees {
-        _ if degrees > 179.5 => "Your normal points the opposite way.".to_owned(),
+        _ if degrees > 179.5 => "Your normal points in the opposite direction.".to_owned(),
         _ if degrees > 0.05 => format!("Your normal is off by {}°.", short(degrees)),
         _ => format!("Your normal has length {}; it must be 1.", number(length)),
     }

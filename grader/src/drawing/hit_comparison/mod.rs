@@ -1,4 +1,4 @@
-//! A ray, what it should meet, and what the submission says that it meets.
+//! The expected hit of a ray, and the hit that the submission answered.
 
 mod caption;
 
@@ -7,7 +7,7 @@ use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Trace};
 
 use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, Surface};
 
-/// A meeting of a ray and a surface; the key of a picture does not tell all of it.
+/// A hit as it is drawn. The key of a picture does not give a material.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::drawing) struct DrawnHit {
     pub(in crate::drawing) distance: f64,
@@ -18,35 +18,33 @@ pub(in crate::drawing) struct DrawnHit {
     pub(in crate::drawing) material: Option<u32>,
 }
 
-/// What came.
+/// The submission's answer for one ray.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::drawing) enum HitAnswer {
-    /// Nothing that could be drawn: a panic, or no answer.
+    /// Nothing that can be drawn: a panic, or no answer.
     NoAnswer,
-    /// No hit.
     Miss,
-    /// A hit.
     Hit(DrawnHit),
 }
 
-/// What of a hit the drawing is about: the first that is judged and not right.
+/// The field of a hit that the drawing is about: the first one that is judged and wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::drawing) enum Focus {
-    /// Whether there is one, and how far away.
+    /// Whether there is a hit, and its distance.
     Distance,
-    /// Where it is, be that on the ray or not.
+    /// The position, which need not be on the ray.
     Position,
-    /// The normal there.
+    /// The normal.
     Normal,
-    /// The texture coordinates there.
+    /// The texture coordinates.
     Uv,
-    /// The origin that the answer names.
+    /// The origin of the ray, as the answer gives it.
     Origin,
-    /// The material that the answer names.
+    /// The material, as the answer gives it.
     Material,
 }
 
-/// One ray of a question, with both answers.
+/// One ray of a question, with the expected and the submitted hit.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::drawing) struct HitComparison {
     pub(in crate::drawing) ray: Ray,
@@ -56,31 +54,28 @@ pub(in crate::drawing) struct HitComparison {
 }
 
 impl HitComparison {
-    /// The element of a question about rays; none of any other question, or if there is no such
-    /// element, or if its ray is none.
+    /// Compares one element of a question about rays. Returns `None` for any other question, for an
+    /// element that does not exist, and for a ray without a finite origin and direction.
     pub(in crate::drawing) fn new(
-        asked: &ExamQuestion,
+        question: &ExamQuestion,
         element: usize,
         answer: Option<&Answer>,
     ) -> Option<HitComparison> {
-        let ray = *rays(&asked.question)?.get(element)?;
-        let along = ray.dir.is_finite() && ray.dir.length() > 0.0;
-        if !(ray.origin.is_finite() && along) {
+        let ray = *rays(&question.question)?.get(element)?;
+        let has_direction = ray.dir.is_finite() && ray.dir.length() > 0.0;
+        if !(ray.origin.is_finite() && has_direction) {
             return None;
         }
-        let (judged, wanted) = match &asked.key {
-            Key::Hits {
-                checks: judged,
-                hits,
-            } => {
+        let (checks, wanted) = match &question.key {
+            Key::Hits { checks, hits } => {
                 let hit = hits.get(element)?.as_ref();
-                (judged.clone(), hit.map(|hit| DrawnHit::from_hit(hit, &ray)))
+                (checks.clone(), hit.map(|hit| DrawnHit::from_hit(hit, &ray)))
             }
             Key::FirstHits { hits, .. } => {
                 let surface = hits.get(element)?.as_ref();
-                let judged = vec![HitCheck::Distance, HitCheck::Normal, HitCheck::Uv];
+                let checks = vec![HitCheck::Distance, HitCheck::Normal, HitCheck::Uv];
                 (
-                    judged,
+                    checks,
                     surface.map(|surface| DrawnHit::from_surface(surface, &ray)),
                 )
             }
@@ -89,7 +84,7 @@ impl HitComparison {
             }
         };
         let got = hit_answer(element, answer);
-        let focus = choose_focus(&judged, wanted.as_ref(), &got);
+        let focus = choose_focus(&checks, wanted.as_ref(), &got);
         Some(HitComparison {
             ray,
             wanted,
@@ -98,29 +93,29 @@ impl HitComparison {
         })
     }
 
-    /// Where the answer is drawn.
+    /// Returns the point at which the submitted hit is drawn.
     pub(in crate::drawing) fn got_point(&self) -> Option<DVec3> {
         match (self.got, self.focus) {
             (HitAnswer::NoAnswer | HitAnswer::Miss, _) => None,
-            (HitAnswer::Hit(met), Focus::Position) => Some(met.position),
+            (HitAnswer::Hit(hit), Focus::Position) => Some(hit.position),
             (
-                HitAnswer::Hit(met),
+                HitAnswer::Hit(hit),
                 Focus::Distance | Focus::Normal | Focus::Uv | Focus::Origin | Focus::Material,
-            ) => Some(self.at(met.distance)),
+            ) => Some(self.at(hit.distance)),
         }
     }
 
-    /// The point of the ray at this distance.
+    /// Returns the point of the ray at this distance.
     pub(in crate::drawing) fn at(&self, distance: f64) -> DVec3 {
         self.ray.origin.as_dvec3() + distance * self.dir()
     }
 
-    /// The ray's direction, of length one.
+    /// Returns the direction of the ray, normalised.
     pub(in crate::drawing) fn dir(&self) -> DVec3 {
         self.ray.dir.as_dvec3().normalize()
     }
 
-    /// The range, if it is not all that lies ahead.
+    /// Returns the range of the ray, unless it is everything ahead of the origin.
     pub(in crate::drawing) fn limited_range(&self) -> Option<Interval> {
         (self.ray.range != Interval::AHEAD).then_some(self.ray.range)
     }
@@ -158,11 +153,11 @@ fn hit_answer(element: usize, answer: Option<&Answer>) -> HitAnswer {
     }
 }
 
-fn choose_focus(judged: &[HitCheck], wanted: Option<&DrawnHit>, got: &HitAnswer) -> Focus {
+fn choose_focus(checks: &[HitCheck], wanted: Option<&DrawnHit>, got: &HitAnswer) -> Focus {
     let (Some(wanted), HitAnswer::Hit(got)) = (wanted, got) else {
         return Focus::Distance;
     };
-    let is_wrong = |part: &&HitCheck| match part {
+    let is_wrong = |check: &&HitCheck| match check {
         HitCheck::Distance => numbers_differ(got.distance, wanted.distance),
         HitCheck::Position => vectors_differ(got.position, wanted.position),
         HitCheck::Normal => vectors_differ(got.normal.normalize(), wanted.normal),
@@ -171,8 +166,8 @@ fn choose_focus(judged: &[HitCheck], wanted: Option<&DrawnHit>, got: &HitAnswer)
         HitCheck::Origin => vectors_differ(got.origin, wanted.origin),
         HitCheck::Material => got.material != wanted.material,
     };
-    let part = judged.iter().find(is_wrong).or(judged.first());
-    match part {
+    let check = checks.iter().find(is_wrong).or(checks.first());
+    match check {
         Some(HitCheck::Distance) | None => Focus::Distance,
         Some(HitCheck::Position) => Focus::Position,
         Some(HitCheck::Normal | HitCheck::UnitNormal) => Focus::Normal,
@@ -182,10 +177,10 @@ fn choose_focus(judged: &[HitCheck], wanted: Option<&DrawnHit>, got: &HitAnswer)
     }
 }
 
-/// Only to choose what is drawn: the judge has finer measures.
+/// Chooses what is drawn, and nothing else: the judge has finer tolerances.
 fn numbers_differ(a: f64, b: f64) -> bool {
-    let close = (a - b).abs() <= 1e-4 * b.abs().max(1.0);
-    !close
+    let is_close = (a - b).abs() <= 1e-4 * b.abs().max(1.0);
+    !is_close
 }
 
 fn vectors_differ(a: DVec3, b: DVec3) -> bool {

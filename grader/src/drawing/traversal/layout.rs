@@ -1,4 +1,4 @@
-//! What is drawn of a walk: which nodes, and what became of each.
+//! Chooses the nodes of a traversal that are drawn, with the status of each.
 
 use std::collections::BTreeMap;
 
@@ -7,26 +7,26 @@ use protocol::{Interval, TreeNode};
 use super::RecordedTraversal;
 use crate::drawing::hit_comparison::{HitAnswer, HitComparison};
 
-/// The most rows.
+/// The maximum number of rows.
 const MAX_ROWS: usize = 28;
 
-/// What became of a node.
+/// The status of a node in a correct traversal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum NodeStatus {
-    /// It was entered.
+    /// The node is entered.
     Entered,
-    /// The ray misses its box.
+    /// The ray misses the box.
     Missed,
-    /// The ray is in its box outside of its range only.
+    /// The ray is in the box, but only outside its range.
     OutOfRange,
-    /// It begins beyond the closest hit so far.
+    /// The box begins beyond the closest hit so far.
     Beyond,
-    /// So many rows are left out here: what stands for the node is their number.
+    /// Rows are left out here; the row's `node` is their number.
     Elided,
 }
 
 impl NodeStatus {
-    /// Whether a right walk came to the node, and did not enter it.
+    /// Returns whether a correct traversal tests the node's box and does not enter it.
     pub(super) fn is_skipped(self) -> bool {
         match self {
             NodeStatus::Missed | NodeStatus::OutOfRange | NodeStatus::Beyond => true,
@@ -35,11 +35,11 @@ impl NodeStatus {
     }
 }
 
-/// A node, or nodes that are left out.
+/// A node, or several nodes that are left out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NodeRow {
     pub(super) node: u32,
-    /// Which of those that are entered it is, from 1.
+    /// The position of the node among the entered nodes, from 1.
     pub(super) number: usize,
     pub(super) depth: usize,
     pub(super) is_leaf: bool,
@@ -47,76 +47,77 @@ pub(super) struct NodeRow {
     pub(super) span: Option<Interval>,
 }
 
-/// All that is drawn.
+/// Everything that is drawn.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     pub(super) rows: Vec<NodeRow>,
-    /// The leaf with what is hit.
+    /// The leaf of the expected hit.
     pub(super) wanted_leaf: Option<u32>,
-    /// The leaf with what the answer names.
+    /// The leaf of the submitted hit.
     pub(super) got_leaf: Option<u32>,
-    /// The nodes from the root down to that leaf.
+    /// The nodes from that leaf up to the root.
     path_to_got: Vec<u32>,
 }
 
 impl Layout {
-    pub(super) fn new(encounter: &HitComparison, walked: &RecordedTraversal) -> Layout {
-        let family = ParentMap::new(walked);
-        let leaf_with = |material: Option<u32>| family.leaf_with(walked, material?);
-        let wanted = leaf_with(encounter.wanted.and_then(|met| met.material));
-        let got = match encounter.got {
-            HitAnswer::Hit(met) => leaf_with(met.material),
+    pub(super) fn new(comparison: &HitComparison, traversal: &RecordedTraversal) -> Layout {
+        let parents = ParentMap::new(traversal);
+        let leaf_with = |material: Option<u32>| parents.leaf_with(traversal, material?);
+        let wanted = leaf_with(comparison.wanted.and_then(|hit| hit.material));
+        let got = match comparison.got {
+            HitAnswer::Hit(hit) => leaf_with(hit.material),
             HitAnswer::Miss | HitAnswer::NoAnswer => None,
         };
-        let ways =
-            [wanted, got].map(|leaf| leaf.map_or(Vec::new(), |leaf| family.path_to_root(leaf)));
+        let paths =
+            [wanted, got].map(|leaf| leaf.map_or(Vec::new(), |leaf| parents.path_to_root(leaf)));
 
         let mut number = 0;
-        let rows: Vec<NodeRow> = walked
+        let rows: Vec<NodeRow> = traversal
             .steps
             .iter()
             .map(|step| {
                 number += usize::from(step.is_entered);
-                let node = walked.nodes.get(step.node as usize);
+                let node = traversal.nodes.get(step.node as usize);
                 NodeRow {
                     node: step.node,
                     number,
-                    depth: family.depth(step.node),
+                    depth: parents.depth(step.node),
                     is_leaf: node.is_some_and(TreeNode::is_leaf),
-                    status: node_status(step.is_entered, step.span, encounter),
+                    status: node_status(step.is_entered, step.span, comparison),
                     span: step.span.filter(|span| !span.is_empty()),
                 }
             })
             .collect();
         let matters = |row: &NodeRow| {
-            let parent = family.parent(row.node);
-            let of = |node: u32| ways.iter().any(|way| way.contains(&node));
+            let parent = parents.parent(row.node);
+            let of = |node: u32| paths.iter().any(|path| path.contains(&node));
             (of(row.node), parent.is_some_and(of))
         };
-        let [_, way_to_got] = ways.clone();
+        let [_, path_to_got] = paths.clone();
         Layout {
             rows: shorten(&rows, matters),
             wanted_leaf: wanted,
             got_leaf: got,
-            path_to_got: way_to_got,
+            path_to_got,
         }
     }
 
-    /// The row on the way to the answer's leaf at which a right walk turns away; or the leaf's own.
+    /// Returns the deepest row on the path to the submitted hit's leaf: the node where a correct
+    /// traversal turns away from it, or the leaf itself.
     pub(super) fn got_row(&self) -> Option<&NodeRow> {
-        let on_way = self.rows.iter().filter(|row| {
+        let on_path = self.rows.iter().filter(|row| {
             let is_node = row.status != NodeStatus::Elided;
             is_node && self.path_to_got.contains(&row.node)
         });
-        on_way.max_by_key(|row| row.depth)
+        on_path.max_by_key(|row| row.depth)
     }
 
-    /// Where the answer comes from a leaf that no right walk enters: the row that leads there.
+    /// Returns the row of a node that a correct traversal skips, if the submitted hit is below it.
     pub(super) fn decoy(&self) -> Option<&NodeRow> {
         self.got_row().filter(|row| row.status.is_skipped())
     }
 
-    /// Which of the entered nodes is the leaf with what is hit.
+    /// Returns the position of the expected hit's leaf among the entered nodes.
     pub(super) fn wanted_leaf_number(&self) -> Option<usize> {
         let is_it = |row: &&NodeRow| {
             row.status == NodeStatus::Entered && Some(row.node) == self.wanted_leaf
@@ -125,8 +126,8 @@ impl Layout {
     }
 }
 
-fn node_status(is_entered: bool, span: Option<Interval>, encounter: &HitComparison) -> NodeStatus {
-    let range = encounter.ray.range;
+fn node_status(is_entered: bool, span: Option<Interval>, comparison: &HitComparison) -> NodeStatus {
+    let range = comparison.ray.range;
     match span {
         _ if is_entered => NodeStatus::Entered,
         None => NodeStatus::Missed,
@@ -135,26 +136,26 @@ fn node_status(is_entered: bool, span: Option<Interval>, encounter: &HitComparis
     }
 }
 
-/// At most so many rows: those on the way to a leaf that matters, then those beside it, then the
-/// first of the others.
+/// Keeps at most [`MAX_ROWS`] rows: first those on the path to a relevant leaf, then their
+/// siblings, then the others in order.
 fn shorten(rows: &[NodeRow], matters: impl Fn(&NodeRow) -> (bool, bool)) -> Vec<NodeRow> {
     let mut ranks: Vec<(usize, usize)> = rows
         .iter()
         .enumerate()
-        .map(|(place, row)| match matters(row) {
-            (true, _) => (0, place),
-            (false, true) => (1, place),
-            (false, false) => (2, place),
+        .map(|(index, row)| match matters(row) {
+            (true, _) => (0, index),
+            (false, true) => (1, index),
+            (false, false) => (2, index),
         })
         .collect();
-    // Of a long way its end tells most.
-    ranks.sort_by_key(|&(rank, place)| match rank {
-        0 => (0, rows.len() - place),
-        _ => (rank, place),
+    // The end of a long path matters most.
+    ranks.sort_by_key(|&(rank, index)| match rank {
+        0 => (0, rows.len() - index),
+        _ => (rank, index),
     });
     let mut is_kept = vec![false; rows.len()];
-    for (_, place) in ranks.into_iter().take(MAX_ROWS) {
-        is_kept[place] = true;
+    for (_, index) in ranks.into_iter().take(MAX_ROWS) {
+        is_kept[index] = true;
     }
     let mut shown: Vec<NodeRow> = Vec::new();
     for (row, is_kept) in rows.iter().zip(is_kept) {
@@ -172,24 +173,24 @@ fn shorten(rows: &[NodeRow], matters: impl Fn(&NodeRow) -> (bool, bool)) -> Vec<
     shown
 }
 
-/// Who is whose parent, below the root.
+/// The parent of each node below the root.
 struct ParentMap(BTreeMap<u32, Option<u32>>);
 
 impl ParentMap {
-    fn new(walked: &RecordedTraversal) -> ParentMap {
+    fn new(traversal: &RecordedTraversal) -> ParentMap {
         let mut parents = BTreeMap::new();
-        let mut open = vec![(walked.root, None)];
-        while let Some((place, parent)) = open.pop() {
-            let Some(node) = walked.nodes.get(place as usize) else {
+        let mut open = vec![(traversal.root, None)];
+        while let Some((index, parent)) = open.pop() {
+            let Some(node) = traversal.nodes.get(index as usize) else {
                 continue;
             };
-            // A node that has a parent already closes a circle: nobody goes round.
-            if parents.contains_key(&place) {
+            // A node that already has a parent closes a cycle: do not follow it.
+            if parents.contains_key(&index) {
                 continue;
             }
-            parents.insert(place, parent);
+            parents.insert(index, parent);
             if !node.is_leaf() {
-                open.extend([(node.l, Some(place)), (node.r, Some(place))]);
+                open.extend([(node.l, Some(index)), (node.r, Some(index))]);
             }
         }
         ParentMap(parents)
@@ -199,7 +200,7 @@ impl ParentMap {
         self.0.get(&node).copied().flatten()
     }
 
-    /// From a node up to the root, both included.
+    /// Returns the nodes from `node` up to the root, both included.
     fn path_to_root(&self, node: u32) -> Vec<u32> {
         std::iter::successors(Some(node), |node| self.parent(*node)).collect()
     }
@@ -208,14 +209,14 @@ impl ParentMap {
         self.path_to_root(node).len() - 1
     }
 
-    /// The leaf that holds the primitive with this material.
-    fn leaf_with(&self, walked: &RecordedTraversal, material: u32) -> Option<u32> {
-        let mut places = walked.shapes.iter();
-        let place = places.position(|shape| shape.material() == material)? as u64;
+    /// Returns the leaf that contains the primitive with this material.
+    fn leaf_with(&self, traversal: &RecordedTraversal, material: u32) -> Option<u32> {
+        let mut shapes = traversal.shapes.iter();
+        let index = shapes.position(|shape| shape.material() == material)? as u64;
         let holds = |node: &&u32| {
-            let node = &walked.nodes[**node as usize];
+            let node = &traversal.nodes[**node as usize];
             let start = u64::from(node.start);
-            node.is_leaf() && (start..start + u64::from(node.size)).contains(&place)
+            node.is_leaf() && (start..start + u64::from(node.size)).contains(&index)
         };
         self.0.keys().find(holds).copied()
     }

@@ -1,5 +1,5 @@
-//! A walk through the exam's tree: the nodes that a right one comes to, in order, each with the part
-//! of the ray that is in its box. Such a walk comes with the exam.
+//! A traversal of the exam's tree: the nodes that a correct one tests, in order, and the part of
+//! the ray inside each box. The traversal comes with the exam.
 
 mod layout;
 mod rows;
@@ -19,54 +19,54 @@ use crate::drawing_data::TraversalStep;
 
 use layout::{Layout, NodeRow, NodeStatus};
 
-/// The exam's tree, and one right way through it.
+/// The exam's tree, and one correct traversal of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RecordedTraversal<'a> {
-    /// In the order that the leaves count.
+    /// The primitives, in the order to which the leaves refer.
     pub(super) shapes: &'a [Shape],
-    /// In any order.
+    /// The nodes, in any order.
     pub(super) nodes: &'a [TreeNode],
-    /// Where to start.
+    /// The index of the root.
     pub(super) root: u32,
-    /// The nodes that are come to.
+    /// The nodes that the traversal tests.
     pub(super) steps: &'a [TraversalStep],
 }
 
-/// The drawing. None of a tree without nodes.
-pub(super) fn draw(encounter: &HitComparison, walked: &RecordedTraversal) -> Option<Drawing> {
-    if walked.steps.is_empty() {
+/// Draws the traversal. Returns `None` for a tree without nodes.
+pub(super) fn draw(comparison: &HitComparison, traversal: &RecordedTraversal) -> Option<Drawing> {
+    if traversal.steps.is_empty() {
         return None;
     }
-    let plan = Layout::new(encounter, walked);
+    let layout = Layout::new(comparison, traversal);
     let mut sheet = Sheet::default();
     let head = dvec2(0.0, sheet.y + 12.0);
     sheet
         .canvas
-        .text(head, Anchor::Start, Ink::Faint, "a right walk");
+        .text(head, Anchor::Start, Ink::Faint, "a correct traversal");
     let right = dvec2(WIDTH - 12.0, sheet.y + 12.0);
-    let words = "where the ray is in each box";
-    sheet.canvas.text(right, Anchor::End, Ink::Faint, words);
+    let text = "where the ray is in each box";
+    sheet.canvas.text(right, Anchor::End, Ink::Faint, text);
     sheet.advance(18.0);
-    let axis = Axis::over(rows::LEFT, axis_distances(encounter, &plan));
-    sheet.y = rows::draw(&mut sheet.canvas, sheet.y, &axis, encounter, &plan);
-    draw_legend(&mut sheet, encounter, &plan);
-    let title = "The nodes that a right walk comes to, and the ray's way through their boxes";
-    Some(sheet.finish(title, caption(encounter, &plan)))
+    let axis = Axis::over(rows::LEFT, axis_distances(comparison, &layout));
+    sheet.y = rows::draw(&mut sheet.canvas, sheet.y, &axis, comparison, &layout);
+    draw_legend(&mut sheet, comparison, &layout);
+    let title = "The nodes that a correct traversal tests, and the part of the ray in each box";
+    Some(sheet.finish(title, caption(comparison, &layout)))
 }
 
-/// The distances to be seen: the hits, and where the ray is in boxes that it enters.
-fn axis_distances(encounter: &HitComparison, plan: &Layout) -> Vec<f64> {
-    let range = encounter.ray.range;
+/// Returns the distances that the axis must cover: the hits, and the part of the ray in each box.
+fn axis_distances(comparison: &HitComparison, layout: &Layout) -> Vec<f64> {
+    let range = comparison.ray.range;
     let mut seen = vec![f64::from(range.min)];
-    seen.extend(encounter.wanted.map(|met| met.distance));
-    let spans = plan.rows.iter().filter_map(|row| row.span);
+    seen.extend(comparison.wanted.map(|hit| hit.distance));
+    let spans = layout.rows.iter().filter_map(|row| row.span);
     seen.extend(spans.flat_map(|span| [f64::from(span.min), f64::from(span.max)]));
     let reach = seen.iter().copied().filter(|t| t.is_finite());
     let reach = 3.0 * reach.fold(1e-3, f64::max);
-    if let HitAnswer::Hit(met) = encounter.got
-        && met.distance.abs() < reach
+    if let HitAnswer::Hit(hit) = comparison.got
+        && hit.distance.abs() < reach
     {
-        seen.push(met.distance);
+        seen.push(hit.distance);
     }
     if range.max.is_finite() {
         seen.push(f64::from(range.max).min(reach));
@@ -74,32 +74,32 @@ fn axis_distances(encounter: &HitComparison, plan: &Layout) -> Vec<f64> {
     seen
 }
 
-fn draw_legend(sheet: &mut Sheet, encounter: &HitComparison, plan: &Layout) {
+fn draw_legend(sheet: &mut Sheet, comparison: &HitComparison, layout: &Layout) {
     let leaf = |leaf: Option<u32>| leaf.map_or(String::new(), |leaf| format!(", in leaf {leaf}"));
-    match encounter.wanted {
-        Some(met) => {
-            let distance = describe::number(met.distance as f32);
-            let words = format!("wanted: a hit at {distance}{}", leaf(plan.wanted_leaf));
-            sheet.add_legend(Symbol::Mark(Mark::Right), &words);
+    match comparison.wanted {
+        Some(hit) => {
+            let distance = describe::number(hit.distance as f32);
+            let text = format!("wanted: a hit at {distance}{}", leaf(layout.wanted_leaf));
+            sheet.add_legend(Symbol::Mark(Mark::Right), &text);
         }
         None => sheet.add_legend(Symbol::None, "wanted: no hit"),
     }
-    match encounter.got {
-        HitAnswer::Hit(met) => {
-            let distance = describe::number(met.distance as f32);
-            let trap = plan.decoy().map_or("", |_| ", a trap");
-            let words = format!("got: a hit at {distance}{}{trap}", leaf(plan.got_leaf));
-            sheet.add_legend(Symbol::Mark(Mark::Wrong), &words);
+    match comparison.got {
+        HitAnswer::Hit(hit) => {
+            let distance = describe::number(hit.distance as f32);
+            let decoy = layout.decoy().map_or("", |_| ", a decoy");
+            let text = format!("got: a hit at {distance}{}{decoy}", leaf(layout.got_leaf));
+            sheet.add_legend(Symbol::Mark(Mark::Wrong), &text);
         }
         HitAnswer::Miss => sheet.add_legend(Symbol::None, "got: no hit"),
         HitAnswer::NoAnswer => {}
     }
-    if encounter.limited_range().is_some() {
-        let words = format!(
-            "the range that counts: {}",
-            describe::interval(encounter.ray.range)
+    if comparison.limited_range().is_some() {
+        let text = format!(
+            "the ray's range: {}",
+            describe::interval(comparison.ray.range)
         );
-        sheet.add_legend(Symbol::Line(LineStyle::Range), &words);
+        sheet.add_legend(Symbol::Line(LineStyle::Range), &text);
     }
     let entered = Fill::Tint(Ink::Text, 0.4);
     sheet.add_legend(
@@ -109,13 +109,13 @@ fn draw_legend(sheet: &mut Sheet, encounter: &HitComparison, plan: &Layout) {
     sheet.add_legend(Symbol::Area(Fill::None), "not entered");
 }
 
-fn caption(encounter: &HitComparison, plan: &Layout) -> String {
-    let why = plan.got_row().map(|row: &NodeRow| (row, row.status));
-    match (encounter.got, plan.got_leaf, why) {
-        (HitAnswer::Hit(met), None, _) => format!(
-            "Your hit at {} is with a primitive in no leaf below the root: a walk through the tree \
-             never comes to it.",
-            short(met.distance)
+fn caption(comparison: &HitComparison, layout: &Layout) -> String {
+    let why = layout.got_row().map(|row: &NodeRow| (row, row.status));
+    match (comparison.got, layout.got_leaf, why) {
+        (HitAnswer::Hit(hit), None, _) => format!(
+            "Your hit at {} is with a primitive in no leaf below the root: a traversal of the tree \
+             never reaches it.",
+            short(hit.distance)
         ),
         (HitAnswer::Hit(_), Some(leaf), Some((row, NodeStatus::Missed))) => {
             match row.node == leaf {
@@ -126,19 +126,19 @@ fn caption(encounter: &HitComparison, plan: &Layout) -> String {
                 ),
             }
         }
-        (HitAnswer::Hit(met), Some(leaf), Some((_, NodeStatus::Beyond)))
-            if is_farther(encounter, met.distance) =>
+        (HitAnswer::Hit(hit), Some(leaf), Some((_, NodeStatus::Beyond)))
+            if is_farther(comparison, hit.distance) =>
         {
             format!(
-                "{} A right walk does not come to yours, in leaf {leaf}.",
-                encounter.caption()
+                "{} Yours is in leaf {leaf}, which a correct traversal does not enter.",
+                comparison.caption()
             )
         }
         (HitAnswer::Hit(_), Some(leaf), Some((row, NodeStatus::Beyond))) => {
             let begin = row
                 .span
                 .map_or(String::new(), |span| short(span.min.into()));
-            let closest = encounter.wanted.map_or(f64::NAN, |met| met.distance);
+            let closest = comparison.wanted.map_or(f64::NAN, |hit| hit.distance);
             let node = match row.node == leaf {
                 true => "which".to_owned(),
                 false => format!("below node {}, which", row.node),
@@ -157,19 +157,19 @@ fn caption(encounter: &HitComparison, plan: &Layout) -> String {
             Some((_, NodeStatus::Entered | NodeStatus::Elided)) | None,
         )
         | (HitAnswer::Miss | HitAnswer::NoAnswer, _, _) => {
-            match (encounter.wanted, plan.wanted_leaf_number()) {
+            match (comparison.wanted, layout.wanted_leaf_number()) {
                 (Some(_), Some(number)) => format!(
-                    "{} That is in the leaf with number {number}.",
-                    encounter.caption()
+                    "{} That hit is in the leaf numbered {number}.",
+                    comparison.caption()
                 ),
-                (Some(_) | None, _) => encounter.caption(),
+                (Some(_) | None, _) => comparison.caption(),
             }
         }
     }
 }
 
-fn is_farther(encounter: &HitComparison, distance: f64) -> bool {
-    encounter
+fn is_farther(comparison: &HitComparison, distance: f64) -> bool {
+    comparison
         .wanted
         .is_some_and(|wanted| wanted.distance < distance)
 }

@@ -1,9 +1,9 @@
-//! Commands to the runner, which are lines of the log
+//! Commands to the runner, which are lines in the log
 //! (<https://docs.github.com/en/actions/reference/workflows-and-actions/workflow-commands>).
 
 use std::fmt::Write;
 
-/// A command with properties. Whatever their text and the message hold, it stays one command.
+/// Returns a command with properties. Everything is escaped, so that it stays one command.
 pub fn command(name: &str, properties: &[(&str, String)], message: &str) -> String {
     let properties = properties.iter();
     let properties: Vec<String> = properties
@@ -26,18 +26,18 @@ fn escape_property(text: &str) -> String {
     escape_message(text).replace(':', "%3A").replace(',', "%2C")
 }
 
-/// A text in which the runner sees no commands: only this token ends its deafness.
+/// Returns a text in which the runner ignores commands until it reads the token.
 pub fn with_commands_stopped(text: &str, token: &str) -> String {
     format!("::stop-commands::{token}\n{text}\n::{token}::\n")
 }
 
-/// A token that nobody can guess.
+/// Returns a token that a submission cannot guess.
 pub fn random_token() -> Result<String, getrandom::Error> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes)?;
     let mut token = String::new();
     for byte in bytes {
-        write!(token, "{byte:02x}").expect("text takes text");
+        write!(token, "{byte:02x}").expect("writing to a string cannot fail");
     }
     Ok(token)
 }

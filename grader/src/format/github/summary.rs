@@ -1,4 +1,4 @@
-//! The summary on the page of a run, in GitHub's Markdown.
+//! The summary on the page of a run, in GitHub Flavored Markdown.
 
 use std::fmt::{self, Write};
 
@@ -7,30 +7,31 @@ use crate::format::size::{fit, truncate};
 use crate::format::{FormatContext, StudentView};
 use crate::score::{ItemScore, TaskScore};
 
-/// What a step's summary may hold, in bytes.
+/// The maximum size of a step's summary in bytes.
 const MAX_BYTES: usize = 1 << 20;
 
-/// The whole text.
-pub fn summary(seen: &StudentView, around: &FormatContext) -> String {
-    fit(MAX_BYTES, |longest| {
+/// Renders the summary.
+pub fn summary(view: &StudentView, context: &FormatContext) -> String {
+    fit(MAX_BYTES, |max_chars| {
         let mut text = String::new();
-        write_summary(&mut text, seen, around, longest).expect("text takes text");
+        write_summary(&mut text, view, context, max_chars)
+            .expect("writing to a string cannot fail");
         text
     })
 }
 
 fn write_summary(
     out: &mut String,
-    seen: &StudentView,
-    around: &FormatContext,
-    longest: usize,
+    view: &StudentView,
+    context: &FormatContext,
+    max_chars: usize,
 ) -> fmt::Result {
-    writeln!(out, "## {}\n", escape_markdown(&headline(seen)))?;
-    if let Some(unfinished) = seen.unfinished_notice() {
+    writeln!(out, "## {}\n", escape_markdown(&headline(view)))?;
+    if let Some(unfinished) = view.unfinished_notice() {
         writeln!(out, "**{}**\n", escape_markdown(&unfinished))?;
     }
     writeln!(out, "| task | points | of |\n|---|---:|---:|")?;
-    for task in &seen.visible.tasks {
+    for task in &view.visible.tasks {
         let TaskScore {
             title,
             points,
@@ -43,7 +44,7 @@ fn write_summary(
             escape_markdown(title)
         )?;
     }
-    for task in &seen.visible.tasks {
+    for task in &view.visible.tasks {
         let lost = task
             .items
             .iter()
@@ -54,15 +55,15 @@ fn write_summary(
         }
         writeln!(out, "\n### {}\n", escape_markdown(&task.title))?;
         for item in lost {
-            write_item(out, seen, item, around, longest)?;
+            write_item(out, view, item, context, max_chars)?;
         }
     }
-    let files = build_report(seen);
+    let files = build_report(view);
     if !files.is_empty() {
         writeln!(
             out,
-            "\n### The files\n\n{}",
-            fence(&truncate(&files, 4 * longest))
+            "\n### Files\n\n{}",
+            fence(&truncate(&files, 4 * max_chars))
         )?;
     }
     Ok(())
@@ -70,32 +71,32 @@ fn write_summary(
 
 fn write_item(
     out: &mut String,
-    seen: &StudentView,
+    view: &StudentView,
     item: &ItemScore,
-    around: &FormatContext,
-    longest: usize,
+    context: &FormatContext,
+    max_chars: usize,
 ) -> fmt::Result {
-    let (title, words) = (escape_markdown(&item.title), item.verdict.label());
+    let (title, verdict) = (escape_markdown(&item.title), item.verdict.label());
     let (points, of) = (item.points, item.max_points);
-    let text = item_text(seen, item, around);
+    let text = item_text(view, item, context);
     if text.is_empty() {
-        return writeln!(out, "- {title}: {words}, {points} of {of}");
+        return writeln!(out, "- {title}: {verdict}, {points} of {of}");
     }
     writeln!(
         out,
-        "<details><summary>{title}: {words}, {points} of {of}</summary>\n\n{}\n\n</details>",
-        fence(&truncate(&text, longest))
+        "<details><summary>{title}: {verdict}, {points} of {of}</summary>\n\n{}\n\n</details>",
+        fence(&truncate(&text, max_chars))
     )
 }
 
-/// Text as it stands, in a block that no line of it can end.
+/// Puts a text into a code block whose fence no line of the text can close.
 fn fence(text: &str) -> String {
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let fence = "`".repeat((longest + 1).max(3));
     format!("{fence}text\n{text}\n{fence}")
 }
 
-/// Text without meaning for Markdown, in one line.
+/// Escapes a text for Markdown, in one line.
 fn escape_markdown(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {

@@ -1,16 +1,16 @@
-//! What others have written.
+//! Elements that several parts of the page use.
 
 use maud::{Markup, html};
 
 use crate::sanitize::sanitize;
 
-/// The text as text: escaped, without control characters, and without power over the direction of
-/// what stands around it.
+/// Renders untrusted text: escaped, without control characters, and without characters that change
+/// the direction of the text around it.
 pub(super) fn plain_text(text: &str) -> Markup {
     html! { (sanitize(text, usize::MAX)) }
 }
 
-/// A command to type, with room for a button that copies it.
+/// Renders a command to type, with a copy button that the script reveals.
 pub(super) fn command(text: &str) -> Markup {
     html! {
         span .command {
@@ -22,7 +22,7 @@ pub(super) fn command(text: &str) -> Markup {
     }
 }
 
-/// A table of three rows: what was asked, what came, what is right.
+/// Renders a table with the rows `asked`, `got` and `wanted`.
 pub(super) fn evidence_table(asked: &str, got: &str, wanted: &str) -> Markup {
     html! {
         table .rows {

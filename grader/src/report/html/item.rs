@@ -1,4 +1,4 @@
-//! One item.
+//! One item of a task.
 
 use maud::{Markup, PreEscaped, html};
 
@@ -12,12 +12,12 @@ use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Verdict};
 
-/// An item that lacks points: what happened, where to look, how to ask again.
+/// Renders an item that lost points: what happened, where to look, and how to run it again.
 pub(super) fn failing(
     score: &ItemScore,
     item: Option<&Item>,
-    exhibits: &ReportAnswers,
-    again: Option<&RerunCommand>,
+    answers: &ReportAnswers,
+    rerun: Option<&RerunCommand>,
     is_open: bool,
 ) -> Markup {
     html! {
@@ -33,31 +33,31 @@ pub(super) fn failing(
             div .body {
                 @if !score.message.is_empty() { p { (plain_text(&score.message)) } }
                 (evidence(score, item))
-                (figure(score, item, exhibits))
+                (figure(score, item, answers))
                 (look(score))
                 (hints(score))
-                @if let Some(again) = again {
-                    p .again { "Ask it again: " (command(&score.rerun_command(again))) }
-                    @if let Some(item) = item { (pictures::failing(item, exhibits, again)) }
+                @if let Some(rerun) = rerun {
+                    p .rerun { "Run it again: " (command(&score.rerun_command(rerun))) }
+                    @if let Some(item) = item { (pictures::failing(item, answers, rerun)) }
                 }
             }
         }
     }
 }
 
-/// An item with all of its points.
-pub(super) fn passed(score: &ItemScore, item: Option<&Item>, exhibits: &ReportAnswers) -> Markup {
+/// Renders an item with full points.
+pub(super) fn passed(score: &ItemScore, item: Option<&Item>, answers: &ReportAnswers) -> Markup {
     html! {
         (plain_text(&score.title)) " "
         span .facts {
             span .points { (score.points) " / " (score.max_points) } " "
             code { (plain_text(&score.id)) }
         }
-        @if let Some(item) = item { (pictures::passed(item, exhibits)) }
+        @if let Some(item) = item { (pictures::passed(item, answers)) }
     }
 }
 
-/// In words; the sign before them says no more.
+/// Renders the verdict. The sign only repeats the text.
 fn verdict(score: &ItemScore) -> Markup {
     let (class, sign) = match score.verdict {
         Verdict::Pass => ("good", "✓"),
@@ -76,7 +76,7 @@ fn verdict(score: &ItemScore) -> Markup {
     }
 }
 
-/// Asked, got, wanted. Nothing of an item that its reader is not to know.
+/// Renders the rows `asked`, `got` and `wanted`. Empty if the reader may not see the item.
 fn evidence(score: &ItemScore, item: Option<&Item>) -> Markup {
     match (&score.evidence, item) {
         (Some(evidence), _) => evidence_table(&evidence.asked, &evidence.got, &evidence.wanted),
@@ -88,40 +88,40 @@ fn evidence(score: &ItemScore, item: Option<&Item>) -> Markup {
     }
 }
 
-/// Where there is no evidence, the three say why.
+/// Returns the three rows for an item without evidence. They say why there is none.
 fn missing_evidence(score: &ItemScore, item: &Item) -> (String, String, String) {
     let count = item.count();
     let first = item.questions.first();
-    let first = first.filter(|asked| asked.question.count() > 0);
-    let three = |asked: &str, got: &str, wanted: &str| {
+    let first = first.filter(|question| question.question.count() > 0);
+    let rows = |asked: &str, got: &str, wanted: &str| {
         (asked.to_owned(), got.to_owned(), wanted.to_owned())
     };
     let all = format!("{count} questions, one after the other");
     match &score.verdict {
-        // What is not written yet is asked for by its first question.
+        // The first question shows what there is to write.
         Verdict::Unimplemented => match first {
             Some(first) => (
                 describe::element(&first.question, 0),
                 "no answer: it is not written yet".to_owned(),
                 describe::answer::wanted(first, 0).join(", or "),
             ),
-            None => three(
+            None => rows(
                 &all,
                 "no answer: it is not written yet",
                 "an answer to each",
             ),
         },
-        Verdict::NotCompiled => three(
+        Verdict::NotCompiled => rows(
             "nothing: the file is not part of the program",
             "no answer",
             "a file that compiles",
         ),
-        Verdict::Blocked { by } => three(
+        Verdict::Blocked { by } => rows(
             &all,
-            &format!("answers that rest on {by}, so nothing can be said of them"),
-            &format!("{by} first"),
+            &format!("answers that depend on {by}, so they cannot be judged yet"),
+            &format!("fix {by} first"),
         ),
-        Verdict::Pending => three("nothing yet", "no answer", "a run that is not stopped"),
+        Verdict::Pending => rows("nothing yet", "no answer", "a run that is not stopped"),
         Verdict::Pass
         | Verdict::Partial
         | Verdict::Wrong
@@ -137,7 +137,7 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> (String, String, String) 
     }
 }
 
-/// Where to look, and what to read.
+/// Renders where to look in the code, and what to read.
 fn look(score: &ItemScore) -> Markup {
     html! {
         @if let Some(look) = &score.look {
@@ -149,17 +149,17 @@ fn look(score: &ItemScore) -> Markup {
     }
 }
 
-/// The question that leads there, and folded away what is wrong.
+/// Renders each hint: the nudge, and the full hint folded away.
 fn hints(score: &ItemScore) -> Markup {
     html! {
-        @for (place, hint) in score.hints.iter().enumerate() {
+        @for (index, hint) in score.hints.iter().enumerate() {
             div .hint {
                 p {
-                    strong { @if place == 0 { "Hint: " } @else { "Or: " } }
+                    strong { @if index == 0 { "Hint: " } @else { "Or: " } }
                     (prose(&hint.nudge))
                 }
-                details #(format!("{}-hint-{place}", score.id)) {
-                    summary { "Say what is wrong" }
+                details #(format!("{}-hint-{index}", score.id)) {
+                    summary { "Show what is wrong" }
                     p { (prose(&hint.hint)) }
                 }
             }
@@ -167,9 +167,9 @@ fn hints(score: &ItemScore) -> Markup {
     }
 }
 
-/// The question that went wrong, drawn, where it can be. Of what is not written yet, the first one:
-/// that is what is to be written.
-fn figure(score: &ItemScore, item: Option<&Item>, exhibits: &ReportAnswers) -> Markup {
+/// Renders a drawing of the question that went wrong, if it can be drawn. For code that is not
+/// written yet, it is the first question.
+fn figure(score: &ItemScore, item: Option<&Item>, answers: &ReportAnswers) -> Markup {
     let number = match (&score.evidence, &score.verdict) {
         (Some(evidence), _) => Some(evidence.number),
         (None, Verdict::Unimplemented) => Some(1),
@@ -177,13 +177,13 @@ fn figure(score: &ItemScore, item: Option<&Item>, exhibits: &ReportAnswers) -> M
     };
     let drawing = number.zip(item).and_then(|(number, item)| {
         let (question, element) = item.element(number)?;
-        let answer = exhibits.answer(&item.id, question);
+        let answer = answers.answer(&item.id, question);
         drawing::draw(&item.questions[question], element, answer)
     });
     html! {
         @if let Some(drawing) = drawing {
             figure .drawing {
-                // It holds numbers and our own words only.
+                // Safe without escaping: the drawing escapes its text.
                 (PreEscaped(drawing.svg))
                 figcaption { (plain_text(&drawing.caption)) }
             }

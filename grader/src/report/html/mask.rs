@@ -1,5 +1,5 @@
-//! The mask: what is wrong in each pixel, told by colour and by pattern, so that it reads without
-//! colours as well. The colours are those of Okabe and Ito (2008), "Color universal design".
+//! The mask, which shows the error in each pixel as a colour and a pattern, so that it can be read
+//! without colours, too. The colours are from Okabe and Ito (2008), "Color universal design".
 
 use glam::UVec2;
 
@@ -7,39 +7,41 @@ use super::png::data_uri;
 use crate::judge::Aspect;
 use crate::picture::{Colour, MaskPixel, Picture};
 
-/// The width of a mask on the screen, in pixels of the screen.
+/// The width of a mask in screen pixels.
 const WIDTH: u32 = 256;
-/// A pattern repeats after so many pixels of the screen.
+/// The period of a pattern in screen pixels.
 const PATTERN_PERIOD: u32 = 4;
-/// The width of a patch of the legend.
+/// The width of a legend patch in screen pixels.
 const PATCH_WIDTH: u32 = 16;
 
 const EMPTY: Colour = [40, 40, 44];
 const RIGHT: Colour = [104, 104, 108];
 const BLACK: Colour = [0, 0, 0];
 
-/// The mask, each pixel of the film a block.
+/// Returns the mask as the address of an image. Each pixel of the film is a block.
 pub(super) fn mask(picture: &Picture) -> String {
     let block = (WIDTH / picture.film.max_element()).max(1);
     let size = picture.film * block;
-    let colour = |place: UVec2| {
-        let pixel = place / block;
-        let cell = picture.mask[(pixel.y * picture.film.x + pixel.x) as usize];
-        match cell {
+    let colour = |position: UVec2| {
+        let pixel = position / block;
+        let mask_pixel = picture.mask[(pixel.y * picture.film.x + pixel.x) as usize];
+        match mask_pixel {
             MaskPixel::Empty => EMPTY,
             MaskPixel::Right => RIGHT,
-            MaskPixel::Wrong(aspect) => pattern(aspect, place),
+            MaskPixel::Wrong(aspect) => pattern(aspect, position),
         }
     };
     paint(size, colour)
 }
 
-/// A patch of the legend.
+/// Returns a legend patch as the address of an image.
 pub(super) fn patch(aspect: Aspect) -> String {
-    paint(UVec2::splat(PATCH_WIDTH), |place| pattern(aspect, place))
+    paint(UVec2::splat(PATCH_WIDTH), |position| {
+        pattern(aspect, position)
+    })
 }
 
-/// What people call it.
+/// Returns the name of an aspect, as people read it.
 pub(super) fn aspect_name(aspect: Aspect) -> &'static str {
     match aspect {
         Aspect::NoAnswer => "no answer",
@@ -57,15 +59,15 @@ fn paint(size: UVec2, colour: impl Fn(UVec2) -> Colour) -> String {
     data_uri(size, &rows.map(colour).collect::<Vec<_>>())
 }
 
-/// The colour of one place of a pattern.
-fn pattern(aspect: Aspect, place: UVec2) -> Colour {
-    let UVec2 { x, y } = place % PATTERN_PERIOD;
+/// Returns the colour of a pattern at one screen pixel.
+fn pattern(aspect: Aspect, position: UVec2) -> Colour {
+    let UVec2 { x, y } = position % PATTERN_PERIOD;
     let (colour, is_on) = match aspect {
-        // Vermillion, full.
+        // Vermillion, solid.
         Aspect::HitOrMiss | Aspect::Direction | Aspect::Radiance => ([213, 94, 0], true),
-        // Sky blue, lying stripes.
+        // Sky blue, horizontal stripes.
         Aspect::Depth => ([86, 180, 233], y < 2),
-        // Yellow, standing stripes.
+        // Yellow, vertical stripes.
         Aspect::Normal => ([240, 228, 66], x < 2),
         // Bluish green, dots.
         Aspect::Uv => ([0, 158, 115], x < 2 && y < 2),
@@ -81,7 +83,7 @@ mod tests {
 
     use super::*;
 
-    /// Where the colour is, of the aspects that can stand in one mask.
+    /// Compares where the colour is, for the aspects that can occur in one mask.
     #[test]
     fn no_two_aspects_of_a_mask_have_the_same_pattern() {
         let aspects = [
@@ -95,7 +97,7 @@ mod tests {
             let places = (0..PATTERN_PERIOD * PATTERN_PERIOD)
                 .map(|i| UVec2::new(i % PATTERN_PERIOD, i / PATTERN_PERIOD));
             places
-                .map(|place| pattern(aspect, place) != BLACK)
+                .map(|position| pattern(aspect, position) != BLACK)
                 .collect()
         };
         let shapes: BTreeSet<_> = aspects.map(shape).into_iter().collect();

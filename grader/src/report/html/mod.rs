@@ -1,9 +1,9 @@
-//! `report.html`: all that there is to see of one score, in one file that asks no network for
-//! anything. Pure: what it shows follows from the score, the exam and the answers, and not from
-//! the time.
+//! `report.html`: everything about one score, in one file that loads nothing from the network. The
+//! page depends only on the score, the exam and the answers, and not on the time.
 //!
-//! Whatever a submission has said is text here: `maud` escapes it, `said` makes it harmless to
-//! the eye, and the page's policy runs no script and no style but our own, by their hashes.
+//! Nothing that a submission writes can take the page over: `maud` escapes it, `plain_text` removes
+//! control characters, and the content security policy allows only the page's own script and style,
+//! by their hashes.
 
 mod elements;
 mod item;
@@ -23,30 +23,31 @@ use crate::score::Score;
 
 use elements::plain_text;
 
-/// The exam that students have.
+/// The id of the exam that students have.
 const PRACTICE: &str = "practice";
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
-/// Their names in the page's policy, which a test compares with them: who changes one, changes both.
-const STYLE_HASH: &str = "sha256-/lbG4HpSq0TpA9Rxa1PxYKdeL7k9uqdzE1cca+RblDk=";
-const SCRIPT_HASH: &str = "sha256-0oikulJCHOGL54fs8bQIl7TMm4IEIqSTIjoUg+OJhos=";
+/// Hashes for the content security policy. After a change to `page.css` or `page.js`, a test fails
+/// and prints the new hash.
+const STYLE_HASH: &str = "sha256-qibRcJHkq9fgBigRYMh7+w5UjfMsEbtiUPBJxSczQCU=";
+const SCRIPT_HASH: &str = "sha256-sD/wFqM7QXNkQq3DkA4MjXU5C57shP4V+2/EiA0BqU4=";
 
-/// Whether an open page looks for a newer one in its place.
+/// Whether an open page reloads itself to show a newer version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reload {
-    /// It stays as it is.
+    /// The page never reloads.
     Never,
-    /// Every moment, but while its reader is at it.
+    /// The page reloads every 1.5 seconds while its window does not have the focus.
     WhileUnfocused,
 }
 
-/// The page. `exam` is what the score is of; `exhibits` are the answers worth a look.
-pub fn page(score: &Score, exam: &Exam, exhibits: &ReportAnswers, reload: Reload) -> String {
-    render_page(score, exam, exhibits, Some(&score.rerun_command), reload)
+/// Renders the page of a score. `answers` are the submitted answers to show.
+pub fn page(score: &Score, exam: &Exam, answers: &ReportAnswers, reload: Reload) -> String {
+    render_page(score, exam, answers, Some(&score.rerun_command), reload)
 }
 
-/// The page for students of an exam that they do not have: what this score says, which is to be what
-/// they may see, and nothing of the exam itself.
+/// Renders the page for students who do not have the exam. It shows nothing but `score`, which must
+/// already be limited to what students may see.
 pub fn feedback(score: &Score) -> String {
     let unseen = Exam {
         schema: score.schema,
@@ -63,12 +64,12 @@ pub fn feedback(score: &Score) -> String {
     )
 }
 
-/// `again` is how to ask the same once more, for whoever can.
+/// Renders a page. `rerun` gives the commands to grade again, for readers who can run them.
 fn render_page(
     score: &Score,
     exam: &Exam,
-    exhibits: &ReportAnswers,
-    again: Option<&RerunCommand>,
+    answers: &ReportAnswers,
+    rerun: Option<&RerunCommand>,
     reload: Reload,
 ) -> String {
     let title = format!(
@@ -90,15 +91,15 @@ fn render_page(
                 a .skip href="#next" { "Skip to what to do next" }
                 (summary::header(score))
                 main {
-                    (summary::next_step(score, again))
+                    (summary::next_step(score, rerun))
                     (task::files(score))
                     @for task in &score.tasks {
-                        (task::section(task, exam, exhibits, again))
+                        (task::section(task, exam, answers, rerun))
                     }
                 }
-                (footer(score, again))
-                // Says to those who listen what a button has done.
-                p #said .quiet role="status" {}
+                (footer(score, rerun))
+                // Tells screen readers what a button has done.
+                p #status .quiet role="status" {}
                 script { (PreEscaped(SCRIPT)) }
             }
         }
@@ -106,7 +107,7 @@ fn render_page(
     page.into_string()
 }
 
-/// Nothing from elsewhere, and of scripts and styles only these two.
+/// Returns a policy that allows the page's own script and style, embedded images, and nothing else.
 fn content_security_policy() -> String {
     format!(
         "default-src 'none'; img-src data:; style-src '{STYLE_HASH}'; script-src '{SCRIPT_HASH}'; \
@@ -114,21 +115,21 @@ fn content_security_policy() -> String {
     )
 }
 
-fn footer(score: &Score, again: Option<&RerunCommand>) -> Markup {
+fn footer(score: &Score, rerun: Option<&RerunCommand>) -> Markup {
     html! {
         footer {
-            @if again.is_some() {
+            @if rerun.is_some() {
                 p {
                     "Exam " code { (plain_text(&score.exam.id)) } ", "
                     code { (plain_text(score.exam.hash.get(..12).unwrap_or_default())) } ". "
-                    "The same, for programs: " code { "score.json" } " beside this page."
+                    "For programs, " code { "score.json" } " beside this page has the same data."
                 }
             }
-            @if again.is_some() && score.exam.id != PRACTICE {
+            @if rerun.is_some() && score.exam.id != PRACTICE {
                 p {
                     strong { "Not for students:" }
-                    " this page tells the exam’s questions and answers. What they may see is "
-                    code { "feedback.html" } ", which " code { "cargo class" } " and "
+                    " this page shows the exam’s questions and answers. Give students "
+                    code { "feedback.html" } " instead, which " code { "cargo class" } " and "
                     code { "cargo grade --format html" } " write."
                 }
             }

@@ -1,34 +1,34 @@
 'use strict';
-// Brings to life what stands on the page already. Nothing here is needed to read it.
+// Makes the page interactive. The page can be read without this script.
 
-const say = (text) => { document.getElementById('said').textContent = text; };
+const announce = (text) => { document.getElementById('status').textContent = text; };
 
-// A link to something folded unfolds it.
+// Links open the folded sections around their target.
 const unfold = (element) => {
   for (let at = element; at; at = at.parentElement) {
     if (at.tagName === 'DETAILS') at.open = true;
   }
 };
-const toTarget = () => {
+const showTarget = () => {
   const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
   if (!target) return;
   unfold(target);
   target.scrollIntoView();
 };
-addEventListener('hashchange', toTarget);
-// A second click on the same link changes no hash.
+addEventListener('hashchange', showTarget);
+// A second click on the same link does not change the hash.
 addEventListener('click', (event) => {
   const link = event.target.closest('a[href^="#"]');
-  if (link && link.getAttribute('href') === location.hash) toTarget();
+  if (link && link.getAttribute('href') === location.hash) showTarget();
 });
-if (!history.state) toTarget();
+if (!history.state) showTarget();
 
-// While files are watched, a newer page takes this one's place, and looks the same: what is
-// unfolded stays so. Not while somebody is at it.
+// With `--watch`, the page reloads to show newer results, and open sections stay open. It does not
+// reload while it has the focus, so that it never moves under the reader.
 const before = history.state;
 if (before) {
   for (const details of document.querySelectorAll('details[id]')) {
-    // What was not there before is shown as a new page shows it.
+    // New sections start as the page has them.
     if (before.all.includes(details.id)) details.open = before.open.includes(details.id);
   }
 }
@@ -47,18 +47,18 @@ for (const button of document.querySelectorAll('.copy')) {
   button.addEventListener('click', async () => {
     try {
       await navigator.clipboard.writeText(code.textContent);
-      say('Copied');
+      announce('Copied');
       button.textContent = 'Copied';
       setTimeout(() => { button.textContent = 'Copy'; }, 2000);
     } catch {
-      // Where a page may not write there, it can still select.
+      // Without access to the clipboard, select the text.
       getSelection().selectAllChildren(code);
-      say('Selected: copy it with the keyboard');
+      announce('Selected: copy it with the keyboard');
     }
   });
 }
 
-// On paper nothing can be unfolded.
+// Opens everything for printing.
 const folded = [];
 addEventListener('beforeprint', () => {
   folded.push(...document.querySelectorAll('details:not([open])'));
@@ -69,8 +69,8 @@ addEventListener('afterprint', () => {
 });
 
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
-// Two pictures a second: far from what can harm.
-const PACE = 500;
+// Two pictures per second, well below the three flashes per second that WCAG allows.
+const FLICKER_MS = 500;
 
 for (const picture of document.querySelectorAll('.picture')) {
   const compare = picture.querySelector('.compare');
@@ -97,10 +97,10 @@ for (const picture of document.querySelectorAll('.picture')) {
   flicker.addEventListener('click', () => {
     if (flicker.getAttribute('aria-pressed') === 'true') return stop();
     swap();
-    // Who wants no motion swaps by hand.
+    // With reduced motion, each click swaps once.
     if (calm.matches) return;
     flicker.setAttribute('aria-pressed', 'true');
-    flicker.timer = setInterval(swap, PACE);
+    flicker.timer = setInterval(swap, FLICKER_MS);
   });
   const name = () => { flicker.textContent = calm.matches ? 'Swap' : 'Flicker'; stop(); };
   calm.addEventListener('change', name);
@@ -109,12 +109,12 @@ for (const picture of document.querySelectorAll('.picture')) {
   for (const radio of compare.querySelectorAll('input[type=radio]')) {
     radio.addEventListener('change', () => show(radio.value));
   }
-  // A browser that reloads a page keeps what was chosen on it.
+  // Browsers restore the chosen radio button when they reload a page.
   show(compare.querySelector('input[type=radio]:checked')?.value ?? rows[0].dataset.view);
   slide();
   compare.hidden = false;
 
-  // The spot that is unfolded is marked in every picture of the film.
+  // A ring marks each open spot in every picture.
   const spots = [...picture.querySelectorAll('.spot')];
   const mark = () => {
     for (const ring of picture.querySelectorAll('.ring')) ring.remove();

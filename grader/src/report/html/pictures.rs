@@ -1,6 +1,6 @@
-//! Pictures: the right one, the submission's, and where they differ.
+//! The expected picture, the submitted one, and their differences.
 //!
-//! Without a script all of them stand side by side. `page.js` adds the slider and the flicker.
+//! Without a script, they are shown side by side. `page.js` adds the slider and the flicker.
 
 use glam::UVec2;
 use maud::{Markup, html};
@@ -14,48 +14,48 @@ use crate::picture::{self, LayerComparison, Picture, WorstPixel};
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 
-/// The width of the plane on which marks are placed, whatever the film.
+/// The width of the SVG that holds the marks, whatever the size of the film.
 const MARKS_WIDTH: f32 = 64.0;
-/// The radius of a mark: at the mask's width of 256 pixels of the screen, large enough to be hit.
+/// The radius of a mark. The mask is 256 screen pixels wide, so a mark is large enough to click.
 const MARK_RADIUS: f32 = 3.2;
 
-/// The pictures of an item that failed, question by question.
-pub(super) fn failing(item: &Item, exhibits: &ReportAnswers, again: &RerunCommand) -> Markup {
-    let answers =
-        (0..item.questions.len()).filter_map(|i| Some((i, exhibits.answer(&item.id, i)?)));
-    let pictures = answers.filter_map(|(question, answer)| {
+/// Renders the pictures of a failed item, question by question.
+pub(super) fn failing(item: &Item, answers: &ReportAnswers, rerun: &RerunCommand) -> Markup {
+    let answered =
+        (0..item.questions.len()).filter_map(|i| Some((i, answers.answer(&item.id, i)?)));
+    let pictures = answered.filter_map(|(question, answer)| {
         Some(WrongPicture {
             item,
             question,
             picture: picture::compare(&item.questions[question], answer)?,
-            rerun: again,
+            rerun,
             describe_got: |element| describe::answer::got(answer, element),
         })
     });
     html! {
-        @for shown in pictures { (shown.render()) }
+        @for picture in pictures { (picture.render()) }
     }
 }
 
-/// The pictures of an item that passed: the submission's own, which are also the right ones.
-pub(super) fn passed(item: &Item, exhibits: &ReportAnswers) -> Markup {
-    let asked = item.questions.iter().enumerate();
-    let pictures = asked.filter_map(|(question, asked)| {
-        let answer = exhibits.answer(&item.id, question)?;
-        picture::submitted_picture(asked, answer)
+/// Renders the pictures of an item that passed. Here the submitted pictures are enough.
+pub(super) fn passed(item: &Item, answers: &ReportAnswers) -> Markup {
+    let questions = item.questions.iter().enumerate();
+    let pictures = questions.filter_map(|(index, question)| {
+        let answer = answers.answer(&item.id, index)?;
+        picture::submitted_picture(question, answer)
     });
     html! {
         @for picture in pictures {
             div .panels {
-                @for plate in &picture.layers {
-                    (panel(picture.film, plate.name, &plate.pixels, "yours"))
+                @for layer in &picture.layers {
+                    (panel(picture.film, layer.name, &layer.pixels, "yours"))
                 }
             }
         }
     }
 }
 
-/// One picture, and where it comes from. `told` says what the submission answered to an element.
+/// A wrong picture, and its question. `describe_got` formats the submitted answer for an element.
 struct WrongPicture<'a, F: Fn(usize) -> String> {
     item: &'a Item,
     question: usize,
@@ -85,17 +85,18 @@ impl<F: Fn(usize) -> String> WrongPicture<'_, F> {
 
     fn title(&self) -> String {
         let pictures = self.item.questions.iter().enumerate();
-        let mut pictures = pictures.filter(|(_, asked)| picture::asks_for_picture(asked));
-        let place = pictures
+        let mut pictures = pictures.filter(|(_, question)| picture::asks_for_picture(question));
+        let index = pictures
             .clone()
             .position(|(question, _)| question == self.question);
-        match (pictures.nth(1), place) {
-            (Some(_), Some(place)) => format!("Picture {}", place + 1),
+        match (pictures.nth(1), index) {
+            (Some(_), Some(index)) => format!("Picture {}", index + 1),
             (None, _) | (_, None) => "The picture".to_owned(),
         }
     }
 
-    /// What the script brings to life: one view at a time, the right one beneath the submission's.
+    /// Renders the slider's view, which stays hidden without the script: one layer at a time, the
+    /// submitted picture on top of the expected one.
     fn compare(&self) -> Markup {
         let group = format!("{}-{}-view", self.item.id, self.question);
         html! {
@@ -103,9 +104,9 @@ impl<F: Fn(usize) -> String> WrongPicture<'_, F> {
                 @if self.picture.layers.len() > 1 {
                     fieldset {
                         legend { "Compare" }
-                        @for (place, view) in self.picture.layers.iter().enumerate() {
+                        @for (index, view) in self.picture.layers.iter().enumerate() {
                             label {
-                                input type="radio" name=(group) value=(view.name) checked[place == 0];
+                                input type="radio" name=(group) value=(view.name) checked[index == 0];
                                 " " (view.name)
                             }
                         }
@@ -117,7 +118,7 @@ impl<F: Fn(usize) -> String> WrongPicture<'_, F> {
                 }
                 div .controls {
                     label .ends {
-                        span { "right" span .quiet { " to " } }
+                        span { "expected" span .quiet { " to " } }
                         input type="range" min="0" max="100" value="50" step="1";
                         span { "yours" }
                     }
@@ -132,10 +133,10 @@ impl<F: Fn(usize) -> String> WrongPicture<'_, F> {
         html! {
             figure {
                 div .frame {
-                    img src=(mask::mask(picture)) alt="the pixels in which something is wrong, as listed below";
+                    img src=(mask::mask(picture)) alt="the wrong pixels, as listed below";
                     svg .marks viewBox=(format!("0 0 {MARKS_WIDTH} {MARKS_WIDTH}")) role="group" aria-label="the worst pixels" {
-                        @for (place, spot) in picture.worst_pixels.iter().enumerate() {
-                            (mark(picture, spot, place + 1, &self.id(place)))
+                        @for (index, spot) in picture.worst_pixels.iter().enumerate() {
+                            (mark(picture, spot, index + 1, &self.id(index)))
                         }
                     }
                 }
@@ -145,23 +146,23 @@ impl<F: Fn(usize) -> String> WrongPicture<'_, F> {
     }
 
     fn spots(&self) -> Markup {
-        let asked = &self.item.questions[self.question];
+        let question = &self.item.questions[self.question];
         html! {
             @if !self.picture.worst_pixels.is_empty() {
                 h5 { "The worst pixels" }
                 ol .spots {
-                    @for (place, spot) in self.picture.worst_pixels.iter().enumerate() {
+                    @for (index, spot) in self.picture.worst_pixels.iter().enumerate() {
                         @let number = self.item.number(self.question, spot.element);
                         li {
-                            details #(self.id(place)) .spot data-x=(spot.pixel.x) data-y=(spot.pixel.y) {
+                            details #(self.id(index)) .spot data-x=(spot.pixel.x) data-y=(spot.pixel.y) {
                                 summary { (spot_label(spot)) }
                                 (evidence_table(
-                                    &describe::element(&asked.question, spot.element),
+                                    &describe::element(&question.question, spot.element),
                                     &(self.describe_got)(spot.element),
-                                    &describe::answer::wanted(asked, spot.element).join(", or "),
+                                    &describe::answer::wanted(question, spot.element).join(", or "),
                                 ))
-                                p .again {
-                                    "Ask it again: "
+                                p .rerun {
+                                    "Run it again: "
                                     (command(&self.rerun.replay(&self.item.id, number)))
                                 }
                             }
@@ -172,8 +173,8 @@ impl<F: Fn(usize) -> String> WrongPicture<'_, F> {
         }
     }
 
-    fn id(&self, place: usize) -> String {
-        format!("{}-{}-spot-{}", self.item.id, self.question, place + 1)
+    fn id(&self, index: usize) -> String {
+        format!("{}-{}-spot-{}", self.item.id, self.question, index + 1)
     }
 }
 
@@ -182,11 +183,11 @@ fn spot_label(spot: &WorstPixel) -> String {
     format!("pixel ({x}, {y}): {}", mask::aspect_name(spot.aspect))
 }
 
-/// One view: right, submitted, apart.
+/// Renders one layer: the expected picture, the submitted one, and their difference.
 fn row(picture: &Picture, view: &LayerComparison) -> Markup {
     html! {
         div .row data-view=(view.name) {
-            (panel(picture.film, view.name, &view.wanted, "right"))
+            (panel(picture.film, view.name, &view.wanted, "expected"))
             (panel(picture.film, view.name, &view.got, "yours"))
             (panel(picture.film, view.name, &view.difference, "difference, 4 ×"))
         }
@@ -203,14 +204,14 @@ fn panel(film: UVec2, view: &str, pixels: &[picture::Colour], what: &str) -> Mar
     }
 }
 
-/// A ring around a pixel of the mask, with its number; it leads to what is said of it.
+/// Renders a numbered ring around a pixel of the mask, with a link to the pixel's details.
 fn mark(picture: &Picture, spot: &WorstPixel, number: usize, id: &str) -> Markup {
-    let place = (spot.pixel.as_vec2() + 0.5) / picture.film.as_vec2();
-    // Not so near to the border that half of it is cut off; the pixel stays within.
+    let position = (spot.pixel.as_vec2() + 0.5) / picture.film.as_vec2();
+    // Keeps the whole ring inside the mask. The pixel stays inside the ring.
     let inside = |along: f32| {
         (along * MARKS_WIDTH).clamp(MARK_RADIUS + 0.4, MARKS_WIDTH - MARK_RADIUS - 0.4)
     };
-    let (across, down) = (inside(place.x), inside(1.0 - place.y));
+    let (across, down) = (inside(position.x), inside(1.0 - position.y));
     html! {
         a href=(format!("#{id}")) aria-label=(format!("{number}: {}", spot_label(spot))) {
             circle cx=(across) cy=(down) r=(MARK_RADIUS) {}
@@ -219,13 +220,13 @@ fn mark(picture: &Picture, spot: &WorstPixel, number: usize, id: &str) -> Markup
     }
 }
 
-/// What the mask's patterns mean, and how much there is of each.
+/// Renders the legend of the mask, with the number of wrong positions per pattern.
 fn legend(picture: &Picture) -> Markup {
     html! {
         table .legend {
-            caption { "Wrong, of " (picture.positions) " places in " (picture.film.x) " × " (picture.film.y) " pixels" }
+            caption { "Wrong, of " (picture.positions) " positions in " (picture.film.x) " × " (picture.film.y) " pixels" }
             thead {
-                tr { th scope="col" { "What" } th scope="col" .number { "Places" } }
+                tr { th scope="col" { "What" } th scope="col" .number { "Positions" } }
             }
             tbody {
                 @for (aspect, count) in &picture.wrong_counts {

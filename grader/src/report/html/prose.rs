@@ -1,25 +1,25 @@
-//! What the exam's makers have written: with `code` and *emphasis*, marked as in Markdown.
+//! Text by the exam's authors, with `code` and *emphasis* marked as in Markdown.
 
 use maud::{Markup, html};
 
 use super::elements::plain_text;
 
-/// The text, with those two marks shown as what they mean. Odd ones stand for themselves.
+/// Renders a text with code and emphasis. Unpaired marks are kept as they are.
 pub(super) fn prose(text: &str) -> Markup {
     html! {
-        @for (place, part) in parts(text, '`').into_iter().enumerate() {
-            @if place % 2 == 1 {
+        @for (index, part) in parts(text, '`').into_iter().enumerate() {
+            @if index % 2 == 1 {
                 code { (plain_text(part)) }
             } @else {
-                @for (place, part) in parts(part, '*').into_iter().enumerate() {
-                    @if place % 2 == 1 { em { (plain_text(part)) } } @else { (plain_text(part)) }
+                @for (index, part) in parts(part, '*').into_iter().enumerate() {
+                    @if index % 2 == 1 { em { (plain_text(part)) } } @else { (plain_text(part)) }
                 }
             }
         }
     }
 }
 
-/// What stands between the marks: every second part is inside a pair of them.
+/// Splits a text at paired marks. Every second part is inside a pair.
 fn parts(text: &str, mark: char) -> Vec<&str> {
     let parts: Vec<&str> = text.split(mark).collect();
     let inside = parts.iter().skip(1).step_by(2);

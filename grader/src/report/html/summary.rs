@@ -1,4 +1,4 @@
-//! The top of the page: how many points, and what to do next.
+//! The top of the page: the points, and what to do next.
 
 use maud::{Markup, PreEscaped, html};
 
@@ -8,23 +8,24 @@ use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
 
-/// Name, exam, and points per task.
+/// Renders the name of the submission, the exam, and the points per task.
 pub(super) fn header(score: &Score) -> Markup {
     html! {
         header {
-            h1 { span .said { (plain_text(&score.submission)) } }
+            h1 { span .untrusted { (plain_text(&score.submission)) } }
             p .total {
                 strong { (score.points) " of " (score.max_points) }
                 " points, " (plain_text(&score.exam.id)) " exam"
                 @if score.isolation > Isolation::None {
-                    ", kept apart: " (score.isolation.name())
+                    ", isolation: " (score.isolation.name())
                 }
             }
             @if !score.complete {
                 p .unfinished {
                     strong { "Not finished." }
-                    " This was written while the exam was being asked. If nothing is running any \
-                     more, it was stopped: what is “not asked yet” was not judged."
+                    " This page was written while grading was still running. If it is no longer \
+                     running, it was stopped: items marked “" (Verdict::Pending.label()) "” were \
+                     not graded."
                 }
             }
             table .points {
@@ -60,7 +61,7 @@ fn row(task: &TaskScore) -> Markup {
     }
 }
 
-/// Beside its numbers, which say the same.
+/// Renders a bar, hidden from screen readers: the numbers beside it say the same.
 fn bar(task: &TaskScore) -> Markup {
     let width = 100.0 * f64::from(task.points) / f64::from(task.max_points.max(1));
     PreEscaped(format!(
@@ -70,15 +71,15 @@ fn bar(task: &TaskScore) -> Markup {
     ))
 }
 
-/// The one thing to do: the first item in lecture order that fails.
-pub(super) fn next_step(score: &Score, again: Option<&RerunCommand>) -> Markup {
+/// Renders what to do next: fix the first failing item, in lecture order.
+pub(super) fn next_step(score: &Score, rerun: Option<&RerunCommand>) -> Markup {
     let fails = |item: &&ItemScore| item.points < item.max_points;
     html! {
         section aria-labelledby="next" {
             h2 #next { "What to do next" }
             @match score.items().find(fails) {
                 None => (all_passed(score)),
-                Some(item) => (first_failure(item, again)),
+                Some(item) => (first_failure(item, rerun)),
             }
         }
     }
@@ -87,7 +88,7 @@ pub(super) fn next_step(score: &Score, again: Option<&RerunCommand>) -> Markup {
 fn all_passed(score: &Score) -> Markup {
     html! {
         p {
-            "Nothing: all that this exam asks is right."
+            "Nothing: your code passes everything that this exam tests."
             @if score.exam.id == "practice" {
                 " The final exam asks the same kinds of questions with other numbers."
             }
@@ -95,18 +96,18 @@ fn all_passed(score: &Score) -> Markup {
     }
 }
 
-fn first_failure(item: &ItemScore, again: Option<&RerunCommand>) -> Markup {
-    let place = format!("#{}", item.id);
+fn first_failure(item: &ItemScore, rerun: Option<&RerunCommand>) -> Markup {
+    let link = format!("#{}", item.id);
     html! {
         p {
-            a href=(place) { (plain_text(&item.title)) }
+            a href=(link) { (plain_text(&item.title)) }
             " (" code { (plain_text(&item.id)) } ")"
         }
         @match &item.verdict {
-            Verdict::Pending => p { "It was not asked yet." },
+            Verdict::Pending => p { "This item was not graded yet." },
             Verdict::Unimplemented => p { "Write this method first: " (plain_text(&item.message)) "." },
             Verdict::NotCompiled => {
-                p { "Mend the file first: " (plain_text(&item.message)) ". " a href="#files" { "The compiler’s words" } }
+                p { "Fix the file first: " (plain_text(&item.message)) ". " a href="#files" { "See the compiler’s message" } }
             },
             Verdict::Pass | Verdict::Partial | Verdict::Wrong | Verdict::Panicked
             | Verdict::TimedOut | Verdict::OutOfMemory | Verdict::Crashed | Verdict::Protocol
@@ -115,8 +116,8 @@ fn first_failure(item: &ItemScore, again: Option<&RerunCommand>) -> Markup {
         @if let Some(look) = &item.look {
             p { (prose(look)) }
         }
-        @if let Some(again) = again {
-            p .again { "Ask it again: " (command(&item.rerun_command(again))) }
+        @if let Some(rerun) = rerun {
+            p .rerun { "Run it again: " (command(&item.rerun_command(rerun))) }
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A task's section, and what is to be said of files.
+//! The section of a task, and the section about the submitted files.
 
 use maud::{Markup, html};
 
@@ -10,10 +10,10 @@ use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore};
 
-/// So many failing items of a task are unfolded from the start, and those with pictures.
+/// The number of failing items per task that start open. Items with pictures always do.
 const MAX_OPEN_ITEMS: usize = 3;
 
-/// What did not compile, and what is worth knowing. Nothing, where there is nothing to say.
+/// Renders the files that did not compile, and the notes. Empty if there are none.
 pub(super) fn files(score: &Score) -> Markup {
     let build = &score.build;
     if build.not_compiled.is_empty() && build.notes.is_empty() {
@@ -35,30 +35,30 @@ pub(super) fn files(score: &Score) -> Markup {
     }
 }
 
-/// One task: failing items first, then what was printed, then what passed.
+/// Renders one task: failing items first, then the printed output, then the passed items.
 pub(super) fn section(
     task: &TaskScore,
     exam: &Exam,
-    exhibits: &ReportAnswers,
-    again: Option<&RerunCommand>,
+    answers: &ReportAnswers,
+    rerun: Option<&RerunCommand>,
 ) -> Markup {
     let is_failing = |item: &&ItemScore| item.points < item.max_points;
     let (failing, passed): (Vec<&ItemScore>, Vec<&ItemScore>) =
         task.items.iter().partition(is_failing);
-    let asked = |score: &ItemScore| exam.items.iter().find(|item| item.id == score.id);
+    let exam_item = |score: &ItemScore| exam.items.iter().find(|item| item.id == score.id);
     html! {
         section aria-labelledby=(task.id) {
             h2 #(task.id) {
                 (task.title)
                 span .points { " " (task.points) " / " (task.max_points) }
             }
-            @for (place, score) in failing.iter().enumerate() {
-                @let is_open = starts_open(place, score, asked(score));
-                (item::failing(score, asked(score), exhibits, again, is_open))
+            @for (index, score) in failing.iter().enumerate() {
+                @let is_open = starts_open(index, score, exam_item(score));
+                (item::failing(score, exam_item(score), answers, rerun, is_open))
             }
             @if let Some(printed) = &task.printed {
                 details #(format!("{}-printed", task.id)) .printed {
-                    summary { "What your code printed meanwhile" }
+                    summary { "What your code printed" }
                     pre { (plain_text(printed)) }
                 }
             }
@@ -67,7 +67,7 @@ pub(super) fn section(
                     summary { "✓ " (passed.len()) " passed" }
                     ul {
                         @for score in &passed {
-                            li { (item::passed(score, asked(score), exhibits)) }
+                            li { (item::passed(score, exam_item(score), answers)) }
                         }
                     }
                 }
@@ -76,7 +76,7 @@ pub(super) fn section(
     }
 }
 
-fn starts_open(place: usize, score: &ItemScore, item: Option<&Item>) -> bool {
+fn starts_open(index: usize, score: &ItemScore, item: Option<&Item>) -> bool {
     let has_picture = item.is_some_and(|item| item.questions.iter().any(picture::asks_for_picture));
-    place == 0 || (score.evidence.is_some() && (place < MAX_OPEN_ITEMS || has_picture))
+    index == 0 || (score.evidence.is_some() && (index < MAX_OPEN_ITEMS || has_picture))
 }

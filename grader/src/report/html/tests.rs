@@ -10,7 +10,7 @@ use crate::report_answers::ReportAnswers;
 use crate::score::{Evidence, FileReport, Hint, Score, Verdict};
 use crate::verdict::pending_score;
 
-/// All that a submission can say, it says with this.
+/// Text that attacks the page, used for everything that a submission can write.
 const HOSTILE: &str =
     "</title></script><script>alert(1)</script>\"><img src=x>&amp;\u{202e}\u{1b}[2J";
 
@@ -26,13 +26,13 @@ fn sample_pending_score(exam: &Exam, submission: &str) -> Score {
     pending_score(exam, name, submission)
 }
 
-/// The page but for its own style and script.
-fn page(score: &Score, exam: &Exam, exhibits: &ReportAnswers) -> String {
-    let page = super::page(score, exam, exhibits, Reload::Never);
+/// Returns the page without its own style and script.
+fn page(score: &Score, exam: &Exam, answers: &ReportAnswers) -> String {
+    let page = super::page(score, exam, answers, Reload::Never);
     page.replace(super::STYLE, "").replace(super::SCRIPT, "")
 }
 
-/// With everything passed but the item that `change` is about.
+/// Returns a score in which everything passed except the item `id`, which `change` adjusts.
 fn all_passed_except(id: &str, change: impl Fn(&mut crate::score::ItemScore)) -> (Exam, Score) {
     let exam = exam();
     let mut score = sample_pending_score(&exam, "alice");
@@ -63,7 +63,7 @@ fn escapes_everything_that_a_submission_can_write() {
         message: HOSTILE.to_owned(),
         location: HOSTILE.to_owned(),
     });
-    let mut exhibits = ReportAnswers::default();
+    let mut answers = ReportAnswers::default();
     for task in &mut score.tasks {
         task.printed = Some(HOSTILE.to_owned());
         for line in &mut task.items {
@@ -81,19 +81,19 @@ fn escapes_everything_that_a_submission_can_write() {
                 wanted: HOSTILE.to_owned(),
             });
             let item = exam.items.iter().find(|item| item.id == line.id).unwrap();
-            let answers = item
+            let panics = item
                 .questions
                 .iter()
                 .map(|asked| Answer::Hits(vec![panic.clone(); asked.question.count()]));
-            exhibits.record(item, line, answers.collect());
+            answers.record(item, line, panics.collect());
         }
     }
-    let page = page(&score, &exam, &exhibits);
+    let page = page(&score, &exam, &answers);
     assert!(page.contains("&lt;script&gt;alert(1)"));
     for bad in ["<script>alert", "<img src=x", "\u{202e}", "\u{1b}"] {
         assert!(!page.contains(bad), "{bad:?}");
     }
-    // Ours, and no other.
+    // The page's own script.
     assert_eq!(page.matches("<script").count(), 1);
 }
 
@@ -117,7 +117,7 @@ fn explains_missing_evidence_in_the_same_three_rows() {
             Verdict::Blocked {
                 by: "triangle.inside".to_owned(),
             },
-            "triangle.inside first",
+            "fix triangle.inside first",
         ),
     ] {
         let (exam, score) = all_passed_except("bbox.flat", |item| {
@@ -150,9 +150,9 @@ fn suggests_the_first_failing_item() {
 
 #[test]
 fn full_practice_points_promise_nothing_about_the_final_exam() {
-    let (exam, score) = all_passed_except("none of them", |_| {});
+    let (exam, score) = all_passed_except("no item", |_| {});
     let page = page(&score, &exam, &ReportAnswers::default());
-    assert!(page.contains("all that this exam asks is right"));
+    assert!(page.contains("passes everything that this exam tests"));
     assert!(page.contains("with other numbers"));
 }
 
@@ -169,7 +169,7 @@ fn an_unfinished_page_says_so() {
 
 #[test]
 fn refers_to_no_other_site() {
-    let (exam, score) = all_passed_except("none of them", |_| {});
+    let (exam, score) = all_passed_except("no item", |_| {});
     let page = super::page(&score, &exam, &ReportAnswers::default(), Reload::Never);
     for elsewhere in ["http://", "https://", "url(", "@import", "//cdn"] {
         assert!(!page.contains(elsewhere), "{elsewhere}");
@@ -178,7 +178,7 @@ fn refers_to_no_other_site() {
 
 #[test]
 fn only_a_watched_page_reloads_itself() {
-    let (exam, score) = all_passed_except("none of them", |_| {});
+    let (exam, score) = all_passed_except("no item", |_| {});
     let page = |reload| super::page(&score, &exam, &ReportAnswers::default(), reload);
     assert!(page(Reload::WhileUnfocused).contains("<body data-reload>"));
     assert!(page(Reload::Never).contains("<body>"));

@@ -1,4 +1,4 @@
-//! What whoever started the grader had open, and forgot to close.
+//! File descriptors that the grader inherited from its own parent process.
 
 use std::fs;
 use std::io;
@@ -8,11 +8,14 @@ use rustix::io::{FdFlags, fcntl_setfd};
 
 use super::while_doing;
 
-/// Sees to it that the confined program has the three standard streams and nothing else.
-#[allow(unsafe_code, reason = "a number read from /proc is made a descriptor")]
+/// Makes sure that the confined program inherits the three standard streams and nothing else.
+#[allow(
+    unsafe_code,
+    reason = "a number read from /proc is used as a descriptor"
+)]
 pub(super) fn close_inherited() -> io::Result<()> {
-    let own = while_doing("list open files in /proc/self/fd");
-    let entries: Vec<_> = fs::read_dir("/proc/self/fd").map_err(own)?.collect();
+    let error = while_doing("list open files in /proc/self/fd");
+    let entries: Vec<_> = fs::read_dir("/proc/self/fd").map_err(error)?.collect();
     for entry in entries {
         let name = entry?.file_name();
         let Some(number) = name.to_str().and_then(|name| name.parse::<i32>().ok()) else {
@@ -21,11 +24,11 @@ pub(super) fn close_inherited() -> io::Result<()> {
         if number <= 2 {
             continue;
         }
-        // SAFETY: borrowed for one call, in a process of one thread, so that nobody closes it
-        // meanwhile; and that call changes a flag, which no owner of it relies upon.
+        // SAFETY: the descriptor is borrowed for one call in a single-threaded process, so it
+        // cannot be closed meanwhile. The call only changes a flag, on which no owner relies.
         let descriptor = unsafe { BorrowedFd::borrow_raw(number) };
         match fcntl_setfd(descriptor, FdFlags::CLOEXEC) {
-            // The one that listed them is closed again by now.
+            // The descriptor that was open while listing is closed by now.
             Ok(()) | Err(rustix::io::Errno::BADF) => {}
             Err(error) => return Err(error.into()),
         }

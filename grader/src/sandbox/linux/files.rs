@@ -1,4 +1,5 @@
-//! Landlock: which files can be opened. Whoever is confined can not lift it, whatever user it is.
+//! Landlock: restricts which files can be opened. A confined process cannot lift the restriction,
+//! even as root.
 
 use std::io;
 use std::path::Path;
@@ -13,22 +14,25 @@ use super::super::launch_request::{LaunchRequest, Profile};
 use super::start::Program;
 use super::while_doing;
 
-/// The newest that this code was tried with; of an older kernel's, all that it has is used.
+/// The newest Landlock ABI that this code was tested with. On an older kernel, all the access
+/// rights that it knows are used.
 const LANDLOCK_ABI: ABI = ABI::V6;
 
-/// What makes a folder writable. No links, devices, sockets or pipes.
+/// Access rights for writing to a folder. They exclude creating links, devices, sockets and pipes.
 const WRITE_ACCESS: BitFlags<AccessFs> = make_bitflags!(AccessFs::{
     WriteFile | RemoveFile | RemoveDir | MakeReg | MakeDir | Refer | Truncate
 });
 
-/// Closes all files but those of the profile, all TCP ports, and signals to other processes.
-pub(super) fn restrict(order: &LaunchRequest, program: &Program) -> io::Result<()> {
-    let rules = ruleset(order, program).map_err(while_doing("set up Landlock"))?;
-    let status = rules.restrict_self().map_err(while_doing("use Landlock"))?;
-    // Behind namespaces there are no other files: there it is a second lock.
-    if status.ruleset == RulesetStatus::NotEnforced && order.level < Isolation::Full {
+/// Blocks all files except those of the profile, all TCP ports, and signals to other processes.
+pub(super) fn restrict(request: &LaunchRequest, program: &Program) -> io::Result<()> {
+    let rules = ruleset(request, program).map_err(while_doing("set up Landlock"))?;
+    let status = rules
+        .restrict_self()
+        .map_err(while_doing("enable Landlock"))?;
+    // With namespaces, other files are already out of reach, so Landlock is not essential.
+    if status.ruleset == RulesetStatus::NotEnforced && request.level < Isolation::Full {
         return Err(io::Error::other(
-            "can not use Landlock: the kernel lacks it (it needs Linux 5.13, and `landlock` in \
+            "cannot use Landlock: the kernel lacks it (it needs Linux 5.13, and `landlock` in \
              /sys/kernel/security/lsm), or a container's rules forbid it",
         ));
     }
@@ -36,7 +40,7 @@ pub(super) fn restrict(order: &LaunchRequest, program: &Program) -> io::Result<(
 }
 
 fn ruleset(
-    order: &LaunchRequest,
+    request: &LaunchRequest,
     program: &Program,
 ) -> Result<RulesetCreated, Box<dyn std::error::Error>> {
     let mut rules = Ruleset::default()
@@ -44,7 +48,7 @@ fn ruleset(
         .handle_access(AccessNet::from_all(LANDLOCK_ABI))?
         .scope(Scope::from_all(LANDLOCK_ABI))?
         .create()?;
-    match &order.profile {
+    match &request.profile {
         Profile::Probe => {
             let run = AccessFs::Execute | AccessFs::ReadFile;
             rules = rules.add_rule(PathBeneath::new(PathFd::new(program.path())?, run))?;
@@ -70,7 +74,7 @@ fn add_rule(
     path: &Path,
     access: BitFlags<AccessFs>,
 ) -> Result<RulesetCreated, Box<dyn std::error::Error>> {
-    // Rights to folders mean nothing for a file, and Landlock says so.
+    // Folder rights do not apply to a file, and Landlock would report them.
     let access = match path.is_dir() {
         true => access,
         false => access & AccessFs::from_file(LANDLOCK_ABI),

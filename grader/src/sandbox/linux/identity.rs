@@ -1,4 +1,4 @@
-//! Who the confined program is: nobody in particular, with no rights beyond that.
+//! The user that a confined program runs as, and its privileges.
 
 use std::fs;
 use std::io;
@@ -14,41 +14,43 @@ use super::super::isolation::Isolation;
 use super::super::launch_request::{LaunchRequest, Profile};
 use super::while_doing;
 
-/// Far above what any machine gives to people or services.
+/// The first of the user ids far above any that a machine assigns to people or services.
 const HIGH_UID_BASE: u32 = 0x7000_0000;
-/// Where so many do not exist, as in most containers without root outside: 500 ids that systemd
-/// keeps free of use (`systemd.io/UIDS-GIDS`).
+/// First id and number of ids, used where such high ids do not exist, as in most rootless
+/// containers: 500 ids that systemd leaves unassigned (`systemd.io/UIDS-GIDS`).
 const LOW_UIDS: (u32, u32) = (60_600, 500);
 
-/// Becomes a user of its own if it may, and gives up all rights that go beyond that user's.
-pub(super) fn drop_privileges(order: &LaunchRequest, own_user: Option<u32>) -> io::Result<()> {
-    if let Some(user) = own_user {
-        let switch = || while_doing("become another user, which root needs CAP_SETUID for");
+/// Switches to the dedicated user, if there is one, and drops all privileges beyond that user's.
+pub(super) fn drop_privileges(request: &LaunchRequest, user: Option<u32>) -> io::Result<()> {
+    if let Some(user) = user {
+        let switch = || while_doing("switch to another user, for which root needs CAP_SETUID");
         let (uid, gid) = (Uid::from_raw(user), Gid::from_raw(user));
-        if let Profile::Compiler { writable, .. } = &order.profile {
+        if let Profile::Compiler { writable, .. } = &request.profile {
             chown(writable.as_path(), Some(uid), Some(gid)).map_err(switch())?;
         }
         set_thread_groups(&[]).map_err(switch())?;
         set_thread_res_gid(gid, gid, gid).map_err(switch())?;
         set_thread_res_uid(uid, uid, uid).map_err(switch())?;
     }
-    // A program that root starts would get root's rights back, were it not for this.
-    set_no_new_privs(true).map_err(while_doing("renounce privileges"))?;
+    // Without this, a program started as root would regain root's capabilities.
+    set_no_new_privs(true).map_err(while_doing("set no_new_privs"))?;
     let nothing = CapabilitySets {
         effective: CapabilitySet::empty(),
         permitted: CapabilitySet::empty(),
         inheritable: CapabilitySet::empty(),
     };
-    set_capabilities(None, nothing).map_err(while_doing("renounce capabilities"))
+    set_capabilities(None, nothing).map_err(while_doing("drop capabilities"))
 }
 
-/// The id of the user that nobody else is. A process's number makes it one that no other program
-/// has at the same time. None where we are not root, or the program could not be read by it: the
-/// toolchain may lie in root's home, which only namespaces open.
-pub(super) fn dedicated_user(order: &LaunchRequest) -> Option<u32> {
-    let is_reachable = match order.profile {
+/// Returns a user id that nothing else uses. It is derived from the process id, so no other program
+/// has it at the same time.
+///
+/// Returns `None` if this process is not root, or if the dedicated user could not read the program:
+/// the toolchain may be in root's home folder, which is accessible only with namespaces.
+pub(super) fn dedicated_user(request: &LaunchRequest) -> Option<u32> {
+    let is_reachable = match request.profile {
         Profile::Probe => true,
-        Profile::Compiler { .. } => order.level == Isolation::Full,
+        Profile::Compiler { .. } => request.level == Isolation::Full,
     };
     if !geteuid().is_root() || !is_reachable {
         return None;
@@ -60,7 +62,7 @@ pub(super) fn dedicated_user(order: &LaunchRequest) -> Option<u32> {
     })
 }
 
-/// Whether the map, of lines `first there count`, knows this user.
+/// Returns whether a user id is in a map with lines of the form `first outside count`.
 fn is_mapped(map: &str, user: u32) -> bool {
     map.lines().any(|line| {
         let mut numbers = line.split_whitespace().map(str::parse::<u64>);

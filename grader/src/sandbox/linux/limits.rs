@@ -1,4 +1,4 @@
-//! What the confined program may use.
+//! Resource limits of a confined program.
 
 use std::io;
 
@@ -8,23 +8,25 @@ use super::super::launch_request::{LaunchRequest, Profile};
 use super::while_doing;
 use crate::system::CPU_GRACE_SECONDS;
 
-/// Threads of a probe beside its own two. A user of its own is counted alone.
+/// The most threads of a probe, including its own two. Set only for a dedicated user, which has no
+/// other processes.
 const PROBE_THREADS: u64 = 34;
-/// The compiler, its threads, the linker and its helpers.
+/// The most processes and threads of the compiler, the linker and their helpers.
 const COMPILER_PROCESSES: u64 = 256;
-/// The stack of a program's first thread, in bytes; a submission runs on one of its own.
+/// Stack size of a program's main thread, in bytes. A submission runs in another thread, with its
+/// own stack size.
 const STACK: u64 = 8 << 20;
 
-/// Sets them, once and for all: soft and hard alike, but for CPU time. There the hard one kills as
-/// the system does when it runs out of memory; the soft one comes first, and by a signal of its own.
-pub(super) fn set(order: &LaunchRequest, own_user: Option<u32>) -> io::Result<()> {
-    let limits = order.limits;
-    let (processes, open_files) = match order.profile {
+/// Sets all limits. Soft and hard limits are equal except for CPU time: there, the hard limit sends
+/// SIGKILL, as the system does when memory runs out, so a lower soft limit sends SIGXCPU first.
+pub(super) fn set(request: &LaunchRequest, user: Option<u32>) -> io::Result<()> {
+    let limits = request.limits;
+    let (processes, open_files) = match request.profile {
         Profile::Probe => (PROBE_THREADS, 16),
         Profile::Compiler { .. } => (COMPILER_PROCESSES, 1024),
     };
-    // The number of processes counts all that a user has: no measure for one that has others.
-    let processes = own_user.map(|_| (Resource::Nproc, processes));
+    // This limit counts all processes of a user, so it works only for a dedicated user.
+    let processes = user.map(|_| (Resource::Nproc, processes));
     let all = [
         (Resource::As, limits.memory),
         (Resource::Cpu, limits.cpu.as_secs().max(1)),

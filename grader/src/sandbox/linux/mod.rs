@@ -1,10 +1,10 @@
-//! The launcher: gives up, one after the other, all that the confined program shall not have, and
-//! then becomes that program. One thread, no fork of its own memory: whatever state it has, it has
-//! read from its arguments.
+//! The launcher: drops its privileges one after the other, then executes the confined program. It
+//! has a single thread, and is a fresh process rather than a fork of the grader, so its only state
+//! comes from its arguments.
 //!
-//! The order matters. Namespaces first, as long as there are rights to make them; then the user,
-//! which ends those rights; then limits; Landlock, which no file can be opened after; and last the
-//! list of system calls, on which none of the calls before stands.
+//! The order matters: namespaces first, while the launcher may still create them; then the user,
+//! which gives up that right; then limits; then Landlock, after which no other file can be opened;
+//! and last the system call filter, which forbids the calls that the earlier steps make.
 
 mod descriptors;
 mod files;
@@ -26,54 +26,54 @@ use super::isolation::Isolation;
 use super::launch_request::{LaunchRequest, Profile, READY};
 use start::Program;
 
-/// Confines itself as it was ordered, and becomes the program after the order.
+/// Confines this process as requested, then executes the program given by the remaining arguments.
 pub(super) fn launch(mut arguments: impl Iterator<Item = OsString>) -> io::Result<ExitCode> {
-    let order = arguments.next().unwrap_or_default();
-    let order = serde_json::from_slice(order.as_encoded_bytes())?;
+    let request = arguments.next().unwrap_or_default();
+    let request = serde_json::from_slice(request.as_encoded_bytes())?;
     let program = arguments.next().unwrap_or_default();
     let mut command = Command::new(program);
     command.args(arguments);
-    confine(&order, command)
+    confine(&request, command)
 }
 
-fn confine(order: &LaunchRequest, command: Command) -> io::Result<ExitCode> {
-    // No terminal, and a group that can be ended as one.
-    setsid().map_err(while_doing("leave the session"))?;
+fn confine(request: &LaunchRequest, command: Command) -> io::Result<ExitCode> {
+    // Detaches from the terminal, and starts a process group that can be killed as a whole.
+    setsid().map_err(while_doing("start a new session"))?;
     descriptors::close_inherited()?;
 
-    let own_user = identity::dedicated_user(order);
-    let program = Program::open(command, order)?;
-    let program = match order.level {
-        Isolation::Full => namespaces::enter(&order.profile, program)?,
+    let user = identity::dedicated_user(request);
+    let program = Program::open(command, request)?;
+    let program = match request.level {
+        Isolation::Full => namespaces::enter(&request.profile, program)?,
         Isolation::NoNamespaces | Isolation::SeccompOnly | Isolation::None => program,
     };
-    // Not earlier: the folders of the new root are for everyone.
+    // Only now, because the folders of the new root must be accessible to every user.
     umask(Mode::RWXG | Mode::RWXO);
-    identity::drop_privileges(order, own_user)?;
-    limits::set(order, own_user)?;
-    match order.profile {
-        Profile::Probe => start::die_with_grader(order.grader)?,
+    identity::drop_privileges(request, user)?;
+    limits::set(request, user)?;
+    match request.profile {
+        Profile::Probe => start::die_with_grader(request.grader)?,
         Profile::Compiler { .. } => {}
     }
-    if order.level >= Isolation::NoNamespaces {
-        files::restrict(order, &program)?;
+    if request.level >= Isolation::NoNamespaces {
+        files::restrict(request, &program)?;
     }
-    syscalls::restrict(&order.profile)?;
-    match order.profile {
+    syscalls::restrict(&request.profile)?;
+    match request.profile {
         Profile::Probe => program.exec(),
-        Profile::Compiler { .. } => program.supervise(order.limits.cpu),
+        Profile::Compiler { .. } => program.supervise(request.limits.cpu),
     }
 }
 
-/// Tells the grader that all is in place.
+/// Tells the grader that the sandbox is in place.
 fn signal_ready() -> io::Result<()> {
     let mut stdout = io::stdout();
     stdout.write_all(&[READY])?;
     stdout.flush()
 }
 
-/// An error that says what was being done.
+/// Returns a function that converts an error, for `map_err`: its message says what failed.
 fn while_doing<E: Display>(what: &str) -> impl FnOnce(E) -> io::Error {
     let what = what.to_owned();
-    move |error| io::Error::other(format!("can not {what}: {error}"))
+    move |error| io::Error::other(format!("cannot {what}: {error}"))
 }

@@ -1,5 +1,5 @@
-//! A world of its own: other mounts, network, System V objects, host name, and for the compiler
-//! other processes. In it are the files of the profile, and no others to find.
+//! Linux namespaces: separate mounts, network, System V objects and host name, and for the compiler
+//! also separate processes. The new root contains the files of the profile and no others.
 
 use std::fs;
 use std::io;
@@ -17,42 +17,42 @@ use super::super::launch_request::Profile;
 use super::start::Program;
 use super::while_doing;
 
-/// Where the new root is put together. Any folder does that everyone has.
+/// The folder on which the new root is mounted. Any folder will do that every system has.
 const NEW_ROOT: &str = "/tmp";
-/// Where the machine's own root is to be found meanwhile.
+/// Path of the machine's root in the new one, until it is unmounted.
 const OLD_ROOT: &str = "/host";
-/// Where a probe is to be found from then on.
+/// Path of a probe in the new root.
 const PROBE_PATH: &str = "/probe";
 
-/// Enters it; returns the program as it is found there.
+/// Moves this process into new namespaces. Returns the program with its path in the new root.
 pub(super) fn enter(profile: &Profile, program: Program) -> io::Result<Program> {
-    let (program, shown) = match profile {
+    let (program, mounts) = match profile {
         Profile::Probe => {
-            let shown = BindMount::read_only(program.path(), PathBuf::from(PROBE_PATH));
+            let mount = BindMount::read_only(program.path(), PathBuf::from(PROBE_PATH));
             (
                 Program::with_path(program.into_command(), PROBE_PATH.into()),
-                vec![shown?],
+                vec![mount?],
             )
         }
         Profile::Compiler { readable, writable } => {
             let null = Path::new("/dev/null");
-            let mut shown = readable
+            let mut mounts = readable
                 .iter()
                 .map(|path| BindMount::read_only(path, path.clone()))
                 .collect::<io::Result<Vec<_>>>()?;
             for path in [null, writable.as_path()] {
-                let with_writing = BindMount::read_only(path, path.to_owned())?;
-                shown.push(BindMount {
+                let mount = BindMount::read_only(path, path.to_owned())?;
+                mounts.push(BindMount {
                     is_writable: true,
-                    ..with_writing
+                    ..mount
                 });
             }
-            (program, shown)
+            (program, mounts)
         }
     };
     unshare(profile)?;
-    switch_root(&shown)?;
-    // Relative arguments are meant from here.
+    switch_root(&mounts)?;
+    // Relative paths in the arguments start from this folder.
     let folder = match profile {
         Profile::Probe => Path::new("/"),
         Profile::Compiler { writable, .. } => writable,
@@ -61,14 +61,13 @@ pub(super) fn enter(profile: &Profile, program: Program) -> io::Result<Program> 
     Ok(program)
 }
 
-/// A file or folder of the machine that is there in the new root as well.
+/// A file or folder of the machine that is mounted in the new root.
 struct BindMount {
-    /// Where it is, without symbolic links: those would be followed in the new root.
+    /// Path on the machine, without symbolic links, which would be resolved in the new root.
     source: PathBuf,
     target: PathBuf,
     is_writable: bool,
-    /// Whether nothing in it may be run: without rights on the machine itself, that can not be
-    /// taken back.
+    /// Whether it is mounted `noexec` on the machine. An unprivileged user cannot remove that flag.
     is_noexec: bool,
 }
 
@@ -88,7 +87,7 @@ impl BindMount {
 
 #[allow(
     unsafe_code,
-    reason = "with one flag, which is not used, it would be unsound"
+    reason = "the call is unsound only with a flag that is not used"
 )]
 fn unshare(profile: &Profile) -> io::Result<()> {
     let (uid, gid) = (geteuid(), getegid());
@@ -98,23 +97,23 @@ fn unshare(profile: &Profile) -> io::Result<()> {
         | UnshareFlags::NEWUTS
         | UnshareFlags::NEWCGROUP;
     match profile {
-        // A probe can start nothing, and so leave nothing behind.
+        // A probe cannot start processes, so none can outlive it.
         Profile::Probe => {}
-        // The compiler will be the first process in there: with it, all end.
+        // The compiler becomes the first process in the namespace; when it ends, so do all others.
         Profile::Compiler { .. } => flags |= UnshareFlags::NEWPID,
     }
     if !uid.is_root() {
         flags |= UnshareFlags::NEWUSER;
     }
-    // SAFETY: the flag that this is unsafe for, FILES, is not among them.
+    // SAFETY: the call is unsafe only with the flag FILES, which is not set.
     unsafe { unshare_unsafe(flags) }.map_err(while_doing(
-        "make namespaces: a container's rules, or the system's (`sysctl \
+        "create namespaces: the rules of a container, or of the system (`sysctl \
          kernel.apparmor_restrict_unprivileged_userns user.max_user_namespaces`), forbid it",
     ))?;
     if !uid.is_root() {
-        // Itself, and nobody else: with root's number, the compiler would do strange things.
+        // Maps the user only, to the same id: mapped to root, the compiler behaves differently.
         let itself = |id: u32| format!("{id} {id} 1");
-        let map = || while_doing("set the users of a namespace");
+        let map = || while_doing("map the user into the namespace");
         fs::write("/proc/self/setgroups", "deny").map_err(map())?;
         fs::write("/proc/self/uid_map", itself(uid.as_raw())).map_err(map())?;
         fs::write("/proc/self/gid_map", itself(gid.as_raw())).map_err(map())?;
@@ -122,41 +121,41 @@ fn unshare(profile: &Profile) -> io::Result<()> {
     Ok(())
 }
 
-fn switch_root(shown: &[BindMount]) -> io::Result<()> {
+fn switch_root(mounts: &[BindMount]) -> io::Result<()> {
     let private = MountPropagationFlags::PRIVATE | MountPropagationFlags::REC;
-    mount_change("/", private).map_err(while_doing("keep mounts to itself"))?;
+    mount_change("/", private).map_err(while_doing("make mounts private"))?;
     let safe = MountFlags::NOSUID | MountFlags::NODEV;
     mount("tmpfs", NEW_ROOT, "tmpfs", safe, c"size=1m,mode=755")
         .map_err(while_doing("mount a tmpfs"))?;
-    let stage = Path::new(NEW_ROOT);
-    let host = stage.join(OLD_ROOT.trim_start_matches('/'));
-    fs::create_dir(&host)?;
-    pivot_root(stage, &host).map_err(while_doing("change the root"))?;
+    let new_root = Path::new(NEW_ROOT);
+    let old_root = new_root.join(OLD_ROOT.trim_start_matches('/'));
+    fs::create_dir(&old_root)?;
+    pivot_root(new_root, &old_root).map_err(while_doing("change the root"))?;
     std::env::set_current_dir("/")?;
 
     let mut folders: Vec<&Path> = Vec::new();
-    for shown in shown {
+    for mount in mounts {
         if folders
             .iter()
-            .any(|folder| shown.target.starts_with(folder))
+            .any(|folder| mount.target.starts_with(folder))
         {
             continue;
         }
-        bind(shown).map_err(while_doing(&format!("show {}", shown.target.display())))?;
-        if shown.target.is_dir() {
-            folders.push(&shown.target);
+        bind(mount).map_err(while_doing(&format!("mount {}", mount.target.display())))?;
+        if mount.target.is_dir() {
+            folders.push(&mount.target);
         }
     }
 
-    unmount(OLD_ROOT, UnmountFlags::DETACH).map_err(while_doing("leave the old root"))?;
+    unmount(OLD_ROOT, UnmountFlags::DETACH).map_err(while_doing("unmount the old root"))?;
     fs::remove_dir(OLD_ROOT)?;
     let read_only = MountFlags::BIND | MountFlags::RDONLY | safe;
-    mount_remount("/", read_only, c"").map_err(while_doing("close the new root"))
+    mount_remount("/", read_only, c"").map_err(while_doing("make the new root read-only"))
 }
 
-fn bind(shown: &BindMount) -> io::Result<()> {
-    let source = Path::new(OLD_ROOT).join(shown.source.strip_prefix("/").unwrap_or(&shown.source));
-    let target = shown.target.as_path();
+fn bind(mount: &BindMount) -> io::Result<()> {
+    let source = Path::new(OLD_ROOT).join(mount.source.strip_prefix("/").unwrap_or(&mount.source));
+    let target = mount.target.as_path();
     if source.is_dir() {
         fs::create_dir_all(target)?;
     } else {
@@ -164,12 +163,12 @@ fn bind(shown: &BindMount) -> io::Result<()> {
         fs::File::create(target)?;
     }
     mount_bind_recursive(&source, target)?;
-    // A device that can not be used as one is of no use: `/dev/null` stays as it is.
-    if shown.is_writable && !source.is_dir() {
+    // The only writable file is `/dev/null`. It is not remounted: NODEV would make it unusable.
+    if mount.is_writable && !source.is_dir() {
         return Ok(());
     }
     let mut flags = MountFlags::BIND | MountFlags::NOSUID | MountFlags::NODEV;
-    flags.set(MountFlags::RDONLY, !shown.is_writable);
-    flags.set(MountFlags::NOEXEC, shown.is_noexec);
+    flags.set(MountFlags::RDONLY, !mount.is_writable);
+    flags.set(MountFlags::NOEXEC, mount.is_noexec);
     Ok(mount_remount(target, flags, c"")?)
 }

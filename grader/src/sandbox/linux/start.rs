@@ -1,4 +1,4 @@
-//! The last step: the program itself.
+//! The launcher's last step: starting the program.
 
 use std::fs::File;
 use std::io;
@@ -19,22 +19,23 @@ use rustix::process::{
 use super::super::launch_request::{LaunchRequest, Profile};
 use super::{signal_ready, while_doing};
 
-/// How often a program is tried that somebody still holds open for writing, a millisecond apart.
+/// The most attempts, a millisecond apart, to execute a program whose file is still open for
+/// writing in another process.
 const MAX_EXEC_RETRIES: u32 = 1_000;
 
-/// The program, with its arguments.
+/// The program to execute, with its arguments.
 pub(super) struct Program {
     command: Command,
     path: PathBuf,
-    /// Holds it open, where its path leads through folders that will be closed.
+    /// Keeps the file open if its path leads through folders that become inaccessible.
     _file: Option<File>,
 }
 
 impl Program {
-    /// Opens a probe while it can still be found: it may lie in a folder of root's.
-    pub(super) fn open(command: Command, order: &LaunchRequest) -> io::Result<Self> {
+    /// Opens a probe's file while it is still accessible: it may be in a folder of root's.
+    pub(super) fn open(command: Command, request: &LaunchRequest) -> io::Result<Self> {
         let path = PathBuf::from(command.get_program());
-        match order.profile {
+        match request.profile {
             Profile::Compiler { .. } => Ok(Program {
                 command,
                 path,
@@ -52,7 +53,7 @@ impl Program {
         }
     }
 
-    /// The same program, found elsewhere.
+    /// Returns the same command with another path to the program.
     pub(super) fn with_path(command: Command, path: PathBuf) -> Self {
         let mut moved = Command::new(&path);
         moved.args(command.get_args());
@@ -63,23 +64,24 @@ impl Program {
         }
     }
 
-    /// Where it is.
+    /// Returns the path of the program.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Its command.
+    /// Returns the command.
     pub(super) fn into_command(self) -> Command {
         self.command
     }
 
-    /// Turns into it, and so keeps the process number: what the grader measures and ends is the
-    /// program itself. When the grader ends, however it ends, the system ends the program.
+    /// Replaces this process with the program. It keeps the process id, so the grader measures and
+    /// kills the program itself. The system kills it when the grader ends for whatever reason.
     pub(super) fn exec(mut self) -> io::Result<ExitCode> {
         signal_ready()?;
         let mut error = self.command.exec();
         for _ in 0..MAX_EXEC_RETRIES {
-            // Another thread of the grader has just forked while the program was being written.
+            // Another thread of the grader forked while the program's file was being written, and
+            // its child still has the file open.
             if error.kind() != io::ErrorKind::ExecutableFileBusy {
                 break;
             }
@@ -89,15 +91,15 @@ impl Program {
         Err(error)
     }
 
-    /// Starts it, and stays beside it: it starts others, which must all end with it. `cpu` is its
-    /// limit.
+    /// Starts the program and waits for it, because it starts other processes, which must end with
+    /// it. `cpu` is the limit of its CPU time.
     pub(super) fn supervise(mut self, cpu: Duration) -> io::Result<ExitCode> {
         signal_ready()?;
         let mut child = self.command.stdin(Stdio::null()).spawn()?;
         let pid = i32::try_from(child.id()).ok().and_then(Pid::from_raw);
-        let pid = pid.ok_or_else(|| io::Error::other("the compiler has no number"))?;
+        let pid = pid.ok_or_else(|| io::Error::other("the compiler has no process id"))?;
         let ended = pidfd_open(pid, PidfdFlags::empty())?;
-        // Nobody ever writes to our standard input: its end is the grader's end, however that came.
+        // The grader never writes to our standard input, so it closes only when the grader ends.
         let grader = io::stdin();
         let mut events = [
             PollFd::new(&ended, PollFlags::IN),
@@ -109,13 +111,13 @@ impl Program {
         }
         let status = child.wait()?;
         if let Some(signal) = status.signal().and_then(Signal::from_named_raw) {
-            // The first process of a namespace is spared the signal of the CPU time's soft limit, and
-            // ended at the hard one by a signal that says that memory ran out. It did not.
+            // The first process of a namespace does not get the soft limit's SIGXCPU. The hard
+            // limit kills it with SIGKILL, which would look as if memory had run out.
             let signal = match signal == Signal::KILL && children_cpu_time()? >= cpu {
                 true => Signal::XCPU,
                 false => signal,
             };
-            // Ends in the same way, and takes along whatever its program has left behind.
+            // Ends by the same signal, and kills everything that the program left running.
             kill_current_process_group(signal)?;
         }
         let code = u8::try_from(status.code().unwrap_or(1)).unwrap_or(1);
@@ -123,12 +125,12 @@ impl Program {
     }
 }
 
-/// The CPU time of all that this process has started and has seen end.
-#[allow(unsafe_code, reason = "there is no safe word for this call")]
+/// Returns the CPU time of all children that this process has started and waited for.
+#[allow(unsafe_code, reason = "there is no safe wrapper for this call")]
 fn children_cpu_time() -> io::Result<Duration> {
-    // SAFETY: a value of plain numbers, which may all be zero.
+    // SAFETY: the struct holds only integers, for which zero is a valid value.
     let mut usage: libc::rusage = unsafe { mem::zeroed() };
-    // SAFETY: it writes one such value, into ours.
+    // SAFETY: the call writes one such struct, into `usage`.
     if unsafe { libc::getrusage(libc::RUSAGE_CHILDREN, &raw mut usage) } != 0 {
         return Err(io::Error::last_os_error());
     }
@@ -140,10 +142,10 @@ fn children_cpu_time() -> io::Result<Duration> {
     Ok(time(usage.ru_utime) + time(usage.ru_stime))
 }
 
-/// Asks the system to end this process when the grader ends, and makes sure that it has not yet.
+/// Makes the system kill this process when the grader ends. Fails if the grader has already ended.
 pub(super) fn die_with_grader(grader: u32) -> io::Result<()> {
     set_parent_process_death_signal(Some(Signal::KILL))
-        .map_err(while_doing("be ended with the grader"))?;
+        .map_err(while_doing("tie this process to the grader"))?;
     let parent = getppid().map_or(0, |pid| pid.as_raw_nonzero().get());
     match u32::try_from(parent) {
         Ok(parent) if parent == grader => Ok(()),

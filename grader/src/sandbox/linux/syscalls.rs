@@ -1,8 +1,8 @@
-//! Which system calls the confined program may make. All others fail, whatever their arguments.
+//! The system call filters (seccomp) of a confined program.
 //!
-//! Both are lists of what is allowed: a call that is not known here, of a newer kernel or by another
-//! way into it, is refused. Compiled for this machine's architecture; calls of any other end the
-//! program.
+//! Each profile has a list of allowed calls. All other calls fail, including those of newer kernels
+//! that are not known here. A filter is compiled for this machine's architecture; a call made
+//! through the interface of another architecture kills the program.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -18,22 +18,24 @@ use super::while_doing;
 
 mod lists;
 
-/// The calls, each with the conditions of which one must hold, if there are any.
+/// Allowed system calls by number, each with alternative conditions, of which one must hold. A call
+/// without conditions is always allowed.
 type CallRules = BTreeMap<i64, Vec<SeccompRule>>;
 
-/// Closes all system calls but those of the profile. The last step before the program itself.
+/// Blocks all system calls except those of the profile. The last step before executing the program.
 pub(super) fn restrict(profile: &Profile) -> io::Result<()> {
-    let filters = filters(profile).map_err(while_doing("write the list of system calls"))?;
+    let filters = filters(profile).map_err(while_doing("compile the system call filter"))?;
     for filter in &filters {
-        apply_filter(filter).map_err(while_doing("close system calls"))?;
+        apply_filter(filter).map_err(while_doing("install the system call filter"))?;
     }
     Ok(())
 }
 
 fn filters(profile: &Profile) -> Result<[BpfProgram; 2], seccompiler::Error> {
-    // Threads are made by `clone3`, whose arguments a filter can not see. Where it does not exist,
-    // the C library turns to `clone`, but only then: so it must seem not to exist, while every other
-    // call is refused. A filter knows one answer, hence two; of two answers the stricter counts.
+    // The C library creates threads with `clone3`, whose arguments a filter cannot inspect. It
+    // falls back to `clone` only if `clone3` fails with ENOSYS, while other calls must fail with
+    // another error. A filter has a single error for all refused calls, so there are two filters.
+    // If they disagree about a call, the stricter result counts.
     let no_clone3 = compile_filter(
         [(libc::SYS_clone3, Vec::new())].into(),
         SeccompAction::Allow,
@@ -45,7 +47,7 @@ fn filters(profile: &Profile) -> Result<[BpfProgram; 2], seccompiler::Error> {
             SeccompAction::Errno(libc::EPERM as u32),
             SeccompAction::Allow,
         )?,
-        // What does not exist, compilers and linkers do in another way.
+        // ENOSYS, because compilers and linkers then fall back to other calls.
         Profile::Compiler { .. } => compile_filter(
             compiler_calls()?,
             SeccompAction::Errno(libc::ENOSYS as u32),
@@ -57,14 +59,14 @@ fn filters(profile: &Profile) -> Result<[BpfProgram; 2], seccompiler::Error> {
 
 fn compile_filter(
     calls: CallRules,
-    others: SeccompAction,
-    these: SeccompAction,
+    default_action: SeccompAction,
+    listed_action: SeccompAction,
 ) -> Result<BpfProgram, seccompiler::Error> {
     let architecture = std::env::consts::ARCH.try_into()?;
-    Ok(SeccompFilter::new(calls, others, these, architecture)?.try_into()?)
+    Ok(SeccompFilter::new(calls, default_action, listed_action, architecture)?.try_into()?)
 }
 
-/// Computes, makes threads, speaks through its pipes.
+/// Returns the calls of a probe, which computes, creates threads, and uses its pipes.
 fn probe_calls() -> Result<CallRules, seccompiler::Error> {
     let mut calls = unconditional(&[lists::COMMON, lists::COMMON_X86]);
     let thread = libc::CLONE_THREAD as u64;
@@ -72,13 +74,14 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
         libc::SYS_clone,
         vec![if_argument(0, masked(thread), thread)?],
     );
-    // `abort` signals its own process. There are other processes of the same user.
+    // `abort` signals its own process; the same user may have other processes.
     let own = u64::from(std::process::id());
     calls.insert(
         libc::SYS_tgkill,
         vec![if_argument(0, SeccompCmpOp::Eq, own)?],
     );
-    // Not `F_SETOWN` and its like: with those, the arrival of data kills whomever one names.
+    // `F_SETOWN` and similar commands are not allowed: with them, a program can have the kernel
+    // signal any process when data arrives.
     let harmless = [
         libc::F_DUPFD,
         libc::F_DUPFD_CLOEXEC,
@@ -90,7 +93,7 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
         libc::SYS_fcntl,
         if_argument_in(1, harmless.map(|command| command as u64))?,
     );
-    // Limits may be read.
+    // Limits may be read but not set: the pointer to the new limit must be null.
     calls.insert(
         libc::SYS_prlimit64,
         vec![SeccompRule::new(vec![SeccompCondition::new(
@@ -100,7 +103,8 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
             0,
         )?])?],
     );
-    // Threads may be named, and nothing else be changed: not whose end ends the program either.
+    // `prctl` may name threads only. In particular, the program must not undo that it is killed
+    // when the grader ends.
     calls.insert(
         libc::SYS_prctl,
         if_argument_in(0, [libc::PR_SET_NAME as u64])?,
@@ -108,7 +112,8 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
     Ok(calls)
 }
 
-/// Reads and writes files, starts programs. No network, no other users of the machine.
+/// Returns the calls of a compiler, which reads and writes files and starts programs, but has no
+/// network and cannot create namespaces.
 fn compiler_calls() -> Result<CallRules, seccompiler::Error> {
     let mut calls = unconditional(&[
         lists::COMMON,
@@ -130,10 +135,10 @@ fn compiler_calls() -> Result<CallRules, seccompiler::Error> {
         libc::SYS_clone,
         vec![if_argument(0, masked(namespaces), 0)?],
     );
-    // Its own group: how the launcher ends it.
+    // Only for its own process group: this is how the launcher kills it.
     calls.insert(libc::SYS_kill, vec![if_argument(0, SeccompCmpOp::Eq, 0)?]);
-    // Rust's standard library starts programs with one. Connected for good: no message through it
-    // can be addressed to another socket, as through one of datagrams.
+    // Rust's standard library starts programs with the help of a socket pair. This type of socket
+    // stays connected; through a datagram socket, messages could go to other sockets.
     let unix = SeccompCondition::new(
         0,
         SeccompCmpArgLen::Dword,
@@ -162,17 +167,17 @@ fn masked(mask: u64) -> SeccompCmpOp {
     SeccompCmpOp::MaskedEq(mask)
 }
 
-/// If this argument, of 32 bits, compares so.
+/// Returns a rule that holds if the 32-bit argument compares with `value` by `operator`.
 fn if_argument(
     argument: u8,
-    how: SeccompCmpOp,
+    operator: SeccompCmpOp,
     value: u64,
 ) -> Result<SeccompRule, seccompiler::Error> {
-    let condition = SeccompCondition::new(argument, SeccompCmpArgLen::Dword, how, value)?;
+    let condition = SeccompCondition::new(argument, SeccompCmpArgLen::Dword, operator, value)?;
     Ok(SeccompRule::new(vec![condition])?)
 }
 
-/// If this argument, of 32 bits, is one of these.
+/// Returns rules of which one holds if the 32-bit argument is one of `values`.
 fn if_argument_in<const N: usize>(
     argument: u8,
     values: [u64; N],

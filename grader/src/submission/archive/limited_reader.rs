@@ -1,4 +1,4 @@
-//! Bytes that are counted where they really come from.
+//! A reader that limits the number of bytes actually read.
 
 use std::cell::Cell;
 use std::io::{self, Read};
@@ -6,36 +6,37 @@ use std::rc::Rc;
 
 use rawzip::ReaderAt;
 
-/// Gives so many bytes and not one more.
+/// A reader that fails once its byte budget is used up.
 #[derive(Debug)]
 pub(super) struct LimitedReader<R> {
     inner: R,
     budget: ByteBudget,
 }
 
-/// How much may still be read, known outside of the stream.
+/// The number of bytes that may still be read. Clones share the count, so that it is known outside
+/// the reader.
 #[derive(Clone, Debug)]
 pub(super) struct ByteBudget(Rc<Cell<u64>>);
 
 impl ByteBudget {
-    /// Whether nothing is left of it.
+    /// Returns whether no bytes are left.
     pub(super) fn is_exhausted(&self) -> bool {
         self.0.get() == 0
     }
 
-    /// From now on so many bytes.
+    /// Sets the number of bytes left.
     pub(super) fn reset(&self, bytes: u64) {
         self.0.set(bytes);
     }
 
-    /// Takes from it what is read into that part of the buffer that it allows.
+    /// Reads into as much of the buffer as the budget allows, and deducts the bytes read.
     fn read_within(
         &self,
         buffer: &mut [u8],
         read: impl FnOnce(&mut [u8]) -> io::Result<usize>,
     ) -> io::Result<usize> {
         if self.is_exhausted() && !buffer.is_empty() {
-            return Err(io::Error::other("there is more of it than may be read"));
+            return Err(io::Error::other("it has more bytes than may be read"));
         }
         let left = self.0.get();
         let most = usize::try_from(left)
@@ -48,36 +49,27 @@ impl ByteBudget {
 }
 
 impl<R> LimitedReader<R> {
-    /// At most `bytes` of `inner`, wherever in it they stand.
+    /// Limits `inner` to `bytes` bytes in all, at whatever offsets. Also returns the budget.
     pub(super) fn new(inner: R, bytes: u64) -> (Self, ByteBudget) {
-        let left = ByteBudget(Rc::new(Cell::new(bytes)));
-        let allowance = left.clone();
-        (
-            LimitedReader {
-                inner,
-                budget: left,
-            },
-            allowance,
-        )
+        let budget = ByteBudget(Rc::new(Cell::new(bytes)));
+        let reader = LimitedReader {
+            inner,
+            budget: budget.clone(),
+        };
+        (reader, budget)
     }
 }
 
 impl<R: Read> Read for LimitedReader<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let LimitedReader {
-            inner,
-            budget: left,
-        } = self;
-        left.read_within(buffer, |buffer| inner.read(buffer))
+        let LimitedReader { inner, budget } = self;
+        budget.read_within(buffer, |buffer| inner.read(buffer))
     }
 }
 
 impl<R: ReaderAt> ReaderAt for LimitedReader<R> {
-    fn read_at(&self, buffer: &mut [u8], place: u64) -> io::Result<usize> {
-        let LimitedReader {
-            inner,
-            budget: left,
-        } = self;
-        left.read_within(buffer, |buffer| inner.read_at(buffer, place))
+    fn read_at(&self, buffer: &mut [u8], offset: u64) -> io::Result<usize> {
+        let LimitedReader { inner, budget } = self;
+        budget.read_within(buffer, |buffer| inner.read_at(buffer, offset))
     }
 }

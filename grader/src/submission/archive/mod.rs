@@ -1,5 +1,6 @@
-//! From archives, which anybody may have made: read in memory and never unpacked. What a header
-//! claims of sizes and counts is not believed; what is really read and inflated is counted.
+//! Reads a submission from an archive, which may be malicious. It is read in memory and never
+//! unpacked. Sizes and counts in its headers are not trusted: limits apply to the bytes that are
+//! actually read and inflated.
 
 mod limited_reader;
 mod tarball;
@@ -19,72 +20,74 @@ use limited_reader::LimitedReader;
 use tarball::Tarball;
 use zip_reader::ZipReader;
 
-/// The most files that an archive may hold. A checkout with its `target/` has some thousands.
+/// The most files that an archive may have. A checkout with its `target/` has several thousand.
 pub const MAX_MEMBERS: usize = 50_000;
 
-/// Why an archive is not read.
+/// Reasons for rejecting an archive.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ArchiveError {
     /// It has no bytes, or no members.
-    #[error("it is empty: hand it in, or download it, again")]
+    #[error("it is empty: download or submit it again")]
     Empty,
     /// It is an archive of another kind.
-    #[error("it is a {0} archive: only .zip, .tar and .tar.gz are read, so pack it as one of them")]
+    #[error(
+        "it is a {0} archive, but only .zip, .tar and .tar.gz can be read: pack it as one of these"
+    )]
     UnsupportedKind(&'static str),
-    /// It is anything else.
+    /// It is not an archive.
     #[error("it is neither a folder nor a .zip, .tar or .tar.gz, whatever its name says")]
     NotAnArchive,
-    /// It ends too soon, or is not what it claims to be.
+    /// It is truncated or malformed.
     #[error("it is damaged ({0}): download or pack it again")]
     Damaged(String),
-    /// It is encrypted.
-    #[error("{0} in it needs a password: pack it without one")]
+    /// A member is encrypted.
+    #[error("its file {0} needs a password: pack it without one")]
     Encrypted(String),
-    /// It is compressed in an unusual way.
-    #[error("{0} in it is compressed in a way of its own: pack it as a plain .zip")]
+    /// A member is compressed with an unusual method.
+    #[error("its file {0} has an unusual compression method: pack it as a plain .zip")]
     UnsupportedCompression(String),
     /// Two members have the same name.
     #[error("two files in it have the same name: pack it again")]
     DuplicateName,
     /// There are too many members.
-    #[error("it holds more than {MAX_MEMBERS} files: pack the five files, without target/")]
+    #[error("it has more than {MAX_MEMBERS} files: pack the five files, without target/")]
     TooManyFiles,
-    /// There is too much in it.
-    #[error("it holds more than {} MiB: pack the five files, without target/", .0 >> 20)]
+    /// Its contents are too large.
+    #[error("it has more than {} MiB: pack the five files, without target/", .0 >> 20)]
     TooLarge(u64),
     /// A member's path leads out of the archive.
-    #[error("{0} in it is a path that leads out of it: pack it again")]
+    #[error("its path {0} leads outside the archive: pack it again")]
     PathOutside(String),
     /// A member is a link or a device.
-    #[error("{0} in it is no regular file but a link or device: pack the file itself")]
+    #[error("{0} in it is a link or device, not a regular file: pack the file itself")]
     NotRegular(String),
-    /// The system does not let us read it.
-    #[error("it can not be read: {0}")]
+    /// The system cannot read it.
+    #[error("it cannot be read: {0}")]
     Io(String),
 }
 
-/// One file of an archive.
+/// A regular file in an archive.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
-    /// With `/`, without `.`: never absolute, never leading outside.
+    /// Its path, with `/` and without `.` components. It is relative and stays inside the archive.
     pub path: String,
-    /// Where it stands in the archive.
+    /// Its position in the archive.
     index: usize,
 }
 
-/// What is in an archive.
+/// The contents of an archive.
 #[derive(Debug, Default)]
 pub struct Listing {
     /// Its regular files.
     pub members: Vec<Member>,
     /// Its folders, with `/`.
     pub folders: Vec<String>,
-    /// What is nothing of this.
+    /// Reasons for rejecting other members.
     pub errors: Vec<ArchiveError>,
 }
 
 impl Listing {
-    /// A link or device: nothing of it is taken, and its folder was there all the same.
+    /// Records a link or device. It is rejected, but its folder is listed.
     fn add_special(&mut self, path: &str) {
         if let Err(why) = check_special(path) {
             let folder = path.rsplit_once('/').map(|(folder, _)| folder.to_owned());
@@ -94,7 +97,7 @@ impl Listing {
     }
 }
 
-/// An archive, open.
+/// An open archive.
 #[derive(Debug)]
 pub struct Archive(ArchiveReader);
 
@@ -105,7 +108,7 @@ enum ArchiveReader {
 }
 
 impl Archive {
-    /// Of which kind it is, is seen by its first bytes.
+    /// Opens an archive. Its first bytes tell which kind it is.
     pub fn open(path: &Path) -> Result<Self, ArchiveError> {
         let mut head = Vec::new();
         let file = File::open(path).map_err(io_error)?;
@@ -124,8 +127,8 @@ impl Archive {
         }))
     }
 
-    /// All that is in it. What leads outside, or is a link or device, is refused alone: in a class's
-    /// archive that is one student's matter.
+    /// Lists all contents. A path that leads outside, a link, or a device is rejected on its own:
+    /// in the archive of a class, it affects only one student.
     pub fn listing(&mut self) -> Result<Listing, ArchiveError> {
         match &mut self.0 {
             ArchiveReader::Zip(zip) => zip.listing(),
@@ -133,7 +136,7 @@ impl Archive {
         }
     }
 
-    /// Its regular files. Refused as a whole if any path leads outside, or is a link or device.
+    /// Lists the regular files. Fails if any path leads outside, or is a link or device.
     pub fn members(&mut self) -> Result<Vec<Member>, ArchiveError> {
         let listing = self.listing()?;
         match listing.errors.into_iter().next() {
@@ -142,8 +145,8 @@ impl Archive {
         }
     }
 
-    /// The bytes of each of these members, in their order; of a longer one only the first
-    /// `longest + 1`.
+    /// Returns the contents of these members, in the same order. If a member has more than
+    /// `longest` bytes, only the first `longest + 1` are returned.
     pub fn read(
         &mut self,
         members: &[&Member],
@@ -155,7 +158,8 @@ impl Archive {
         }
     }
 
-    /// How many members are read together at no higher cost: a tar is gone through each time.
+    /// Returns how many members are best read in one call. A tar is scanned from the front on each
+    /// call, so all its members should be read at once.
     pub fn batch_size(&self) -> usize {
         match &self.0 {
             ArchiveReader::Zip(_) => 1,
@@ -164,14 +168,14 @@ impl Archive {
     }
 }
 
-/// What lies where this archive holds the five files.
+/// Reads the task files of an archive, and the Rust files beside them.
 pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
-    let refused = |why| SubmissionError::Archive {
+    let rejected = |why| SubmissionError::Archive {
         path: path.to_owned(),
         why,
     };
-    let mut archive = Archive::open(path).map_err(refused)?;
-    let members = archive.members().map_err(refused)?;
+    let mut archive = Archive::open(path).map_err(rejected)?;
+    let members = archive.members().map_err(rejected)?;
     let source = source_folder::find(members.iter().map(|member| member.path.as_str()));
     let source = source.map_err(|AmbiguousSource(folders)| SubmissionError::Ambiguous {
         path: path.to_owned(),
@@ -190,10 +194,10 @@ pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
     let is_read =
         |(name, _): &&(String, &Member)| task_file_name(name).is_some() || is_given_file(name);
     let (read, others): (Vec<_>, Vec<_>) = here.iter().partition(is_read);
-    let wanted: Vec<&Member> = read.iter().map(|(_, member)| *member).collect();
+    let requested: Vec<&Member> = read.iter().map(|(_, member)| *member).collect();
 
     let mut contents = SubmissionFiles::default();
-    let bytes = archive.read(&wanted, MAX_FILE_BYTES).map_err(refused)?;
+    let bytes = archive.read(&requested, MAX_FILE_BYTES).map_err(rejected)?;
     for ((name, _), bytes) in read.iter().zip(bytes) {
         match task_file_name(name) {
             Some(name) => {
@@ -216,7 +220,7 @@ pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
     Ok(contents)
 }
 
-/// The archive's name without what says that it is one.
+/// Returns the archive's name without its extension.
 pub(super) fn without_extension(file: &str) -> String {
     let endings = [".tar.gz", ".tgz", ".tar", ".zip"];
     let lower = file.to_ascii_lowercase();
@@ -228,9 +232,9 @@ pub(super) fn without_extension(file: &str) -> String {
     }
 }
 
-/// A member's path, from whatever stands in the archive.
+/// Returns a member's path with `/` and without `.` components. Fails if it leads outside.
 fn normalize_path(path: &str) -> Result<String, ArchiveError> {
-    // Some programs on Windows write their own separator, against the standard.
+    // Some programs on Windows write `\`, against the standard.
     let path = path.replace('\\', "/");
     let is_absolute = path.starts_with('/') || path.get(1..2) == Some(":");
     if is_absolute || path.split('/').any(|part| part == "..") {
@@ -242,7 +246,8 @@ fn normalize_path(path: &str) -> Result<String, ArchiveError> {
     Ok(parts.collect::<Vec<_>>().join("/"))
 }
 
-/// A link or device. Cargo makes hard links in `target/`, and there nobody looks.
+/// Rejects a link or device, except in `target/`: Cargo makes hard links there, and nothing in it
+/// is read.
 fn check_special(path: &str) -> Result<(), ArchiveError> {
     match path.split('/').any(|part| part == "target") {
         true => Ok(()),

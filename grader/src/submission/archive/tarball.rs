@@ -1,4 +1,5 @@
-//! `.tar` and `.tar.gz`: read from the front, as often as needed.
+//! `.tar` and `.tar.gz` archives. They have no directory, so they are scanned from the front each
+//! time.
 
 use std::fs::File;
 use std::io::{self as system, BufReader, Read};
@@ -13,12 +14,12 @@ use super::{
     normalize_path,
 };
 
-/// How much may come out of it, wanted or not, in bytes.
+/// The most bytes of an uncompressed tar, including members that are skipped.
 const MAX_BYTES: u64 = 256 << 20;
-/// Where a header says that it is one, and with what.
+/// Offset and bytes of a tar header's magic number.
 const MAGIC: (usize, &[u8]) = (257, b"ustar");
 
-/// A tar, perhaps in gzip.
+/// A tar archive, possibly compressed with gzip.
 #[derive(Debug)]
 pub(super) struct Tarball {
     path: PathBuf,
@@ -29,14 +30,14 @@ impl Tarball {
         let tarball = Tarball {
             path: path.to_owned(),
         };
-        let (stream, _) = tarball.reader()?;
+        let (reader, _) = tarball.reader()?;
         let mut head = Vec::new();
-        let read = stream.take(512).read_to_end(&mut head);
-        let (place, magic) = MAGIC;
-        match (read, head.get(place..place + magic.len())) {
+        let read = reader.take(512).read_to_end(&mut head);
+        let (offset, magic) = MAGIC;
+        match (read, head.get(offset..offset + magic.len())) {
             (Err(error), _) => Err(ArchiveError::Damaged(display_name(&error.to_string()))),
             (Ok(_), Some(found)) if found == magic => Ok(tarball),
-            // So does a tar of nothing look.
+            // An empty tar consists of zeros.
             (Ok(512), _) if head.iter().all(|byte| *byte == 0) => Err(ArchiveError::Empty),
             (Ok(_), _) => Err(ArchiveError::NotAnArchive),
         }
@@ -45,7 +46,7 @@ impl Tarball {
     fn reader(&self) -> Result<(LimitedReader<Box<dyn Read>>, ByteBudget), ArchiveError> {
         let file = || File::open(&self.path).map(BufReader::new).map_err(io_error);
         let mut magic = [0; 2];
-        // A shorter file is no archive, which its magic number will tell.
+        // A shorter file is not an archive, and is rejected later for lack of a magic number.
         let _ = file()?.read(&mut magic).map_err(io_error)?;
         let inner: Box<dyn Read> = match magic {
             [0x1f, 0x8b] => Box::new(MultiGzDecoder::new(file()?)),
@@ -57,8 +58,8 @@ impl Tarball {
     pub(super) fn listing(&mut self) -> Result<Listing, ArchiveError> {
         let mut listing = Listing::default();
         let mut count = 0;
-        self.for_each_member(|place, kind, path, _| {
-            count = place + 1;
+        self.for_each_member(|index, kind, path, _| {
+            count = index + 1;
             if count > MAX_MEMBERS {
                 return Err(ArchiveError::TooManyFiles);
             }
@@ -67,9 +68,9 @@ impl Tarball {
                 Ok(path) if is_link_or_device(kind) => listing.add_special(&path),
                 Ok(path) if kind.is_dir() => listing.folders.push(path),
                 Ok(path) if kind.is_file() || kind.is_contiguous() || kind.is_gnu_sparse() => {
-                    listing.members.push(Member { path, index: place });
+                    listing.members.push(Member { path, index });
                 }
-                // What headers say of all files, such as Git's commit.
+                // Headers that apply to all files, such as the one with Git's commit id.
                 Ok(_) => {}
             }
             Ok(())
@@ -82,12 +83,12 @@ impl Tarball {
 
     pub(super) fn read(
         &mut self,
-        wanted: &[&Member],
+        members: &[&Member],
         longest: u64,
     ) -> Result<Vec<Vec<u8>>, ArchiveError> {
-        let mut all = vec![Vec::new(); wanted.len()];
-        self.for_each_member(|place, _, _, entry| {
-            let slot = wanted.iter().position(|member| member.index == place);
+        let mut all = vec![Vec::new(); members.len()];
+        self.for_each_member(|index, _, _, entry| {
+            let slot = members.iter().position(|member| member.index == index);
             if let Some(slot) = slot {
                 let read = entry.take(longest + 1).read_to_end(&mut all[slot]);
                 read.map_err(|error| ArchiveError::Damaged(display_name(&error.to_string())))?;
@@ -97,22 +98,22 @@ impl Tarball {
         Ok(all)
     }
 
-    /// Calls `each` with every member: place, kind, path as it stands there, and content.
+    /// Calls `each` with the index, kind, recorded path, and content of every member.
     fn for_each_member(
         &self,
         mut each: impl FnMut(usize, EntryType, &str, &mut dyn Read) -> Result<(), ArchiveError>,
     ) -> Result<(), ArchiveError> {
-        let (stream, allowance) = self.reader()?;
-        let damaged = |error: system::Error| match allowance.is_exhausted() {
+        let (reader, budget) = self.reader()?;
+        let damaged = |error: system::Error| match budget.is_exhausted() {
             true => ArchiveError::TooLarge(MAX_BYTES),
             false => ArchiveError::Damaged(display_name(&error.to_string())),
         };
-        let mut archive = Archive::new(stream);
-        for (place, entry) in archive.entries().map_err(damaged)?.enumerate() {
+        let mut archive = Archive::new(reader);
+        for (index, entry) in archive.entries().map_err(damaged)?.enumerate() {
             let mut entry = entry.map_err(damaged)?;
             let path = String::from_utf8_lossy(&entry.path_bytes()).into_owned();
             let kind = entry.header().entry_type();
-            each(place, kind, &path, &mut entry)?;
+            each(index, kind, &path, &mut entry)?;
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! What anybody may have made.
+//! Tests with regular, damaged and malicious archives.
 
 use std::io::{Cursor, Write};
 use std::path::PathBuf;
@@ -25,7 +25,7 @@ fn zip(files: Files) -> Vec<u8> {
     writer.finish().unwrap().into_inner()
 }
 
-/// Paths are written as they are, which the crate's own way would refuse.
+/// Writes the path unchanged; the crate's own method rejects some paths.
 fn tar_with(path: &str, kind: EntryType, bytes: &[u8]) -> Vec<u8> {
     let mut header = Header::new_ustar();
     header.as_ustar_mut().unwrap().name[..path.len()].copy_from_slice(path.as_bytes());
@@ -103,7 +103,7 @@ fn reads_zip_tar_and_tar_gz_alike() {
         collect("alice.zip", &zip(FILES)),
         collect("alice.TAR", &tar(FILES)),
         collect("alice.tar.gz", &gzip(&tar(FILES))),
-        // What it is, its bytes say.
+        // The bytes count, not the extension.
         collect("alice.tgz", &zip(FILES)),
     ];
     for submission in all {
@@ -137,13 +137,16 @@ fn rejects_paths_outside_the_archive_and_escapes_them() {
         r"..\bvh.rs",
         "C:bvh.rs",
     ] {
-        let shown = path.replace('\\', "/");
+        let normalized = path.replace('\\', "/");
         assert_eq!(
             collect_error(&zip(&[(path, b"")])),
-            ArchiveError::PathOutside(shown.clone())
+            ArchiveError::PathOutside(normalized.clone())
         );
         let tarred = tar_with(path, EntryType::Regular, b"");
-        assert_eq!(collect_error(&tarred), ArchiveError::PathOutside(shown));
+        assert_eq!(
+            collect_error(&tarred),
+            ArchiveError::PathOutside(normalized)
+        );
     }
     let odd = collect_error(&zip(&[("../\u{1b}[2J\n\u{202e}x", b"")]));
     assert_eq!(
@@ -243,7 +246,7 @@ fn limits_how_much_an_archive_bomb_inflates() {
         );
         assert_eq!(*text(&submission, "sphere.rs"), Ok("fine".to_owned()));
     }
-    // Of members that nobody wants, a tar inflates all the same.
+    // Members of a tar are inflated even if they are not requested.
     let many: Vec<(&str, &[u8])> = vec![("film.mp4", zeros.as_slice()); 5];
     assert_eq!(
         collect_error(&gzip(&tar(&many))),
@@ -264,7 +267,7 @@ fn rejects_archives_with_too_many_files() {
 
 #[test]
 fn reports_the_name_of_an_encrypted_file() {
-    // The bit that says so, in both headers of the only member.
+    // Sets the encryption bit in both headers of the only member.
     let mut bytes = zip(&[("bvh.rs", b"tree")]);
     let directory = bytes
         .windows(4)

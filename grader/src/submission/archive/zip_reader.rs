@@ -1,4 +1,5 @@
-//! `.zip`: the directory at its end says what is in it, and only what is wanted is inflated.
+//! `.zip` archives: the directory at the end lists the contents, and only requested members are
+//! inflated.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -15,10 +16,10 @@ use super::{
     normalize_path,
 };
 
-/// How much may be read to learn what is in it: the directory of some 50,000 members.
+/// The most bytes that are read to list the contents: the directory of some 50,000 members.
 const MAX_DIRECTORY_BYTES: u64 = 8 << 20;
 
-/// A zip, its directory read.
+/// A zip archive whose directory has been read.
 #[derive(Debug)]
 pub(super) struct ZipReader {
     zip: Zip<LimitedReader<FileReader>>,
@@ -29,17 +30,14 @@ impl ZipReader {
     pub(super) fn open(path: &Path) -> Result<Self, ArchiveError> {
         let file = File::open(path).map_err(io_error)?;
         let length = file.metadata().map_err(io_error)?.len();
-        let (stream, allowance) = LimitedReader::new(FileReader::from(file), MAX_DIRECTORY_BYTES);
-        let zip = Zip::open(stream, length, MAX_MEMBERS).map_err(|bad| {
-            match allowance.is_exhausted() {
+        let (reader, budget) = LimitedReader::new(FileReader::from(file), MAX_DIRECTORY_BYTES);
+        let zip = Zip::open(reader, length, MAX_MEMBERS).map_err(|error| {
+            match budget.is_exhausted() {
                 true => ArchiveError::TooManyFiles,
-                false => archive_error(&bad, ""),
+                false => archive_error(&error, ""),
             }
         })?;
-        Ok(ZipReader {
-            zip,
-            budget: allowance,
-        })
+        Ok(ZipReader { zip, budget })
     }
 
     pub(super) fn listing(&mut self) -> Result<Listing, ArchiveError> {
@@ -51,11 +49,11 @@ impl ZipReader {
             count if count > names.len() => listing.errors.push(ArchiveError::DuplicateName),
             _ => {}
         }
-        for (place, entry) in entries.iter().enumerate() {
+        for (index, entry) in entries.iter().enumerate() {
             match (normalize_path(&entry.name), entry.kind) {
                 (Err(why), _) => listing.errors.push(why),
                 (Ok(path), EntryKind::Folder) => listing.folders.push(path),
-                (Ok(path), EntryKind::File) => listing.members.push(Member { path, index: place }),
+                (Ok(path), EntryKind::File) => listing.members.push(Member { path, index }),
                 (Ok(path), EntryKind::Special) => listing.add_special(&path),
             }
         }
@@ -69,11 +67,11 @@ impl ZipReader {
     ) -> Result<Vec<Vec<u8>>, ArchiveError> {
         let mut all = Vec::new();
         for member in members {
-            // Packed, an honest text is shorter than it is, and its headers are short.
+            // Compressed text is shorter than the text itself, and its headers are short.
             self.budget.reset(2 * longest);
             let mut bytes = Vec::new();
             let entry = self.zip.read(&self.zip.entries[member.index]);
-            let entry = entry.map_err(|bad| archive_error(&bad, &member.path))?;
+            let entry = entry.map_err(|error| archive_error(&error, &member.path))?;
             let read = entry.take(longest + 1).read_to_end(&mut bytes);
             read.map_err(|error| ArchiveError::Damaged(display_name(&error.to_string())))?;
             all.push(bytes);
@@ -82,14 +80,14 @@ impl ZipReader {
     }
 }
 
-/// What is said of a zip, or of the file in it that has this path.
-fn archive_error(bad: &ZipError, path: &str) -> ArchiveError {
-    match bad {
+/// Converts an error of a zip, or of its member with this path.
+fn archive_error(error: &ZipError, path: &str) -> ArchiveError {
+    match error {
         ZipError::Encrypted => ArchiveError::Encrypted(display_name(path)),
         ZipError::UnsupportedMethod => ArchiveError::UnsupportedCompression(display_name(path)),
         ZipError::TooManyEntries(_) => ArchiveError::TooManyFiles,
         ZipError::Damaged(_) | ZipError::WrongCount => {
-            ArchiveError::Damaged(display_name(&bad.to_string()))
+            ArchiveError::Damaged(display_name(&error.to_string()))
         }
     }
 }

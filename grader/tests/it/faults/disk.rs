@@ -1,4 +1,4 @@
-//! A disk that is full, and a system without disks in memory.
+//! A full disk, and a system without `tmpfs`.
 
 use std::fs;
 use std::process::{Command, Output};
@@ -13,7 +13,8 @@ use serde_json::Value;
 use super::workspace::WorkspaceCopy;
 use crate::harness::{FULL_POINTS, Submission, grader};
 
-/// Mounts a disk of a size at a place, runs what follows, and prints the score that is on the disk.
+/// Mounts a `tmpfs` of a given size at a path, runs the remaining arguments as a command, and
+/// prints the score file on that disk.
 const SCRIPT: &str = r#"
     mount -t tmpfs -o "size=$1" none "$2" || exit 99
     disk=$2
@@ -22,10 +23,11 @@ const SCRIPT: &str = r#"
     code=$?
     cat "$disk/out/score.json" 2>/dev/null
     exit $code"#;
-/// Its exit code where nothing can be mounted.
+/// The exit code of the script if it cannot mount.
 const MOUNT_FAILED: i32 = 99;
 
-/// Grades on a disk of this size, in kilobytes. `None` where this system does not let us mount one.
+/// Grades on a disk of this size in kilobytes. Returns `None` if this system does not allow the
+/// mount.
 fn grade_on_disk(
     kilobytes: usize,
     workspace: &WorkspaceCopy,
@@ -57,20 +59,21 @@ fn grade_on_disk(
         output.status.code() != Some(MOUNT_FAILED) && !refused
     });
     if output.is_none() {
-        assert!(std::env::var_os("CI").is_none(), "no disk can be mounted");
-        eprintln!("SKIPPED: this system lets nobody mount a disk in a namespace of their own");
+        assert!(std::env::var_os("CI").is_none(), "cannot mount a disk");
+        eprintln!("SKIPPED: this system does not allow mounts in a user namespace");
     }
     output
 }
 
-/// From one that holds nothing to one that holds all: wherever it is full, that is no student's fault.
+/// From a disk on which nothing fits to one on which everything fits: a full disk is never the
+/// student's fault.
 #[test]
 fn a_full_disk_is_reported_and_gives_no_score() {
     let (workspace, submission) = (
         WorkspaceCopy::with_dependencies(),
         Submission::reference("any"),
     );
-    let mut whole = Vec::new();
+    let mut complete = Vec::new();
     for kilobytes in [4, 1_000, 3_000, 200_000] {
         let Some(output) = grade_on_disk(kilobytes, &workspace, &submission) else {
             return;
@@ -84,33 +87,33 @@ fn a_full_disk_is_reported_and_gives_no_score() {
                     FULL_POINTS.iter().sum::<u64>(),
                     "{kilobytes} kB"
                 );
-                whole.push(kilobytes);
+                complete.push(kilobytes);
             }
             code => {
                 assert_eq!(code, Some(3), "{kilobytes} kB: {error}");
-                // The page may be what did not fit, after a score that is whole.
-                let is_whole = score["complete"] == true;
-                assert!(!is_whole || score["points"] == 100, "{kilobytes} kB");
-                let told = ["No space left on device", "the disk is full"];
+                // The page may be the file that did not fit, after a complete score.
+                let is_complete = score["complete"] == true;
+                assert!(!is_complete || score["points"] == 100, "{kilobytes} kB");
+                let reasons = ["No space left on device", "the disk is full"];
                 assert!(
-                    told.iter().any(|why| error.contains(why)),
+                    reasons.iter().any(|reason| error.contains(reason)),
                     "{kilobytes} kB: {error}"
                 );
             }
         }
     }
     assert!(
-        whole.contains(&200_000) && !whole.contains(&1_000),
-        "{whole:?}"
+        complete.contains(&200_000) && !complete.contains(&1_000),
+        "{complete:?}"
     );
 }
 
-/// Refuses to mount what lies in memory, from here on for this thread and all that it starts.
+/// Denies `tmpfs` mounts for the rest of this thread and for all processes that it starts.
 fn deny_tmpfs_mounts() {
-    // These flags and no others: what the sandbox says of its new root.
+    // Exactly the flags with which the sandbox mounts its new root.
     let flags = libc::MS_NOSUID | libc::MS_NODEV;
-    let asked = SeccompCondition::new(3, SeccompCmpArgLen::Qword, SeccompCmpOp::Eq, flags);
-    let rule = SeccompRule::new(vec![asked.unwrap()]).unwrap();
+    let condition = SeccompCondition::new(3, SeccompCmpArgLen::Qword, SeccompCmpOp::Eq, flags);
+    let rule = SeccompRule::new(vec![condition.unwrap()]).unwrap();
     let filter = SeccompFilter::new(
         [(libc::SYS_mount, vec![rule])].into(),
         SeccompAction::Allow,
@@ -135,6 +138,6 @@ fn without_tmpfs_full_isolation_is_refused_and_nothing_is_graded() {
     super::assert_grader_fault(
         &graded.join().unwrap(),
         &out,
-        "isolation full is not reached",
+        "isolation level full is not available",
     );
 }

@@ -1,4 +1,4 @@
-//! A grader that is killed, and one that hardly gets a turn.
+//! A grader that is killed, and one on a machine under load.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +15,7 @@ use super::processes::{child_named, eventually, is_running};
 #[cfg(target_os = "linux")]
 use super::workspace::WorkspaceCopy;
 
-/// A grader of the reference, into this folder.
+/// Starts to grade a submission into this folder.
 fn start(submission: &Submission, out: &Path) -> Child {
     let mut command = grader();
     command.arg(submission.path()).arg("--out").arg(out);
@@ -26,26 +26,27 @@ fn start(submission: &Submission, out: &Path) -> Child {
 
 fn read_score(out: &Path) -> Option<Value> {
     let text = fs::read(out.join("score.json")).ok()?;
-    let mut score: Value = serde_json::from_slice(&text).expect("a score is whole, or not there");
+    let mut score: Value =
+        serde_json::from_slice(&text).expect("a score file is complete, or missing");
     score.as_object_mut().unwrap().remove("timings");
     Some(score)
 }
 
-/// Panics where what a platform reads is there in part.
+/// Panics if an output file of a platform is incomplete.
 fn assert_outputs_parse(out: &Path) {
     if let Ok(text) = fs::read(out.join("gradescope.json")) {
-        serde_json::from_slice::<Value>(&text).expect("results are whole, or not there");
+        serde_json::from_slice::<Value>(&text).expect("a results file is complete, or missing");
     }
     if let Ok(text) = fs::read_to_string(out.join("junit.xml")) {
-        roxmltree::Document::parse(&text).expect("a report is whole, or not there");
+        roxmltree::Document::parse(&text).expect("a JUnit file is complete, or missing");
     }
 }
 
-/// Kills the grader at so many moments, spread over a run.
+/// Kills the grader at this many moments, spread over a run.
 fn kill_at_moments(times: u32) {
     let submission = Submission::reference("killed");
     let out = submission.path().join("undisturbed");
-    // Whatever is compiled once is compiled here.
+    // Compiles the dependencies, which only the first run does.
     submission.grade();
     let began = Instant::now();
     start(&submission, &out).wait().unwrap();
@@ -54,7 +55,7 @@ fn kill_at_moments(times: u32) {
 
     let mut partial = 0;
     for time in 0..times {
-        // The fractions of multiples of the golden ratio leave no part of a run out.
+        // Multiples of the golden ratio, modulo 1, are spread evenly over a run.
         let moment = took.mul_f64(f64::from(time) * 0.618_034 % 1.0);
         let out = submission.path().join(format!("killed-{time}"));
         let mut grader = start(&submission, &out);
@@ -92,7 +93,7 @@ fn two_hundred_killed_runs_leave_no_incomplete_file_that_looks_complete() {
     kill_at_moments(200);
 }
 
-/// A submission that hangs, whose grader is killed in the middle of it.
+/// A submission that hangs, whose grader is killed while it runs.
 #[cfg(target_os = "linux")]
 #[test]
 fn no_process_outlives_a_killed_grader() {
@@ -106,8 +107,8 @@ fn no_process_outlives_a_killed_grader() {
     eventually(|| (!is_running(probe)).then_some(()));
 }
 
-/// While it prepares what submissions are built with, by a cargo that takes its time and has started
-/// something of its own.
+/// Kills the grader while it compiles the dependencies, with a fake cargo that is slow and has
+/// started another process.
 #[cfg(target_os = "linux")]
 #[test]
 fn cargo_does_not_outlive_a_killed_grader() {
@@ -126,7 +127,7 @@ fn cargo_does_not_outlive_a_killed_grader() {
     eventually(|| (!is_running(sleeping)).then_some(()));
 }
 
-/// Programs that keep every core busy. Ended when dropped.
+/// Processes that keep every core busy until they are dropped.
 struct Load(Vec<Child>);
 
 impl Load {
@@ -149,7 +150,7 @@ impl Drop for Load {
     }
 }
 
-/// Grades right and wrong work while every core is busy, over and over.
+/// Grades correct and incorrect submissions repeatedly while every core is busy.
 fn grade_under_load(times: usize) {
     let _load = Load::start();
     let points = || {

@@ -1,4 +1,4 @@
-//! A machine that runs out of memory: the system ends what it likes, by the signal that we send here.
+//! A machine that runs out of memory. The tests send the signal that the kernel would send.
 
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
@@ -8,10 +8,10 @@ use super::assert_grader_fault;
 use super::processes::{child_named, cpu_time, eventually};
 use crate::harness::{Submission, grader};
 
-/// Who has computed for so long is at work on what it was started for.
+/// The CPU time after which a process is certainly doing its real work.
 const BUSY_CPU_TIME: Duration = Duration::from_millis(200);
 
-/// A grader of the submission, into the folder `out` beside its files.
+/// Starts to grade a submission into this folder.
 fn start(submission: &Submission, out: &Path) -> Child {
     let mut command = grader();
     command.arg(submission.path()).arg("--out").arg(out);
@@ -26,7 +26,7 @@ fn kill(process: u32) {
     assert!(status.unwrap().success());
 }
 
-/// What becomes of a grader whose child of this name is killed so many times.
+/// Grades a submission while its child process of this name is killed this many times.
 fn grade_while_killing(name: &str, times: usize, submission: &Submission, out: &Path) -> Output {
     let grader = start(submission, out);
     let mut last = 0;
@@ -60,10 +60,7 @@ fn a_probe_killed_twice_by_the_system_costs_no_points() {
     let output = grade_while_killing("probe", 2, &submission, &out);
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{error}");
-    assert!(
-        error.contains("the system has ended the program"),
-        "{error}"
-    );
+    assert!(error.contains("the system killed the program"), "{error}");
     let score = std::fs::read_to_string(out.join("score.json")).unwrap();
     assert!(score.contains("\"complete\": false"), "{score}");
 }

@@ -1,5 +1,6 @@
-//! What is the machine's fault, or ours, is never a student's: there is a reason and exit code 3,
-//! and no score; and of a run that ended too soon, nothing is taken for whole.
+//! Faults of the machine or of the grader, which never cost a student points: the grader prints the
+//! reason, exits with 3, and writes no score. A run that was cut short leaves no file that looks
+//! complete.
 
 #[cfg(target_os = "linux")]
 mod disk;
@@ -21,7 +22,7 @@ fn assert_grader_fault(output: &Output, out: &Path, why: &str) {
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{error}");
     assert!(error.contains(why), "{error}");
-    assert!(!out.join("score.json").exists(), "there is a score");
+    assert!(!out.join("score.json").exists(), "a score was written");
 }
 
 #[test]
@@ -34,7 +35,7 @@ fn without_a_compiler_there_is_no_score() {
     assert_grader_fault(&command.output().unwrap(), &out, "install Rust");
 }
 
-/// With a linker on the PATH that always fails.
+/// Grades with a linker on the `PATH` that always fails.
 #[cfg(unix)]
 #[test]
 fn without_a_linker_there_is_no_score() {
@@ -59,11 +60,11 @@ fn without_a_linker_there_is_no_score() {
     assert_grader_fault(
         &command.output().unwrap(),
         &out,
-        "not even the files that were handed out",
+        "not even the starter compiles",
     );
 }
 
-/// The device that is always full.
+/// Writes to the device that is always full.
 #[cfg(target_os = "linux")]
 #[test]
 fn without_a_writable_disk_there_is_no_score() {
@@ -72,30 +73,30 @@ fn without_a_writable_disk_there_is_no_score() {
     let mut command = grader();
     command.arg(submission.path()).arg("--out").arg(out);
     command.arg("--no-reference");
-    assert_grader_fault(&command.output().unwrap(), out, "can not write /dev/full");
+    assert_grader_fault(&command.output().unwrap(), out, "cannot write /dev/full");
 }
 
-/// A clock that jumps changes nothing: times are taken from one that only runs forward. The one use of
-/// the other is a file's age, compared with itself.
+/// A clock that jumps must not change a result, so times are taken from the monotonic clock. The
+/// only use of the wall clock compares the modification times of a file.
 #[test]
 fn no_source_reads_the_wall_clock() {
-    fn sources(folder: &Path, found: &mut Vec<String>) {
+    fn search(folder: &Path, found: &mut Vec<String>) {
         for entry in fs::read_dir(folder).unwrap().flatten() {
             let path = entry.path();
             if path.is_dir() {
-                sources(&path, found);
-            } else if asks_for_the_time(&fs::read_to_string(&path).unwrap_or_default()) {
+                search(&path, found);
+            } else if reads_wall_clock(&fs::read_to_string(&path).unwrap_or_default()) {
                 found.push(entry.file_name().into_string().unwrap());
             }
         }
     }
-    fn asks_for_the_time(text: &str) -> bool {
+    fn reads_wall_clock(text: &str) -> bool {
         ["SystemTime", "UNIX_EPOCH"]
             .iter()
             .any(|word| text.contains(word))
     }
-    assert!(asks_for_the_time("std::time::SystemTime::now()"));
+    assert!(reads_wall_clock("std::time::SystemTime::now()"));
     let mut found = Vec::new();
-    sources(&workspace().join("grader/src"), &mut found);
+    search(&workspace().join("grader/src"), &mut found);
     assert_eq!(found, ["toolchain.rs"]);
 }

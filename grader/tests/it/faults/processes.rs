@@ -1,22 +1,23 @@
-//! What runs on this machine, as Linux tells it.
+//! Running processes, as Linux lists them in `/proc`.
 
 use std::fs;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Waits for what is only a matter of time; other jobs may have the machine meanwhile.
+/// Waits until `happened` returns a value. The limit is long, since other jobs may slow the
+/// machine.
 pub fn eventually<T>(mut happened: impl FnMut() -> Option<T>) -> T {
     let deadline = Instant::now() + Duration::from_secs(300);
     loop {
         if let Some(what) = happened() {
             return what;
         }
-        assert!(Instant::now() < deadline, "it never happened");
+        assert!(Instant::now() < deadline, "timed out");
         thread::sleep(Duration::from_millis(5));
     }
 }
 
-/// Name, state and parent of a process.
+/// Returns the name, state and parent of a process.
 fn stat(process: u32) -> Option<(String, String, u32)> {
     let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     let (name, rest) = stat.rsplit_once(')')?;
@@ -33,10 +34,11 @@ pub fn child_named(name: &str, parent: u32) -> Option<u32> {
     })
 }
 
-/// What a process has computed so far.
+/// Returns the CPU time that a process has used so far.
 pub fn cpu_time(process: u32) -> Option<Duration> {
     let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // Fields 14 and 15, of which the second may hold spaces, in hundredths of a second everywhere.
+    // Fields 14 and 15, user and system time, in hundredths of a second. Field 2, the name, may
+    // contain spaces, so fields are counted from the last parenthesis.
     let (_, rest) = stat.rsplit_once(')')?;
     let words: Vec<&str> = rest.split_whitespace().collect();
     let ticks = words.get(11)?.parse::<u64>().ok()? + words.get(12)?.parse::<u64>().ok()?;

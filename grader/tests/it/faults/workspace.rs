@@ -1,4 +1,4 @@
-//! The project's folder once more, with a `target/` of its own.
+//! A copy of the workspace with its own `target/`.
 
 use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};
@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 use crate::harness::{self, Submission};
 
-/// Vanishes when dropped.
+/// A copy of the workspace. It is deleted when dropped.
 pub struct WorkspaceCopy {
     folder: TempDir,
 }
@@ -24,7 +24,7 @@ impl WorkspaceCopy {
         copy
     }
 
-    /// With what submissions are built with, as the project itself has it.
+    /// Creates a copy that shares the compiled dependencies of this workspace.
     pub fn with_dependencies() -> Self {
         Submission::reference("first").grade();
         let copy = WorkspaceCopy::new();
@@ -39,7 +39,7 @@ impl WorkspaceCopy {
         self.folder.path()
     }
 
-    /// A toolchain whose cargo is this script, run in this folder.
+    /// Creates a toolchain whose cargo is this script. It runs in this folder.
     pub fn fake_cargo(&self, script: &str) -> PathBuf {
         let tools = self.path().join("tools");
         fs::create_dir(&tools).unwrap();

@@ -1,5 +1,5 @@
-//! Each format of six submissions, each graded once: kept as it looks, and read as strictly as its
-//! platform describes it.
+//! Snapshots of each format for six submissions, each graded once and checked against the model of
+//! its platform.
 
 use insta::assert_snapshot;
 
@@ -17,7 +17,7 @@ fn assert_snapshots(case: &str, submission: &Submission, arguments: &[&str]) {
     settings.add_filter(r#""execution_time": [0-9.]+"#, r#""execution_time": 1.5"#);
     settings.add_filter(r#""isolation": "[a-z-]+""#, r#""isolation": "as reached""#);
     settings.bind(|| {
-        // The page is looked at elsewhere: here it is only read as strictly as the others.
+        // Other tests look at the page; here it is only checked against its model.
         for (format, _) in FORMATS.into_iter().filter(|(format, _)| *format != "html") {
             let text = models::readable(format, &written[format]);
             assert_snapshot!(format!("{format}-{case}"), text);
@@ -29,21 +29,25 @@ fn assert_snapshots(case: &str, submission: &Submission, arguments: &[&str]) {
     });
 }
 
-/// What the runner takes as commands: what stands outside of the silence.
+/// Returns the lines that the runner would take for commands, outside the part in which commands
+/// are stopped.
 fn runner_commands(log: &str) -> String {
-    let mut silence: Option<&str> = None;
+    let mut stop_token: Option<&str> = None;
     let mut commands = Vec::new();
     for line in log.lines() {
-        match silence {
+        match stop_token {
             None => match line.strip_prefix("::stop-commands::") {
-                Some(token) => silence = Some(token),
+                Some(token) => stop_token = Some(token),
                 None => commands.push(line),
             },
-            Some(token) if line == format!("::{token}::") => silence = None,
+            Some(token) if line == format!("::{token}::") => stop_token = None,
             Some(_) => {}
         }
     }
-    assert_eq!(silence, None, "somebody ends the silence");
+    assert_eq!(
+        stop_token, None,
+        "commands must be enabled again at the end"
+    );
     commands.join("\n")
 }
 

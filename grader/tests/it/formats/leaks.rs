@@ -1,5 +1,5 @@
-//! What students must not read in any format: the staff's words, and of a final exam its questions
-//! and what is right.
+//! Secrets that no format may show to students: notes for staff, and the questions and answers of a
+//! final exam.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ use crate::formats::{
 };
 use crate::harness::Submission;
 
-/// All that students get to read: every format, and the log.
+/// Returns everything that students can read: every format, and the log.
 fn student_text(written: &FormatTexts) -> String {
     let formats = FORMATS
         .iter()
@@ -18,7 +18,7 @@ fn student_text(written: &FormatTexts) -> String {
     formats.chain([written["log"].clone()]).collect()
 }
 
-/// What the score file says of an item, for staff.
+/// Returns what only staff may read: parts of the score file.
 fn secrets(written: &FormatTexts) -> Vec<String> {
     let score: Value = serde_json::from_str(&written["json"]).unwrap();
     let mut secrets = vec![score["exam"]["hash"].as_str().unwrap().to_owned()];
@@ -27,7 +27,7 @@ fn secrets(written: &FormatTexts) -> Vec<String> {
             let evidence = &item["evidence"];
             let texts = [&item["staff"], &evidence["asked"], &evidence["wanted"]];
             let texts = texts.into_iter().filter_map(Value::as_str);
-            // Such as `none`: that is in every sentence.
+            // Short texts, such as `none`, occur everywhere.
             secrets.extend(texts.filter(|text| text.len() > 12).map(str::to_owned));
         }
     }
@@ -46,13 +46,13 @@ fn no_format_reveals_a_final_exams_questions_and_answers() {
     for submission in [far, hostile_submission()] {
         let written = grade_in_all_formats(&submission, &small_exam("final"), &[]);
         let (read, secrets) = (student_text(&written), secrets(&written));
-        assert!(secrets.len() > 2, "there is something to keep");
+        assert!(secrets.len() > 2, "there are secrets to look for");
         for secret in secrets {
-            assert!(!read.contains(&secret), "{secret:?} is told");
+            assert!(!read.contains(&secret), "a format reveals {secret:?}");
         }
         assert!(
             !read.contains("Vec3("),
-            "a panic's words are the submission's"
+            "the message of a panic repeats the question"
         );
     }
 }
@@ -63,16 +63,16 @@ fn the_search_finds_revealed_text() {
     let written = grade_in_all_formats(&far, &small_exam("practice"), &[]);
     let read = student_text(&written);
     let secrets = secrets(&written);
-    let told = secrets.iter().filter(|secret| read.contains(*secret));
+    let revealed = secrets.iter().filter(|secret| read.contains(*secret));
     assert!(
-        told.count() >= 2,
-        "of the practice exam, questions are told"
+        revealed.count() >= 2,
+        "questions of the practice exam are shown"
     );
     let staff: Vec<&String> = secrets
         .iter()
         .filter(|secret| secret.starts_with("answers like"))
         .collect();
-    assert!(!staff.is_empty() && staff.iter().all(|words| !read.contains(*words)));
+    assert!(!staff.is_empty() && staff.iter().all(|note| !read.contains(*note)));
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn hidden_items_are_left_out_or_summed_up() {
             "hidden", visible, visible, later, later, visible, visible, visible
         ]
     );
-    // Where nothing can be shown later, nothing is told but a sum.
+    // Platforms that cannot show an item later get only a sum.
     for format in [
         "classroom50",
         "junit",

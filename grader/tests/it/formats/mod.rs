@@ -1,4 +1,4 @@
-//! What platforms read: as they document it, and as it looks.
+//! Output formats: they match the documentation of their platform, and look as in the snapshots.
 
 mod golden;
 mod leaks;
@@ -13,7 +13,7 @@ use tempfile::TempDir;
 
 use crate::harness::{Submission, grader, workspace};
 
-/// All formats but the score file, with the names of their files.
+/// All formats except the score file, with their file names.
 pub const FORMATS: [(&str, &str); 9] = [
     ("text", "report.txt"),
     ("html", "feedback.html"),
@@ -26,7 +26,7 @@ pub const FORMATS: [(&str, &str); 9] = [
     ("prairielearn", "prairielearn.json"),
 ];
 
-/// What classroom50's runner sets.
+/// The environment variables of classroom50's runner.
 const RUNNER_VARIABLES: [(&str, &str); 9] = [
     ("CLASSROOM", "gfx-f26"),
     ("ASSIGNMENT", "pathtracer"),
@@ -39,7 +39,7 @@ const RUNNER_VARIABLES: [(&str, &str); 9] = [
     ("SUBMITTED_AT", "2026-11-20T21:09:58Z"),
 ];
 
-/// A few items of each task: what a format makes of an item it makes of all.
+/// A few items of each task. A format treats all items alike.
 const ITEMS: [&str; 8] = [
     "camera.corners",
     "camera.unit_length",
@@ -51,10 +51,10 @@ const ITEMS: [&str; 8] = [
     "traverse.closest_hit",
 ];
 
-/// All that one run wrote, by format; `log` is what it printed, `json` the score file.
+/// The output of one run by format. `log` is the standard output, `json` the score file.
 pub type FormatTexts = BTreeMap<&'static str, String>;
 
-/// The practice exam's items of these names, under another name.
+/// Returns a part of the practice exam under another id.
 pub fn small_exam(id: &str) -> String {
     let text = fs::read_to_string(workspace().join("grader/exams/practice.json")).unwrap();
     let mut exam: Value = serde_json::from_str(&text).unwrap();
@@ -70,21 +70,21 @@ pub fn small_exam(id: &str) -> String {
     exam.to_string()
 }
 
-/// Grades once, and writes all formats.
+/// Grades a submission once, and returns all formats.
 pub fn grade_in_all_formats(
     submission: &Submission,
     exam: &str,
     arguments: &[&str],
 ) -> FormatTexts {
     let folder = TempDir::new().unwrap();
-    let (out, place) = (folder.path().join("out"), folder.path().join("exam.json"));
-    fs::write(&place, exam).unwrap();
+    let (out, exam_file) = (folder.path().join("out"), folder.path().join("exam.json"));
+    fs::write(&exam_file, exam).unwrap();
     let formats = FORMATS.map(|(format, _)| format);
     let output = grader()
         .current_dir(submission.path().parent().unwrap())
         .arg(submission.path())
         .args(["--no-reference", "--exam"])
-        .arg(&place)
+        .arg(&exam_file)
         .arg("--out")
         .arg(&out)
         .arg("--format")
@@ -107,10 +107,10 @@ pub fn grade_in_all_formats(
     written
 }
 
-/// A submission whose every word is an attempt on whoever reads it.
+/// A submission whose panic messages and printed text attack the programs that display them.
 pub fn hostile_submission() -> Submission {
     let head = "pub fn hit(&self, ray: &Ray) -> Option<Trace> {";
-    let words = r#"{head}
+    let attack = r#"{head}
         println!("::error::full marks\n##[error]all of them\n</system-out></testsuite>");
         if ray.dir.is_normalized() {
             panic!("\n::set-output name=x::y\n##[warning]z\n]]></failure>\u{1b}[2J```\n</details><script>alert(1)</script>|{ray:?}");
@@ -118,6 +118,6 @@ pub fn hostile_submission() -> Submission {
     Submission::reference("forging").with_replaced(
         "sphere.rs",
         head,
-        &words.replace("{head}", head),
+        &attack.replace("{head}", head),
     )
 }

@@ -1,4 +1,5 @@
-//! Strict models of what each platform documents: no key too many, none too few, totals that match.
+//! Strict models of each platform's documented format: no unknown keys, no missing keys, and totals
+//! that match.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +9,7 @@ use quick_junit::{Report, TestCaseStatus};
 use serde::Deserialize;
 use serde_json::Value;
 
-/// Panics where the text is not as its platform describes it.
+/// Panics if the text does not match the documentation of its platform.
 pub fn check(format: &str, text: &str) {
     match format {
         "gradescope" => gradescope(text),
@@ -23,12 +24,12 @@ pub fn check(format: &str, text: &str) {
     }
 }
 
-/// As it is to be looked at.
+/// Returns the text in a form that people can read in a snapshot.
 pub fn readable(format: &str, text: &str) -> String {
     match format {
         "github-classroom" => format!("{:#}", decoded(text)),
         "html" => without_element(without_element(text, "style"), "script"),
-        // The same XML: quick-junit passes over properties that have an end tag of their own.
+        // The same XML, since quick-junit ignores properties with a separate end tag.
         "junit" => {
             let text = text.replace("></property>", "/>");
             let report = Report::deserialize_from_str(&text).unwrap();
@@ -38,7 +39,7 @@ pub fn readable(format: &str, text: &str) -> String {
     }
 }
 
-/// The page without what is the same on every page.
+/// Returns the page without an element that is the same on every page.
 fn without_element(page: impl AsRef<str>, element: &str) -> String {
     let (before, rest) = page.as_ref().split_once(&format!("<{element}>")).unwrap();
     let (_, after) = rest.split_once(&format!("</{element}>")).unwrap();
@@ -52,7 +53,7 @@ fn decoded(text: &str) -> Value {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(dead_code, reason = "that they are there is what is asked")]
+#[allow(dead_code, reason = "only their presence is tested")]
 struct Gradescope {
     score: f64,
     execution_time: f64,
@@ -68,7 +69,7 @@ struct Gradescope {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(dead_code, reason = "that they are there is what is asked")]
+#[allow(dead_code, reason = "only their presence is tested")]
 struct GradescopeTest {
     score: f64,
     max_score: f64,
@@ -153,7 +154,7 @@ enum AssignmentType {
     Group,
 }
 
-/// Other keys are allowed here, and kept.
+/// Additional keys are allowed here, and kept.
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case")]
 struct Classroom50Test {
@@ -189,8 +190,8 @@ fn classroom50(text: &str) {
 }
 
 fn junit(text: &str) {
-    roxmltree::Document::parse(text).expect("it is XML");
-    let report = Report::deserialize_from_str(text).expect("it is JUnit's");
+    roxmltree::Document::parse(text).expect("well-formed XML");
+    let report = Report::deserialize_from_str(text).expect("valid JUnit XML");
     let suites: Vec<String> = report
         .test_suites
         .iter()
@@ -220,7 +221,7 @@ struct GithubClassroom {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(dead_code, reason = "that they are there is what is asked")]
+#[allow(dead_code, reason = "only their presence is tested")]
 struct GithubClassroomTest {
     name: String,
     status: String,
@@ -232,7 +233,7 @@ struct GithubClassroomTest {
 }
 
 fn github_classroom(text: &str) {
-    assert_eq!(text.lines().count(), 1, "one output");
+    assert_eq!(text.lines().count(), 1, "a step output has one line");
     let result: GithubClassroom = serde_json::from_value(decoded(text)).unwrap();
     assert_eq!(result.version, 1);
     assert!(["pass", "fail", "error"].contains(&result.status.as_str()));
@@ -248,7 +249,7 @@ fn github_classroom(text: &str) {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(dead_code, reason = "that they are there is what is asked")]
+#[allow(dead_code, reason = "only their presence is tested")]
 struct Check50 {
     slug: String,
     results: Vec<Check50Result>,
@@ -257,7 +258,7 @@ struct Check50 {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(dead_code, reason = "that they are there is what is asked")]
+#[allow(dead_code, reason = "only their presence is tested")]
 struct Check50Result {
     name: String,
     description: String,
@@ -270,7 +271,7 @@ struct Check50Result {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(dead_code, reason = "that they are there is what is asked")]
+#[allow(dead_code, reason = "only their presence is tested")]
 struct Cause {
     rationale: String,
     help: Option<String>,
@@ -296,7 +297,7 @@ fn check50(text: &str) {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(dead_code, reason = "that they are there is what is asked")]
+#[allow(dead_code, reason = "only their presence is tested")]
 struct PrairieLearn {
     gradable: bool,
     score: f64,
@@ -309,7 +310,7 @@ struct PrairieLearn {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(dead_code, reason = "that they are there is what is asked")]
+#[allow(dead_code, reason = "only their presence is tested")]
 struct PrairieLearnTest {
     name: String,
     description: String,

@@ -1,9 +1,10 @@
-//! A job that was killed, or was never where it was meant to be.
+//! Jobs that were killed, and formats that run on the wrong platform.
 
 use clap::ValueEnum;
 use grader::exam_file;
 use grader::format::{Format, FormatContext, StudentView};
 use grader::policy::{Lateness, Policy};
+use grader::score::Verdict;
 use grader::verdict::pending_score;
 
 use crate::formats::models::{check, readable};
@@ -31,7 +32,7 @@ fn a_killed_job_says_that_it_is_unfinished() {
         };
         check(format.id(), &text);
         let text = readable(format.id(), &text);
-        let marks = [unfinished.as_str(), "not asked yet"];
+        let marks = [unfinished.as_str(), Verdict::Pending.label()];
         assert!(
             marks.iter().any(|mark| text.contains(mark)),
             "{}: {text}",

@@ -6,9 +6,12 @@
 //!        │               │         *     │  │  = 2 · tan(vertical_fov / 2)
 //!        o────── −z ────▶│      ·        │  │
 //!       ╱                │               │  ▼
-//!      x   the camera    └───────────────┘     the sensor plane, z = −1
+//!      x   the camera    └───────────────┘     the sensor, in the plane z = −1
 //!          at (0,0,0)    ◀──── width ────▶     = aspect_ratio · height
 //! ```
+//!
+//! The pixel `(px, py)` of the slides is `pixel` here. `Vertical_fov` and `Aspect_ratio` are fields
+//! of [`Camera`].
 
 use glam::{UVec2, Vec2};
 use protocol::Ray;
@@ -16,16 +19,16 @@ use protocol::Ray;
 /// A pinhole camera at the origin that looks down −z, with y up.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
-    /// The full angle between the lowest and the highest ray, in degrees.
+    /// The vertical field of view: the full angle from the lowest ray to the highest, in degrees.
     pub vertical_fov: f32,
-    /// Width of the sensor divided by its height; need not be that of `film`.
+    /// The width of the sensor divided by its height. It can differ from that of `film`.
     pub aspect_ratio: f32,
-    /// Number of pixels, across and up.
+    /// The number of pixels, across and up.
     pub film: UVec2,
 }
 
 impl Camera {
-    /// A camera from its parts.
+    /// Creates a camera.
     pub fn new(vertical_fov: f32, aspect_ratio: f32, film: UVec2) -> Self {
         Camera {
             vertical_fov,
@@ -34,13 +37,15 @@ impl Camera {
         }
     }
 
-    /// The ray that starts at the camera and passes through `pixel`.
+    /// Returns the ray that starts at the camera and passes through `pixel`.
     ///
-    /// - The sensor is the rectangle at z = −1 around (0, 0, −1) of the height and width drawn
-    ///   above. The film's pixels divide it evenly; pixel (0, 0) is at the *bottom left*.
-    /// - Pixel (x, y) covers `[x, x+1) × [y, y+1)` of the film, and `offset`, each component in
-    ///   `[0, 1)`, is the place in it: (0.5, 0.5) is its middle.
-    /// - The ray's `dir` has length one and its `range` is `[0, ∞)`, as [`Ray::new`] makes them.
+    /// - The sensor is the rectangle in the figure above, in the plane z = −1 with its centre at
+    ///   (0, 0, −1). The film's pixels divide it evenly, and pixel (0, 0) is at the *bottom left*.
+    /// - Pixel (x, y) covers `[x, x+1) × [y, y+1)` on the film. `offset` is the position within the
+    ///   pixel, each component in `[0, 1)`: (0.5, 0.5) is the centre of the pixel.
+    /// - The ray's `dir` has length one and its `range` is `[0, ∞)`. [`Ray::new`] sets both.
+    ///
+    /// `pixel` and `film` hold whole numbers. Convert them with `as_vec2()` before you divide.
     pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
         let _ = (pixel, offset);
         Ray::new(glam::Vec3::ZERO, glam::Vec3::NEG_Z)

@@ -1,4 +1,4 @@
-//! Task 2, step 1: rays against triangles. Handout: "Where a ray meets a triangle".
+//! Task 2, step 1: intersecting rays with triangles. Handout: "Ray-triangle intersection".
 //!
 //! ```text
 //!                 p2
@@ -8,6 +8,9 @@
 //!            p0───────p1
 //!                e1                 three equations for u, v and t
 //! ```
+//!
+//! On the slides, `Trace Triangle::hit(const Ray &ray)` returns a `Trace` with a flag `hit`. Here,
+//! [`Triangle::hit`] returns an `Option<Trace>`: `None` means that there is no hit.
 
 use protocol::{Ray, Trace, Vertex};
 
@@ -16,18 +19,18 @@ use crate::bbox::BBox;
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with weight `w = 1 − u − v`.
+    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with weight `u`.
+    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with weight `v`.
+    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Triangle {
-    /// A triangle from its parts.
+    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         Triangle {
             p0,
@@ -37,7 +40,8 @@ impl Triangle {
         }
     }
 
-    /// The tightest box around the triangle; flat if the triangle lies along an axis.
+    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
+    /// axis-aligned plane.
     pub fn bbox(&self) -> BBox {
         let mut bbox = BBox::EMPTY;
         bbox.enclose_point(self.p0.position);
@@ -46,14 +50,16 @@ impl Triangle {
         bbox
     }
 
-    /// Where the ray meets the triangle within `ray.range`, if anywhere.
+    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     ///
-    /// - Both sides count, and so do the edges. `ray.range` includes its ends.
-    /// - `distance` is the algorithm's t; `position` the point there; `origin` the ray's.
-    /// - `normal` and `uv` are interpolated between the corners with weights w, u, v. The normal
-    ///   is never flipped toward the ray, and need not be brought to length one.
-    /// - A triangle of edge 1e-3 is as good as any. One without area, or one that the ray is
-    ///   parallel to, is not met.
+    /// - The triangle can be hit from both sides, and its edges belong to it. `ray.range` includes
+    ///   both of its ends.
+    /// - `distance` is the t of the equations above, `position` is the point at that distance, and
+    ///   `origin` is the ray's origin.
+    /// - `normal` and `uv` are interpolated between the corners with the weights w, u and v. Do not
+    ///   flip the normal toward the ray. It does not have to have length one.
+    /// - Small triangles count as well, such as those with edges of length 1e-3. A triangle without
+    ///   area is never hit, and neither is one that is parallel to the ray.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         Some(Trace {
             distance: 1.0,

@@ -1,12 +1,15 @@
-//! Task 2, step 2: rays against spheres. Handout: "Where a ray meets a sphere".
+//! Task 2, step 2: intersecting rays with spheres. Handout: "Ray-sphere intersection".
 //!
 //! ```text
 //!                   .  -  ~  -  .
 //!    origin      ╱                 ╲          |o + t·d − center|² = radius²
 //!      o───────near───────────────far────▶
-//!                ╲                 ╱          a quadratic: two roots, one or none
+//!                ╲                 ╱          a quadratic equation: two roots, one or none
 //!                   '  -  _  -  '
 //! ```
+//!
+//! On the slides, `Trace Sphere::hit(const Ray &ray)` returns a `Trace` with a flag `hit`. Here,
+//! [`Sphere::hit`] returns an `Option<Trace>`: `None` means that there is no hit.
 
 use std::f32::consts::{PI, TAU};
 
@@ -19,16 +22,16 @@ use crate::bbox::BBox;
 /// A sphere in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Sphere {
-    /// Its centre.
+    /// The centre.
     pub center: Vec3,
-    /// Its radius; above zero.
+    /// The radius, greater than zero.
     pub radius: f32,
-    /// What it is made of, for the [`Trace`].
+    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
 }
 
 impl Sphere {
-    /// A sphere from its parts.
+    /// Creates a sphere.
     pub fn new(center: Vec3, radius: f32, material: u32) -> Self {
         Sphere {
             center,
@@ -37,28 +40,31 @@ impl Sphere {
         }
     }
 
-    /// The tightest box around the sphere.
+    /// Returns the tightest box around the sphere.
     pub fn bbox(&self) -> BBox {
         BBox::new(self.center - self.radius, self.center + self.radius)
     }
 
-    /// The texture coordinates of the point in direction `unit_dir`, **of length one**, from the
-    /// centre: u once around the y-axis, v from 0 at the lowest point to 1 at the highest.
+    /// Returns the texture coordinates of the point in the direction `unit_dir` from the centre.
+    /// The direction must have **length one**. u runs from 0 to 1 around the y-axis, and v from 0
+    /// at the lowest point to 1 at the highest.
     pub fn uv(unit_dir: Vec3) -> Vec2 {
         let u = math::atan2(unit_dir.z, unit_dir.x) / TAU;
         let v = math::acos(-unit_dir.y.clamp(-1.0, 1.0)) / PI;
         vec2(if u < 0.0 { u + 1.0 } else { u }, v)
     }
 
-    /// Where the ray first meets the sphere within `ray.range`, if anywhere.
+    /// Returns the ray's first hit on the sphere, or `None` if there is none within `ray.range`.
     ///
-    /// - `ray.range` includes its ends. If the near meeting lies outside it and the far one
-    ///   inside, the far one counts: a ray can start inside the sphere.
-    /// - `distance` is the root t; `position` the point there; `origin` the ray's.
-    /// - `normal` has length one and points away from the centre, also when seen from inside.
-    /// - `uv` is that of the direction from the centre to the meeting: see [`Sphere::uv`].
+    /// - `ray.range` includes both of its ends. If only the far intersection is in it, that one
+    ///   counts: a ray can start inside the sphere.
+    /// - `distance` is the root t, `position` is the point at that distance, and `origin` is the
+    ///   ray's origin.
+    /// - `normal` has length one and points away from the centre, also for a ray from inside.
+    /// - `uv` belongs to the direction from the centre to the hit: see [`Sphere::uv`].
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        // The slides' a·t² + 2b·t + c = 0, halved; for a sphere around the origin.
+        // The slides' equation a·t² + 2b·t + c = 0 has the roots (−b ± √(b² − a·c)) / a. Their
+        // sphere is centred at the origin, so `o` is relative to the centre.
         let o = ray.origin - self.center;
         let a = ray.dir.length_squared();
         let b = o.dot(ray.dir);

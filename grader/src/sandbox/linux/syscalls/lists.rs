@@ -1,5 +1,5 @@
-//! The numbers of system calls. Those that only x86 has stand apart: newer architectures do the same
-//! by others.
+//! The numbers of system calls. Calls that only x86 has are listed separately: on newer
+//! architectures, other calls do the same.
 
 #[cfg(target_arch = "x86_64")]
 use libc::{
@@ -30,16 +30,16 @@ use libc::{
     SYS_writev, c_long,
 };
 
-/// What every program calls to begin, to compute and to end.
+/// Calls that every program needs to start, compute and exit.
 pub(super) const COMMON: &[c_long] = &[
-    // its own memory
+    // memory
     SYS_brk,
     SYS_mmap,
     SYS_munmap,
     SYS_mprotect,
     SYS_mremap,
     SYS_madvise,
-    // what is open already
+    // open file descriptors
     SYS_read,
     SYS_write,
     SYS_readv,
@@ -51,7 +51,7 @@ pub(super) const COMMON: &[c_long] = &[
     SYS_dup3,
     SYS_pipe2,
     SYS_ppoll,
-    // its own threads and signals
+    // threads and signals
     SYS_clone3,
     SYS_futex,
     SYS_set_robust_list,
@@ -66,22 +66,22 @@ pub(super) const COMMON: &[c_long] = &[
     SYS_rt_sigreturn,
     SYS_sigaltstack,
     SYS_restart_syscall,
-    // time and chance
+    // time and random numbers
     SYS_nanosleep,
     SYS_clock_nanosleep,
     SYS_clock_gettime,
     SYS_clock_getres,
     SYS_gettimeofday,
     SYS_getrandom,
-    // beginning and end
+    // start and exit
     SYS_execve,
     SYS_exit,
     SYS_exit_group,
 ];
 
-/// What a compiler and a linker do beyond that.
+/// Further calls of a compiler and a linker.
 pub(super) const COMPILER: &[c_long] = &[
-    // files; which ones is Landlock's and the namespace's matter
+    // files; Landlock and the mount namespace restrict which
     SYS_openat,
     SYS_newfstatat,
     SYS_statx,
@@ -120,7 +120,7 @@ pub(super) const COMPILER: &[c_long] = &[
     SYS_flock,
     SYS_ioctl,
     SYS_eventfd2,
-    // other programs, of its own
+    // child processes
     SYS_wait4,
     SYS_waitid,
     SYS_pidfd_open,
@@ -148,7 +148,7 @@ pub(super) const COMPILER: &[c_long] = &[
     SYS_mincore,
     SYS_mlock,
     SYS_munlock,
-    // who and where it is
+    // identity and system information
     SYS_getuid,
     SYS_geteuid,
     SYS_getgid,
@@ -160,11 +160,11 @@ pub(super) const COMPILER: &[c_long] = &[
     SYS_getpriority,
 ];
 
-/// The same for what every program calls, by the names that only x86 has.
+/// The calls of [`COMMON`] that only x86 has.
 #[cfg(target_arch = "x86_64")]
 pub(super) const COMMON_X86: &[c_long] = &[SYS_arch_prctl, SYS_dup2, SYS_pipe, SYS_poll];
 
-/// The same for what a compiler calls.
+/// The calls of [`COMPILER`] that only x86 has.
 #[cfg(target_arch = "x86_64")]
 pub(super) const COMPILER_X86: &[c_long] = &[
     SYS_open,
@@ -190,10 +190,10 @@ pub(super) const COMPILER_X86: &[c_long] = &[
     SYS_utime,
 ];
 
-/// There are none.
+/// Empty on this architecture.
 #[cfg(not(target_arch = "x86_64"))]
-pub(super) const COMMON_OF_X86: &[c_long] = &[];
+pub(super) const COMMON_X86: &[c_long] = &[];
 
-/// There are none.
+/// Empty on this architecture.
 #[cfg(not(target_arch = "x86_64"))]
-pub(super) const COMPILER_OF_X86: &[c_long] = &[];
+pub(super) const COMPILER_X86: &[c_long] = &[];

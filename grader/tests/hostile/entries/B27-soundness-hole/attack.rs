@@ -9,8 +9,8 @@ fn freed() -> &'static [u8] {
     stretch(STATIC, &memory)
 }
 fn attack() {
-    // In one piece: standard error has no buffer, and a call for each number, 20,000 rays long, takes
-    // the ten seconds that a picture has.
+    // Formats first and prints once: standard error is not buffered, and a system call for each
+    // number, for 20,000 rays, would take longer than the ten seconds that a picture has.
     let read = format!("{:?}\n", &freed()[..64]);
     eprint!("{read}");
 }

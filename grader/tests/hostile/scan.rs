@@ -16,12 +16,13 @@ const REFUSED: [i32; 4] = [1, 13, 38, 2];
 
 fn main() {
     let parent = std::os::unix::process::parent_id() as i64;
+    let own = std::process::id() as i64;
     let here = c"/".as_ptr() as i64;
     let name = c"hostile".as_ptr() as i64;
     let buffer = [0_u64; 64];
     let buffer = buffer.as_ptr() as i64;
     // The numbers are those of x86_64.
-    let calls: [(&str, i64, [i64; 5]); 61] = [
+    let calls: [(&str, i64, [i64; 5]); 66] = [
         ("open", 2, [here, 0, 0, 0, 0]),
         ("openat", 257, [-100, here, 0, 0, 0]),
         ("openat2", 437, [-100, here, buffer, 24, 0]),
@@ -52,6 +53,12 @@ fn main() {
         ("kill everyone", 62, [-1, 0, 0, 0, 0]),
         ("kill the group", 62, [0, 0, 0, 0, 0]),
         ("tgkill the parent", 234, [parent, parent, 0, 0, 0]),
+        // SIGCHLD does no harm if it arrives.
+        ("tgkill itself, not SIGABRT", 234, [own, own, 17, 0, 0]),
+        ("tkill itself", 200, [own, 17, 0, 0, 0]),
+        ("rt_sigqueueinfo", 129, [own, 17, buffer, 0, 0]),
+        ("rt_tgsigqueueinfo", 297, [own, own, 17, buffer, 0]),
+        ("pidfd_send_signal", 424, [0, 17, 0, 0, 0]),
         ("pidfd_open", 434, [parent, 0, 0, 0, 0]),
         ("ptrace", 101, [16, parent, 0, 0, 0]),
         ("process_vm_readv", 310, [parent, buffer, 0, buffer, 0]),

@@ -6,9 +6,12 @@ mod limited_reader;
 mod tarball;
 mod zip_reader;
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
+
+use unicode_normalization::UnicodeNormalization;
 
 use super::source_folder::{self, AmbiguousSource};
 use super::{
@@ -46,9 +49,9 @@ pub enum ArchiveError {
     /// A member is compressed with an unusual method.
     #[error("its file {0} has an unusual compression method: pack it as a plain .zip")]
     UnsupportedCompression(String),
-    /// Two members have the same name.
-    #[error("two files in it have the same name: pack it again")]
-    DuplicateName,
+    /// Two Rust files have the same path, on some file system or other.
+    #[error("{0} is in it twice, or is the same file as {1} on some systems: pack it again")]
+    DuplicatePath(String, String),
     /// There are too many members.
     #[error("it has more than {MAX_MEMBERS} files: pack the five files, without target/")]
     TooManyFiles,
@@ -130,10 +133,13 @@ impl Archive {
     /// Lists all contents. A path that leads outside, a link, or a device is rejected on its own:
     /// in the archive of a class, it affects only one student.
     pub fn listing(&mut self) -> Result<Listing, ArchiveError> {
-        match &mut self.0 {
+        let mut listing = match &mut self.0 {
             ArchiveReader::Zip(zip) => zip.listing(),
             ArchiveReader::Tar(tar) => tar.listing(),
-        }
+        }?;
+        let duplicates = duplicate_paths(&listing.members);
+        listing.errors.extend(duplicates);
+        Ok(listing)
     }
 
     /// Lists the regular files. Fails if any path leads outside, or is a link or device.
@@ -244,6 +250,34 @@ fn normalize_path(path: &str) -> Result<String, ArchiveError> {
         .split('/')
         .filter(|part| !part.is_empty() && *part != ".");
     Ok(parts.collect::<Vec<_>>().join("/"))
+}
+
+/// Returns an error for each Rust file whose path another one has already had. Which of the two
+/// counts would depend on the program that unpacks them.
+fn duplicate_paths(members: &[Member]) -> Vec<ArchiveError> {
+    let mut known: BTreeMap<String, &str> = BTreeMap::new();
+    let mut errors = Vec::new();
+    for member in members {
+        let folded = folded_path(&member.path);
+        if !folded.ends_with(".rs") {
+            continue;
+        }
+        if let Some(first) = known.insert(folded, &member.path) {
+            let (path, first) = (display_name(&member.path), display_name(first));
+            errors.push(ArchiveError::DuplicatePath(path, first));
+        }
+    }
+    errors
+}
+
+/// Returns the path as the least exact file systems compare it: in lower case (macOS, Windows), in
+/// Unicode's composed form (macOS), and without dots and spaces at the end of a name (Windows).
+fn folded_path(path: &str) -> String {
+    let folded: String = path.to_lowercase().nfc().collect();
+    let names = folded
+        .split('/')
+        .map(|name| name.trim_end_matches(['.', ' ']));
+    names.collect::<Vec<_>>().join("/")
 }
 
 /// Rejects a link or device, except in `target/`: Cargo makes hard links there, and nothing in it

@@ -2,7 +2,7 @@
 //! time.
 
 use std::fs::File;
-use std::io::{self as system, BufReader, Read};
+use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
@@ -104,7 +104,7 @@ impl Tarball {
         mut each: impl FnMut(usize, EntryType, &str, &mut dyn Read) -> Result<(), ArchiveError>,
     ) -> Result<(), ArchiveError> {
         let (reader, budget) = self.reader()?;
-        let damaged = |error: system::Error| match budget.is_exhausted() {
+        let damaged = |error: io::Error| match budget.is_exhausted() {
             true => ArchiveError::TooLarge(MAX_BYTES),
             false => ArchiveError::Damaged(display_name(&error.to_string())),
         };

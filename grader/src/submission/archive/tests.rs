@@ -98,6 +98,36 @@ const FILES: Files = &[
 ];
 
 #[test]
+fn rejects_two_spellings_of_one_path() {
+    let spellings = [
+        "src/bvh.rs",
+        "./src/bvh.rs",
+        "src//bvh.rs",
+        "src\\bvh.rs",
+        "src/BVH.rs",
+        "Src/bvh.rs",
+        "src./bvh.rs",
+        "src/bvh.rs ",
+        "src/bvh.rs..",
+    ];
+    for spelling in spellings {
+        // The crate that writes zips refuses the same path twice.
+        let bytes = match spelling {
+            "src/bvh.rs" => tar(&[("src/bvh.rs", b"1"), (spelling, b"2")]),
+            _ => zip(&[("src/bvh.rs", b"1"), (spelling, b"2")]),
+        };
+        let why = collect_error(&bytes);
+        assert!(
+            matches!(why, ArchiveError::DuplicatePath(..)),
+            "{spelling}: {why}"
+        );
+    }
+    let (composed, decomposed) = ("Zo\u{e9}/bvh.rs", "Zoe\u{301}/bvh.rs");
+    let why = collect_error(&zip(&[(composed, b"1"), (decomposed, b"2")]));
+    assert!(matches!(why, ArchiveError::DuplicatePath(..)), "{why}");
+}
+
+#[test]
 fn reads_zip_tar_and_tar_gz_alike() {
     let all = [
         collect("alice.zip", &zip(FILES)),

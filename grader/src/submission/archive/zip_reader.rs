@@ -1,7 +1,6 @@
 //! `.zip` archives: the directory at the end lists the contents, and only requested members are
 //! inflated.
 
-use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -43,11 +42,8 @@ impl ZipReader {
     pub(super) fn listing(&mut self) -> Result<Listing, ArchiveError> {
         let mut listing = Listing::default();
         let entries = &self.zip.entries;
-        let names: BTreeSet<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
-        match entries.len() {
-            0 => return Err(ArchiveError::Empty),
-            count if count > names.len() => listing.errors.push(ArchiveError::DuplicateName),
-            _ => {}
+        if entries.is_empty() {
+            return Err(ArchiveError::Empty);
         }
         for (index, entry) in entries.iter().enumerate() {
             match (normalize_path(&entry.name), entry.kind) {

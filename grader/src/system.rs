@@ -3,6 +3,9 @@
 //! Every system has the same functions. If a system does not support one, it does nothing or
 //! returns `None`, and its documentation says so.
 
+use std::ffi::OsStr;
+use std::io;
+use std::path::{Component, Path};
 use std::process::Command;
 use std::time::Duration;
 
@@ -19,13 +22,13 @@ mod windows;
 pub use linux::{cpu_time, memory, set_limits};
 #[cfg(unix)]
 pub use unix::{
-    command_killed_at_eof, exit_reason, free_space, kill_group, make_executable,
+    Folder, command_killed_at_eof, exit_reason, free_space, kill_group, make_executable,
     make_folder_accessible, make_readable, open_file_without_hard_links, open_regular_file,
     symlink, use_own_process_group,
 };
 #[cfg(windows)]
 pub use windows::{
-    command_killed_at_eof, exit_reason, free_space, kill_group, make_executable,
+    Folder, command_killed_at_eof, exit_reason, free_space, kill_group, make_executable,
     make_folder_accessible, make_readable, open_file_without_hard_links, open_regular_file,
     symlink, use_own_process_group,
 };
@@ -45,6 +48,32 @@ pub struct Limits {
 /// which kills it.
 #[cfg(target_os = "linux")]
 pub(crate) const CPU_GRACE_SECONDS: u64 = 1;
+
+/// The kind of an entry of a [`Folder`]. Links are not followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EntryKind {
+    /// A regular file.
+    File,
+    /// A folder.
+    Folder,
+    /// A symbolic link, or a junction.
+    Link,
+    /// A pipe, a socket or a device.
+    Other,
+}
+
+/// Returns `name` if it names an entry of a folder, not a path that leads further.
+#[cfg(any(unix, windows))]
+fn single_name(name: &OsStr) -> io::Result<&OsStr> {
+    let mut parts = Path::new(name).components();
+    match (parts.next(), parts.next()) {
+        (Some(Component::Normal(part)), None) if part == name => Ok(name),
+        _ => Err(io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "it is a path, not the name of a file",
+        )),
+    }
+}
 
 /// How a process ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -51,10 +51,17 @@ impl Workspace {
         folder.is_dir().then_some(folder)
     }
 
-    /// Returns the folder for everything that the grader writes by default, including its caches.
-    /// `cargo clean` removes it.
+    /// Returns the folder for everything that the grader writes by default. `cargo clean` removes
+    /// it. Each subfolder is named after a submission, except for the caches.
     pub fn output_folder(&self) -> PathBuf {
         self.root.join("target/grade")
+    }
+
+    /// Returns the folder for the grader's caches and temporary files. No submission's folder has
+    /// this name, since [`safe_folder_name`](crate::sanitize::safe_folder_name) never begins with a
+    /// dot.
+    pub fn cache_folder(&self) -> PathBuf {
+        self.output_folder().join(".cache")
     }
 
     /// Returns the path as given if it exists relative to the current folder, or else relative to

@@ -82,7 +82,7 @@ fn main() {
     grade(folder.path(), 100);
     let workspace = Workspace::find().expect("the benchmark runs in the workspace");
     let builder = Builder::prepare(&workspace).expect("the dependencies can be built");
-    let bare = BareRustc::prepare(&workspace.output_folder().join("dependencies"));
+    let bare = BareRustc::prepare(&workspace.cache_folder().join("dependencies"));
     let mut watcher = WatchProcess::start(watched.path());
     let mut rounds = Vec::new();
     for round in 0..ROUNDS {

@@ -49,7 +49,7 @@ fn main() {
     // Compiles the shared dependencies before anything is measured.
     grade(class.path());
     let workspace = Workspace::find().expect("the benchmark runs in the workspace");
-    let bare = BareRustc::prepare(&workspace.output_folder().join("dependencies"));
+    let bare = BareRustc::prepare(&workspace.cache_folder().join("dependencies"));
     let measure_baseline = || {
         let compile = || Cost::of_program(&mut bare.compile(alone.path()));
         iter::repeat_with(compile).take(BASELINE_CALLS)

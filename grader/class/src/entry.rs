@@ -122,30 +122,9 @@ pub fn several_archives_message(count: usize) -> String {
     format!("{count} archives were handed in: keep the one that counts")
 }
 
-/// Returns a folder name that is valid on every system and in links: letters and digits of any
-/// language, `-`, `_` and `.`.
-pub fn folder_name(text: &str) -> String {
-    let plain = |c: char| match c {
-        c if c.is_alphanumeric() || "-_.".contains(c) => c,
-        _ => '_',
-    };
-    let name: String = text.chars().map(plain).take(80).collect();
-    match name.trim_matches('.') {
-        "" => "_".to_owned(),
-        name => name.to_owned(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn folder_name_replaces_unsafe_characters() {
-        assert_eq!(folder_name("../é ü/x:y"), "_é_ü_x_y");
-        assert_eq!(folder_name(".."), "_");
-        assert_eq!(folder_name("=cmd|' /C calc'!A0"), "_cmd____C_calc__A0");
-    }
 
     #[test]
     fn people_match_by_identifier_and_not_by_name() {

@@ -46,7 +46,7 @@ pub fn grade_class(arguments: &ClassArguments) -> Result<Completion, Error> {
     check_lists(&arguments.lists)?;
     let workspace = Workspace::find().map_err(GraderError::from)?;
     let path = arguments.input.as_deref().unwrap_or(Path::new("."));
-    let input = Input::open(path, &workspace.output_folder().join("classes"))?;
+    let input = Input::open(path, &workspace.cache_folder().join("classes"))?;
     let mut recognised = input.class.clone();
     let people = recognised.entries.iter_mut();
     let mut people: Vec<&mut Person> = people.flat_map(|entry| &mut entry.info.people).collect();

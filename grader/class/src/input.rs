@@ -9,8 +9,8 @@ use grader::submission::{Submission, SubmissionError};
 
 use crate::entry::{Entry, Source, several_archives_message};
 use crate::input_error::ClassInputError;
-use crate::layout::{self, METADATA, RecognisedClass};
-use crate::listing::{Node, list_folder};
+use crate::layout::{self, METADATA, RecognisedClass, UnmatchedPath};
+use crate::listing::{Node, hidden_names, list_folder};
 use crate::unpack::{CLASS_FOLDER, unpack};
 
 /// The entries of a class. If their files were unpacked, dropping this deletes them.
@@ -51,6 +51,13 @@ impl Input {
         let metadata = metadata.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
         let mut class = layout::recognise(&root, metadata.as_deref())?;
         class.unmatched.extend(not_unpacked);
+        let hidden = hidden_names(&root.path).map_err(at)?;
+        class
+            .unmatched
+            .extend(hidden.into_iter().map(|name| UnmatchedPath {
+                name,
+                why: "its name begins with a dot, so it is hidden".to_owned(),
+            }));
         match class.entries.is_empty() {
             true => Err(ClassInputError::NoSubmissions(path.to_owned())),
             false => Ok(Input {
@@ -124,6 +131,10 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
             let folders = sanitize(&folders.join(", "), 200);
             format!("it contains several submissions, in {folders}: keep the one that counts")
         }
+        SubmissionError::Link { link, .. } => {
+            format!("{link} is a link, and links are not followed")
+        }
+        SubmissionError::Io { why, .. } => format!("it cannot be read: {why}"),
         SubmissionError::Archive { path, why } if path == input => why.to_string(),
         SubmissionError::Archive { path, why } => format!("{}: {why}", sanitize(&name(path), 200)),
     }

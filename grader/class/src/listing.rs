@@ -9,15 +9,18 @@ const MAX_DEPTH: usize = 3;
 /// Folders that are skipped: they contain nothing that a student has written.
 const SKIPPED: [&str; 3] = ["__MACOSX", "target", "node_modules"];
 
-/// A file or a folder.
+/// A file, a folder, or a link to one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Node {
     /// The file name.
     pub name: String,
     /// The path.
     pub path: PathBuf,
-    /// The contents of a folder, in the order of names; `None` for a file.
+    /// The contents of a folder, in the order of names; `None` for a file. A link to a folder has
+    /// no contents.
     pub children: Option<Vec<Node>>,
+    /// Whether it is a link. Links are not followed: they may lead to another student's files.
+    pub is_link: bool,
 }
 
 impl Node {
@@ -31,9 +34,10 @@ impl Node {
         self.children.as_deref().unwrap_or_default()
     }
 
-    /// Returns the file or folder with this name in the folder.
+    /// Returns the file or folder with this name in the folder, unless it is a link.
     pub fn find(&self, name: &str) -> Option<&Node> {
-        self.children().iter().find(|node| node.name == name)
+        let mut children = self.children().iter();
+        children.find(|node| node.name == name && !node.is_link)
     }
 
     /// Returns whether this is an archive by its name, even if the format is not supported.
@@ -49,14 +53,29 @@ pub fn is_archive_name(name: &str) -> bool {
     ends.iter().any(|end| lower.ends_with(end))
 }
 
-/// Lists a folder. Hidden files and links are left out, and invalid Unicode in names is replaced.
+/// Lists a folder. Hidden files are left out, and invalid Unicode in names is replaced.
 pub fn list_folder(folder: &Path) -> io::Result<Node> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     Ok(Node {
         name: name.into_owned(),
         path: folder.to_owned(),
         children: Some(list_children(folder, MAX_DEPTH)?),
+        is_link: false,
     })
+}
+
+/// Returns the names of hidden files and folders, except those that macOS adds to every folder.
+pub fn hidden_names(folder: &Path) -> io::Result<Vec<String>> {
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let name = entry?.file_name().to_string_lossy().into_owned();
+        let is_macos = name == ".DS_Store" || name.starts_with("._");
+        if name.starts_with('.') && !is_macos {
+            names.push(name);
+        }
+    }
+    names.sort();
+    Ok(names)
 }
 
 fn list_children(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
@@ -68,16 +87,24 @@ fn list_children(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
             continue;
         }
         let kind = entry.file_type()?;
-        let inside = match (kind.is_dir(), depth) {
-            (true, 0) => Some(Vec::new()),
-            (true, _) => Some(list_children(&entry.path(), depth - 1)?),
-            (false, _) if kind.is_file() => None,
-            (false, _) => continue,
+        let inside = if kind.is_symlink() {
+            // Only its kind matters: a link to a folder stands for a student's folder.
+            entry.path().is_dir().then(Vec::new)
+        } else if kind.is_dir() {
+            Some(match depth {
+                0 => Vec::new(),
+                _ => list_children(&entry.path(), depth - 1)?,
+            })
+        } else if kind.is_file() {
+            None
+        } else {
+            continue;
         };
         nodes.push(Node {
             name,
             path: entry.path(),
             children: inside,
+            is_link: kind.is_symlink(),
         });
     }
     nodes.sort_by(|one, other| one.name.cmp(&other.name));

@@ -20,13 +20,42 @@ pub fn sanitize(text: &str, longest: usize) -> String {
     sanitized
 }
 
+/// The most characters of a folder's name.
+const MAX_FOLDER_NAME_CHARS: usize = 80;
+/// Names of devices on Windows, with any extension.
+const DEVICES: [&str; 6] = ["con", "prn", "aux", "nul", "com", "lpt"];
+
+/// Returns a folder name that is valid on every system and in links, whatever the text is: letters
+/// and digits of any language, `-`, `_` and `.`. It never leads elsewhere, and begins neither with a
+/// dot, which hides a folder, nor with a dash, which programs take for an option.
+pub fn safe_folder_name(text: &str) -> String {
+    let safe = |c: char| match c {
+        c if c.is_alphanumeric() || "-_.".contains(c) => c,
+        _ => '_',
+    };
+    let name: String = text.chars().map(safe).collect();
+    let name = name.trim_start_matches('.');
+    let stem = name.split('.').next().unwrap_or(name).to_lowercase();
+    let stem = stem.trim_end_matches(|c: char| c.is_ascii_digit());
+    let needs_prefix = name.is_empty() || name.starts_with('-') || DEVICES.contains(&stem);
+    let prefix = if needs_prefix { "_" } else { "" };
+    let name: String = prefix
+        .chars()
+        .chain(name.chars())
+        .take(MAX_FOLDER_NAME_CHARS)
+        .collect();
+    name.trim_end_matches('.').to_owned()
+}
+
 fn is_direction_mark(c: char) -> bool {
     matches!(c, '\u{061c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 #[cfg(test)]
 mod tests {
-    use super::sanitize;
+    use proptest::prelude::*;
+
+    use super::{safe_folder_name, sanitize};
 
     #[test]
     fn escapes_control_and_direction_characters() {
@@ -35,6 +64,28 @@ mod tests {
             "\\u{1b}[2Jscore\\u{202e}"
         );
         assert_eq!(sanitize("two\nlines", 99), "two\nlines");
+    }
+
+    #[test]
+    fn folder_names_are_safe() {
+        assert_eq!(safe_folder_name("../é ü/x:y"), "_é_ü_x_y");
+        assert_eq!(safe_folder_name(".."), "_");
+        assert_eq!(safe_folder_name("=cmd|' /C calc'!A0"), "_cmd____C_calc__A0");
+        assert_eq!(safe_folder_name("-rf"), "_-rf");
+        assert_eq!(safe_folder_name("Con.txt"), "_Con.txt");
+        assert_eq!(safe_folder_name("LPT1"), "_LPT1");
+        assert_eq!(safe_folder_name("Connor"), "Connor");
+    }
+
+    proptest! {
+        #[test]
+        fn a_folder_name_is_a_single_visible_name(text in ".{0,200}") {
+            let name = safe_folder_name(&text);
+            prop_assert!(!name.is_empty() && !name.starts_with(['.', '-']) && !name.ends_with('.'));
+            prop_assert!(!name.contains(['/', '\\', ':', '\0', ' ']));
+            prop_assert_eq!(std::path::Path::new(&name).components().count(), 1);
+            prop_assert_eq!(safe_folder_name(&name), name);
+        }
     }
 
     #[test]

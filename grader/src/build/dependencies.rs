@@ -65,7 +65,7 @@ impl Dependencies {
     ) -> Result<Self, DependenciesError> {
         let key = cache_key(workspace, toolchain)?;
         let cache = workspace
-            .output_folder()
+            .cache_folder()
             .join("dependencies")
             .join(&key[..16]);
         prepare_once(&cache, || {
@@ -84,7 +84,7 @@ impl Dependencies {
         workspace: &Workspace,
         toolchain: &Toolchain,
     ) -> Result<Self, DependenciesError> {
-        let cache = workspace.output_folder().join("dependencies");
+        let cache = workspace.cache_folder().join("dependencies");
         let cache = cache.join(format!(
             "{}-{}",
             &cache_key(workspace, toolchain)?[..16],

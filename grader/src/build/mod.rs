@@ -86,7 +86,7 @@ impl Builder {
     pub fn prepare(workspace: &Workspace) -> Result<Self, BuildError> {
         let toolchain = Toolchain::find()?;
         let dependencies = Dependencies::prepare(workspace, &toolchain)?;
-        let folder = workspace.output_folder().join("work");
+        let folder = workspace.cache_folder().join("work");
         remove_abandoned(&folder);
         Ok(Builder {
             rustc: Rustc {
@@ -106,7 +106,7 @@ impl Builder {
         reference: &Path,
         workspace: &Workspace,
     ) -> Result<Self, BuildError> {
-        let cache = workspace.output_folder().join("parts");
+        let cache = workspace.cache_folder().join("parts");
         let parts = ReferenceParts::prepare(reference, &cache, &self.rustc)?;
         Ok(Builder {
             reference_parts: Some(parts),

@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::exam::Exam;
 use crate::policy::{Lateness, Policy, PolicyError, SubmissionTime, SubmissionTimeError};
 use crate::probe::Budget;
+use crate::sanitize::safe_folder_name;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
@@ -38,7 +39,9 @@ pub(super) fn lateness(
 
 /// Returns the default folder for a submission's score.
 pub fn default_folder(workspace: &Workspace, submission: &Submission) -> PathBuf {
-    workspace.output_folder().join(&submission.name)
+    workspace
+        .output_folder()
+        .join(safe_folder_name(&submission.name))
 }
 
 /// Returns the builder. It uses the reference's parts if they exist and `--no-reference` is not
@@ -68,5 +71,27 @@ pub(super) fn submission_path(arguments: &Arguments, workspace: &Workspace) -> P
 pub fn budget(arguments: &Arguments) -> Budget {
     Budget {
         cpu: Duration::from_secs(arguments.cpu_limit),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_leads_out_of_the_output_folder_or_into_the_caches() {
+        let workspace = Workspace::find().unwrap();
+        // `...zip` without its extension, and the folder of the caches.
+        for name in ["..", ".", "", "../..", "/etc", ".cache", "a/b"] {
+            let submission = Submission {
+                name: name.to_owned(),
+                files: Vec::new(),
+                notes: Vec::new(),
+            };
+            let folder = default_folder(&workspace, &submission);
+            let parent = folder.parent().unwrap();
+            assert_eq!(parent, workspace.output_folder(), "{name}");
+            assert_ne!(folder, workspace.cache_folder(), "{name}");
+        }
     }
 }

@@ -1,88 +1,94 @@
 //! Reads a submission from a folder on disk. Links are not followed, and only regular files are
 //! read.
 
-use std::fs;
+use std::ffi::{OsStr, OsString};
+use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::source_folder::{self, AmbiguousSource, CANDIDATES};
 use super::{
-    MAX_FILE_BYTES, SubmissionError, SubmissionFiles, TaskFileError, is_given_file, task_file_name,
+    MAX_FILE_BYTES, SubmissionError, SubmissionFiles, TaskFileError, display_name, is_given_file,
+    task_file_name,
 };
 use crate::given_files::TASK_FILES;
-use crate::system;
+use crate::system::{self, EntryKind, Folder};
 
 /// Reads the task files of a folder, and the Rust files beside them.
-pub(super) fn read(folder: &Path) -> Result<SubmissionFiles, SubmissionError> {
-    let paths = candidate_paths(folder);
-    let source = source_folder::find(paths.iter().map(String::as_str));
+pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
+    let io = |error: io::Error| SubmissionError::Io {
+        path: path.to_owned(),
+        why: error.kind().to_string(),
+    };
+    let link = |link: &str| SubmissionError::Link {
+        path: path.to_owned(),
+        link: display_name(link),
+    };
+    let folder = Folder::open(path).map_err(io)?;
+    let found = search(&folder).map_err(io)?;
+    let source = source_folder::find(found.files.iter().map(String::as_str));
     let source = source.map_err(|AmbiguousSource(folders)| SubmissionError::Ambiguous {
-        path: folder.to_owned(),
+        path: path.to_owned(),
         folders,
     })?;
-    let source = source.ok_or_else(|| SubmissionError::NoTaskFiles(folder.to_owned()))?;
-    Ok(read_files(&list_files(&folder.join(source))))
+    let Some(source) = source else {
+        return Err(match found.linked_folders.first() {
+            Some(first) => link(first),
+            None => SubmissionError::NoTaskFiles(path.to_owned()),
+        });
+    };
+    // It could lead to anybody's files.
+    if let Some((_, first)) = found.links.iter().find(|(folder, _)| *folder == source) {
+        return Err(link(first));
+    }
+    let Subfolder::Found(source) = open_below(&folder, &source).map_err(io)? else {
+        return Err(SubmissionError::NoTaskFiles(path.to_owned()));
+    };
+    let names = source.names().map_err(io)?;
+    let names: Vec<String> = names
+        .into_iter()
+        .filter_map(|name| name.into_string().ok())
+        .collect();
+    let files = names.iter().map(|name| (name.as_str(), OsStr::new(name)));
+    Ok(read_each(files, |name| source.file(name)))
 }
 
 /// Reads the files with these names and paths.
 pub(super) fn read_files(files: &[(String, PathBuf)]) -> SubmissionFiles {
+    let files = files.iter().map(|(name, path)| (name.as_str(), path));
+    read_each(files, |path| system::open_regular_file(path))
+}
+
+/// Reads those of the files that are needed, each given by its name and an argument for `open`.
+fn read_each<'a, T>(
+    files: impl Iterator<Item = (&'a str, T)>,
+    open: impl Fn(T) -> io::Result<Option<File>>,
+) -> SubmissionFiles {
     let mut contents = SubmissionFiles::default();
-    for (name, path) in files {
+    for (name, file) in files {
         if let Some(name) = task_file_name(name) {
-            contents.task_files.insert(name, read_file(path, name));
+            contents
+                .task_files
+                .insert(name, read_file(open(file), name));
         } else if name.ends_with(".rs") {
             let is_compared = is_given_file(name);
-            let bytes = is_compared.then(|| read_file(path, "a given file"));
+            let bytes = is_compared.then(|| read_file(open(file), "a given file"));
             let bytes = bytes.and_then(Result::ok).unwrap_or_default();
-            contents.other_files.insert(name.clone(), bytes);
+            contents.other_files.insert(name.to_owned(), bytes);
         }
     }
     contents
 }
 
-/// Returns the paths of all task files in folders where they may be, relative to `folder` and with
-/// `/`.
-fn candidate_paths(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
-    let mut tops: Vec<String> = names.filter(|name| folder.join(name).is_dir()).collect();
-    tops.sort();
-    let below = |top: &String| CANDIDATES.map(|candidate| join(top, candidate));
-    let folders = CANDIDATES.map(str::to_owned).into_iter();
-    let paths = folders
-        .chain(tops.iter().flat_map(below))
-        .flat_map(|candidate| {
-            let names = TASK_FILES.iter().map(|file| file.name);
-            names.map(|name| join(&candidate, name)).collect::<Vec<_>>()
-        });
-    paths
-        .filter(|path| folder.join(path).symlink_metadata().is_ok())
-        .collect()
-}
-
-fn join(folder: &str, name: &str) -> String {
-    match (folder, name) {
-        ("", name) | (name, "") => name.to_owned(),
-        (folder, name) => format!("{folder}/{name}"),
-    }
-}
-
-/// Returns the names and paths of a folder's entries.
-fn list_files(folder: &Path) -> Vec<(String, PathBuf)> {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    let file = |entry: fs::DirEntry| {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        (name, entry.path())
-    };
-    entries.map(file).collect()
-}
-
-fn read_file(path: &Path, name: &'static str) -> Result<Vec<u8>, TaskFileError> {
+fn read_file(
+    opened: io::Result<Option<File>>,
+    name: &'static str,
+) -> Result<Vec<u8>, TaskFileError> {
     let io = |error: io::Error| TaskFileError::Io {
         name,
         why: error.kind().to_string(),
     };
-    let Some(file) = system::open_regular_file(path).map_err(io)? else {
+    let Some(file) = opened.map_err(io)? else {
         return Err(TaskFileError::NotRegular(name));
     };
     let mut bytes = Vec::new();
@@ -90,4 +96,98 @@ fn read_file(path: &Path, name: &'static str) -> Result<Vec<u8>, TaskFileError> 
         .read_to_end(&mut bytes)
         .map_err(io)?;
     Ok(bytes)
+}
+
+/// The task files in a folder, and the links that could hide some. Paths are relative to the
+/// folder, with `/`.
+#[derive(Debug, Default)]
+struct Search {
+    /// All task files in folders where they may be. A folder that is a link counts as one that has
+    /// them.
+    files: Vec<String>,
+    /// Links among them, each with the folder of the task files that it replaces.
+    links: Vec<(String, String)>,
+    /// Links at the top level, which may be meant as folders with task files.
+    linked_folders: Vec<String>,
+}
+
+/// Looks for task files in [`CANDIDATES`], and in the same places of each top-level folder.
+fn search(folder: &Folder) -> io::Result<Search> {
+    let mut found = Search::default();
+    search_candidates(folder, "", &mut found)?;
+    for name in folder.names()? {
+        let Some(text) = name.to_str() else { continue };
+        match folder.kind(&name)? {
+            EntryKind::Folder => {
+                // A folder without permission to read has nothing that could be graded.
+                if let Ok(Some(top)) = folder.subfolder(&name) {
+                    search_candidates(&top, text, &mut found)?;
+                }
+            }
+            EntryKind::Link => found.linked_folders.push(text.to_owned()),
+            EntryKind::File | EntryKind::Other => {}
+        }
+    }
+    Ok(found)
+}
+
+/// Looks for task files in the [`CANDIDATES`] of a folder, whose own path is `path`.
+fn search_candidates(folder: &Folder, path: &str, found: &mut Search) -> io::Result<()> {
+    for candidate in CANDIDATES {
+        let path = join(path, candidate);
+        let candidate = match open_below(folder, candidate)? {
+            Subfolder::Found(candidate) => candidate,
+            Subfolder::Link => {
+                found.files.push(join(&path, TASK_FILES[0].name));
+                found.links.push((path.clone(), path));
+                continue;
+            }
+            Subfolder::Missing => continue,
+        };
+        for name in candidate.names()? {
+            let Some(name) = name.to_str().and_then(task_file_name) else {
+                continue;
+            };
+            found.files.push(join(&path, name));
+            if candidate.kind(OsStr::new(name))? == EntryKind::Link {
+                found.links.push((path.clone(), join(&path, name)));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The result of opening a path below a folder.
+#[derive(Debug)]
+enum Subfolder {
+    Found(Folder),
+    /// A part of the path is a link.
+    Link,
+    /// A part of the path does not exist, is no folder, or is not readable.
+    Missing,
+}
+
+/// Opens each part of a path with `/` relative to the part before.
+fn open_below(folder: &Folder, path: &str) -> io::Result<Subfolder> {
+    let mut opened = folder.try_clone()?;
+    for part in path.split('/').filter(|part| !part.is_empty()) {
+        let part = OsString::from(part);
+        match opened.kind(&part) {
+            Ok(EntryKind::Link) => return Ok(Subfolder::Link),
+            Ok(EntryKind::Folder) => {}
+            Ok(EntryKind::File | EntryKind::Other) | Err(_) => return Ok(Subfolder::Missing),
+        }
+        match opened.subfolder(&part) {
+            Ok(Some(subfolder)) => opened = subfolder,
+            Ok(None) | Err(_) => return Ok(Subfolder::Missing),
+        }
+    }
+    Ok(Subfolder::Found(opened))
+}
+
+fn join(folder: &str, name: &str) -> String {
+    match (folder, name) {
+        ("", name) | (name, "") => name.to_owned(),
+        (folder, name) => format!("{folder}/{name}"),
+    }
 }

@@ -76,6 +76,24 @@ pub enum SubmissionError {
         "{0} has none of camera.rs, triangle.rs, sphere.rs, bbox.rs and bvh.rs, and neither has its src/ or student/src/"
     )]
     NoTaskFiles(PathBuf),
+    /// A link is in the place of a file or folder that would be read.
+    #[error(
+        "{path}: {link} is a link, and links are not followed: put the file or folder itself there"
+    )]
+    Link {
+        /// The folder.
+        path: PathBuf,
+        /// The link, relative to the folder.
+        link: String,
+    },
+    /// The system cannot read it.
+    #[error("cannot read {path}: {why}")]
+    Io {
+        /// The folder.
+        path: PathBuf,
+        /// The system's message.
+        why: String,
+    },
     /// It has several folders with task files.
     #[error("{path} has several submissions, in {}: name one of them", folders.join(", "))]
     Ambiguous {

@@ -1,17 +1,20 @@
 //! Linux, macOS and other Unix systems: process groups, signals and file modes.
 
+use std::ffi::{OsStr, OsString};
 use std::fs::{File, Permissions};
 use std::io;
+use std::os::fd::OwnedFd;
+use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 
-use rustix::fs::{Mode, OFlags};
+use rustix::fs::{AtFlags, Dir, FileType, Mode, OFlags, openat, statat};
 use rustix::io::Errno;
 use rustix::process::{Pid, Signal, kill_process_group};
 
-use super::ExitReason;
+use super::{EntryKind, ExitReason, single_name};
 
 /// Makes the command start in its own process group, which can be killed as a whole.
 pub fn use_own_process_group(command: &mut Command) {
@@ -81,12 +84,24 @@ pub fn open_file_without_hard_links(path: &Path) -> io::Result<Option<File>> {
     Ok(has_one_name.then_some(file))
 }
 
-/// Opens a regular file without following a symbolic link or waiting for a pipe. The type is
-/// checked after opening, so the file cannot be replaced in between. Returns `None` for anything
-/// else.
+/// Opens a regular file without following a symbolic link or waiting for a pipe. Returns `None`
+/// for anything else. Links in the path to its folder are followed; see [`Folder`].
 pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
-    let flags = OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::CLOEXEC | OFlags::RDONLY;
-    let file = match rustix::fs::open(path, flags, Mode::empty()) {
+    regular_file(rustix::fs::open(path, FILE_FLAGS, Mode::empty()))
+}
+
+const FILE_FLAGS: OFlags = OFlags::RDONLY
+    .union(OFlags::NOFOLLOW)
+    .union(OFlags::NONBLOCK)
+    .union(OFlags::CLOEXEC);
+const FOLDER_FLAGS: OFlags = OFlags::RDONLY
+    .union(OFlags::DIRECTORY)
+    .union(OFlags::CLOEXEC);
+
+/// Returns an opened file if it is a regular one. Its type is checked after opening, so that it
+/// cannot be replaced in between.
+fn regular_file(opened: rustix::io::Result<OwnedFd>) -> io::Result<Option<File>> {
+    let file = match opened {
         Ok(file) => File::from(file),
         // A symbolic link or a socket.
         Err(Errno::LOOP | Errno::NXIO) => return Ok(None),
@@ -94,6 +109,74 @@ pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
     };
     let is_file = file.metadata()?.is_file();
     Ok(is_file.then_some(file))
+}
+
+/// An open folder. Its contents are opened relative to it, and links are never followed, so nothing
+/// outside it can be reached.
+#[derive(Debug)]
+pub struct Folder(OwnedFd);
+
+impl Folder {
+    /// Opens a folder that the user has named. The path itself may contain links.
+    pub fn open(path: &Path) -> io::Result<Self> {
+        let folder = rustix::fs::open(path, FOLDER_FLAGS, Mode::empty())?;
+        Ok(Folder(folder))
+    }
+
+    /// Returns another handle of the same folder.
+    pub fn try_clone(&self) -> io::Result<Self> {
+        Ok(Folder(self.0.try_clone()?))
+    }
+
+    /// Opens a subfolder. Returns `None` if there is something else with this name.
+    pub fn subfolder(&self, name: &OsStr) -> io::Result<Option<Self>> {
+        let flags = FOLDER_FLAGS | OFlags::NOFOLLOW;
+        match rustix::fs::openat(&self.0, single_name(name)?, flags, Mode::empty()) {
+            Ok(folder) => Ok(Some(Folder(folder))),
+            // A link, or not a folder.
+            Err(Errno::LOOP | Errno::NOTDIR) => Ok(None),
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// Opens a regular file, like [`open_regular_file`].
+    pub fn file(&self, name: &OsStr) -> io::Result<Option<File>> {
+        regular_file(openat(
+            &self.0,
+            single_name(name)?,
+            FILE_FLAGS,
+            Mode::empty(),
+        ))
+    }
+
+    /// Returns the kind of the entry with this name.
+    pub fn kind(&self, name: &OsStr) -> io::Result<EntryKind> {
+        let stat = statat(&self.0, single_name(name)?, AtFlags::SYMLINK_NOFOLLOW)?;
+        let kind = FileType::from_raw_mode(stat.st_mode);
+        Ok(if kind.is_file() {
+            EntryKind::File
+        } else if kind.is_dir() {
+            EntryKind::Folder
+        } else if kind.is_symlink() {
+            EntryKind::Link
+        } else {
+            EntryKind::Other
+        })
+    }
+
+    /// Returns the names of the entries, sorted.
+    pub fn names(&self) -> io::Result<Vec<OsString>> {
+        let mut names = Vec::new();
+        for entry in Dir::read_from(&self.0)? {
+            let entry = entry?;
+            let name = OsStr::from_bytes(entry.file_name().to_bytes());
+            if name != "." && name != ".." {
+                names.push(name.to_owned());
+            }
+        }
+        names.sort();
+        Ok(names)
+    }
 }
 
 /// Returns the free space on a folder's disk, in bytes, if the system reports it.

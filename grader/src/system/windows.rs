@@ -1,11 +1,12 @@
 //! Windows: no process groups, no signals, and files inherit their permissions.
 
+use std::ffi::{OsStr, OsString};
 use std::fs::File;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
 
-use super::ExitReason;
+use super::{EntryKind, ExitReason, single_name};
 
 /// Does nothing: Windows has no process groups.
 pub fn use_own_process_group(_: &mut Command) {}
@@ -47,6 +48,60 @@ pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
     }
     let file = File::open(path)?;
     Ok(file.metadata()?.is_file().then_some(file))
+}
+
+/// An open folder. Links in it are never followed, junctions included.
+#[derive(Debug)]
+pub struct Folder(PathBuf);
+
+impl Folder {
+    /// Opens a folder that the user has named. The path itself may contain links.
+    pub fn open(path: &Path) -> io::Result<Self> {
+        path.read_dir()?;
+        Ok(Folder(path.to_owned()))
+    }
+
+    /// Returns another handle of the same folder.
+    pub fn try_clone(&self) -> io::Result<Self> {
+        Ok(Folder(self.0.clone()))
+    }
+
+    /// Opens a subfolder. Returns `None` if there is something else with this name.
+    pub fn subfolder(&self, name: &OsStr) -> io::Result<Option<Self>> {
+        let is_folder = self.kind(name)? == EntryKind::Folder;
+        Ok(is_folder.then(|| Folder(self.0.join(name))))
+    }
+
+    /// Opens a regular file, like [`open_regular_file`].
+    pub fn file(&self, name: &OsStr) -> io::Result<Option<File>> {
+        open_regular_file(&self.0.join(single_name(name)?))
+    }
+
+    /// Returns the kind of the entry with this name.
+    pub fn kind(&self, name: &OsStr) -> io::Result<EntryKind> {
+        let kind = self
+            .0
+            .join(single_name(name)?)
+            .symlink_metadata()?
+            .file_type();
+        Ok(if kind.is_symlink() {
+            EntryKind::Link
+        } else if kind.is_dir() {
+            EntryKind::Folder
+        } else if kind.is_file() {
+            EntryKind::File
+        } else {
+            EntryKind::Other
+        })
+    }
+
+    /// Returns the names of the entries, sorted.
+    pub fn names(&self) -> io::Result<Vec<OsString>> {
+        let names = self.0.read_dir()?.map(|entry| Ok(entry?.file_name()));
+        let mut names: Vec<OsString> = names.collect::<io::Result<_>>()?;
+        names.sort();
+        Ok(names)
+    }
 }
 
 /// Does nothing: a folder inherits its permissions.

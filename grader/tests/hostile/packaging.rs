@@ -3,7 +3,7 @@
 
 use std::fs::{self, File, Permissions};
 use std::io::{Cursor, Write};
-use std::os::unix::fs::PermissionsExt;
+use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -22,6 +22,8 @@ pub enum Packaging {
     Climbing,
     /// A zip with an absolute path.
     Absolute,
+    /// A zip with another spelling of a path that it already has.
+    TwoSpellings,
     /// A tar with a link to the key in place of a file.
     LinkToTheKey,
     /// A tar with a link to a folder, and a file in it.
@@ -48,6 +50,14 @@ pub enum Packaging {
     OddModes,
     /// A folder with a pipe in place of a file.
     PipeOnDisk,
+    /// A folder with a link in place of a file, which leads to a correct file elsewhere.
+    LinkedFileOnDisk,
+    /// A folder whose `student` folder is a link to a folder elsewhere with a correct `src`.
+    LinkedFolderOnDisk,
+    /// A folder whose `student/src` is a link to a folder of correct files elsewhere.
+    LinkedSourceOnDisk,
+    /// A folder whose only folder is a link to a folder of correct files elsewhere.
+    LinkedOnlyFolderOnDisk,
 }
 
 /// Packs the folder, and returns the path to submit.
@@ -56,6 +66,7 @@ pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
     match packaging {
         Packaging::Climbing => write_zip(folder, &files, Some("../../bvh.rs")),
         Packaging::Absolute => write_zip(folder, &files, Some("/bvh.rs")),
+        Packaging::TwoSpellings => write_zip(folder, &files, Some("./Camera.rs")),
         Packaging::OddNames => {
             let odd = "\u{1b}[2J\n\u{202e}sr.hvb\u{7}.rs";
             write_tar(folder, &files, &[(odd, EntryType::Regular, None)])
@@ -116,7 +127,44 @@ pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
             assert!(made.expect("Linux has mkfifo").success());
             folder.to_owned()
         }
+        Packaging::LinkedFileOnDisk => {
+            let others = move_elsewhere(folder, "");
+            for (name, bytes) in &files[1..] {
+                fs::write(folder.join(name), bytes).expect("the file can be written");
+            }
+            with_link(folder, "camera.rs", &others.join("camera.rs"))
+        }
+        Packaging::LinkedFolderOnDisk => {
+            let others = move_elsewhere(folder, "src");
+            with_link(folder, "student", &others)
+        }
+        Packaging::LinkedSourceOnDisk => {
+            let others = move_elsewhere(folder, "");
+            fs::create_dir(folder.join("student")).expect("the folder can be created");
+            with_link(folder, "student/src", &others)
+        }
+        Packaging::LinkedOnlyFolderOnDisk => {
+            let others = move_elsewhere(folder, "");
+            with_link(folder, "pathtracing", &others)
+        }
     }
+}
+
+/// Moves the files to a folder beside this one, as if they were another student's, into its
+/// subfolder `below`. Returns the other folder. This one is empty afterwards.
+fn move_elsewhere(folder: &Path, below: &str) -> PathBuf {
+    let others = folder.with_extension("others");
+    let target = others.join(below);
+    fs::create_dir_all(target.parent().expect("it has a parent")).expect("it can be created");
+    fs::rename(folder, &target).expect("the folder can be moved");
+    fs::create_dir(folder).expect("the folder can be created");
+    others
+}
+
+/// Creates a link at `path` in the folder, and returns the folder.
+fn with_link(folder: &Path, path: &str, original: &Path) -> PathBuf {
+    symlink(original, folder.join(path)).expect("the link can be created");
+    folder.to_owned()
 }
 
 type Files = Vec<(String, Vec<u8>)>;

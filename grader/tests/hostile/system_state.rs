@@ -113,7 +113,7 @@ fn marked_files(mark: &str) -> Vec<String> {
 
 /// Returns the files that the grader reuses for later submissions, which must not change.
 fn cache_entries() -> Vec<String> {
-    let grade = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/grade");
+    let grade = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/grade/.cache");
     let mut found = Vec::new();
     for cache in ["dependencies", "parts"] {
         list_files(&grade.join(cache), &mut found);

@@ -58,7 +58,9 @@ fn grade_as_nobody(submission: &Submission, arguments: &[&str]) -> Option<Value>
     for folder in [copy.path(), submission.path().parent().unwrap()] {
         fs::set_permissions(folder, Permissions::from_mode(0o755)).unwrap();
     }
-    chown(&grade, Some(NOBODY), Some(NOBODY)).unwrap();
+    for folder in [&grade, &grade.join(".cache")] {
+        chown(folder, Some(NOBODY), Some(NOBODY)).unwrap();
+    }
 
     let grader = Path::new(env!("CARGO_BIN_EXE_grader"));
     let project = workspace().canonicalize().unwrap();

@@ -9,11 +9,13 @@ mod gradescope;
 mod moodle;
 mod plain;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use grader::given_files::TASK_FILES;
+use grader::sanitize::safe_folder_name;
 
-use crate::entry::{Entry, folder_name};
+use crate::entry::{Entry, Source};
 use crate::listing::Node;
 
 pub use github::CLASSROOM50_SCORES;
@@ -82,6 +84,7 @@ pub fn recognise(root: &Node, metadata: Option<&str>) -> Result<RecognisedClass,
     } else {
         (Layout::Plain, plain::read(root))
     };
+    reject_links(root, &mut entries);
     entries.sort_by(|one, other| one.id.cmp(&other.id));
     make_ids_unique(&mut entries);
     Ok(RecognisedClass {
@@ -91,11 +94,32 @@ pub fn recognise(root: &Node, metadata: Option<&str>) -> Result<RecognisedClass,
     })
 }
 
+/// Marks each entry that a link stands for as one without files.
+fn reject_links(root: &Node, entries: &mut [Entry]) {
+    let links = root.children().iter().filter(|node| node.is_link);
+    let links: BTreeMap<&Path, &str> = links
+        .map(|node| (node.path.as_path(), node.name.as_str()))
+        .collect();
+    for entry in entries {
+        let link = match &entry.source {
+            Source::Path(path) => links.get(path.as_path()),
+            Source::Files(files) => files.iter().find_map(|(_, path)| links.get(path.as_path())),
+            Source::Missing(_) => None,
+        };
+        if let Some(name) = link {
+            let why = format!("{name} is a link, and links are not followed");
+            entry.source = Source::Missing(why);
+        }
+    }
+}
+
 /// Returns the folder with the entries: folders that contain only one other folder are skipped,
 /// unless that one is a submission.
 pub fn find_class_folder(root: &Node) -> &Node {
     match root.children() {
-        [only] if only.is_folder() && !is_submission(only) => find_class_folder(only),
+        [only] if only.is_folder() && !only.is_link && !is_submission(only) => {
+            find_class_folder(only)
+        }
         _ => root,
     }
 }
@@ -123,7 +147,7 @@ fn is_majority(root: &Node, is_one: impl Fn(&Node) -> bool) -> bool {
 fn make_ids_unique(entries: &mut [Entry]) {
     let mut used = BTreeSet::new();
     for entry in entries {
-        let wanted = folder_name(&entry.id);
+        let wanted = safe_folder_name(&entry.id);
         let mut id = wanted.clone();
         let mut number = 2;
         while !used.insert(id.to_lowercase()) {

@@ -10,6 +10,7 @@ fn file(name: &str) -> Node {
         name: name.to_owned(),
         path: PathBuf::from(name),
         children: None,
+        is_link: false,
     }
 }
 

@@ -86,3 +86,43 @@ fn late_days_cost_what_the_policy_says() {
         "{error}"
     );
 }
+
+/// Anybody can put links into a clone or a shared folder. One that leads to another student's files
+/// must not be graded as its owner's work.
+#[cfg(unix)]
+#[test]
+fn links_are_listed_with_the_reason_and_never_followed() {
+    use std::os::unix::fs::symlink;
+
+    let class = TestClass::named("class")
+        .with_reference("alice/student/src")
+        .with_folder("linked-source/student")
+        .with_folder("linked-folder")
+        .with_folder("linked-file")
+        .with(".hidden/camera.rs", "text");
+    let input = class.input();
+    let link = |original: &str, path: &str| symlink(original, input.join(path)).unwrap();
+    link("../../alice/student/src", "linked-source/student/src");
+    link("../alice/student", "linked-folder/student");
+    link("../alice/student/src/camera.rs", "linked-file/camera.rs");
+    link("alice", "linked-student");
+    let exam = class.small_exam(&ITEMS);
+    successful_stdout(&class.grade(&exam, &[]));
+    let grades = class.read("grades.csv");
+    let line = |id: &str| {
+        let line = grades.lines().find(|line| line.starts_with(id));
+        line.unwrap_or_else(|| panic!("{id}: {grades}")).to_owned()
+    };
+    assert!(line("alice,").contains("graded"));
+    for (id, link) in [
+        ("linked-source,", "student/src"),
+        ("linked-folder,", "student/src"),
+        ("linked-file,", "camera.rs"),
+        ("linked-student,", "linked-student"),
+    ] {
+        let (line, why) = (line(id), format!("{link} is a link"));
+        assert!(line.contains("nothing to grade,,,"), "{line}");
+        assert!(line.contains(&why), "{line}");
+    }
+    assert!(class.preview().contains(".hidden"), "{}", class.preview());
+}

@@ -33,7 +33,7 @@ fn grade_on_disk(
     workspace: &WorkspaceCopy,
     submission: &Submission,
 ) -> Option<Output> {
-    let disk = workspace.path().join("target/grade/work");
+    let disk = workspace.path().join("target/grade/.cache/work");
     fs::create_dir_all(&disk).unwrap();
     let mut command = Command::new("unshare");
     command.args([

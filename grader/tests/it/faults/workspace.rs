@@ -29,8 +29,8 @@ impl WorkspaceCopy {
         Submission::reference("first").grade();
         let copy = WorkspaceCopy::new();
         let original = harness::workspace().canonicalize().unwrap();
-        fs::create_dir_all(copy.path().join("target/grade")).unwrap();
-        let dependencies = "target/grade/dependencies";
+        fs::create_dir_all(copy.path().join("target/grade/.cache")).unwrap();
+        let dependencies = "target/grade/.cache/dependencies";
         symlink(original.join(dependencies), copy.path().join(dependencies)).unwrap();
         copy
     }

@@ -1,5 +1,5 @@
 //! The crate in which a submission's `bvh.rs` is compiled when it is graded with the reference's
-//! parts: the reference's other files take the place of the submission's.
+//! parts. The reference's other files replace those of the submission.
 
 pub use parts::{bbox, camera, primitive, sphere, triangle};
 

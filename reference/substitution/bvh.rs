@@ -1,5 +1,5 @@
-//! The submission's `Bvh::hit` on trees that a given builder makes, because the submission's
-//! `Bvh::build` is graded in another task.
+//! The submission's `Bvh` with another builder, so that `Bvh::hit` is graded on correct trees. The
+//! submission's `Bvh::build` is graded in another task.
 
 use std::ops::Deref;
 
@@ -33,8 +33,8 @@ impl Deref for Bvh {
     }
 }
 
-/// Builds the node over these primitives, the first of which has the index `start`. Returns the
-/// index of the node.
+/// Builds the subtree over these primitives, the first of which has the index `start`. Returns the
+/// index of its root.
 fn split_at_median(
     primitives: &mut [Primitive],
     start: usize,

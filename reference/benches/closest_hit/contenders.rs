@@ -25,7 +25,7 @@ pub const MAX_LEAF_SIZE: usize = 4;
 
 /// A tree over the triangles.
 pub trait Contender {
-    /// Returns the distance to the closest hit of each ray; infinity without a hit.
+    /// Returns the distance to the closest hit of each ray, or infinity if there is none.
     fn distances(&self, rays: &[Ray]) -> Vec<f32>;
 }
 
@@ -37,7 +37,7 @@ impl Contender for Bvh {
     }
 }
 
-/// The eight-wide variant, which computes the complete [`protocol::Trace`] too.
+/// The eight-wide variant. It also computes the complete [`protocol::Trace`].
 impl Contender for wide_bvh::Bvh {
     fn distances(&self, rays: &[Ray]) -> Vec<f32> {
         let distance = |ray| black_box(self.hit(ray)).map_or(f32::INFINITY, |trace| trace.distance);
@@ -91,8 +91,8 @@ impl Contender for Obvhs {
     }
 }
 
-/// A tree of the crate `bvh`. It has two ways of traversal, and which one is faster depends on the
-/// rays.
+/// A tree of the crate `bvh`. The crate has two ways to traverse it, and it depends on the rays
+/// which one is faster.
 pub struct CrateBvhTree {
     bvh: CrateBvh<f32, 3>,
     triangles: Vec<Corners>,
@@ -108,7 +108,8 @@ impl CrateBvhTree {
         CrateBvhTree { bvh, triangles }
     }
 
-    /// Traverses in order of distance, until a box begins beyond the closest hit.
+    /// Returns the distance to the closest hit. Traverses in order of distance, and stops at the
+    /// first box that is farther away than the closest hit.
     fn closest_ordered(&self, ray: &Ray) -> f32 {
         let query = query(ray);
         let mut closest = f32::INFINITY;
@@ -122,7 +123,7 @@ impl CrateBvhTree {
         closest
     }
 
-    /// Tests every triangle whose box the ray hits.
+    /// Returns the distance to the closest hit. Tests every triangle whose box the ray hits.
     fn closest_of_all(&self, ray: &Ray) -> f32 {
         let query = query(ray);
         let candidates = self.bvh.traverse_iterator(&query, &self.triangles);
@@ -157,7 +158,7 @@ fn query(ray: &Ray) -> ::bvh::ray::Ray<f32, 3> {
     )
 }
 
-/// A triangle with the traits that the crate `bvh` requires.
+/// A triangle that implements the traits that the crate `bvh` requires.
 struct Corners {
     corners: [Vec3; 3],
     node: usize,

@@ -20,7 +20,7 @@ fn cpu_time() -> Duration {
     Duration::new(seconds, nanos)
 }
 
-/// Returns the wall time on other systems, which is meaningful only on a quiet machine.
+/// Returns the wall time on other systems. It is meaningful only if the machine is otherwise idle.
 #[cfg(not(unix))]
 fn used() -> Duration {
     use std::sync::LazyLock;
@@ -30,7 +30,7 @@ fn used() -> Duration {
     START.elapsed()
 }
 
-/// The median, the least and the greatest of several values.
+/// The median, the minimum and the maximum of several values.
 #[derive(Clone, Copy, Debug)]
 pub struct Spread {
     pub median: f64,
@@ -39,7 +39,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Returns the spread of at least one value.
+    /// Computes the spread of some values. There must be at least one.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let mut values: Vec<f64> = values.into_iter().collect();
         values.sort_by(f64::total_cmp);

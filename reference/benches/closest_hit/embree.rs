@@ -1,5 +1,5 @@
-//! Embree 4, loaded at run time from the library that the variable `EMBREE` names. The Python
-//! package `embreex` contains such a library; this project does not.
+//! Embree 4, loaded at run time from the library that the variable `EMBREE` names. The library is
+//! not part of this project; the Python package `embreex` contains one.
 //!
 //! This is the only `unsafe` code outside the sandbox: functions of a C library cannot be called in
 //! any other way. The declarations are those of `rtcore.h`, version 4.
@@ -28,8 +28,8 @@ const MEDIUM: c_uint = 1;
 /// One thread, the caller's. Embree detects the processor's instruction set itself.
 const CONFIGURATION: &[u8] = b"threads=1,user_threads=1\0";
 
-/// `RTCRayHit`. The last fields differ between builds of the library; there is room for either
-/// form.
+/// `RTCRayHit`. The last fields differ between builds of the library; the structure is large enough
+/// for both forms.
 #[repr(C, align(16))]
 struct RayHit {
     origin: [f32; 3],
@@ -74,8 +74,8 @@ impl Embree {
     /// Loads the library that the variable `EMBREE` names; returns `None` if it is not set.
     pub fn open() -> Option<Self> {
         let path = std::env::var_os("EMBREE")?;
-        // SAFETY: setting the variable promises that the file is Embree 4, whose start-up code is
-        // safe to run; the types are those of its header.
+        // SAFETY: by setting the variable, the user promises that the file is Embree 4, whose
+        // start-up code is safe to run; the types are those of its header.
         unsafe {
             let library = Library::new(&path)
                 .unwrap_or_else(|error| panic!("cannot open EMBREE={}: {error}", path.display()));
@@ -147,7 +147,7 @@ impl Embree {
 }
 
 impl EmbreeScene<'_> {
-    /// Returns the distance to the closest hit; infinity without a hit.
+    /// Returns the distance to the closest hit, or infinity if there is none.
     pub fn distance(&self, ray: &Ray) -> f32 {
         let mut hit = RayHit {
             origin: ray.origin.to_array(),

@@ -1,6 +1,7 @@
 //! Closest hits per second and build times of the reference, the eight-wide variant, the crates
-//! `obvhs` and `bvh`, and Embree if there is a library: on one thread, in turns, by CPU time. All
-//! must find the same hits. How to run it, and the results: ../README.md.
+//! `obvhs` and `bvh`, and Embree, if its library is available. They run on one thread and take
+//! turns, their CPU time is measured, and all must find the same hits. ../README.md describes how
+//! to run this benchmark, and lists the results.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -35,9 +36,9 @@ mod wide_bvh;
 /// rays; the variable `ROUNDS` overrides it.
 const ROUNDS: usize = 5;
 
-/// The number of rays that a contender traces before it is the next one's turn: few enough (some
-/// milliseconds) that a slow moment of the machine affects all of them, and enough that the caches
-/// fill with the contender's own data.
+/// The number of rays that a contender traces before it is the next contender's turn: few enough
+/// (some milliseconds) that a slow moment of the machine affects all of them, and enough that the
+/// caches fill with the contender's own data.
 const RAYS_PER_TURN: usize = 1 << 15;
 
 fn main() {
@@ -64,7 +65,7 @@ fn main() {
     }
 }
 
-/// One tree of each contender.
+/// The trees, one for each contender.
 struct Trees<'a> {
     reference: Bvh,
     others: Vec<(&'static str, Box<dyn Contender + 'a>)>,
@@ -81,7 +82,7 @@ impl Trees<'_> {
     }
 }
 
-/// Builds all trees in each round, and reports the times.
+/// Builds all trees once per round, reports the times, and returns the trees of the last round.
 fn build_trees<'a>(
     mesh: &Mesh,
     embree: Option<&'a Embree>,
@@ -158,8 +159,8 @@ fn measure_rays(
     }
 }
 
-/// Checks that a contender finds the same hits as the reference. The last bits may differ, and so
-/// may hits exactly on an edge.
+/// Checks that a contender finds the same hits as the reference. The last bits of a distance may
+/// differ, and a few rays may have different hits, such as exactly on an edge.
 fn check_agreement(
     name: &'static str,
     kind: &str,

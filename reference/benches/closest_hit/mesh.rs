@@ -1,5 +1,5 @@
-//! The meshes: well-known ones from a folder if there is one, otherwise one of this project's
-//! scenes.
+//! The meshes: well-known ones if the variable `MESHES` names a folder with their files, otherwise
+//! one from this project's scenes.
 
 use std::fs::{self, File};
 use std::io::{BufReader, Read};
@@ -10,12 +10,12 @@ use glam::{Vec3, vec3};
 use protocol::Shape;
 use reference::bbox::BBox;
 
-/// A triangle mesh, and from where the camera looks at it.
+/// A triangle mesh. Its box determines the position of the camera.
 pub struct Mesh {
     pub name: String,
     pub corners: Vec<[Vec3; 3]>,
     pub bbox: BBox,
-    /// Whether it is a building, with the camera inside.
+    /// Whether the mesh is a building. The camera is then inside.
     pub is_building: bool,
 }
 
@@ -26,8 +26,8 @@ const FILES: [(&str, &str, bool); 3] = [
     ("dragon", "dragon871k.obj.gz", false),
 ];
 
-/// Returns the meshes in the folder that the variable `MESHES` names, or without it this project's.
-/// `ONLY` selects one by its name.
+/// Returns the meshes in the folder that the variable `MESHES` names. If it is not set, returns a
+/// mesh of this project. The variable `ONLY` selects one mesh in the folder by its name.
 pub fn meshes() -> Vec<Mesh> {
     let only = std::env::var("ONLY").ok();
     match std::env::var_os("MESHES").map(PathBuf::from) {
@@ -102,8 +102,8 @@ fn parse_obj(text: &str, path: &Path) -> Vec<[Vec3; 3]> {
     triangles
 }
 
-/// Returns the largest of this project's meshes, with each triangle divided into four, twice, as in
-/// its scene.
+/// Returns the largest of this project's meshes. As in its scene, each triangle is divided into
+/// four, twice.
 fn gyroid() -> Vec<[Vec3; 3]> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/gyroid.obj");
     let quarters = |[a, b, c]: [Vec3; 3]| {

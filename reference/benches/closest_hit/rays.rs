@@ -7,7 +7,8 @@ use reference::bvh::Bvh;
 
 use crate::mesh::Mesh;
 
-/// The side of the square of pixels. There are about as many rays of each kind as pixels.
+/// The width and height of the picture, in pixels. There are about as many rays of each kind as
+/// there are pixels.
 const SIDE: u32 = 512;
 
 /// Rays of one kind.
@@ -41,8 +42,8 @@ fn primary(mesh: &Mesh) -> Vec<Ray> {
     (0..SIDE * SIDE).map(ray).collect()
 }
 
-/// Returns rays from the hits of the primary rays in random directions into the hemisphere, then
-/// rays from the hits of those, and so on.
+/// Returns rays that start at the hits of the primary rays, in random directions of the hemisphere,
+/// then rays that start at the hits of those, and so on.
 fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
     let gap = 1e-4 * (mesh.bbox.max - mesh.bbox.min).length();
     let mut numbers = SplitMix64(1);
@@ -62,8 +63,8 @@ fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
     all
 }
 
-/// Returns rays from a sphere around the mesh, or from inside a building, to random points in its
-/// box.
+/// Returns rays to random points in the mesh's box. They start on a sphere around the mesh or, if
+/// the mesh is a building, at random points in its box.
 fn random(mesh: &Mesh) -> Vec<Ray> {
     let (center, size) = (mesh.bbox.center(), mesh.bbox.max - mesh.bbox.min);
     let mut numbers = SplitMix64(2);

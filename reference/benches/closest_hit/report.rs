@@ -11,12 +11,13 @@ pub struct Report {
     columns: Vec<&'static str>,
     /// For each name and column, one value per round.
     cells: Vec<(&'static str, &'static str, Vec<f64>)>,
-    /// The largest fraction of a contender's rays that had another hit than the reference's.
+    /// The fraction of rays for which a contender and the reference found different hits: the
+    /// largest of all contenders and rounds.
     differing: f64,
     most_differing: &'static str,
 }
 
-/// The columns of rays per second.
+/// The columns that show rays per second.
 const RAYS: [&str; 3] = ["primary", "bounce", "random"];
 const BUILD: &str = "build, ms";
 
@@ -49,16 +50,16 @@ impl Report {
         Some(Spread::of(rounds.iter().copied()))
     }
 
-    /// Returns the median of the rounds' ratios. The ratio of the medians would be less reliable,
-    /// since in a slow round all contenders are slow.
+    /// Returns the median, over all rounds, of the ratio of two contenders. The ratio of their
+    /// medians would be less reliable, since in a slow round all contenders are slow.
     fn ratio(&self, column: &str, name: &str, other: &str) -> Option<f64> {
         let rounds = self.rounds(name, column)?.iter();
         let ratios = rounds.zip(self.rounds(other, column)?).map(|(a, b)| a / b);
         Some(Spread::of(ratios).median)
     }
 
-    /// Returns how many times as fast as the others a contender is, for each kind of rays. If there
-    /// are several others, the fastest counts.
+    /// Returns the speed of a contender relative to the others, for each kind of rays. If there are
+    /// several others, it is compared with the fastest.
     fn speedups(&self, name: &str, others: &[&str]) -> Option<[f64; 3]> {
         let mut ratios = [0.0; 3];
         for (ratio, kind) in ratios.iter_mut().zip(RAYS) {

@@ -13,7 +13,7 @@ pub struct Count {
     pub primitives: u64,
 }
 
-/// Runs `work`, and returns its result and the number of tests that it made.
+/// Runs `work`, and returns its result and the numbers of tests that it made.
 pub fn count_tests<T>(work: impl FnOnce() -> T) -> (T, Count) {
     BOXES.set(0);
     PRIMITIVES.set(0);

@@ -35,20 +35,21 @@ const UPDATE_COMMAND: &str = "cargo bench -p benches --bench scaling";
 const RAYS: usize = 2000;
 /// The maximum number of triangles in a leaf.
 const MAX_LEAF_SIZE: usize = 4;
-/// Numbers of subdivisions along an edge of a cube. With n subdivisions the mesh has 12 n²
-/// triangles, so from one to the next their number grows by about a factor of √10.
+/// The numbers of pieces into which an edge of the cube is divided, one for each mesh. With n
+/// pieces, the mesh has 12 n² triangles. From one mesh to the next, the number of triangles grows
+/// by a factor of about √10.
 const PIECES: [u32; 9] = [3, 5, 9, 16, 29, 51, 91, 162, 289];
 
 /// The counts for one mesh.
 struct Row {
     triangles: usize,
-    /// Box tests per ray.
+    /// The average number of box tests per ray.
     boxes: f64,
-    /// Triangle tests per ray.
+    /// The average number of triangle tests per ray.
     primitives: f64,
-    /// Number of calls that build a node.
+    /// The number of calls that build a node.
     calls: usize,
-    /// Average number of these calls that a triangle is part of.
+    /// The average number of these calls that a triangle is part of.
     handled: f64,
 }
 
@@ -104,8 +105,8 @@ fn measure(pieces: u32) -> Row {
     row
 }
 
-/// The number of triangles below a node, and the sum of the numbers of triangles over all nodes
-/// there.
+/// The number of triangles below a node, and the sum of this number over the node and all nodes
+/// below it.
 struct SubtreeCounts {
     triangles: usize,
     handled: usize,

@@ -1,12 +1,13 @@
-//! The plot: on the left the tests per ray, compared with brute force; on the right, with a linear
-//! vertical axis, the counts that grow with the logarithm of the number of triangles, as straight
-//! lines.
+//! The plot. The left panel compares the tests per ray with brute force. The right panel has a
+//! linear vertical axis, so that counts that grow with the logarithm of the number of triangles are
+//! straight lines.
 
 use std::fmt::Write as _;
 
 use crate::Row;
 
-/// The left edge of each panel's plot area. All panels have the top, width and height below.
+/// The left edge of each panel's plot area. The constants `TOP`, `WIDTH` and `HEIGHT` are the same
+/// for both panels.
 const LEFT: [f64; 2] = [70.0, 510.0];
 const TOP: f64 = 60.0;
 const WIDTH: f64 = 340.0;
@@ -16,7 +17,7 @@ const DECADES: std::ops::RangeInclusive<i32> = 2..=6;
 /// The upper end of the right panel's vertical axis.
 const MAX_COUNT: f64 = 60.0;
 
-/// A curve: its colour, its label, and its value in a row.
+/// A curve: its colour, its label, and the function that returns its value for a row.
 type Curve<'a> = (&'a str, &'a str, fn(&Row) -> f64);
 
 const BRUTE: Curve = ("#b3261e", "every triangle", |row| row.triangles as f64);
@@ -61,8 +62,8 @@ fn power(decade: i32) -> String {
     format!("10{}", digits[decade as usize])
 }
 
-/// Draws a panel with its axes; each mark of the vertical axis is a height, from 0 to 1, and a
-/// text.
+/// Draws a panel with its axes. Each mark of the vertical axis consists of a height, from 0 to 1,
+/// and a text.
 fn frame(svg: &mut String, left: f64, title: &str, marks: impl Iterator<Item = (f64, String)>) {
     let (right, bottom) = (left + WIDTH, TOP + HEIGHT);
     _ = writeln!(

@@ -49,7 +49,8 @@ fn answer(submission: &dyn Submission, question: &Question) -> Answer {
             max_leaf_size,
             rays,
         } => {
-            // Builds the tree at the first ray, so that a panic in `build` is reported like others.
+            // Builds the tree at the first ray, so that a panic in `build` is reported like any
+            // other panic.
             let build = || submission.build(shapes, *max_leaf_size as usize);
             let mut bvh = None;
             hits(rays, |ray| bvh.get_or_insert_with(build).closest_hit(ray))
@@ -73,7 +74,8 @@ fn answer(submission: &dyn Submission, question: &Question) -> Answer {
     }
 }
 
-/// Returns the answer to a question in which the panic is reported for the first element.
+/// Returns an answer that reports the panic for the first element of the question and skips the
+/// others.
 fn panicked(question: &Question, panic: Panic) -> Answer {
     match question {
         Question::Camera { .. } => Answer::Rays(first_panicked(panic, question.count())),
@@ -87,7 +89,7 @@ fn panicked(question: &Question, panic: Panic) -> Answer {
     }
 }
 
-/// Returns `count` outcomes: the panic for the first element, and the others skipped.
+/// Returns `count` outcomes: the first is the panic, and all others are skipped.
 fn first_panicked<T>(panic: Panic, count: usize) -> Vec<ElementOutcome<T>> {
     let skipped = std::iter::repeat_with(|| ElementOutcome::Skipped);
     let outcomes = std::iter::once(ElementOutcome::Panicked(panic)).chain(skipped);
@@ -103,19 +105,19 @@ fn rays(submission: &dyn Submission, pinhole: &PinholeCamera, samples: &Samples)
     ))
 }
 
-/// Finds the hit of each ray.
+/// Finds the closest hit of each ray.
 fn hits(rays: &Rays, hit: impl FnMut(&Ray) -> Option<Trace>) -> Answer {
     Answer::Hits(attempt_each(&rays.to_vec(), hit))
 }
 
-/// Finds the times inside a box for each query.
+/// Finds, for each query, the part of its times during which the ray is inside the box.
 fn spans(submission: &dyn Submission, min: Vec3, max: Vec3, queries: &[(Ray, Interval)]) -> Answer {
     Answer::Spans(attempt_each(queries, |(ray, times)| {
         submission.intersect_box(min, max, ray, *times)
     }))
 }
 
-/// Builds the tree over this number of primitives.
+/// Builds a tree over this many primitives, and checks that it does not have too many nodes.
 fn tree(primitives: usize, build: impl FnOnce() -> Box<dyn Hierarchy>) -> Answer {
     let max = Question::max_nodes(primitives);
     Answer::Tree(attempt(|| {
@@ -130,7 +132,7 @@ fn tree(primitives: usize, build: impl FnOnce() -> Box<dyn Hierarchy>) -> Answer
     }))
 }
 
-/// Renders the path-traced picture of the scene in this text.
+/// Renders a path-traced picture. `scene` is the text of a scene file.
 fn picture(submission: &dyn Submission, scene: &str, settings: &RenderSettings) -> Answer {
     Answer::Picture(match Scene::from_text(scene) {
         Ok(scene) => attempt(|| render(submission, &scene, settings)),

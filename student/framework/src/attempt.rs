@@ -29,7 +29,7 @@ pub fn keep_panics_quiet() {
     }));
 }
 
-/// Runs `code` and returns its value, or the panic if it panicked.
+/// Runs `code` and returns its value, or the panic if it panics.
 pub fn attempt<T>(code: impl FnOnce() -> T) -> ElementOutcome<T> {
     // Unwind safe: values that a panic leaves half changed are not used again, because each
     // question has its own values.

@@ -72,7 +72,8 @@ fn render_or_print(
         return print_pixel(pixel, options, scene, &world);
     }
 
-    // Traces one ray first: if it reaches a stub, that is the only message.
+    // Traces one ray first, so that if the submission still has a stub, the stub's panic is the
+    // only message.
     let corner = UVec2::ZERO;
     let first = || first_hit(scene, &world, corner, &mut RenderStats::default());
     value_or_error(attempt(first), Some(corner))?;

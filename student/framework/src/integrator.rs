@@ -48,14 +48,14 @@ impl RenderStats {
     }
 }
 
-/// A path tracer for a scene and a submission's version of it.
+/// A path tracer for a scene that has been converted to a submission's own types.
 pub struct Integrator<'a> {
     scene: &'a Scene,
     world: &'a World,
     lights: Lights,
     settings: RenderSettings,
-    /// The start of every ray's range, so that it does not hit the surface that it leaves: see
-    /// [`Integrator::new`].
+    /// The start of every ray's range. It is greater than zero, so that a ray does not hit the
+    /// surface that it leaves: see [`Integrator::new`].
     epsilon: f32,
 }
 
@@ -77,7 +77,7 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// Returns the distance below which two positions cannot be told apart.
+    /// Returns the distance below which two positions cannot be distinguished.
     #[cfg(feature = "cli")]
     pub(crate) fn epsilon(&self) -> f32 {
         self.epsilon

@@ -1,5 +1,6 @@
-//! Trigonometry and powers with the same results on every machine. The functions of the standard
-//! library differ in the last bit between systems, and so would pictures.
+//! Trigonometry and powers with the same results on every machine. With the functions of the
+//! standard library, the last bit of a result can differ between systems, and then pictures would
+//! differ too.
 
 /// Returns the angle in `[0, π]` whose cosine is `x`, in radians.
 pub fn acos(x: f32) -> f32 {

@@ -20,7 +20,7 @@ pub const STACK_BYTES: usize = 64 << 20;
 /// The maximum size of a question. The grader is trusted, so this only guards against bugs.
 const MAX_QUESTION_BYTES: usize = 256 << 20;
 
-/// Answers questions from standard input until it ends.
+/// Answers questions from standard input until the input ends.
 pub fn main(submission: &dyn Submission) -> ExitCode {
     end_with_the_grader();
     let (questions, answers) = match claim_standard_streams() {

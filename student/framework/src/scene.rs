@@ -80,7 +80,8 @@ impl Scene {
     }
 
     /// Returns the same scene with a film of another size. If the scene file sets the aspect ratio
-    /// of the sensor, it stays the same; otherwise, it becomes that of the film.
+    /// of the sensor, that ratio stays the same. Otherwise, the aspect ratio of the new film is
+    /// used.
     pub fn on_film(&self, film: UVec2) -> Scene {
         Scene {
             camera: self.camera.on_film(film),

@@ -65,7 +65,7 @@ impl Aggregate for SphereList {
     }
 }
 
-/// There is no tree: each ray is tested with all shapes.
+/// A hierarchy without a tree: each ray is tested against all shapes.
 impl Hierarchy for SphereList {
     fn root(&self) -> usize {
         0

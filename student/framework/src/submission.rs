@@ -1,7 +1,7 @@
 //! The interface between the framework and the code that students write.
 //!
 //! The traits are used through `dyn` and are as small as possible, because their implementations
-//! are compiled together with every submission. The methods have other names than those that
+//! are compiled together with every submission. The names of the methods differ from the names that
 //! students write. Otherwise, if a student's method were missing, the compiler could resolve the
 //! call to the trait's method instead of reporting an error.
 
@@ -10,8 +10,8 @@ use protocol::{Interval, PinholeCamera, Ray, Shape, Trace, Tree, TreeNode};
 
 use crate::scene::Scene;
 
-/// A submission's five files, as implemented in the given file `world.rs`. The methods convert what
-/// a scene or a question describes to the submission's own types.
+/// A submission's five files, called through the given file `world.rs`, which implements this
+/// trait. The methods convert what a scene or a question describes to the submission's own types.
 pub trait Submission: Sync {
     /// Calls `Camera::new`.
     fn camera(&self, pinhole: &PinholeCamera) -> Box<dyn CameraRays>;

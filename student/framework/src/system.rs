@@ -20,8 +20,8 @@ pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
     Ok((File::from(questions), File::from(answers)))
 }
 
-/// Does the same on Windows. The standard library looks up its streams at each use, so it uses the
-/// redirected ones.
+/// Moves the pipes in the same way on Windows. The standard library looks up its streams at each
+/// use, so it uses the redirected ones.
 #[cfg(windows)]
 pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
     use filedescriptor::{FileDescriptor, Pipe, StdioDescriptor};
@@ -38,7 +38,7 @@ pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
 
 /// Makes the operating system kill this process when the grader ends, however the grader ends.
 /// Otherwise, an endless loop would run on for minutes after a Ctrl-C. A sandbox may forbid this
-/// call; it then ends the process itself.
+/// call; the sandbox then ends the process when the grader ends.
 #[cfg(target_os = "linux")]
 pub(crate) fn end_with_the_grader() {
     use rustix::process::{Signal, set_parent_process_death_signal};
@@ -46,7 +46,7 @@ pub(crate) fn end_with_the_grader() {
     set_parent_process_death_signal(Some(Signal::KILL)).ok();
 }
 
-/// Does nothing, because other systems have no such notification. A probe that computes runs on
-/// until its time limit, and one that waits ends when the stream of questions ends.
+/// Does nothing, because there is no portable call for this on other systems. A probe that computes
+/// runs on until its time limit, and one that waits ends when the stream of questions ends.
 #[cfg(not(target_os = "linux"))]
 pub(crate) fn end_with_the_grader() {}

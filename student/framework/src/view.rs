@@ -1,4 +1,4 @@
-//! Pictures of first hits, which show the fields of the [`Trace`] instead of light.
+//! Pictures of first hits. They show the fields of the [`Trace`] instead of light.
 
 use glam::Vec3;
 use protocol::{Trace, Tree};

@@ -11,28 +11,30 @@ use crate::tree::Tree;
 /// The answer to one [`Question`](crate::Question), with one outcome per element.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Answer {
-    /// Answers `Camera`: a ray for each sample.
+    /// The answer to `Camera`: a ray for each sample.
     Rays(Vec<ElementOutcome<Ray>>),
-    /// Answers `Shapes`, `Traverse` and `BuildAndTraverse`: the closest hit of each ray.
+    /// The answer to `Shapes`, `Traverse` or `BuildAndTraverse`: the closest hit of each ray.
     Hits(Vec<ElementOutcome<Option<Trace>>>),
-    /// Answers `BBox`: for each query, the part of its times that is inside the box.
+    /// The answer to `BBox`: for each query, the part of its times during which the ray is inside
+    /// the box.
     Spans(Vec<ElementOutcome<Option<Interval>>>),
-    /// Answers `Build`: the tree.
+    /// The answer to `Build`: the tree.
     Tree(ElementOutcome<Tree>),
-    /// Answers `Radiance`: linear red, green and blue, row by row from the bottom.
+    /// The answer to `Radiance`: the pixels in linear red, green and blue, row by row from the
+    /// bottom.
     Picture(ElementOutcome<Vec<Vec3>>),
-    /// Answers `Done`.
+    /// The answer to `Done`.
     Done,
 }
 
 /// The outcome of one element of a question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ElementOutcome<T> {
-    /// The submission's value.
+    /// The value that the submission returned.
     Value(T),
     /// The submission's code panicked.
     Panicked(Panic),
-    /// The element was not run, because [`Panic::MAX_PER_QUESTION`] earlier ones panicked.
+    /// The element was not run, because [`Panic::MAX_PER_QUESTION`] earlier elements panicked.
     #[serde(alias = "GivenUp")]
     Skipped,
 }
@@ -42,19 +44,19 @@ pub enum ElementOutcome<T> {
 pub struct Panic {
     /// The panic message, truncated to [`Panic::MAX_TEXT_BYTES`].
     pub message: String,
-    /// The file and line, such as `sphere.rs:34`; truncated likewise.
+    /// The file and line of the panic, such as `sphere.rs:34`, truncated to the same length.
     #[serde(alias = "place")]
     pub location: String,
 }
 
 impl Panic {
-    /// Maximum length of `message` and of `location`, in bytes.
+    /// The maximum length of `message` and of `location`, in bytes.
     pub const MAX_TEXT_BYTES: usize = 600;
-    /// Number of panics in one question after which its remaining elements are skipped.
+    /// The number of panics in one question after which its remaining elements are skipped.
     pub const MAX_PER_QUESTION: usize = 3;
 
-    /// Returns whether the panic came from `todo!` or `unimplemented!`, so that the task is not
-    /// written yet.
+    /// Returns whether the panic came from `todo!` or `unimplemented!`, which means that the task
+    /// is not written yet.
     pub fn is_unimplemented(&self) -> bool {
         self.message.starts_with("not yet implemented")
             || self.message.starts_with("not implemented")

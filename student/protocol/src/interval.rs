@@ -2,7 +2,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// The closed interval from `min` to `max`: both ends are included. Empty if `min > max`.
 ///
-/// Used for distances along a ray, in units of its (unit) direction.
+/// Used for distances along a ray, whose direction has length one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// The smallest number in the interval.

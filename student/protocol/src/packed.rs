@@ -13,7 +13,7 @@ use serde::de::{DeserializeOwned, Error as _, SeqAccess, Visitor};
 use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Maximum length of a list that is written element by element in text formats.
+/// The maximum length of a list that is written element by element in text formats.
 pub const MAX_PLAIN_LEN: usize = 32;
 
 /// Serialises a list as described in the module documentation.

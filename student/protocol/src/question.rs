@@ -34,11 +34,11 @@ pub enum Question {
     /// Calls `BBox::hit` once for each ray and its times.
     #[serde(rename = "bbox")]
     BBox {
-        /// The smallest corner of the box.
+        /// The corner of the box with the smallest coordinates.
         min: Vec3,
-        /// The largest corner of the box.
+        /// The corner of the box with the largest coordinates.
         max: Vec3,
-        /// The rays, each with the `times` argument of the call.
+        /// The rays, each with the `times` to pass to `BBox::hit`.
         #[serde(with = "packed")]
         #[serde(alias = "shots")]
         queries: Vec<(Ray, Interval)>,
@@ -51,7 +51,7 @@ pub enum Question {
         /// The maximum number of primitives in a leaf.
         max_leaf_size: u32,
     },
-    /// Calls `Bvh::hit` on the given tree, once for each ray.
+    /// Calls `Bvh::hit` once for each ray, on the tree that the question contains.
     Traverse {
         /// The primitives, in the order that the leaves index them.
         #[serde(with = "packed")]
@@ -87,7 +87,8 @@ pub enum Question {
         /// The seed of all random numbers.
         seed: u64,
     },
-    /// Has no elements. Its answer shows that all earlier questions have been answered.
+    /// Marks the end of the questions and has no elements. The answer to it shows that all earlier
+    /// questions have been answered.
     Done,
 }
 
@@ -111,7 +112,7 @@ impl Question {
         primitives.saturating_mul(4).saturating_add(64)
     }
 
-    /// Returns an upper bound for the size of a well-formed answer on the wire, in bytes.
+    /// Returns an upper bound on the size of a well-formed answer on the wire, in bytes.
     pub fn max_answer_bytes(&self) -> usize {
         // A Trace is 12 floats and a varint; a Panic is bounded text.
         const ELEMENT_BYTES: usize = 64;

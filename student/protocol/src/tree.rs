@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 /// A node of a [`Tree`]. It is a leaf if and only if `l == r`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TreeNode {
-    /// The smallest corner of the node's box.
+    /// The corner of the node's box with the smallest coordinates.
     pub min: Vec3,
-    /// The largest corner of the node's box.
+    /// The corner of the node's box with the largest coordinates.
     pub max: Vec3,
     /// In a leaf, the index of its first primitive; ignored in interior nodes.
     pub start: u32,
@@ -31,8 +31,8 @@ impl TreeNode {
         }
     }
 
-    /// Converts an index to `u32`. An index that does not fit becomes `u32::MAX`: it is out of
-    /// range anyway, and must not wrap around to a valid one.
+    /// Converts an index to `u32`. An index that does not fit becomes `u32::MAX`, so that it stays
+    /// out of range instead of wrapping around to a valid index.
     pub fn saturating_index(index: usize) -> u32 {
         u32::try_from(index).unwrap_or(u32::MAX)
     }

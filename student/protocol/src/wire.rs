@@ -5,7 +5,8 @@
 //! ```
 //!
 //! An answer repeats the nonce of its question. The reader passes the maximum length of a body,
-//! which is checked *before* anything is allocated. Decoding fails if bytes are left over.
+//! which is checked *before* anything is allocated. Decoding fails if there are bytes after the
+//! value.
 
 use std::io::{self, Read, Write};
 
@@ -59,8 +60,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Decodes the answer in the frame. This is not generic, so it is compiled in this crate and
-    /// with its optimisation level, whichever crate calls it.
+    /// Decodes the answer in the frame. This method is not generic, so it is compiled as part of
+    /// this crate, with this crate's optimisation level, whichever crate calls it.
     pub fn answer(&self) -> Result<Answer, WireError> {
         self.decode()
     }
@@ -100,7 +101,8 @@ pub fn append<T: Serialize>(
     Ok(bytes)
 }
 
-/// Appends a frame that holds a question. Not generic, for the same reason as [`Frame::answer`].
+/// Appends a frame that holds a question to `bytes`. This function is not generic, for the same
+/// reason as [`Frame::answer`].
 pub fn append_question(
     bytes: Vec<u8>,
     nonce: u64,

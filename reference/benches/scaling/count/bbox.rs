@@ -1,5 +1,5 @@
-//! The reference's box, with a counter of its tests. It has only the methods that the reference's
-//! other files use.
+//! The reference's box, with every test counted. It has only the methods that the reference's other
+//! files use.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};

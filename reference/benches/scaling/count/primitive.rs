@@ -1,4 +1,4 @@
-//! The reference's primitive, with a counter of its tests.
+//! The reference's primitive, with every test counted.
 
 use protocol::{Ray, Shape, Trace};
 

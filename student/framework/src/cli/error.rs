@@ -33,7 +33,7 @@ pub(super) enum RenderError {
     SubmissionPanic(SubmissionPanic),
 }
 
-/// A panic of the submission's code.
+/// A panic in the submission's code.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct SubmissionPanic {
     pub(super) panic: Panic,
@@ -77,7 +77,7 @@ impl fmt::Display for SubmissionPanic {
     }
 }
 
-/// Returns the end of an error message, which lists the known scenes.
+/// Returns the last part of an error message: a list of the known scenes.
 fn list_of_scenes(known: &[String]) -> String {
     match known {
         [] => String::new(),

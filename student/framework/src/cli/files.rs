@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use super::error::RenderError;
 use super::options::Options;
 
-/// The folder of scenes. The folder that contains it is taken as the root of the workspace.
+/// The name of the folder that contains the scenes. Its parent folder is assumed to be the root of
+/// the workspace.
 const SCENES: &str = "scenes";
 
 /// Finds the file of a scene. The path is tried relative to the current folder, to the root of the

@@ -7,8 +7,8 @@ use image::{ImageFormat, Rgb32FImage, RgbImage};
 use super::error::RenderError;
 use crate::film::{Film, Tone};
 
-/// Writes a picture to a file: linear floats to an EXR file, and bytes for a screen to other
-/// formats.
+/// Writes a picture to a file. An EXR file gets linear floats. Files in other formats get bytes,
+/// converted for a screen.
 pub(super) fn write(film: &Film, tone: Tone, path: &Path) -> Result<(), RenderError> {
     let (width, height) = film.size.into();
     let written = match ImageFormat::from_path(path) {

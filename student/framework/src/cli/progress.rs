@@ -9,8 +9,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::integrator::RenderStats;
 
-/// A progress bar with the remaining time and the rays per second. It is not shown if standard
-/// error is not a terminal.
+/// A progress bar with the remaining time and the rays per second. It is shown only if standard
+/// error is a terminal.
 pub(super) struct Progress {
     bar: ProgressBar,
     rays: AtomicU64,

@@ -18,7 +18,7 @@ struct Surface {
     position: Vec3,
     /// The normal, of length one, on the side that the ray comes from.
     normal: Vec3,
-    /// Whether the submission's normal points to that side, too.
+    /// Whether the submission's normal also points to that side.
     outside: bool,
     uv: Vec2,
     material: Material,

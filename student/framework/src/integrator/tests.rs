@@ -1,5 +1,5 @@
-//! Analytic checks that any correct path tracer passes, on scenes that are intersected by
-//! `sphere_submission`.
+//! Analytic checks that any correct path tracer passes. The scenes contain only spheres, because
+//! `sphere_submission` intersects them.
 
 use glam::{Vec3, uvec2, vec2, vec3};
 use protocol::Trace;
@@ -44,7 +44,8 @@ fn sphere(z: f32, radius: f32, material: &str) -> String {
 
 #[test]
 fn a_white_sphere_is_invisible_in_a_white_furnace() {
-    // Radiance 1 arrives from everywhere, and none is absorbed, so every pixel is 1.
+    // Light of radiance 1 arrives from every direction and none of it is absorbed, so every pixel
+    // is 1.
     let scene = scene(1.0, WHITE, &sphere(-3.0, 2.0, "white"));
     let pixels = render(&CORRECT, &scene, &settings(4, 4));
     assert!(pixels.iter().all(|pixel| *pixel == Vec3::ONE), "{pixels:?}");

@@ -29,7 +29,7 @@ pub(super) struct ShapeSample {
 }
 
 impl LightShape {
-    /// Converts a shape of the scene.
+    /// Creates the light's shape from a shape of the scene.
     pub(super) fn of(shape: &Shape) -> Self {
         match *shape {
             Shape::Triangle { vertices, .. } => {
@@ -161,7 +161,8 @@ mod tests {
             vec3(-1.0, 1.5, -0.5),
         ];
         let shape = LightShape::triangle(corners, Vec3::NEG_Y);
-        // Lambert 1760: half of the sum over the edges of the angle times the edge's normal.
+        // Lambert, 1760: half of the sum, over all edges, of the angle that the edge subtends times
+        // its normal.
         let d = corners.map(Vec3::normalize);
         let edge = |a: Vec3, b: Vec3| a.angle_between(b) * a.cross(b).normalize().y;
         let expected = 0.5 * (edge(d[0], d[1]) + edge(d[1], d[2]) + edge(d[2], d[0])).abs();

@@ -14,8 +14,8 @@ pub struct Camera {
     pub pinhole: PinholeCamera,
     /// The transformation from camera space to world space.
     pub placement: Placement,
-    /// Whether the scene file sets the aspect ratio of the sensor, so that it does not follow that
-    /// of the film.
+    /// Whether the scene file sets the aspect ratio of the sensor. If not, the aspect ratio of the
+    /// film is used.
     pub fixed_aspect: bool,
 }
 
@@ -24,7 +24,8 @@ pub struct Camera {
 pub struct Placement {
     /// The position of the camera in world space.
     pub position: Vec3,
-    /// The camera's x-, y- and z-axes in world space, as columns. It looks down −z, with y up.
+    /// The camera's x-, y- and z-axes in world space, as columns. The camera looks along −z, with y
+    /// up.
     pub axes: Mat3,
 }
 
@@ -67,7 +68,7 @@ struct CameraEntry {
     vertical_fov: f32,
     /// The number of pixels, across and up.
     film: [u32; 2],
-    /// The width of the sensor divided by its height; default: that of the film.
+    /// The width of the sensor divided by its height; default: the aspect ratio of the film.
     #[serde(default, deserialize_with = "number::optional")]
     aspect_ratio: Option<f32>,
     #[serde(deserialize_with = "number::triple")]

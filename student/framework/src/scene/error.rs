@@ -1,4 +1,4 @@
-//! Errors in scenes, with their position and how to fix them.
+//! Errors in scenes. They say where the error is and how to fix it.
 
 use std::fmt;
 #[cfg(feature = "cli")]
@@ -75,7 +75,7 @@ pub enum SceneErrorKind {
 }
 
 impl SceneError {
-    /// Creates an error at a position in a file that is not known yet.
+    /// Creates an error whose file is not known yet.
     pub(super) fn new(position: Option<TextPosition>, kind: SceneErrorKind) -> Self {
         SceneError {
             file: None,
@@ -150,7 +150,8 @@ impl fmt::Display for SceneError {
     }
 }
 
-/// Prints the line with a mark under the column, unless it is too long for a terminal.
+/// Prints the line with a mark under the column. A line that is too long for a terminal is not
+/// printed.
 impl fmt::Display for TextPosition {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let shown = self.text.trim_end();

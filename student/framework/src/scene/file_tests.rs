@@ -71,7 +71,7 @@ fn a_mesh_is_scaled_rotated_and_translated() {
         far.position.abs_diff_eq(glam::vec3(7.0, 0.0, 2.0), 1e-5),
         "{far:?}"
     );
-    // The file has no normals, so the normal is that of the face, which is rotated as well.
+    // The file has no normals, so the normal is that of the rotated face.
     assert!(far.normal.abs_diff_eq(glam::Vec3::NEG_Y, 1e-5), "{far:?}");
 }
 
@@ -142,7 +142,7 @@ fn reports_the_name_of_an_unreadable_file() {
 #[test]
 fn every_scene_in_the_scenes_folder_loads() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    // A bundle may have no scenes.
+    // A bundle of this repository may have no scenes.
     let Ok(entries) = fs::read_dir(&scenes) else {
         return;
     };

@@ -21,12 +21,12 @@ pub(super) struct Face {
     /// Indices into [`Mesh::positions`].
     pub(super) corners: [usize; 3],
     pub(super) uv: [Vec2; 3],
-    /// The normals at the corners. `None` if the file gives none, so that the face is flat.
+    /// The normals at the corners. `None` if the file has no normals; the triangle is then flat.
     pub(super) normals: Option<[Vec3; 3]>,
 }
 
 impl Mesh {
-    /// Returns the mesh's triangles, transformed as the scene file says. Triangles without area are
+    /// Returns the mesh's triangles, transformed as `entry` specifies. Triangles without area are
     /// left out, because they have no normal and no ray can hit them.
     pub(super) fn shapes(&self, entry: &MeshEntry, material: u32) -> Vec<Shape> {
         let rotation = rotation(entry.rotate);

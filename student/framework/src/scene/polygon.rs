@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::number;
 
 /// The maximum distance of a point from the plane of the polygon, relative to the polygon's size.
-/// It allows rounded coordinates, but no visible bend.
+/// It is large enough for rounded coordinates, but too small for a visible bend.
 const FLATNESS_TOLERANCE: f32 = 1e-3;
 
 /// A flat, convex polygon, counter-clockwise around its normal.
@@ -112,7 +112,7 @@ fn normal(points: &[Vec3]) -> Result<Vec3, PolygonError> {
     Ok(normal)
 }
 
-/// Returns each point with the next one.
+/// Returns each point together with the next, and the last point together with the first.
 fn sides(points: &[Vec3]) -> impl Iterator<Item = (Vec3, Vec3)> {
     points
         .iter()

@@ -8,7 +8,7 @@ use super::mesh::Mesh;
 use super::subdivide::subdivide;
 use super::{MAX_LEAF_SIZE, Scene};
 
-/// The maximum number of triangles of one mesh, which take about 2 GB.
+/// The maximum number of triangles in one mesh. A mesh of this size takes about 2 GB of memory.
 const MAX_TRIANGLES: u64 = 1 << 24;
 
 /// Parses the scene in `text`. `load` loads a mesh from the path in the scene file.
@@ -65,7 +65,7 @@ pub(super) fn scene(
     })
 }
 
-/// Subdivides a mesh as often as the scene file says.
+/// Subdivides a mesh as many times as `entry` specifies.
 fn subdivide_mesh(mut mesh: Mesh, entry: &MeshEntry) -> Result<Mesh, SceneErrorKind> {
     let triangles = (mesh.faces.len() as u64).saturating_mul(4_u64.saturating_pow(entry.subdivide));
     if triangles > MAX_TRIANGLES {
@@ -84,7 +84,7 @@ fn subdivide_mesh(mut mesh: Mesh, entry: &MeshEntry) -> Result<Mesh, SceneErrorK
     Ok(mesh.with_smooth_normals())
 }
 
-/// Converts the parser's error, and separates the position from the message.
+/// Converts an error of the parser, separating the position from the message.
 fn syntax_error(text: &str, error: &serde_json::Error) -> SceneError {
     let (line, column) = (error.line(), error.column());
     let message = error.to_string();

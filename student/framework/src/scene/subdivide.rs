@@ -41,7 +41,7 @@ pub(super) fn subdivide(mesh: &Mesh) -> Mesh {
     Mesh { positions, faces }
 }
 
-/// An edge and the corners opposite it: two inside a surface, one at its boundary.
+/// An edge and the corners opposite it: one corner for each face that has the edge.
 struct Edge {
     ends: (usize, usize),
     across: Vec<usize>,
@@ -128,8 +128,8 @@ fn moved_positions(mesh: &Mesh, edges: &Edges) -> Vec<Vec3> {
             (1.0 - n * weight) * position + weight * ring.sum
         }
         2 => 0.75 * position + 0.125 * crease.sum,
-        // Two cases that do not move: a corner, where one crease ends or several join, and a
-        // position that no face uses.
+        // Two kinds of positions do not move: a corner, where one crease ends or several join, and
+        // a position that no face uses.
         _ => position,
     };
     mesh.positions.iter().zip(rings).map(move_one).collect()
@@ -185,7 +185,7 @@ mod tests {
             vec3(8., 8., 8.),
         ];
         let fine = subdivide(&mesh(&positions, &[[0, 1, 2], [1, 3, 2]]));
-        // 3/8 of each end of the shared edge, 1/8 of each corner across.
+        // 3/8 of each end of the shared edge, plus 1/8 of each corner opposite the edge.
         let middle = vec3(3. + 1., 3. + 1., 1.);
         assert!(fine.positions.contains(&middle), "{:?}", fine.positions);
         // On the boundary: half of each end.

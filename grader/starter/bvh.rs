@@ -93,11 +93,11 @@ impl Bvh {
     /// Builds the tree with the surface area heuristic (SAH).
     ///
     /// - Every primitive is in exactly one leaf. You may reorder the primitives and the nodes.
-    /// - The box of a node contains everything below the node, and is no larger than that.
+    /// - The box of a node contains everything below the node, and is no larger than necessary.
     /// - A node is a leaf if and only if it has at most `max_leaf_size` primitives (1 or more). If
     ///   all centres coincide, no plane separates the primitives: then split them by count.
     /// - Use 8 or more buckets along each of the three axes, and take the partition with the lowest
-    ///   cost by the formula above.
+    ///   cost by the formula at the top of this file.
     /// - Without primitives, the tree has no nodes, or one leaf of size 0.
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         // Not written yet: this is a list without a tree. Pictures work, but slowly.
@@ -158,7 +158,7 @@ mod tests {
         let count = leaves.iter().map(|leaf| leaf.size).sum::<usize>();
         assert_eq!(
             count, 10,
-            "got the number of primitives in all leaves (left), expected (right)"
+            "wrong number of primitives in all leaves: left is yours, right is correct"
         );
     }
 
@@ -173,7 +173,10 @@ mod tests {
             (distance - 6.5).abs() < 1e-5,
             "expected distance 6.5, got {distance}"
         );
-        assert_eq!(trace.material, 9, "got material (left), expected (right)");
+        assert_eq!(
+            trace.material, 9,
+            "wrong material: left is yours, right is correct"
+        );
     }
 
     #[ignore = "task 3: not written yet"]
@@ -195,7 +198,7 @@ mod tests {
         assert_eq!(
             trace.map(|trace| trace.material),
             Some(0),
-            "got material (left), expected (right)"
+            "wrong material: left is yours, right is correct"
         );
     }
 }

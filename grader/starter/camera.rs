@@ -22,7 +22,7 @@ use protocol::Ray;
 pub struct Camera {
     /// The vertical field of view: the full angle from the lowest ray to the highest, in degrees.
     pub vertical_fov: f32,
-    /// The width of the sensor divided by its height. It can differ from that of `film`.
+    /// The width of the sensor divided by its height. It can differ from the shape of `film`.
     pub aspect_ratio: f32,
     /// The number of pixels, across and up.
     pub film: UVec2,
@@ -40,8 +40,9 @@ impl Camera {
 
     /// Returns the ray that starts at the camera and passes through `pixel`.
     ///
-    /// - The sensor is the rectangle in the figure above, in the plane z = −1 with its centre at
-    ///   (0, 0, −1). The film's pixels divide it evenly, and pixel (0, 0) is at the *bottom left*.
+    /// - The sensor is the rectangle in the figure at the top of this file, in the plane z = −1
+    ///   with its centre at (0, 0, −1). The film's pixels divide it evenly, and pixel (0, 0) is at
+    ///   the *bottom left*.
     /// - Pixel (x, y) covers `[x, x+1) × [y, y+1)` on the film. `offset` is the position within the
     ///   pixel, each component in `[0, 1)`: (0.5, 0.5) is the centre of the pixel.
     /// - The ray's `dir` has length one and its `range` is `[0, ∞)`. [`Ray::new`] sets both.
@@ -79,7 +80,7 @@ mod tests {
         assert_eq!(
             ray.origin,
             Vec3::ZERO,
-            "got origin (left), expected (right)"
+            "wrong origin: left is yours, right is correct"
         );
         assert_dir(ray, vec3(0.0, 0.0, -1.0));
     }

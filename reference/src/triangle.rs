@@ -54,8 +54,8 @@ impl Triangle {
     ///
     /// - The triangle can be hit from both sides, and its edges belong to it. `ray.range` includes
     ///   both of its ends.
-    /// - `distance` is the t of the equations above, `position` is the point at that distance, and
-    ///   `origin` is the ray's origin.
+    /// - `distance` is the t of the equations at the top of this file, `position` is the point at
+    ///   that distance, and `origin` is the ray's origin.
     /// - `normal` and `uv` are interpolated between the corners with the weights w, u and v. Do not
     ///   flip the normal toward the ray. It does not have to have length one.
     /// - Small triangles count as well, such as those with edges of length 1e-3. A triangle without
@@ -140,7 +140,10 @@ mod tests {
             uv.abs_diff_eq(expected, 1e-5),
             "expected uv {expected}, got {uv}"
         );
-        assert_eq!(trace.material, 7, "got material (left), expected (right)");
+        assert_eq!(
+            trace.material, 7,
+            "wrong material: left is yours, right is correct"
+        );
     }
 
     // starter: #[ignore = "task 2: not written yet"]

@@ -3,9 +3,8 @@
 //!
 //! This file is compiled together with yours each time they are graded, so it is short and written
 //! to compile fast: it uses loops with `push`, for example, because `map` and `collect` would take
-//! twice as long to compile. Each line that needs something from one of your files contains the
-//! name of that file, so that the grader can report a compile error in this line as one in your
-//! file.
+//! twice as long to compile. Every line that uses one of your files names that file, so that the
+//! grader can attribute a compile error there to your file.
 
 use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission};
 use glam::{UVec2, Vec2, Vec3};

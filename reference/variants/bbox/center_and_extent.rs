@@ -1,6 +1,6 @@
-//! Uses the centre and half the size: the ray is inside a slab for equally long before and after
-//! the time at which it is in the middle. A ray parallel to the slab is a separate case, since it
-//! is never in the middle.
+//! Uses the centre and half the size of the box: the time from entering a slab to crossing its
+//! middle is as long as the time from there to leaving the slab. A ray parallel to the slab is a
+//! separate case, since it never crosses the middle.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};
@@ -15,7 +15,7 @@ pub struct BBox {
 }
 
 impl BBox {
-    /// The empty box. Enclosing something in it gives the box of just that.
+    /// The empty box. After it encloses something, it is the box of exactly that.
     pub const EMPTY: BBox = BBox {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,

@@ -1,5 +1,6 @@
-//! Intersects the six faces, each a rectangle. The result is from the first to the last of these
-//! times and of those ends of `times` at which the ray is inside the box.
+//! Intersects the six faces, each a rectangle. To the times of these hits it adds the ends of
+//! `times`, if the ray is inside the box then. The result is the interval from the earliest to the
+//! latest of them.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};
@@ -14,7 +15,7 @@ pub struct BBox {
 }
 
 impl BBox {
-    /// The empty box. Enclosing something in it gives the box of just that.
+    /// The empty box. After it encloses something, it is the box of exactly that.
     pub const EMPTY: BBox = BBox {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
@@ -76,7 +77,7 @@ impl BBox {
         [self.min, self.max].map(|corner| {
             let time = (corner[axis] - ray.origin[axis]) / ray.dir[axis];
             let mut point = ray.at(time);
-            // Exactly on the plane, despite rounding.
+            // Puts the point exactly on the plane, despite rounding.
             point[axis] = corner[axis];
             self.around(point).then_some(time)
         })

@@ -15,7 +15,7 @@ pub struct BBox {
 }
 
 impl BBox {
-    /// The empty box. Enclosing something in it gives the box of just that.
+    /// The empty box. After it encloses something, it is the box of exactly that.
     pub const EMPTY: BBox = BBox {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
@@ -64,7 +64,7 @@ impl BBox {
         let shift = -ray.origin.as_dvec3() * inverse;
         (0..3).try_fold(times, |inside, axis| {
             if ray.dir[axis] == 0.0 {
-                // Avoids ∞ − ∞.
+                // If the ray is parallel to the slab, the formula would be ∞ − ∞.
                 let slab = self.min[axis]..=self.max[axis];
                 return slab.contains(&ray.origin[axis]).then_some(inside);
             }

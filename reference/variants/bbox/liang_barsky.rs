@@ -14,7 +14,7 @@ pub struct BBox {
 }
 
 impl BBox {
-    /// The empty box. Enclosing something in it gives the box of just that.
+    /// The empty box. After it encloses something, it is the box of exactly that.
     pub const EMPTY: BBox = BBox {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,

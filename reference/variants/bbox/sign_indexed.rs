@@ -1,7 +1,7 @@
 //! Selects the plane through which the ray enters each slab by the sign of the inverse direction.
-//! The direction itself would not do: −0 compares equal to 0, but its inverse is −∞. Williams,
-//! Barrus, Morley and Shirley, "An Efficient and Robust Ray-Box Intersection Algorithm", Journal of
-//! Graphics Tools 10(1), 2005.
+//! The sign of the direction itself would not be enough: −0 is not less than 0, but its inverse is
+//! −∞. Williams, Barrus, Morley and Shirley, "An Efficient and Robust Ray-Box Intersection
+//! Algorithm", Journal of Graphics Tools 10(1), 2005.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};
@@ -16,7 +16,7 @@ pub struct BBox {
 }
 
 impl BBox {
-    /// The empty box. Enclosing something in it gives the box of just that.
+    /// The empty box. After it encloses something, it is the box of exactly that.
     pub const EMPTY: BBox = BBox {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,

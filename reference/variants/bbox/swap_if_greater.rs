@@ -1,6 +1,6 @@
-//! Goes axis by axis, swaps the two times if they are in the wrong order, and returns at the first
-//! axis that leaves an empty interval: Shirley, Black and Hollasch, "Ray Tracing: The Next Week",
-//! "Ray Intersection with an AABB".
+//! Goes through the axes one by one, swaps the two times if they are in the wrong order, and
+//! returns at the first axis that leaves an empty interval: Shirley, Black and Hollasch, "Ray
+//! Tracing: The Next Week", "Ray Intersection with an AABB".
 
 use glam::Vec3;
 use protocol::{Interval, Ray};
@@ -15,7 +15,7 @@ pub struct BBox {
 }
 
 impl BBox {
-    /// The empty box. Enclosing something in it gives the box of just that.
+    /// The empty box. After it encloses something, it is the box of exactly that.
     pub const EMPTY: BBox = BBox {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,

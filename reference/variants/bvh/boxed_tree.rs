@@ -1,6 +1,6 @@
 //! Builds a temporary tree of `Box`es and vectors, with primitives partitioned into new vectors
 //! instead of sorted in place, and then creates the nodes from it. Traversal: each node returns its
-//! closest hit, and the parent takes the nearer.
+//! closest hit, and its parent takes the nearer of two.
 
 use protocol::{Ray, Trace};
 
@@ -120,7 +120,7 @@ impl Bvh {
     }
 }
 
-/// The temporary tree.
+/// A temporary tree, from which the nodes are created.
 enum Tree {
     Leaf(BBox, Vec<Primitive>),
     Interior(BBox, Box<Tree>, Box<Tree>),

@@ -1,5 +1,5 @@
-//! Ten buckets over the node's own box. Traversal: a box is tested when its node is entered,
-//! against the ray as shortened by the closest hit.
+//! Ten buckets over the node's own box. Traversal: the box of a node is tested when traversal
+//! reaches the node. By then, the closest hit so far has shortened the ray.
 
 use protocol::{Ray, Trace};
 
@@ -99,7 +99,8 @@ impl Bvh {
             return self.test_leaf(node, ray, closest);
         }
 
-        // A missed box counts as infinitely far. If it comes first, it is still not entered.
+        // A missed box counts as infinitely far away. Even if its node is visited first, the box
+        // test there fails.
         let entry = |child: usize| {
             let inside = self.nodes[child].bbox.hit(ray, ray.range);
             inside.map_or(f32::INFINITY, |inside| inside.min)

@@ -1,6 +1,6 @@
 //! Twelve buckets over the centres, as in Pharr, Jakob and Humphreys, "Physically Based Rendering"
-//! (4th edition), section 7.3.2. Traversal: each node returns its closest hit, and the parent takes
-//! the nearer.
+//! (4th edition), section 7.3.2. Traversal: each node returns its closest hit, and its parent takes
+//! the nearer of two.
 
 use protocol::{Ray, Trace};
 

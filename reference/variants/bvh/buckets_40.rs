@@ -1,5 +1,5 @@
-//! Forty buckets over the node's own box. Traversal: without a stack, by an index from each node to
-//! its parent (Hapala et al., "Efficient Stack-less BVH Traversal for Ray Tracing", 2011).
+//! Forty buckets over the node's own box. Traversal: without a stack, using an index from each node
+//! to its parent (Hapala et al., "Efficient Stack-less BVH Traversal for Ray Tracing", 2011).
 
 use protocol::{Ray, Trace};
 
@@ -97,7 +97,7 @@ impl Bvh {
         while let Some(node) = self.nodes.get(at) {
             let parent = self.parents[at];
             let next = if from == parent {
-                // From above: enter the node only if the ray hits its box.
+                // Arriving from the parent: visit the node only if the ray hits its box.
                 if node.bbox.hit(&rest, rest.range).is_none() {
                     parent
                 } else if node.is_leaf() {
@@ -108,7 +108,8 @@ impl Bvh {
                     near.map_or(parent, |(near, _)| Some(near))
                 }
             } else {
-                // From below: the far child follows the near child, and the parent follows the far.
+                // Arriving from a child: the far child follows the near child, and the parent
+                // follows the far child.
                 match self.in_order(node, ray) {
                     [Some((near, _)), Some((far, _))] if from == Some(near) => Some(far),
                     _ => parent,
@@ -121,8 +122,9 @@ impl Bvh {
         closest
     }
 
-    /// Returns the children of an interior node whose boxes the whole ray hits, with their entry
-    /// distances, the nearer child first. The result is always the same for the same ray.
+    /// Returns those children of an interior node whose boxes the ray hits, with their entry
+    /// distances, the nearer child first. `ray` must not be shortened by hits, so that the result
+    /// stays the same for the whole traversal.
     fn in_order(&self, node: &Node, ray: &Ray) -> [Option<(usize, f32)>; 2] {
         let enter = |index: usize| Some((index, self.nodes[index].bbox.hit(ray, ray.range)?.min));
         match (enter(node.l), enter(node.r)) {

@@ -88,7 +88,7 @@ impl Bvh {
         let mut closest = None;
         let mut open = vec![(root, root.bbox.hit(&ray, ray.range)?.min)];
         while let Some((node, entry)) = open.pop() {
-            // A closer hit may have been found since the node was pushed.
+            // A closer hit may have been found after the node was pushed.
             if entry > ray.range.max {
                 continue;
             }

@@ -1,5 +1,5 @@
-//! Eight to 32 buckets over the centres, more of them for more primitives. Traversal: a stack of
-//! indices; a box is tested when its node is popped.
+//! Eight to 32 buckets over the centres: the more primitives, the more buckets. Traversal: a stack
+//! of indices; a box is tested when its node is popped.
 
 use protocol::{Ray, Trace};
 
@@ -87,7 +87,7 @@ impl Bvh {
         let mut open = Vec::from_iter((self.root < self.nodes.len()).then_some(self.root));
         while let Some(index) = open.pop() {
             let node = &self.nodes[index];
-            // The ray as shortened by the closest hit, for boxes and primitives alike.
+            // The ray, shortened to the closest hit so far. Used for boxes and for primitives.
             let mut rest = *ray;
             rest.range.max = closest.map_or(ray.range.max, |closest| closest.distance);
             let entry = |node: &Node| Some(node.bbox.hit(ray, rest.range)?.min);
@@ -100,8 +100,8 @@ impl Bvh {
                 closest = traces.fold(closest, Trace::nearer);
                 continue;
             }
-            // `None` is less than any number: a missed child is pushed last and popped without
-            // effect.
+            // `None` is less than any number, so a missed child is pushed last. When it is popped,
+            // its box test fails.
             if entry(&self.nodes[node.l]) < entry(&self.nodes[node.r]) {
                 open.extend([node.r, node.l]);
             } else {
@@ -135,7 +135,7 @@ fn build_node(
 
 /// Partitions the primitives in place by the cheapest split; returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
-    // As many buckets as would hold four primitives each.
+    // One bucket for every four primitives, within limits.
     let count = (primitives.len() / 4).clamp(8, 32);
     let over = bounds_of_centers(primitives);
     let bucket = |primitive: &Primitive, axis: usize| {

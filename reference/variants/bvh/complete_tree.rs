@@ -1,7 +1,7 @@
 //! A complete tree: all leaves but one are full, and the children of node i are at 2i + 1 and 2i +
-//! 2, as in a binary heap. The number of leaves decides how many primitives go left; areas are not
-//! considered. Traversal: a box is tested when its node is entered, against the ray as shortened by
-//! the closest hit.
+//! 2, as in a binary heap. The number of leaves determines how many primitives are in the left
+//! subtree; areas are not considered. Traversal: the box of a node is tested when traversal reaches
+//! the node. By then, the closest hit so far has shortened the ray.
 
 use protocol::{Ray, Trace};
 
@@ -104,7 +104,8 @@ impl Bvh {
             return self.test_leaf(node, ray, closest);
         }
 
-        // A missed box counts as infinitely far. If it comes first, it is still not entered.
+        // A missed box counts as infinitely far away. Even if its node is visited first, the box
+        // test there fails.
         let entry = |child: usize| {
             let inside = self.nodes[child].bbox.hit(ray, ray.range);
             inside.map_or(f32::INFINITY, |inside| inside.min)

@@ -1,5 +1,5 @@
-//! Builds the tree with an explicit stack, marks a leaf by children that are the leaf itself, and
-//! fills in `start` and `size` of interior nodes too. Traversal: a stack of indices; a box is
+//! Builds the tree with an explicit stack, marks a leaf by using its own index for both children,
+//! and also fills in `start` and `size` of interior nodes. Traversal: a stack of indices; a box is
 //! tested when its node is popped.
 
 use protocol::{Ray, Trace};
@@ -75,7 +75,8 @@ impl Bvh {
     /// Builds the tree with the surface area heuristic (SAH).
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes: Vec<Node> = Vec::new();
-        // The primitives of each open node, and the parent that needs its index.
+        // The primitives of each node that is still to be created, and the parent in which to store
+        // the node's index.
         let mut open = Vec::new();
         if !primitives.is_empty() {
             open.push((0..primitives.len(), None::<usize>));
@@ -95,8 +96,8 @@ impl Bvh {
             }
             if range.len() > max_leaf_size.max(1) {
                 let middle = range.start + split(contents);
-                // The left child is popped next, so its index follows its parent's. The right
-                // child's index is set in its parent when it is known.
+                // The left child is popped next, so its index is one more than its parent's. The
+                // right child's index is not known yet; it is stored when that child is created.
                 nodes[index].l = index + 1;
                 open.push((middle..range.end, Some(index)));
                 open.push((range.start..middle, None));
@@ -112,7 +113,7 @@ impl Bvh {
         let mut open = Vec::from_iter((self.root < self.nodes.len()).then_some(self.root));
         while let Some(index) = open.pop() {
             let node = &self.nodes[index];
-            // The ray as shortened by the closest hit, for boxes and primitives alike.
+            // The ray, shortened to the closest hit so far. Used for boxes and for primitives.
             let mut rest = *ray;
             rest.range.max = closest.map_or(ray.range.max, |closest| closest.distance);
             let entry = |node: &Node| Some(node.bbox.hit(ray, rest.range)?.min);
@@ -125,8 +126,8 @@ impl Bvh {
                 closest = traces.fold(closest, Trace::nearer);
                 continue;
             }
-            // `None` is less than any number: a missed child is pushed last and popped without
-            // effect.
+            // `None` is less than any number, so a missed child is pushed last. When it is popped,
+            // its box test fails.
             if entry(&self.nodes[node.l]) < entry(&self.nodes[node.r]) {
                 open.extend([node.r, node.l]);
             } else {

@@ -1,6 +1,6 @@
 //! Computes the full formula, C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect,
-//! although most of it is the same for all partitions of a node. Traversal: a parent tests both
-//! boxes and passes the entry distances down.
+//! although parts of the formula are the same for all partitions of a node. Traversal: a parent
+//! tests both boxes and passes the entry distances down.
 
 use protocol::{Ray, Trace};
 
@@ -154,7 +154,8 @@ const BUCKETS: usize = 16;
 /// Partitions the primitives in place by the cheapest split; returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
     let over = bounds_of_centers(primitives);
-    // The area of a row of points is 0; any divisor will do in that case.
+    // If all primitives are points on a line, the area is 0. Any positive divisor will do in that
+    // case.
     let node_area = bounds_of(primitives).surface_area().max(f32::MIN_POSITIVE);
     let bucket = |primitive: &Primitive, axis: usize| {
         let offset = primitive.bbox().center()[axis] - over.min[axis];

@@ -1,6 +1,6 @@
 //! Pushes the left subtree of a node, then the node, then the right subtree, so that the root is in
 //! the middle; the buckets divide the node's own box. Traversal: best first, with a heap: of all
-//! open nodes, the one whose box begins nearest is entered next.
+//! nodes that are still to be visited, the one whose box the ray enters first is visited next.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -94,7 +94,7 @@ impl Bvh {
         let mut closest = None;
         let mut open = BinaryHeap::from_iter(OpenNode::new(root, &ray));
         while let Some(OpenNode { node, entry }) = open.pop() {
-            // All other open nodes begin even farther away.
+            // The ray enters the boxes of all other open nodes even farther away.
             if entry > ray.range.max {
                 break;
             }
@@ -123,14 +123,15 @@ impl Bvh {
     }
 }
 
-/// A node to be entered. The one whose box begins nearest is the greatest.
+/// A node that is still to be visited. The node whose box the ray enters first is the greatest,
+/// because a `BinaryHeap` returns the greatest element first.
 struct OpenNode<'a> {
     node: &'a Node,
     entry: f32,
 }
 
 impl<'a> OpenNode<'a> {
-    /// Returns `None` if the ray misses the box.
+    /// Creates the heap's entry for a node, or returns `None` if the ray misses the node's box.
     fn new(node: &'a Node, ray: &Ray) -> Option<Self> {
         let entry = node.bbox.hit(ray, ray.range)?.min;
         Some(OpenNode { node, entry })

@@ -1,7 +1,7 @@
-//! Inserts one primitive after the other where it adds the least area: Goldsmith and Salmon,
-//! "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE Computer Graphics and
-//! Applications 7(5), 1987. Traversal: best first, with a heap: of all open nodes, the one whose
-//! box begins nearest is entered next.
+//! Inserts one primitive after the other, each where it increases the areas of the boxes the least:
+//! Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE Computer
+//! Graphics and Applications 7(5), 1987. Traversal: best first, with a heap: of all nodes that are
+//! still to be visited, the one whose box the ray enters first is visited next.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -94,7 +94,7 @@ impl Bvh {
         let mut closest = None;
         let mut open = BinaryHeap::from_iter(OpenNode::new(root, &ray));
         while let Some(OpenNode { node, entry }) = open.pop() {
-            // All other open nodes begin even farther away.
+            // The ray enters the boxes of all other open nodes even farther away.
             if entry > ray.range.max {
                 break;
             }
@@ -123,14 +123,15 @@ impl Bvh {
     }
 }
 
-/// A node to be entered. The one whose box begins nearest is the greatest.
+/// A node that is still to be visited. The node whose box the ray enters first is the greatest,
+/// because a `BinaryHeap` returns the greatest element first.
 struct OpenNode<'a> {
     node: &'a Node,
     entry: f32,
 }
 
 impl<'a> OpenNode<'a> {
-    /// Returns `None` if the ray misses the box.
+    /// Creates the heap's entry for a node, or returns `None` if the ray misses the node's box.
     fn new(node: &'a Node, ray: &Ray) -> Option<Self> {
         let entry = node.bbox.hit(ray, ray.range)?.min;
         Some(OpenNode { node, entry })
@@ -162,7 +163,7 @@ fn insert_all(primitives: Vec<Primitive>) -> Option<Cluster> {
     clusters.reduce(|tree, next| tree.with(next))
 }
 
-/// A finished subtree.
+/// A subtree, before its nodes are created.
 struct Cluster {
     bbox: BBox,
     size: usize,
@@ -200,10 +201,10 @@ impl Cluster {
         both.surface_area()
     }
 
-    /// Returns the cluster with one more primitive.
+    /// Returns the cluster after inserting one more primitive.
     fn with(self, new: Cluster) -> Cluster {
-        // The costs of making it this node's sibling, or of inserting it below a child: the area of
-        // the new common box, plus the growth of the boxes above it.
+        // The costs of making `new` a sibling of this node, or of inserting it below a child: the
+        // area of the new common box, plus the growth of the boxes above that.
         let beside = self.distance(&new);
         let growth = beside - self.bbox.surface_area();
         let Parts::Two(a, b) = self.parts else {

@@ -119,7 +119,7 @@ impl Bvh {
     }
 }
 
-/// The number of neighbours to each side among which a cluster chooses.
+/// The number of neighbours on each side from which a cluster chooses the nearest.
 const RADIUS: usize = 16;
 
 fn merge_all(mut primitives: Vec<Primitive>) -> Option<Cluster> {
@@ -131,7 +131,7 @@ fn merge_all(mut primitives: Vec<Primitive>) -> Option<Cluster> {
         let mut waiting: Vec<Option<Cluster>> = clusters.into_iter().map(Some).collect();
         clusters = Vec::new();
         for i in 0..waiting.len() {
-            // The second cluster of a pair has already been merged.
+            // Skips the second cluster of a pair: it has already been merged.
             let Some(cluster) = waiting[i].take() else {
                 continue;
             };
@@ -146,8 +146,8 @@ fn merge_all(mut primitives: Vec<Primitive>) -> Option<Cluster> {
     clusters.pop()
 }
 
-/// Returns the cluster within the radius that is nearest to the one at `i`. Ties go to the first
-/// pair in the list, so that the two nearest clusters of all always choose each other.
+/// Returns the index of the cluster within the radius that is nearest to the one at `i`. Ties go to
+/// the first pair in the list, so that there are always two clusters that choose each other.
 fn nearest(clusters: &[Cluster], i: usize) -> usize {
     let window = i.saturating_sub(RADIUS)..clusters.len().min(i + RADIUS + 1);
     let others = window.filter(|&other| other != i);
@@ -159,7 +159,7 @@ fn nearest(clusters: &[Cluster], i: usize) -> usize {
     nearest.expect("there are two clusters at least, and RADIUS is not 0")
 }
 
-/// A finished subtree.
+/// A subtree, before its nodes are created.
 struct Cluster {
     bbox: BBox,
     size: usize,

@@ -72,7 +72,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by median splits.
+    /// Builds the tree by splitting at the median.
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         if !primitives.is_empty() {
@@ -89,8 +89,8 @@ impl Bvh {
         let mut closest = None;
         let mut rest = *ray;
 
-        // One bit for each level, with the root's at the top: 1 if the level's last child is being
-        // traversed.
+        // One bit for each level, with the root's bit at the top. A bit is 1 if the last child on
+        // that level is being traversed.
         let mut trail = 0_u64;
         while trail < DONE {
             let mut node = root;
@@ -118,8 +118,9 @@ impl Bvh {
         closest
     }
 
-    /// Returns the children of an interior node whose boxes the whole ray hits, with their entry
-    /// distances, the nearer child first. The result is always the same for the same ray.
+    /// Returns those children of an interior node whose boxes the ray hits, with their entry
+    /// distances, the nearer child first. `ray` must not be shortened by hits, so that the result
+    /// stays the same for the whole traversal.
     fn in_order(&self, node: &Node, ray: &Ray) -> [Option<(usize, f32)>; 2] {
         let enter = |index: usize| Some((index, self.nodes[index].bbox.hit(ray, ray.range)?.min));
         match (enter(node.l), enter(node.r)) {
@@ -140,7 +141,7 @@ impl Bvh {
     }
 }
 
-/// The bit above the root's, which leaves enough bits for trees of 62 levels.
+/// The bit above the root's bit. The bits below it are enough for trees of 62 levels.
 const DONE: u64 = 1 << 63;
 
 /// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
@@ -164,7 +165,7 @@ fn build_node(
     index
 }
 
-/// Moves the half with the smaller centres along the longest axis to the front.
+/// Moves the half of the primitives whose centres come first along the longest axis to the front.
 fn split(primitives: &mut [Primitive]) -> usize {
     let centers = bounds_of_centers(primitives);
     let axis = (centers.max - centers.min).max_position();

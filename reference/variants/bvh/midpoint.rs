@@ -1,5 +1,5 @@
-//! Splits at the middle of the longest axis, wherever the primitives are. Areas are not considered.
-//! Traversal: a parent tests both boxes and passes the entry distances down.
+//! Splits at the middle of the longest axis, however the primitives are distributed. Areas are not
+//! considered. Traversal: a parent tests both boxes and passes the entry distances down.
 
 use protocol::{Ray, Trace};
 
@@ -71,7 +71,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by splits at the middle.
+    /// Builds the tree by splitting at the middle.
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         if !primitives.is_empty() {
@@ -143,7 +143,8 @@ fn build_node(
     index
 }
 
-/// Moves the primitives before the middle of the centres' longest axis to the front.
+/// Moves the primitives before the middle to the front. The axis is the one along which the centres
+/// extend farthest.
 fn split(primitives: &mut [Primitive]) -> usize {
     let centers = bounds_of_centers(primitives);
     let axis = (centers.max - centers.min).max_position();

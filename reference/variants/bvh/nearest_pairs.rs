@@ -1,7 +1,7 @@
-//! Bottom-up: the two clusters with the smallest common box are merged, until one is left: Walter
-//! et al., "Fast Agglomerative Clustering for Rendering", 2008. The pairs are found by following
-//! chains of nearest neighbours. Traversal: a stack of nodes, each with the distance at which the
-//! ray enters it.
+//! Bottom-up: the two clusters with the smallest common box are merged, until only one is left.
+//! Walter et al., "Fast Agglomerative Clustering for Rendering", 2008. The pairs are found by
+//! following chains of nearest neighbours. Traversal: a stack of nodes, each with the distance at
+//! which the ray enters it.
 
 use protocol::{Ray, Trace};
 
@@ -91,7 +91,7 @@ impl Bvh {
         let mut closest = None;
         let mut open = vec![(root, root.bbox.hit(&ray, ray.range)?.min)];
         while let Some((node, entry)) = open.pop() {
-            // A closer hit may have been found since the node was pushed.
+            // A closer hit may have been found after the node was pushed.
             if entry > ray.range.max {
                 continue;
             }
@@ -126,7 +126,7 @@ impl Bvh {
 
 fn merge_all(primitives: Vec<Primitive>) -> Option<Cluster> {
     let mut unmerged: Vec<Cluster> = primitives.into_iter().map(Cluster::one).collect();
-    // Each cluster is nearer to its predecessor than the predecessor is to its own.
+    // Each cluster is nearer to its predecessor than its predecessor is to the one before that.
     let mut chain: Vec<Cluster> = Vec::new();
     while chain.len() + unmerged.len() > 1 {
         let Some(last) = chain.last() else {
@@ -140,7 +140,8 @@ fn merge_all(primitives: Vec<Primitive>) -> Option<Cluster> {
             .nth_back(1)
             .map(|previous| last.distance(previous));
         match nearest {
-            // If no cluster is nearer than the predecessor in the chain, the two are a pair.
+            // Extends the chain. If no cluster is nearer than the predecessor, the last two of the
+            // chain are a pair instead.
             Some((index, distance)) if back.is_none_or(|back| distance < back) => {
                 chain.push(unmerged.swap_remove(index));
             }
@@ -153,7 +154,7 @@ fn merge_all(primitives: Vec<Primitive>) -> Option<Cluster> {
     unmerged.pop().or(chain.pop())
 }
 
-/// A finished subtree.
+/// A subtree, before its nodes are created.
 struct Cluster {
     bbox: BBox,
     size: usize,

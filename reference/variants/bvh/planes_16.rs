@@ -1,6 +1,6 @@
-//! No buckets: for each of sixteen planes across each axis of the node's box, the primitives are
-//! partitioned and both boxes are computed. Traversal: a parent tests both boxes and passes the
-//! entry distances down.
+//! No buckets: for each of sixteen planes perpendicular to each axis of the node's box, the
+//! primitives are partitioned and both boxes are computed. Traversal: a parent tests both boxes and
+//! passes the entry distances down.
 
 use protocol::{Ray, Trace};
 
@@ -144,7 +144,7 @@ fn build_node(
     index
 }
 
-/// The number of planes across each axis.
+/// The number of planes perpendicular to each axis.
 const PLANES: usize = 16;
 
 /// Partitions the primitives in place by the best plane; returns the size of the left side.

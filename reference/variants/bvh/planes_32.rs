@@ -1,5 +1,5 @@
-//! No buckets: for each of 32 planes across each axis of the node's box, the primitives are
-//! partitioned and both boxes are computed. Traversal: all leaves that the ray hits are listed
+//! No buckets: for each of 32 planes perpendicular to each axis of the node's box, the primitives
+//! are partitioned and both boxes are computed. Traversal: all leaves that the ray hits are listed
 //! first, and then tested from near to far.
 
 use protocol::{Ray, Trace};
@@ -137,7 +137,7 @@ fn build_node(
     index
 }
 
-/// The number of planes across each axis.
+/// The number of planes perpendicular to each axis.
 const PLANES: usize = 32;
 
 /// Partitions the primitives in place by the best plane; returns the size of the left side.

@@ -1,5 +1,6 @@
-//! Pushes a node after both of its children, so that the root comes last and no leaf is ever a
-//! placeholder. Traversal: each node returns its closest hit, and the parent takes the nearer.
+//! Pushes a node after both of its children, so that the root comes last and no placeholder for an
+//! interior node is needed. Traversal: each node returns its closest hit, and its parent takes the
+//! nearer of two.
 
 use protocol::{Ray, Trace};
 

@@ -1,5 +1,5 @@
-//! The surface area heuristic along one axis only: x, y and z in turn from level to level, or the
-//! next axis if all centres coincide along that one. Traversal: the children that the ray hits are
+//! The surface area heuristic along only one axis per level: x, y and z in turn. If all centres
+//! coincide along that axis, the next axis is used. Traversal: the children that the ray hits are
 //! put in a sorted list; the ray itself never changes.
 
 use protocol::{Ray, Trace};

@@ -1,6 +1,6 @@
 //! Compares every partition of the sorted centres, axis by axis, and computes both boxes from
-//! scratch for each: quadratic, but as simple as possible. Traversal: a stack of nodes, each with
-//! the distance at which the ray enters it.
+//! scratch for each. This takes quadratic time, but is as simple as possible. Traversal: a stack of
+//! nodes, each with the distance at which the ray enters it.
 
 use protocol::{Ray, Trace};
 
@@ -89,7 +89,7 @@ impl Bvh {
         let mut closest = None;
         let mut open = vec![(root, root.bbox.hit(&ray, ray.range)?.min)];
         while let Some((node, entry)) = open.pop() {
-            // A closer hit may have been found since the node was pushed.
+            // A closer hit may have been found after the node was pushed.
             if entry > ray.range.max {
                 continue;
             }

@@ -1,7 +1,8 @@
 //! Compares every partition of the sorted centres, axis by axis, with the areas accumulated from
 //! both ends: the full sweep of Wald, Boulos and Shirley, "Ray Tracing Deformable Scenes Using
-//! Dynamic Bounding Volume Hierarchies", ACM Transactions on Graphics 26(1), 2007. Traversal: a box
-//! is tested when its node is entered, against the ray as shortened by the closest hit.
+//! Dynamic Bounding Volume Hierarchies", ACM Transactions on Graphics 26(1), 2007. Traversal: the
+//! box of a node is tested when traversal reaches the node. By then, the closest hit so far has
+//! shortened the ray.
 
 use protocol::{Ray, Trace};
 
@@ -101,7 +102,8 @@ impl Bvh {
             return self.test_leaf(node, ray, closest);
         }
 
-        // A missed box counts as infinitely far. If it comes first, it is still not entered.
+        // A missed box counts as infinitely far away. Even if its node is visited first, the box
+        // test there fails.
         let entry = |child: usize| {
             let inside = self.nodes[child].bbox.hit(ray, ray.range);
             inside.map_or(f32::INFINITY, |inside| inside.min)

@@ -8,13 +8,14 @@
 //! - Nodes and packs are in one array, with the packs of a node right behind it. All children that
 //!   the ray hits are prefetched at once, together with the memory behind them.
 //! - A pack is small, because neighbouring triangles share their corners.
-//! - A stack entry is one integer with the entry distance above the child, so that the nearer of
-//!   two children is found without a branch.
+//! - A stack entry is one integer, with the entry distance in the bits above the child, so that the
+//!   nearer of two children is found without a branch.
 //! - The sign of the ray's direction tells which plane of a box the ray reaches first, so only that
 //!   plane is used to compute the entry distance.
-//! - The shading data of a triangle is in one cache line. That of a flat triangle is computed from
+//! - The shading data of a triangle is in one cache line. For a flat triangle, it is computed from
 //!   the corners, so nothing more is read.
-//! - Traversal uses another tree than the one in `nodes`: it may hold a large triangle in pieces.
+//! - Traversal does not use the tree in `nodes`, but another one, in which a large triangle may be
+//!   split into pieces.
 
 use glam::{Vec2, Vec3};
 use protocol::{Interval, Ray, Shape, Trace};
@@ -232,7 +233,7 @@ impl Bvh {
                 v: hit.v,
             };
             if let Some(index) = pack.surface_index(hit.lane) {
-                // It will be read, unless a closer hit is found.
+                // The surface will be read, unless a closer hit is found.
                 prefetch(&self.surfaces[index as usize]);
             }
         }
@@ -304,8 +305,9 @@ impl Surface {
 struct StackEntry(u64);
 
 impl StackEntry {
-    /// Packs the entry distance above the child. The bit patterns of non-negative floats have the
-    /// same order as the floats, so the nearest of several entries is the smallest integer.
+    /// Creates an entry, with the entry distance in the bits above the child. The bit patterns of
+    /// non-negative floats have the same order as the floats, so the nearest of several entries is
+    /// the smallest integer.
     fn new(entry: f32, child: u32) -> Self {
         StackEntry(u64::from(entry.to_bits()) << 32 | u64::from(child))
     }
@@ -328,7 +330,8 @@ struct Stack {
 }
 
 impl Stack {
-    /// A power of two, so that `%` is a mask and the index needs no bounds check.
+    /// The size of the array: a power of two, so that `%` is a mask and the index needs no bounds
+    /// check.
     const SIZE: usize = 32;
 
     fn new() -> Self {
@@ -375,7 +378,7 @@ struct WideRay {
     origin: [f32x8; 3],
     dir: [f32x8; 3],
     inverse: [f32x8; 3],
-    /// The inverse used for exit distances, which is slightly larger.
+    /// The inverse of the direction, slightly enlarged, for computing exit distances.
     padded_inverse: [f32x8; 3],
     /// Whether the direction is negative, for each axis.
     is_negative: [bool; 3],
@@ -383,7 +386,7 @@ struct WideRay {
 }
 
 impl WideRay {
-    /// The least absolute value of a direction component. The inverse of 0 would be infinite, and
+    /// The minimum absolute value of a direction component. The inverse of 0 would be infinite, and
     /// its product with 0 NaN; the inverse of this number is large enough to serve as infinity.
     const MIN_COMPONENT: f32 = 1e-30;
 
@@ -440,7 +443,7 @@ impl<'a> WideNode<'a> {
             [0, 1, 2].map(|axis| from(axis, wide_ray.is_negative[axis]) * wide_ray.inverse[axis]);
         let leave = [0, 1, 2]
             .map(|axis| from(axis, !wide_ray.is_negative[axis]) * wide_ray.padded_inverse[axis]);
-        // Reduced in pairs, which do not depend on each other.
+        // The maximum is computed in pairs, which do not depend on each other.
         let enter = (enter[0].fast_max(enter[1])).fast_max(enter[2].fast_max(wide_ray.min));
         let leave = (leave[0].fast_min(leave[1])).fast_min(leave[2].fast_min(f32x8::splat(max)));
         (enter, enter.simd_le(leave).to_bitmask())
@@ -461,7 +464,7 @@ struct Pack<'a>(&'a [CacheLine; Pack::LINES]);
 struct Word(u32);
 
 impl Word {
-    /// The upper limit of the extra data, exclusive.
+    /// The upper limit (exclusive) of the extra data.
     const EXTRA_LIMIT: u32 = 1 << 22;
     const FLAG: u32 = 1 << 31;
 
@@ -639,13 +642,14 @@ fn lines_at<const N: usize>(lines: &[CacheLine], start: u32) -> &[CacheLine; N] 
         .expect("the slice has N lines")
 }
 
-/// The conversion of a binary tree to a wide one.
+/// A converter of a binary tree to a wide tree.
 struct Collapser<'a> {
     primitives: &'a [Primitive],
     nodes: Vec<Node>,
-    /// The primitives to which the leaves refer. One that is split occurs several times.
+    /// The indices of the primitives to which the leaves refer. A primitive that is split occurs
+    /// several times.
     order: Vec<usize>,
-    /// The plan for each node.
+    /// For each node, the plan for collapsing its subtree.
     plans: Vec<Plan>,
     lines: Vec<CacheLine>,
     surfaces: Vec<Surface>,
@@ -695,7 +699,7 @@ impl<'a> Collapser<'a> {
         self.plan(node.l);
         self.plan(node.r);
         let (l, r) = (&self.plans[node.l], &self.plans[node.r]);
-        // The cheapest way to get this many children from both sides.
+        // Returns the cheapest way to get this many children from both sides, and its cost.
         let cheapest_way = |children: usize| {
             let ways = (1..children).filter(|&from_l| from_l < 8 && children - from_l < 8);
             let cost = |from_l: usize| l.costs[from_l] + r.costs[children - from_l];
@@ -789,7 +793,7 @@ impl<'a> Collapser<'a> {
     /// Writes the pack of a leaf, and returns its first line.
     fn write_leaf(&mut self, index: usize) -> u32 {
         let Node { start, size, .. } = self.nodes[index];
-        // Each primitive once, even if the leaf holds several pieces of it.
+        // Takes each primitive once, even if the leaf contains several pieces of that primitive.
         let mut indices = self.order[start..start + size].to_vec();
         indices.sort_unstable();
         indices.dedup();
@@ -910,7 +914,7 @@ fn fits_in_pack(primitives: &[Primitive], indices: impl ExactSizeIterator<Item =
         && (triangles == 0 || spheres == 0)
 }
 
-/// Converts an index to the bits that are available for it.
+/// Converts an index to `u32`, and checks that it leaves the bit [`LEAF`] free.
 fn to_u32(index: usize) -> u32 {
     let index = u32::try_from(index).ok().filter(|&index| index < LEAF);
     index.expect("there are fewer than 2^31 lines and primitives")
@@ -1071,8 +1075,8 @@ impl Builder {
 }
 
 /// Partitions the items in place by the cheapest split, and returns the size of the left side.
-/// Large nodes compare many splits: that takes little time compared with counting the items, and
-/// the choice matters most there.
+/// Large nodes compare many splits: comparing them takes little time compared with counting the
+/// items, and the choice of the split matters most in large nodes.
 fn partition(items: &mut [Item], centers: Bounds) -> usize {
     match items.len() {
         0..512 => partition_in::<16>(items, centers),
@@ -1139,17 +1143,20 @@ fn cheapest_split<const SLICES: usize>(buckets: &[Bucket; SLICES]) -> (usize, f3
     best
 }
 
-/// A builder of the tree for traversal. If the boxes of two halves would overlap and it is cheaper,
-/// a node is split by a plane, and a triangle that crosses the plane has a piece on each side:
-/// Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies", 2009.
+/// A builder of the tree for traversal. If the boxes of two halves would overlap, a node can be
+/// split by a plane instead, if this is cheaper. A triangle that crosses the plane then has a piece
+/// on each side: Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies",
+/// 2009.
 struct SpatialBuilder<'a> {
     primitives: &'a [Primitive],
     nodes: Vec<Node>,
-    /// The primitives to which the leaves refer. One that is split occurs several times.
+    /// The indices of the primitives to which the leaves refer. A primitive that is split occurs
+    /// several times.
     order: Vec<usize>,
-    /// The number of pieces that may still be added.
+    /// The number of additional pieces that spatial splits may still create.
     pieces_left: usize,
-    /// The half surface area of an overlap up to which no spatial split is tried.
+    /// The minimum overlap for a spatial split: half the surface area of the overlap must be larger
+    /// than this.
     tolerated_overlap: f32,
 }
 
@@ -1161,8 +1168,8 @@ struct SpatialSplit {
 }
 
 impl<'a> SpatialBuilder<'a> {
-    /// The fewest items of a spatial split. In smaller nodes, spatial splits would take most of the
-    /// build time and save nothing.
+    /// The minimum number of items for a spatial split. In smaller nodes, spatial splits would take
+    /// most of the build time and save nothing.
     const MIN_ITEMS: usize = 256;
     /// The number of slices along each axis.
     const SLICES: usize = 32;
@@ -1201,7 +1208,8 @@ impl<'a> SpatialBuilder<'a> {
         index
     }
 
-    /// Returns the two sides of the best spatial split, if it is cheaper than these halves.
+    /// Returns the two sides of the cheapest spatial split, if it is cheaper than splitting `items`
+    /// at `middle`.
     fn cheaper_halves(
         &mut self,
         items: &[Item],
@@ -1315,7 +1323,7 @@ impl<'a> SpatialBuilder<'a> {
             }
             if (a[axis] < plane && plane < b[axis]) || (b[axis] < plane && plane < a[axis]) {
                 let at = a + (b - a) * ((plane - a[axis]) / (b[axis] - a[axis]));
-                // A tolerance, so that the exact point is inside the box despite rounding.
+                // Enlarges the box, so that it contains the exact point despite rounding.
                 let slack = 4e-7 * a.abs().max(b.abs());
                 for at in [at - slack, at + slack] {
                     low.join(Bounds::point(at));

@@ -1,4 +1,5 @@
-//! Computes the four corners of the sensor; a point on it is their bilinear interpolation.
+//! Computes the four corners of the sensor, and a point on the sensor by bilinear interpolation
+//! between them.
 
 use framework::math::tan;
 use glam::{UVec2, Vec2, Vec3};
@@ -9,7 +10,7 @@ use protocol::Ray;
 pub struct Camera {
     /// The vertical field of view: the full angle from the lowest ray to the highest, in degrees.
     pub vertical_fov: f32,
-    /// The width of the sensor divided by its height. It can differ from that of `film`.
+    /// The width of the sensor divided by its height. It can differ from the shape of `film`.
     pub aspect_ratio: f32,
     /// The number of pixels, across and up.
     pub film: UVec2,

@@ -1,5 +1,5 @@
-//! Computes the width of the sensor from the horizontal field of view, as the height from the
-//! vertical one.
+//! Computes the width of the sensor from the horizontal field of view, just as the height is
+//! computed from the vertical field of view.
 
 use framework::math::{atan2, tan};
 use glam::{UVec2, Vec2, Vec3};
@@ -10,7 +10,7 @@ use protocol::Ray;
 pub struct Camera {
     /// The vertical field of view: the full angle from the lowest ray to the highest, in degrees.
     pub vertical_fov: f32,
-    /// The width of the sensor divided by its height. It can differ from that of `film`.
+    /// The width of the sensor divided by its height. It can differ from the shape of `film`.
     pub aspect_ratio: f32,
     /// The number of pixels, across and up.
     pub film: UVec2,

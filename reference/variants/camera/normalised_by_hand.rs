@@ -1,4 +1,4 @@
-//! Creates the ray without `Ray::new`, and normalises its direction itself.
+//! Creates the ray without `Ray::new`, normalising the direction in this file.
 
 use framework::math::tan;
 use glam::{UVec2, Vec2, Vec3};
@@ -9,7 +9,7 @@ use protocol::{Interval, Ray};
 pub struct Camera {
     /// The vertical field of view: the full angle from the lowest ray to the highest, in degrees.
     pub vertical_fov: f32,
-    /// The width of the sensor divided by its height. It can differ from that of `film`.
+    /// The width of the sensor divided by its height. It can differ from the shape of `film`.
     pub aspect_ratio: f32,
     /// The number of pixels, across and up.
     pub film: UVec2,

@@ -1,5 +1,5 @@
 //! Computes a matrix from the film to the sensor once, in `new`. Pharr, Jakob and Humphreys,
-//! "Physically Based Rendering" (4th edition), section 5.2, call it cameraFromRaster.
+//! "Physically Based Rendering" (4th edition), section 5.2, call this matrix cameraFromRaster.
 
 use framework::math::tan;
 use glam::{Mat3, UVec2, Vec2, Vec3};
@@ -10,7 +10,7 @@ use protocol::Ray;
 pub struct Camera {
     /// The vertical field of view: the full angle from the lowest ray to the highest, in degrees.
     pub vertical_fov: f32,
-    /// The width of the sensor divided by its height. It can differ from that of `film`.
+    /// The width of the sensor divided by its height. It can differ from the shape of `film`.
     pub aspect_ratio: f32,
     /// The number of pixels, across and up.
     pub film: UVec2,

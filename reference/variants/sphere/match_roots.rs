@@ -1,4 +1,4 @@
-//! Chooses the root with a `match` on which of the two are in the range.
+//! Chooses the root with a `match`, depending on which of the two roots are in the range.
 
 use std::f32::consts::{PI, TAU};
 
@@ -67,7 +67,8 @@ impl Sphere {
         }
     }
 
-    /// Returns the distances at which the ray's line enters and leaves the sphere, if it hits it.
+    /// Returns the distances at which the ray's line enters and leaves the sphere, or `None` if the
+    /// line misses the sphere.
     fn roots(&self, ray: &Ray) -> Option<(f32, f32)> {
         let o = ray.origin - self.center;
         let b = o.dot(ray.dir);

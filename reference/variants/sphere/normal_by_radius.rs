@@ -1,5 +1,5 @@
-//! Computes the normal as the vector from the centre divided by the radius, which has length one
-//! except for rounding.
+//! Computes the normal by dividing the vector from the centre to the hit by the radius. The result
+//! has length one except for rounding.
 
 use std::f32::consts::{PI, TAU};
 

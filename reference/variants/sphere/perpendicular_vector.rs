@@ -1,6 +1,7 @@
-//! Computes the discriminant from the vector perpendicular to the ray that goes to the centre,
-//! which avoids the cancellation in b² − c: Haines, Günther and Akenine-Möller, "Precision
-//! Improvements for Ray/Sphere Intersection", Ray Tracing Gems, chapter 7, 2019.
+//! Computes the discriminant from the vector between the centre and the closest point on the ray,
+//! which is perpendicular to the ray. This avoids the cancellation in b² − c: Haines, Günther and
+//! Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, chapter
+//! 7, 2019.
 
 use std::f32::consts::{PI, TAU};
 

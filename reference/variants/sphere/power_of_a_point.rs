@@ -1,5 +1,5 @@
 //! Computes the roots from their mean, which is the distance of the closest approach, and their
-//! product, which is the power of the origin: mean ± √(mean² − product).
+//! product, which is the power of the origin with respect to the sphere: mean ± √(mean² − product).
 
 use std::f32::consts::{PI, TAU};
 

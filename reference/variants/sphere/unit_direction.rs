@@ -1,5 +1,5 @@
-//! Leaves out a, which is 1 because directions have length one. A negative discriminant is not
-//! tested: it gives NaN, which is in no range.
+//! Leaves out the coefficient a, which is 1 because directions have length one. There is no test
+//! for a negative discriminant: its square root is NaN, which is in no range.
 
 use std::f32::consts::{PI, TAU};
 

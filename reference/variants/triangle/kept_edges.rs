@@ -52,8 +52,8 @@ impl Triangle {
 
     /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        // Cramer's rule: the determinant of the three equations, and those with s instead of a
-        // column.
+        // Cramer's rule: the determinant of the three equations, and the determinants in which s
+        // replaces a column.
         let determinant = -self.face.dot(ray.dir);
         if determinant == 0.0 {
             return None;

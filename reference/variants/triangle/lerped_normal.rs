@@ -1,5 +1,5 @@
-//! Interpolates normal and uv as p0's value plus u and v times the differences to the others'. The
-//! normal is not normalised.
+//! Interpolates normal and uv by adding two differences to the value at p0: u times that from p0 to
+//! p1, and v times that from p0 to p2. The interpolated normal is not normalised.
 
 use protocol::{Ray, Trace, Vertex};
 

@@ -1,5 +1,5 @@
-//! Does not test the determinant: if it is zero, the weights or t are infinite or NaN, and fail the
-//! range tests, which are written so that NaN fails them.
+//! Does not test the determinant: if it is zero, the weights or t are infinite or NaN. They fail
+//! the range tests, which are written so that NaN fails too.
 
 use glam::Vec3;
 use protocol::{Ray, Trace, Vertex};

@@ -50,7 +50,7 @@ impl Triangle {
         let [(a, depth_a), (b, depth_b), (c, depth_c)] =
             [seen(self.p0), seen(self.p1), seen(self.p2)];
 
-        // The ray is projected to (0, 0).
+        // The ray is projected to the point (0, 0).
         let (w, u, v) = (b.perp_dot(c), c.perp_dot(a), a.perp_dot(b));
         let area = w + u + v;
         if area == 0.0 {

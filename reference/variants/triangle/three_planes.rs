@@ -1,6 +1,7 @@
-//! Computes three planes once: the triangle's own, and two perpendicular ones whose distances are u
-//! and v. Havel and Herout, "Yet Faster Ray-Triangle Intersection (Using SSE4)", IEEE TVCG 16(3),
-//! 2010; here relative to p0, so that no plane needs an offset.
+//! Computes three planes once: the triangle's own plane, and two planes perpendicular to it. The
+//! scaled distances from these two are u and v. Havel and Herout, "Yet Faster Ray-Triangle
+//! Intersection (Using SSE4)", IEEE TVCG 16(3), 2010; here relative to p0, so that no plane needs
+//! an offset.
 
 use glam::Vec3;
 use protocol::{Ray, Trace, Vertex};
@@ -20,9 +21,9 @@ pub struct Triangle {
     pub material: u32,
     /// The normal of the triangle's plane.
     face: Vec3,
-    /// The normal of the plane whose distance is 1 at p1, and 0 at p0 and p2.
+    /// The normal of the plane through p0 and p2, scaled so that the distance of p1 is 1.
     u_plane: Vec3,
-    /// The normal of the plane whose distance is 1 at p2, and 0 at p0 and p1.
+    /// The normal of the plane through p0 and p1, scaled so that the distance of p2 is 1.
     v_plane: Vec3,
 }
 

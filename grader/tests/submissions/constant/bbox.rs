@@ -25,7 +25,7 @@ pub struct BBox {
 }
 
 impl BBox {
-    /// The empty box. Enclosing something in it gives the box of just that.
+    /// The empty box. After it encloses something, it is the box of exactly that.
     pub const EMPTY: BBox = BBox {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
@@ -73,7 +73,8 @@ impl BBox {
     /// - Use `times` and ignore `ray.range`. The result is clipped to `times`: if the ray is
     ///   already inside the box at `times.min`, the result starts there, and if it is inside during
     ///   all of `times`, the result is `times`.
-    /// - A component of `ray.dir` can be 0 or −0. Such a ray is always inside that slab, or never.
+    /// - A component of `ray.dir` can be 0 or −0. Then the ray is parallel to that slab: it is
+    ///   inside the slab at all times, or never.
     /// - A flat box (`min == max` along an axis) can be hit, too.
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {
         let _ = ray;

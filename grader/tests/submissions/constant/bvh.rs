@@ -93,11 +93,11 @@ impl Bvh {
     /// Builds the tree with the surface area heuristic (SAH).
     ///
     /// - Every primitive is in exactly one leaf. You may reorder the primitives and the nodes.
-    /// - The box of a node contains everything below the node, and is no larger than that.
+    /// - The box of a node contains everything below the node, and is no larger than necessary.
     /// - A node is a leaf if and only if it has at most `max_leaf_size` primitives (1 or more). If
     ///   all centres coincide, no plane separates the primitives: then split them by count.
     /// - Use 8 or more buckets along each of the three axes, and take the partition with the lowest
-    ///   cost by the formula above.
+    ///   cost by the formula at the top of this file.
     /// - Without primitives, the tree has no nodes, or one leaf of size 0.
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let _ = max_leaf_size;

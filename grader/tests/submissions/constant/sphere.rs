@@ -60,8 +60,8 @@ impl Sphere {
     ///   counts: a ray can start inside the sphere.
     /// - `distance` is the root t, `position` is the point at that distance, and `origin` is the
     ///   ray's origin.
-    /// - `normal` has length one and points away from the centre, also for a ray from inside.
-    /// - `uv` belongs to the direction from the centre to the hit: see [`Sphere::uv`].
+    /// - `normal` has length one and points away from the centre, even for a ray from inside.
+    /// - `uv` is computed from the direction from the centre to the hit: see [`Sphere::uv`].
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let _ = ray;
         None

@@ -16,7 +16,7 @@ pub(super) fn near_side(seed: Seed) -> Item {
         1,
         [
             "from outside, the near side is hit",
-            "The smaller of the two roots is hit first. Make sure that you take the ray's origin \
+            "The ray reaches the smaller of the two roots first. Make sure that you take the ray's origin \
              relative to the sphere's centre.",
         ],
         table_questions(
@@ -205,7 +205,7 @@ pub(super) fn range_within(seed: Seed) -> Item {
         "range_within",
         1,
         [
-            "a range that contains neither root is a miss",
+            "a ray whose range contains neither root misses",
             "Between the roots the ray is inside the sphere and hits nothing; beyond both it has \
              left the sphere.",
         ],

@@ -66,7 +66,7 @@ pub(super) fn uv(seed: Seed) -> Item {
         "uv",
         1,
         [
-            "uv comes from the direction from the centre",
+            "uv is computed from the direction from the centre to the hit",
             "Call the given Sphere::uv with the direction from the centre to the hit, not with the \
              position or the ray's direction.",
         ],
@@ -145,8 +145,8 @@ pub(super) fn picture(seed: Seed) -> Item {
         [
             "a picture of spheres is correct in hits, depth, normals and uv",
             "Some spheres are seen from outside, and one from inside. If all pixels of one sphere \
-             are wrong, see how it differs from the others: in its radius, or in where the camera \
-             is?",
+             are wrong, how does it differ from the others? Does it have another radius, or is the \
+             camera inside it?",
         ],
         vec![
             picture::picture_question(camera(0.6, 64), from_outside),

@@ -111,7 +111,7 @@ pub fn radiance_item(seed: Seed, recorded: RecordedPicture) -> Item {
         "radiance",
         2,
         [
-            "everything together draws the Cornell box",
+            "all tasks together render the Cornell box",
             "The framework draws every random number, so the picture must be the same except for a \
              few pixels. If only this item fails, look at the output of cargo render.",
         ],

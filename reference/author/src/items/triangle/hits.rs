@@ -18,7 +18,7 @@ pub(super) fn inside(seed: Seed) -> Item {
         "inside",
         2,
         [
-            "a ray through the inside hits the triangle at the distance t",
+            "a ray through the inside hits the triangle at distance t",
             "Solve the three equations for u, v and t. Check the signs in Cramer's rule, and that \
              the last column of the matrix is −d.",
         ],

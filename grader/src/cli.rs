@@ -66,7 +66,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE", requires = "doctor")]
     pub package: Option<PathBuf>,
 
-    /// Explain the mistake, instead of only a nudge, where a known one is recognised
+    /// If a known mistake is recognised, show its full hint instead of a nudge
     #[arg(long)]
     pub hints: bool,
 

@@ -233,8 +233,10 @@ fn score_answers(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
 
 fn wrong_answer_message(what: &str, failure: &Failure) -> String {
     match failure.count {
-        Some((1, of)) if of > 1 => format!("1 of {of} is wrong: {what}"),
-        Some((wrong, of)) if of > 1 => format!("{wrong} of {of} are wrong; the first: {what}"),
+        Some((1, of)) if of > 1 => format!("1 of {of} answers is wrong: {what}"),
+        Some((wrong, of)) if of > 1 => {
+            format!("{wrong} of {of} answers are wrong; what is wrong in the first: {what}")
+        }
         Some(_) | None => format!("wrong: {what}"),
     }
 }
@@ -289,15 +291,15 @@ pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> I
     let message = match (own.verdict == Verdict::Pass, substituted.message.as_str()) {
         (true, "") => String::new(),
         (false, "") => {
-            format!("wrong only because of {by}: correct with the reference's parts")
+            format!("wrong only because {by} failed: correct with the reference's other files")
         }
         (true, message) => {
             format!(
-                "{message}; two mistakes cancel each other: this one shows with the reference's parts for {by}"
+                "{message}; passes only because the mistake in {by} cancels this one, so it is graded with the reference's other files"
             )
         }
         (false, message) => {
-            format!("{message}; graded with the reference's parts, because of {by}")
+            format!("{message}; graded with the reference's other files, because {by} failed")
         }
     };
     ItemScore {

@@ -1,5 +1,5 @@
-//! Tries what no submission may do, in the very place of one, and says what of it went well.
-//! On standard input comes the path of a file that everybody may read.
+//! Runs in the sandbox instead of a submission, tries what no submission may do, and prints a line
+//! for each attempt that succeeds. Standard input is the path of a file that every user may read.
 
 use std::collections::HashMap;
 use std::fs;
@@ -14,7 +14,7 @@ fn main() {
     let path = path.trim_end();
     let beside = format!("{path}.written");
 
-    // What honest submissions do must go well, or nothing below means anything.
+    // What correct submissions do must work, or the attempts below prove nothing.
     let counted = thread::spawn(|| HashMap::from([("threads", 1)])).join();
     assert_eq!(counted.expect("threads run")["threads"], 1);
 

@@ -111,7 +111,7 @@ pub fn element(question: &Question, element: usize) -> String {
             shapes,
             max_leaf_size,
         } => format!(
-            "a tree over {}, leaves of at most {max_leaf_size}",
+            "build a tree over {}, with at most {max_leaf_size} in each leaf",
             shapes_text(shapes)
         ),
         Question::Traverse {
@@ -120,7 +120,7 @@ pub fn element(question: &Question, element: usize) -> String {
             root,
             rays,
         } => format!(
-            "{}; the exam's own tree of {} nodes, root {root}, over {}",
+            "{}; a tree from the exam: {} nodes, root {root}, over {}",
             nth_ray(rays, element),
             nodes.len(),
             shapes_text(shapes)
@@ -130,7 +130,7 @@ pub fn element(question: &Question, element: usize) -> String {
             max_leaf_size,
             rays,
         } => format!(
-            "{}; your own tree over {}, leaves of at most {max_leaf_size}",
+            "{}; your own tree over {}, with at most {max_leaf_size} in each leaf",
             nth_ray(rays, element),
             shapes_text(shapes)
         ),

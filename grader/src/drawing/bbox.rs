@@ -139,7 +139,10 @@ fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, got: SpanAnswer, plane: Pla
     let window = Window::around(panel, seen);
 
     let canvas = &mut sheet.canvas;
-    let (low, high) = (window.page_position(corners[0]), window.page_position(corners[1]));
+    let (low, high) = (
+        window.page_position(corners[0]),
+        window.page_position(corners[1]),
+    );
     // A flat box has an outline, too.
     canvas.rectangle(low, high, LineStyle::Outline, Fill::Tint(Ink::Text, 0.08));
     draw_ray(canvas, &window, query, plane);

@@ -39,7 +39,7 @@ pub enum PolicyError {
     },
     /// An exception refers to an unknown task or item.
     #[error(
-        "the policy {}: [visibility.items] names `{name}`, but the exam {exam} has no such task or item",
+        "the policy {}: [visibility.items] names `{name}`, but the exam `{exam}` has no task or item of that name: correct it or remove the line",
         path.display()
     )]
     UnknownItem {

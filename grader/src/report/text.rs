@@ -191,7 +191,7 @@ fn hint_text(hints: &[Hint], detail: HintDetail) -> Option<String> {
     };
     let all: Vec<String> = hints.iter().map(text).collect();
     let more = match detail {
-        HintDetail::Nudge => " (--hints says more)",
+        HintDetail::Nudge => " (run with --hints for more)",
         HintDetail::Full => "",
     };
     (!all.is_empty()).then(|| format!("{}{more}", all.join(" Or: ")))
@@ -245,7 +245,11 @@ fn write_hidden_count(out: &mut String, count: usize, how: &str) -> fmt::Result 
 
 fn write_printed(out: &mut String, task: &TaskScore, printed: &str) -> fmt::Result {
     const MAX_PRINTED_LINES: usize = 5;
-    writeln!(out, "\n  {FAINT}printed during {}:{FAINT:#}", task.title)?;
+    writeln!(
+        out,
+        "\n  {FAINT}printed during \"{}\":{FAINT:#}",
+        task.title
+    )?;
     for line in printed.lines().take(MAX_PRINTED_LINES) {
         let line = sanitize(line, WIDTH - 5);
         writeln!(out, "  {FAINT}│{FAINT:#} {line}")?;

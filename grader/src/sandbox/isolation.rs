@@ -14,11 +14,11 @@ use serde::{Deserialize, Serialize};
 pub enum Isolation {
     /// Limits on time and memory only, for your own work.
     None,
-    /// The program may make few system calls; the compiler may read whatever its user may.
+    /// The program may make only a few system calls; the compiler can read whatever its user can.
     SeccompOnly,
-    /// In addition, both can open only the files that they need.
+    /// In addition, the program and the compiler can open only the files that they need.
     NoNamespaces,
-    /// In addition, neither can see other files, processes or networks.
+    /// In addition, the program and the compiler cannot see other files, processes or networks.
     Full,
 }
 

@@ -94,9 +94,9 @@ mod tests {
             Aspect::Uv,
         ];
         let shape = |aspect: Aspect| -> Vec<bool> {
-            let places = (0..PATTERN_PERIOD * PATTERN_PERIOD)
+            let positions = (0..PATTERN_PERIOD * PATTERN_PERIOD)
                 .map(|i| UVec2::new(i % PATTERN_PERIOD, i / PATTERN_PERIOD));
-            places
+            positions
                 .map(|position| pattern(aspect, position) != BLACK)
                 .collect()
         };

@@ -296,3 +296,47 @@ fn match_key(question: &Question, key: &Key) -> (bool, usize) {
         ) => (false, 0),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Keys of exam files, and the former name of each, which existing final exams still have.
+    const FORMER_KEYS: [(&str, &str); 12] = [
+        ("queries", "shots"),
+        ("flat_triangle", "facet"),
+        ("checks", "judged"),
+        ("alternatives", "also"),
+        ("max_wrong_pixels", "allowed"),
+        ("signatures", "tells"),
+        ("drawing_data", "shown"),
+        ("traversals", "walks"),
+        ("correct_answers", "right"),
+        ("mistake_answers", "wrong"),
+        ("mistakes", "by"),
+        ("location", "place"),
+    ];
+
+    #[test]
+    fn reads_former_keys_as_the_same_exam() {
+        let path = Path::new("exam.json");
+        let exam = parse(path, PRACTICE.as_bytes()).unwrap().exam;
+        let (exam_level, rest) = PRACTICE.split_once("\"items\"").unwrap();
+        let mut former = rest.to_owned();
+        let mut found = 0;
+        for (now, then) in FORMER_KEYS {
+            let (now, then) = (format!("\"{now}\":"), format!("\"{then}\":"));
+            found += usize::from(former.contains(&now));
+            former = former.replace(&now, &then);
+        }
+        // A practice exam has no panics, so it has no location of one.
+        assert_eq!(found, FORMER_KEYS.len() - 1);
+        let former = format!("{exam_level}\"items\"{former}");
+        let parsed = parse(path, former.as_bytes()).unwrap().exam;
+        // Compared as text, because some answers of known mistakes are NaN.
+        assert_eq!(
+            serde_json::to_string(&parsed).unwrap(),
+            serde_json::to_string(&exam).unwrap()
+        );
+    }
+}

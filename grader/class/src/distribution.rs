@@ -5,12 +5,12 @@ use serde::Serialize;
 /// The number of bins in a distribution.
 pub const BINS: usize = 10;
 
-/// The distribution of points.
+/// The distribution of points over a class, for the exam or a task.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Distribution {
-    /// The maximum points of the exam or task.
+    /// The maximum number of points of the exam or task.
     pub of: u32,
-    /// The lowest points.
+    /// The lowest number of points.
     pub least: u32,
     /// The lower quartile.
     pub lower_quartile: u32,
@@ -18,16 +18,16 @@ pub struct Distribution {
     pub median: u32,
     /// The upper quartile.
     pub upper_quartile: u32,
-    /// The highest points.
+    /// The highest number of points.
     pub most: u32,
-    /// The mean, rounded to tenths.
+    /// The mean, rounded to one decimal place.
     pub mean: f64,
-    /// The number of submissions in each tenth of `of`; full points are in the last one.
+    /// The number of submissions in each tenth of `of`. Full points are in the last tenth.
     pub bins: [usize; BINS],
 }
 
 impl Distribution {
-    /// Returns the distribution of `points` out of `of`; `None` if there are none.
+    /// Returns the distribution of `points` out of `of`, or `None` if `points` is empty.
     pub fn new(mut points: Vec<u32>, of: u32) -> Option<Self> {
         points.sort_unstable();
         let (&least, &most) = (points.first()?, points.last()?);

@@ -9,9 +9,9 @@ use crate::outcome::{ItemScore, ScoreSummary};
 pub struct Drift {
     /// The entry's id.
     pub id: String,
-    /// The points before.
+    /// The points before the regrade.
     pub was: u32,
-    /// The points now; `None` if the entry no longer has a score.
+    /// The points after the regrade; `None` if the entry no longer has a score.
     pub now: Option<u32>,
     /// The items whose points changed.
     pub items: Vec<ItemChange>,
@@ -22,11 +22,12 @@ pub struct Drift {
 pub struct ItemChange {
     /// The item's id.
     pub item: String,
-    /// The points before; `None` if the item was not in the exam.
+    /// The points before the regrade; `None` if the item was not in the exam.
     pub was: Option<u32>,
-    /// The points now; `None` if the item is no longer in the exam.
+    /// The points after the regrade; `None` if the item is no longer in the exam.
     pub now: Option<u32>,
-    /// The verdict and message now; for a gain also those before.
+    /// The reason: the verdict and message after the regrade and, if points were gained, also those
+    /// before it.
     pub why: String,
 }
 
@@ -64,7 +65,7 @@ fn item_change(was: Option<&ItemScore>, now: Option<&ItemScore>) -> ItemChange {
         message => format!("{}: {message}", item.verdict),
     };
     let why = match (was, now) {
-        // The message now does not say what the points had been lost for.
+        // The new message does not say why the points were lost before.
         (Some(was), Some(now)) if now.points > was.points => {
             format!("{}; it was {}", explain(now), explain(was))
         }

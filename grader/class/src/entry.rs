@@ -15,14 +15,14 @@ pub struct Entry {
     pub source: Source,
 }
 
-/// Information about a submission that is kept with its result.
+/// Information about a submission, which is stored with its result.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct EntryInfo {
     /// The people who get the points; at least one.
     pub people: Vec<Person>,
     /// Whether the platform marks the submission as late.
     pub late: bool,
-    /// The submission time, as the platform writes it.
+    /// The submission time, in the platform's format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submitted: Option<String>,
     /// The file or folder that it was read from, relative to the input.
@@ -45,7 +45,8 @@ pub struct Person {
     /// The account name, such as on GitHub.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub login: String,
-    /// The platform's own number: the user in Canvas, the participant in Moodle.
+    /// The platform's own number for the person: the user id in Canvas, the participant number in
+    /// Moodle.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub number: String,
 }
@@ -55,9 +56,9 @@ pub struct Person {
 pub enum Source {
     /// A folder or an archive.
     Path(PathBuf),
-    /// Single files, each with the name under which it was handed in.
+    /// Single files: the name under which each was handed in, and its path.
     Files(Vec<(String, PathBuf)>),
-    /// There are no files, for this reason.
+    /// No files can be graded, for this reason.
     Missing(String),
 }
 

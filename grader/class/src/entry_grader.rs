@@ -19,9 +19,9 @@ use crate::progress::Progress;
 use crate::run::Run;
 use crate::store::{Store, StoreError};
 
-/// The number of attempts to grade an entry before a fault is final.
+/// The maximum number of attempts to grade an entry. If all of them fail, the fault is final.
 const ATTEMPTS: usize = 3;
-/// The maximum number of characters of a fault's message.
+/// The maximum length of a fault's message, in characters.
 const MAX_FAULT_CHARS: usize = 2_000;
 
 /// Grades entries and stores their results.
@@ -149,9 +149,9 @@ impl EntryGrader<'_> {
     }
 }
 
-/// Returns the cache key: a hash of everything that an entry's files depend on. Of the policy, that
-/// is only what students may see: the other rules change neither a score nor another file of an
-/// entry.
+/// Returns the cache key: a hash of everything that an entry's files depend on. Of the policy, only
+/// the part about what students may see is included: the other rules change neither a score nor
+/// another file of an entry.
 fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
     let mut hasher = blake2b_simd::State::new();
     let mut part = |bytes: &[u8]| {

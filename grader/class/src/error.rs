@@ -23,10 +23,10 @@ pub enum Error {
     /// The output folder cannot be used.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// Submissions cannot be isolated from the machine.
+    /// The submissions cannot be isolated from the machine.
     #[error("{0}; if you trust the submissions, use --isolation none")]
     Isolation(IsolationError),
-    /// The grader cannot be set up: the exam, the compiler or its dependencies.
+    /// The grader cannot be set up, because of the exam, the compiler or the dependencies.
     #[error(transparent)]
     Grader(GraderError),
     /// The policy cannot be used.

@@ -1,4 +1,4 @@
-//! Grades a class, from a learning platform's export to the files with its scores.
+//! Grades a class: reads a learning platform's export, and writes the files with the scores.
 
 use std::env;
 use std::fs;
@@ -37,7 +37,7 @@ use crate::store::Store;
 pub enum Completion {
     /// Every submission was graded or had nothing to grade.
     Complete,
-    /// Some were not graded because of a fault in the grader or the machine.
+    /// Some submissions were not graded because of a fault in the grader or the machine.
     Incomplete,
 }
 
@@ -109,8 +109,8 @@ pub fn grade_class(arguments: &ClassArguments) -> Result<Completion, Error> {
     })
 }
 
-/// Returns the lists named on the command line. Without a roster, the one that classroom50 writes
-/// beside its clones is used.
+/// Returns the lists named on the command line. If no roster is named, the one that classroom50
+/// writes beside its clones is used.
 fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
     let own = match input.class.layout {
         Layout::GitHub => input.root.find(CLASSROOM50_SCORES),
@@ -126,7 +126,8 @@ fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
 /// Returns everything that scores depend on, apart from the submissions.
 fn settings(grader: &Grader, grading: &GradingOptions) -> Result<Settings, Error> {
     let exam = grader.exam_name();
-    // The executable itself is hashed: any change to it, even another compiler, may change a score.
+    // The executable itself is hashed: any change to it, such as a build with another compiler, may
+    // change a score.
     let program = env::current_exe().and_then(fs::read);
     let program = program.map_err(GraderError::Probe)?;
     Ok(Settings {
@@ -142,7 +143,7 @@ fn settings(grader: &Grader, grading: &GradingOptions) -> Result<Settings, Error
     })
 }
 
-/// Returns the text of the policy file, which has been parsed before.
+/// Returns the text of the policy file, which has already been parsed successfully.
 fn policy_text(grading: &GradingOptions) -> Result<Option<String>, PolicyError> {
     let read = |path: &PathBuf| {
         fs::read_to_string(path).map_err(|source| PolicyError::Io {
@@ -165,8 +166,8 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
             ..run
         },
         (Some(run), true) => {
-            // After an abandoned regrade, some scores are already new ones: the saved scores from
-            // before it are the ones to compare with.
+            // After an abandoned regrade, some scores are already new. The scores that were saved
+            // before it are kept for the comparison.
             if !run.is_unfinished_regrade() {
                 store.save_previous_scores()?;
             }
@@ -209,7 +210,7 @@ fn slot_count(jobs: Option<u16>) -> usize {
     jobs.map_or_else(cores, usize::from)
 }
 
-/// Returns the changes of a regrade; `None` in a folder's first round.
+/// Returns the changes that a regrade made, or `None` in a folder's first round.
 fn find_regrade_changes(
     store: &Store,
     run: &Run,

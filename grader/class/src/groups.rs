@@ -8,8 +8,8 @@ use crate::entry::{EntryInfo, Person};
 use crate::roster::{self, Member};
 use crate::table::TableError;
 
-/// Adds the other members of a group to the entry of the one who handed in, unless they handed in
-/// something themselves. Removes them from `missing`.
+/// Adds the other members of a group to the entry of the member who handed in, unless they handed
+/// in something themselves. Removes the added members from `missing`.
 pub fn add_group_members(
     lists: &Lists,
     entries: &mut [&mut EntryInfo],

@@ -96,7 +96,8 @@ fn collect_path(path: &Path) -> Result<Submission, String> {
     }
 }
 
-/// Reads a folder that contains one archive: platforms often make a folder for each submission.
+/// Reads a folder that contains a single archive: platforms often create a folder for each
+/// submission.
 fn collect_single_archive(folder: &Path) -> Result<Submission, String> {
     let listed = list_folder(folder).map_err(|error| error.to_string())?;
     let archives: Vec<&Node> = listed

@@ -7,7 +7,7 @@ use grader::submission::ArchiveError;
 
 use crate::layout::MetadataError;
 
-/// The input cannot be read as a class.
+/// An error that prevents the input from being read as a class.
 #[derive(Debug, thiserror::Error)]
 pub enum ClassInputError {
     /// The path does not exist.
@@ -32,7 +32,7 @@ pub enum ClassInputError {
     /// Gradescope's metadata file is invalid.
     #[error(transparent)]
     Metadata(#[from] MetadataError),
-    /// The input has no submissions.
+    /// The input contains no submissions.
     #[error(
         "{0} contains no submissions: name the folder of a class; to grade a single submission, \
          use `cargo grade`"

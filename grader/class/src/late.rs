@@ -1,4 +1,4 @@
-//! The lateness of submissions, by the platform's information and the policy.
+//! The lateness of submissions, according to the platform's information and the policy.
 
 use grader::policy::{CountedPoints, Lateness, Policy};
 use jiff::Timestamp;
@@ -11,8 +11,8 @@ pub fn apply_policy(policy: &Policy, info: &EntryInfo, score: &ScoreSummary) -> 
     policy.counted_points(score.points, score.max_points, lateness(policy, info))
 }
 
-/// Returns how late a submission is: by its time, if that is known and the policy has a due time,
-/// otherwise by the platform's late flag.
+/// Returns how late a submission is. If its submission time is known and the policy has a due time,
+/// these two decide; otherwise, the platform's late flag does.
 fn lateness(policy: &Policy, info: &EntryInfo) -> Lateness {
     let time = info.submitted.as_deref().and_then(parse_timestamp);
     let exact = time.and_then(|time| policy.lateness(time));
@@ -26,7 +26,7 @@ fn lateness(policy: &Policy, info: &EntryInfo) -> Lateness {
 }
 
 /// Returns whether the policy has a due time, but the submission has neither a time nor a late
-/// flag. It counts as on time.
+/// flag. Such a submission counts as on time.
 pub fn is_undated(policy: &Policy, info: &EntryInfo) -> bool {
     let is_dated = info
         .submitted

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// The number of levels of subfolders that are listed.
 const MAX_DEPTH: usize = 3;
-/// Folders that are skipped: they contain nothing that a student has written.
+/// The names of folders that are skipped: they contain nothing that a student has written.
 const SKIPPED: [&str; 3] = ["__MACOSX", "target", "node_modules"];
 
 /// A file, a folder, or a link to one.
@@ -16,10 +16,10 @@ pub struct Node {
     pub name: String,
     /// The path.
     pub path: PathBuf,
-    /// The contents of a folder, in the order of names; `None` for a file. A link to a folder has
-    /// no contents.
+    /// The contents of a folder, sorted by name; `None` for a file. A link to a folder has no
+    /// contents.
     pub children: Option<Vec<Node>>,
-    /// Whether it is a link. Links are not followed: they may lead to another student's files.
+    /// Whether this is a link. Links are not followed: they may lead to another student's files.
     pub is_link: bool,
 }
 
@@ -29,7 +29,7 @@ impl Node {
         self.children.is_some()
     }
 
-    /// Returns the contents of a folder; none for a file.
+    /// Returns the contents of a folder, or an empty slice for a file.
     pub fn children(&self) -> &[Node] {
         self.children.as_deref().unwrap_or_default()
     }
@@ -40,7 +40,7 @@ impl Node {
         children.find(|node| node.name == name && !node.is_link)
     }
 
-    /// Returns whether this is an archive by its name, even if the format is not supported.
+    /// Returns whether this file has the name of an archive, even if the format is not supported.
     pub fn is_archive(&self) -> bool {
         !self.is_folder() && is_archive_name(&self.name)
     }
@@ -53,7 +53,8 @@ pub fn is_archive_name(name: &str) -> bool {
     ends.iter().any(|end| lower.ends_with(end))
 }
 
-/// Lists a folder. Hidden files are left out, and invalid Unicode in names is replaced.
+/// Lists a folder. Hidden and skipped files and folders are left out, and invalid Unicode in names
+/// is replaced.
 pub fn list_folder(folder: &Path) -> io::Result<Node> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     Ok(Node {
@@ -64,7 +65,8 @@ pub fn list_folder(folder: &Path) -> io::Result<Node> {
     })
 }
 
-/// Returns the names of hidden files and folders, except those that macOS adds to every folder.
+/// Returns the names of the hidden files and folders in a folder, except those that macOS adds to
+/// every folder.
 pub fn hidden_names(folder: &Path) -> io::Result<Vec<String>> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder)? {
@@ -88,7 +90,8 @@ fn list_children(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
         }
         let kind = entry.file_type()?;
         let inside = if kind.is_symlink() {
-            // Only its kind matters: a link to a folder stands for a student's folder.
+            // Only the kind of the link's target matters: a link to a folder takes the place of a
+            // student's folder.
             entry.path().is_dir().then(Vec::new)
         } else if kind.is_dir() {
             Some(match depth {

@@ -1,4 +1,4 @@
-//! A graded class, from which all of its files are written.
+//! The data of a graded class, from which all files of the class are written.
 
 use grader::policy::{CountedPoints, Policy};
 
@@ -6,7 +6,7 @@ use crate::entry::Person;
 use crate::late::{apply_policy, is_undated};
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary};
 
-/// A graded class.
+/// The results of a class.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GradedClass {
     /// The exam's name.
@@ -26,7 +26,7 @@ pub struct GradedClass {
 pub struct ClassRow {
     /// The result.
     pub result: EntryResult,
-    /// The points that it counts for; `None` without a score.
+    /// The points that it counts for; `None` if there is no score.
     pub counted: Option<CountedPoints>,
     /// Whether it counts as on time because its submission time is unknown.
     pub is_undated: bool,
@@ -39,7 +39,8 @@ impl GradedClass {
         results.filter_map(|result| Some((result, result.score()?)))
     }
 
-    /// Returns the number of submissions that could not be graded and have to be tried again.
+    /// Returns the number of submissions that could not be graded because of a fault, and have to
+    /// be graded again.
     pub fn fault_count(&self) -> usize {
         let is_fault = |row: &&ClassRow| matches!(row.result.outcome, EntryOutcome::Fault(_));
         self.rows.iter().filter(is_fault).count()
@@ -47,7 +48,7 @@ impl GradedClass {
 }
 
 impl ClassRow {
-    /// Applies the policy to a result.
+    /// Creates the row of a result, and applies the policy to its points.
     pub fn new(result: EntryResult, policy: &Policy) -> Self {
         let counted = result
             .score()
@@ -60,7 +61,7 @@ impl ClassRow {
         }
     }
 
-    /// Returns the status for tables.
+    /// Returns the status, as it is shown in tables.
     pub fn status(&self) -> &'static str {
         match &self.result.outcome {
             EntryOutcome::Graded(_) => "graded",

@@ -30,9 +30,9 @@ pub enum EntryOutcome {
 /// The parts of `score.json` that the class's files need.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 pub struct ScoreSummary {
-    /// The points of all tasks.
+    /// The sum of the points of all tasks.
     pub points: u32,
-    /// The maximum points.
+    /// The maximum number of points.
     pub max_points: u32,
     /// The tasks, in lecture order.
     pub tasks: Vec<TaskScore>,
@@ -43,11 +43,11 @@ pub struct ScoreSummary {
 pub struct TaskScore {
     /// The task's id, such as `sphere`.
     pub id: String,
-    /// The title for people.
+    /// The task's title, as it is shown to people.
     pub title: String,
-    /// The points of its items.
+    /// The sum of the points of its items.
     pub points: u32,
-    /// The maximum points.
+    /// The maximum number of points.
     pub max_points: u32,
     /// The items, in the order of the exam.
     pub items: Vec<ItemScore>,
@@ -58,11 +58,11 @@ pub struct TaskScore {
 pub struct ItemScore {
     /// The item's id, such as `sphere.from_inside`.
     pub id: String,
-    /// The title: a sentence that says what is correct.
+    /// The item's title: a sentence that describes the correct behaviour.
     pub title: String,
-    /// The points.
+    /// The points that the submission got for the item.
     pub points: u32,
-    /// The maximum points.
+    /// The maximum number of points.
     pub max_points: u32,
     /// The verdict.
     pub verdict: String,
@@ -79,7 +79,7 @@ pub struct Hint {
     pub hint: String,
 }
 
-/// The contents of `entry.json`. It is written last, so its presence says that the entry is
+/// The contents of `entry.json`. The file is written last, so its presence means that the entry is
 /// complete.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stamp {
@@ -100,17 +100,18 @@ pub struct Stamp {
 pub enum EntryState {
     /// The entry was graded.
     Graded,
-    /// There was nothing to grade.
+    /// There was nothing to grade, for this reason.
     #[serde(rename = "no_submission")]
     NothingToGrade(String),
-    /// The grader or the machine failed.
+    /// The grader or the machine failed, for this reason.
     Fault(String),
 }
 
 impl ScoreSummary {
     /// Parses a score file. It may come from another machine, so impossible points are an error.
     pub fn parse(text: &str) -> Result<Self, serde_json::Error> {
-        /// More than any exam has, and few enough that the sum over a class does not overflow.
+        /// The maximum number of points in a score file: more than any exam has, and small enough
+        /// that the sum over a class does not overflow.
         const MAX_POINTS: u32 = 100_000;
         let score: ScoreSummary = serde_json::from_str(text)?;
         match score.all_points().max() {

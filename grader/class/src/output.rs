@@ -37,8 +37,7 @@ pub fn write_results(
         anstream::print!("{}", text::render_drifts(&changes.drifts, &changes.causes));
     }
     for (name, filled) in fill_gradebooks(class, lists)? {
-        // Printed before the file is written, so that the changes are read before they are
-        // uploaded.
+        // The changes are printed, so that the teacher can check them before uploading the file.
         anstream::print!("{}", text::render_gradebook(&filled));
         store.write(name, &filled.table.to_csv())?;
         anstream::println!("  {}", store.folder().join(name).display());

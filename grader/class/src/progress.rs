@@ -1,5 +1,5 @@
-//! Progress, on standard error: on a terminal a bar and a line for each submission being graded,
-//! otherwise a plain line for each one that is done.
+//! The progress display, on standard error. On a terminal, it shows a bar, and a line for each
+//! submission that is being graded. Otherwise, it prints a line for each submission that is done.
 
 use std::io::{self, IsTerminal};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -8,7 +8,7 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use crate::outcome::{EntryOutcome, EntryResult};
 
-/// The display of a run's progress.
+/// The progress display of a run.
 #[derive(Debug)]
 pub struct Progress {
     count: usize,
@@ -21,12 +21,12 @@ pub struct Progress {
 struct Bars {
     all: ProgressBar,
     slots: Vec<ProgressBar>,
-    // Dropping it stops the drawing.
+    // The drawing stops when this is dropped.
     _drawing: MultiProgress,
 }
 
 impl Progress {
-    /// Creates the display for `count` entries, of which `slots` are graded at a time.
+    /// Creates the display for `count` entries, of which at most `slots` are graded at a time.
     pub fn new(count: usize, slots: usize) -> Self {
         Progress {
             count,
@@ -36,7 +36,7 @@ impl Progress {
         }
     }
 
-    /// Shows the status of the entry that is graded in a slot.
+    /// Shows the status of the entry that is being graded in a slot.
     pub fn set_status(&self, slot: usize, id: &str, status: &str) {
         if let Some(bar) = self.bars.as_ref().and_then(|bars| bars.slots.get(slot)) {
             bar.set_message(format!("{id}: {status}"));

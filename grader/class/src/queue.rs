@@ -1,4 +1,4 @@
-//! A queue of jobs for a few threads. Each thread takes the next job when it has finished one.
+//! A queue of jobs for a few threads. A thread takes the next job as soon as it has finished one.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

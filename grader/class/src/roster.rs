@@ -6,7 +6,7 @@ use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
 use crate::table::{Table, TableError};
 
-/// Column names that platforms and people use, for each field of a person.
+/// Column names that platforms and people use. This and the following lists are for one field each.
 const NAME: [&str; 4] = ["name", "full name", "student", "student name"];
 const FIRST: [&str; 3] = ["first name", "first_name", "given name"];
 const LAST: [&str; 4] = ["last name", "last_name", "surname", "family name"];
@@ -43,23 +43,24 @@ pub struct Member {
     pub person: Person,
     /// The group; empty if the list has none.
     pub group: String,
-    /// The submission time, as the list writes it; empty if it has none.
+    /// The submission time, in the list's format; empty if the list has none.
     pub submitted: String,
     /// Whether the list marks the submission as late.
     pub late: bool,
-    /// Whether the list has another person of this name, which then identifies neither.
+    /// Whether the list has another person of this name, so that the name identifies neither of
+    /// them.
     has_namesake: bool,
 }
 
 impl Member {
-    /// Returns whether this row is the person's.
+    /// Returns whether this row belongs to the person.
     pub fn matches(&self, person: &Person) -> bool {
         person.matches(&self.person) || self.matches_by_name(person)
     }
 
-    /// Returns whether the name is enough to match the person: only if nothing else is known, as
-    /// for a folder that is named after its student. Two platform numbers decide instead of the
-    /// name.
+    /// Returns whether the person's name matches this row. The name counts only if nothing else is
+    /// known about the person, as for a folder that is named after its student. If both the row and
+    /// the person have a platform number, the name does not count.
     fn matches_by_name(&self, person: &Person) -> bool {
         let known = &self.person;
         let is_bare = [&person.email, &person.sid, &person.login]
@@ -93,7 +94,8 @@ pub fn set_submission_times(
             let mut people = info.people.iter();
             !member.submitted.is_empty() && people.any(|person| member.matches(person))
         });
-        // Of several submissions the last was cloned. Texts in ISO 8601 are ordered by time.
+        // If there are several submissions, the last one was cloned. Times in ISO 8601 can be
+        // compared as text.
         if let Some(last) = theirs.max_by_key(|member| &member.submitted) {
             info.submitted = Some(last.submitted.clone());
             info.late = last.late;
@@ -121,7 +123,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
     let [email, sid, login] = [column(&EMAIL), column(&SID), column(&LOGIN)];
     let group = column(&GROUP);
     let [submitted, late] = [column(&SUBMISSION_TIME), table.column("late")];
-    // Only these columns can match rows with submissions.
+    // A list needs one of these columns: only they can match its rows with submissions.
     email.or(sid).or(login).or(name)?;
     // The platform's own numbers, if the list is recognised as Canvas's or Moodle's.
     let number = match table.column("Student") {
@@ -174,8 +176,8 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
     Some(members)
 }
 
-/// Fills in what the lists know about the people. Returns the people in the lists who have no
-/// match.
+/// Fills in what the lists know about the people. Returns the people in the lists who match none of
+/// them.
 pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, TableError> {
     let files = [
         &lists.roster,

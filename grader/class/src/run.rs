@@ -14,13 +14,13 @@ pub struct Run {
     pub round: u32,
     /// Whether every entry of the round is done.
     pub finished: bool,
-    /// Whether the round was finished once, even if a later run of it was killed.
+    /// Whether the round was finished at least once, even if a later run of this round was killed.
     #[serde(default)]
     pub was_finished: bool,
-    /// The part of the class; `None` for the whole class.
+    /// The part of the class that is graded; `None` for the whole class.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
-    /// The text of the policy; `None` for the default.
+    /// The text of the policy file; `None` for the default policy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub policy: Option<String>,
     /// The settings that the scores depend on.
@@ -51,7 +51,7 @@ pub struct Settings {
 pub const SCHEMA: u32 = 1;
 
 impl Run {
-    /// Returns the first round in a new folder.
+    /// Returns the first round in a new folder, with nothing graded yet.
     pub fn first_round(settings: Settings) -> Self {
         Run {
             schema: SCHEMA,
@@ -84,8 +84,8 @@ impl Run {
         }
     }
 
-    /// Returns whether this is a regrade that was never finished. The scores before it are saved
-    /// already.
+    /// Returns whether this is a regrade that was never finished. The scores from before the
+    /// regrade are already saved.
     pub fn is_unfinished_regrade(&self) -> bool {
         !self.was_finished && self.before.is_some()
     }

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// Part number `part` of `of` parts; the first part is number 1.
+/// A part of a class: number `part` of `of` parts, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
     part: usize,
@@ -16,8 +16,8 @@ impl Shard {
     /// The whole class.
     pub const ALL: Shard = Shard { part: 1, of: 1 };
 
-    /// Selects the elements of this part: every `of`th one, so that all parts have about the same
-    /// size.
+    /// Selects the elements of this part. It takes every `of`th element, so that all parts have
+    /// about the same size.
     pub fn select<T>(self, all: Vec<T>) -> Vec<T> {
         let own =
             |(index, element): (usize, T)| (index % self.of == self.part - 1).then_some(element);

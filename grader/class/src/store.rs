@@ -27,7 +27,7 @@ pub struct Store {
     folder: PathBuf,
 }
 
-/// The output folder cannot be used.
+/// An error that prevents the output folder from being used.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
     /// A file or folder cannot be read or written.
@@ -97,13 +97,13 @@ impl Store {
         self.write(RUN, &json(run))
     }
 
-    /// Writes a file of the class.
+    /// Writes a file of the class, such as `class.json`, into the output folder.
     pub fn write(&self, name: &str, text: &str) -> Result<(), StoreError> {
         let path = self.folder.join(name);
         atomic_write::write(text, &path).map_err(|source| io_error(&path, source))
     }
 
-    /// Returns the stored result of an entry that was graded with this cache key.
+    /// Returns the stored result of an entry if it was graded with this cache key.
     pub fn cached_result(&self, entry: &Entry, key: &str) -> Option<EntryResult> {
         let stamp = self.read_stamp(&entry.id).ok()??;
         let score = (stamp.key == key && stamp.state == EntryState::Graded)
@@ -115,13 +115,14 @@ impl Store {
         })
     }
 
-    /// Returns whether this is the stored state of the entry.
+    /// Returns whether the stored state of the entry equals `state`.
     pub fn has_state(&self, id: &str, state: &EntryState) -> bool {
         let stamp = self.read_stamp(id).ok().flatten();
         stamp.is_some_and(|stamp| stamp.state == *state)
     }
 
-    /// Writes the stamp of an entry. Its score, if it has one, is written before.
+    /// Writes the stamp of an entry. If the entry has a score, that must be written first.
+    /// Otherwise, the files of earlier runs are removed.
     pub fn save_result(&self, result: &EntryResult, key: &str) -> Result<(), StoreError> {
         let folder = self.entry_folder(&result.id);
         let state = match &result.outcome {
@@ -130,7 +131,7 @@ impl Store {
             EntryOutcome::Fault(why) => EntryState::Fault(why.clone()),
         };
         if state != EntryState::Graded {
-            // Files of an earlier run must not be taken for this one's.
+            // The files of an earlier run must not be mistaken for those of this run.
             for file in [SCORE, REPORT, FEEDBACK] {
                 remove(&folder.join(file))?;
             }
@@ -172,7 +173,8 @@ impl Store {
         Ok(results)
     }
 
-    /// Saves every score as the previous one. Without a score, the previous one is removed as well.
+    /// Copies the current score of every entry to its previous score. If an entry has no current
+    /// score, its previous score is removed.
     pub fn save_previous_scores(&self) -> Result<(), StoreError> {
         for id in self.ids()? {
             let folder = self.entry_folder(&id);

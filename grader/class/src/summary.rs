@@ -11,7 +11,7 @@ use crate::outcome::ScoreSummary;
 
 /// The format version of `class.json`.
 const SCHEMA: u32 = 1;
-/// The maximum number of entries in a list.
+/// The maximum length of the lists of failed items and of mistakes.
 const MAX_ENTRIES: usize = 10;
 
 /// The contents of `class.json`.
@@ -35,13 +35,14 @@ pub struct ClassSummary {
     pub missing: usize,
     /// The number of submissions that count as on time because their time is unknown.
     pub undated: usize,
-    /// The distribution of all points; `None` if there are no scores.
+    /// The distribution of the total points; `None` if there are no scores.
     pub points: Option<Distribution>,
     /// The distribution of each task's points, in lecture order.
     pub tasks: Vec<TaskDistribution>,
-    /// The items that most submissions failed, in descending order.
+    /// The items that the most submissions failed, in descending order of the number of
+    /// submissions.
     pub failed_most: Vec<FailedItem>,
-    /// The most common known mistakes, in descending order.
+    /// The most common known mistakes, in descending order of the number of submissions.
     pub mistakes: Vec<MistakeCount>,
     /// The submissions that need attention.
     pub outliers: Vec<Outlier>,
@@ -52,9 +53,9 @@ pub struct ClassSummary {
 pub struct TaskDistribution {
     /// The task's id, such as `sphere`.
     pub id: String,
-    /// The title for people.
+    /// The task's title, as it is shown to people.
     pub title: String,
-    /// The distribution.
+    /// The distribution of the points.
     #[serde(flatten)]
     pub points: Distribution,
 }
@@ -64,7 +65,7 @@ pub struct TaskDistribution {
 pub struct FailedItem {
     /// The item's id, such as `sphere.from_inside`.
     pub item: String,
-    /// The title: a sentence that says what is correct.
+    /// The item's title: a sentence that describes the correct behaviour.
     pub title: String,
     /// The number of submissions without full points.
     pub count: usize,
@@ -73,9 +74,9 @@ pub struct FailedItem {
 /// A known mistake that was recognised.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MistakeCount {
-    /// The text of its hint.
+    /// The text of the mistake's hint.
     pub hint: String,
-    /// The number of submissions with it.
+    /// The number of submissions with this mistake.
     pub count: usize,
 }
 
@@ -135,7 +136,8 @@ fn tasks(scores: &[&ScoreSummary]) -> Vec<TaskDistribution> {
 }
 
 fn failed_most(scores: &[&ScoreSummary]) -> Vec<FailedItem> {
-    // In the order of the exam, which the stable sort below keeps for equal counts.
+    // The items are collected in the order of the exam, which the stable sort below keeps for equal
+    // counts.
     let mut failed: Vec<FailedItem> = Vec::new();
     for item in scores.iter().flat_map(|score| score.items()) {
         let count = usize::from(item.points < item.max_points);
@@ -157,7 +159,7 @@ fn failed_most(scores: &[&ScoreSummary]) -> Vec<FailedItem> {
 fn mistakes(scores: &[&ScoreSummary]) -> Vec<MistakeCount> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for score in scores {
-        // The most likely hint of each item; each hint counts once per submission.
+        // Only the most likely hint of each item counts, and each hint counts once per submission.
         let hints = score.items().filter_map(|item| item.hints.first());
         let mut hints: Vec<&str> = hints.map(|hint| hint.hint.as_str()).collect();
         hints.sort_unstable();

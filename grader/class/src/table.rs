@@ -5,10 +5,10 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A table; cells are unchanged text.
+/// A CSV table. Cells are kept as text: numbers and dates are not parsed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Table {
-    /// The first row.
+    /// The cells of the first row, which name the columns.
     pub header: Vec<String>,
     /// The other rows.
     pub rows: Vec<Vec<String>>,
@@ -16,7 +16,7 @@ pub struct Table {
     has_byte_order_mark: bool,
 }
 
-/// A table cannot be used.
+/// An error that prevents a table from being used.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
     /// The file cannot be read.
@@ -110,7 +110,7 @@ impl Table {
         }
     }
 
-    /// Returns the index of a column; case does not matter.
+    /// Returns the index of the column with this name. Case does not matter.
     pub fn column(&self, name: &str) -> Option<usize> {
         let same = |column: &String| column.trim().eq_ignore_ascii_case(name);
         self.header.iter().position(same)

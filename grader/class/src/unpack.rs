@@ -16,19 +16,21 @@ use crate::listing::is_archive_name;
 
 /// The maximum size of an archive, or of a list from the platform, in bytes.
 const MAX_FILE_BYTES: u64 = 256 << 20;
-/// The maximum size of a source file, in bytes. One more byte is unpacked of a longer one, so that
-/// it is recognised as too long.
+/// The maximum size of a source file, in bytes. Of a longer file, one more byte than this is
+/// unpacked, so that it is recognised as too long.
 const MAX_TEXT_BYTES: u64 = 1 << 20;
-/// The maximum size of all unpacked files is this many bytes plus [`MAX_EXPANSION`] times the size
-/// of the archive. That is enough, since students' archives are compressed already and their texts
-/// are short.
+/// The constant part of the maximum size of all unpacked files, in bytes. The maximum is this plus
+/// [`MAX_EXPANSION`] times the size of the archive, which is enough, since students' archives are
+/// already compressed and their texts are short.
 const MAX_TOTAL_BYTES: u64 = 1 << 30;
-/// See [`MAX_TOTAL_BYTES`].
+/// The factor of the archive's size in the maximum size of all unpacked files: see
+/// [`MAX_TOTAL_BYTES`].
 const MAX_EXPANSION: u64 = 4;
-/// Folders that contain nothing to grade.
+/// The names of folders that contain nothing to grade.
 const SKIPPED: [&str; 4] = [".git", "target", "node_modules", "__MACOSX"];
 
-/// The folder of the files within the temporary folder, which also contains a lock file.
+/// The name of the folder for the unpacked files. It is in the temporary folder, which also
+/// contains a lock file.
 pub const CLASS_FOLDER: &str = "class";
 
 /// Unpacks an archive into a temporary folder in `parent`. Also returns the paths that were not
@@ -78,7 +80,7 @@ pub fn unpack(
     }
     let mut total = 0;
     for (max_bytes, members) in by_max_bytes {
-        // A few at a time, so that a big export needs little memory.
+        // Only a few files are read at a time, so that a big export needs little memory.
         for some in members.chunks(archive.batch_size()) {
             let contents = match max_bytes {
                 0 => vec![Vec::new(); some.len()],
@@ -112,8 +114,8 @@ fn is_wanted(path: &str) -> bool {
     !path.split('/').any(|part| SKIPPED.contains(&part))
 }
 
-/// Returns how many bytes of a file are needed later: none of most files, of which only the name
-/// matters.
+/// Returns the number of bytes of a file that are needed later. It is 0 for most files, since only
+/// their names matter.
 fn max_bytes(path: &str) -> u64 {
     let name = path.rsplit('/').next().unwrap_or(path);
     match name {
@@ -124,7 +126,8 @@ fn max_bytes(path: &str) -> u64 {
     }
 }
 
-/// Calls `put` with the path in `folder`. Returns a message if the system cannot have such a path.
+/// Calls `put` with the path in `folder`. Returns a message if such a path cannot exist on this
+/// system.
 fn extract_to(
     folder: &Path,
     path: &str,
@@ -136,13 +139,14 @@ fn extract_to(
     }
     match put(&folder.join(path)) {
         Ok(()) => Ok(None),
-        // A name that is too long, or a file that should be a folder: the archive is at fault.
+        // The archive is at fault if, for example, a name is too long, or a file should be a
+        // folder.
         Err(error) if !is_machine_fault(error.kind()) => Ok(Some(format!("{path} in it: {error}"))),
         Err(error) => Err(error),
     }
 }
 
-/// Returns whether any other file would have the same error.
+/// Returns whether the machine is at fault, so that any other file would cause the same error.
 fn is_machine_fault(kind: ErrorKind) -> bool {
     matches!(
         kind,

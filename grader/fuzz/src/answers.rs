@@ -15,13 +15,14 @@ use grader::score::Verdict;
 use grader::verdict::{ItemOutcome, add_hints, item_score, pending_score};
 use protocol::Answer;
 
-/// An exam with an item for each kind of key.
+/// An exam with an item for each kind of answer key.
 static EXAM: LazyLock<ExamFile> = LazyLock::new(|| {
     let text = include_bytes!("small.json");
     grader::exam_file::parse("small.json".as_ref(), text).expect("the exam is valid")
 });
 
-/// Grades the bytes: the first one chooses the item, and the answers to its questions follow.
+/// Grades the bytes: the first byte chooses the item, and the answers to the item's questions
+/// follow.
 pub fn read(bytes: &[u8]) {
     let Some((choice, mut rest)) = bytes.split_first() else {
         return;

@@ -6,7 +6,7 @@ use grader::exam_file::parse;
 use grader::verdict::pending_score;
 use protocol::wire;
 
-/// Reads the bytes as an exam. If it is valid, its questions must be encodable.
+/// Reads the bytes as an exam. If the exam is valid, it must be possible to encode its questions.
 pub fn read(bytes: &[u8]) {
     match parse(Path::new("any.json"), bytes) {
         Err(error) => assert!(!error.to_string().is_empty()),

@@ -1,5 +1,5 @@
-//! Fuzz targets for everything that parses untrusted input: on any bytes, it must not panic, must
-//! not hang, and must not use memory out of proportion to its input.
+//! Fuzz targets for all parsers of untrusted input. Whatever the bytes are, a parser must not
+//! panic, hang, or use memory out of proportion to its input.
 //!
 //! Each target is a function of bytes. `cargo test -p fuzz` runs it on the corpus, on changes to
 //! the corpus and on noise, on any machine. `cargo fuzz run` (see README.md) runs it for as long as
@@ -17,17 +17,18 @@ mod wire;
 
 use peak_alloc::PeakAlloc;
 
-/// The allocator, which counts allocated bytes.
+/// The global allocator, which counts the allocated bytes.
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
 /// A fuzz target: a parser of untrusted input.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
-    /// Its name, which is also the name of its folder in `corpus/`.
+    /// The target's name, which is also the name of its folder in `corpus/`.
     pub name: &'static str,
     read: fn(&[u8]),
-    /// The most bytes of memory per byte of input, in addition to [`Target::BASE_MEMORY`].
+    /// The maximum number of bytes of memory per byte of input, in addition to
+    /// [`Target::BASE_MEMORY`].
     memory_per_byte: usize,
 }
 
@@ -65,8 +66,8 @@ impl Target {
         TARGETS.into_iter().find(|target| target.name == name)
     }
 
-    /// Runs the target on these bytes, and panics if it uses too much memory. Allocations by other
-    /// threads during that time count as well.
+    /// Runs the target on these bytes, and panics if it uses too much memory. Allocations that
+    /// other threads make during that time are also counted.
     pub fn run(&self, bytes: &[u8]) {
         let before = MEMORY.current_usage();
         MEMORY.reset_peak_usage();

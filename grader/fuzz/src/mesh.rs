@@ -1,4 +1,4 @@
-//! OBJ files from anywhere on the Internet.
+//! OBJ files, which may come from anywhere on the Internet.
 
 use std::fs;
 use std::sync::LazyLock;
@@ -12,7 +12,7 @@ const SCENE: &str = r#"{
     "shapes": [{ "mesh": { "file": "any.obj", "material": "clay", "subdivide": 1 } }]
 }"#;
 
-/// The folder of a scene and its mesh.
+/// The folder that contains the scene and its mesh.
 static FOLDER: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = TempDir::new().expect("temporary folder");
     fs::write(folder.path().join("scene.json"), SCENE).expect("the file can be written");

@@ -2,7 +2,7 @@
 
 use framework::scene::Scene;
 
-/// Reads the bytes as a scene. If it is valid, it must be renderable.
+/// Reads the bytes as a scene. If the scene is valid, it must be possible to render it.
 pub fn read(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     match Scene::from_text(&text) {

@@ -8,8 +8,8 @@ use class::run::Run;
 use class::summary::ClassSummary;
 use grader::policy::Policy;
 
-/// Reads the bytes as a score, and as the files beside it. If the score is valid, it must be
-/// reportable in all files of a class.
+/// Reads the bytes as a score, and also as the other files of an entry and a run. If the score is
+/// valid, all files of a class can be written from it.
 pub fn read(bytes: &[u8]) {
     let json = String::from_utf8_lossy(bytes);
     let stamp: Result<Stamp, _> = serde_json::from_str(&json);

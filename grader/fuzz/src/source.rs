@@ -1,4 +1,4 @@
-//! Students' source files, as far as the grader reads them before the compiler does.
+//! Students' source files, which the grader reads before the compiler does.
 
 use grader::given_files::TASK_FILES;
 use grader::sanitize::sanitize;

@@ -3,7 +3,7 @@
 use protocol::wire::{self, WireError};
 use protocol::{Answer, Question};
 
-/// The longest answer to a question of a thousand elements, in bytes.
+/// The maximum length of an answer to a question with a thousand elements, in bytes.
 const LIMIT: usize = 80 << 10;
 
 /// Reads all frames in the bytes, each as an answer and as a question.
@@ -15,8 +15,8 @@ pub fn read(bytes: &[u8]) {
             Err(WireError::EndOfStream | WireError::TooLong { .. }) => return,
             Err(error) => panic!("reading from memory cannot fail: {error}"),
         };
-        // A decoded value can be encoded again. Encodings are compared because NaN differs from
-        // itself.
+        // A decoded value can be encoded again. The encodings are compared, and not the values,
+        // because NaN is not equal to itself.
         if let Ok(answer) = frame.decode::<Answer>() {
             assert_round_trip(&answer);
         }

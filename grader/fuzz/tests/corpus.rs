@@ -9,13 +9,13 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-/// Held by each test, because memory is counted for the whole process.
+/// A lock that each test holds while it runs, because memory is counted for the whole process.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 /// The number of random inputs per target, about half of them changes to the corpus and half noise.
 /// `cargo fuzz` runs millions.
 const CASES: u32 = 300;
-/// The longest noise input, in bytes.
+/// The maximum length of a noise input, in bytes.
 const MAX_NOISE_BYTES: usize = 300;
 
 fn corpus(target: &Target) -> Vec<Vec<u8>> {
@@ -28,7 +28,7 @@ fn corpus(target: &Target) -> Vec<Vec<u8>> {
     files.iter().map(|file| fs::read(file).unwrap()).collect()
 }
 
-/// A small change to an input, such as tools, disks and people make.
+/// A small change to an input, like those that tools, disks and people make.
 #[derive(Clone, Debug)]
 enum Change {
     Cut(Index),

@@ -1,5 +1,5 @@
-//! Accessibility, checked with axe-core: WCAG 2.2 AA as far as a program can check it, and best
-//! practices.
+//! Accessibility, checked with axe-core: the rules of WCAG 2.2 AA that a program can check, and
+//! best practices.
 
 use crate::chromium::Chromium;
 use crate::devtools::{DESKTOP, Tab, Viewer};
@@ -8,7 +8,7 @@ use crate::pages;
 /// axe-core 4.14.1 by Deque Systems, MPL-2.0, as it is in its npm package.
 const AXE: &str = include_str!("axe/axe.min.js");
 
-/// Opens everything on the loaded page, and returns the violations that axe-core finds.
+/// Opens all collapsed sections of the loaded page, and returns the violations that axe-core finds.
 fn violations(tab: &mut Tab) -> Vec<String> {
     tab.eval("for (const details of document.querySelectorAll('details')) details.open = true; 0");
     tab.eval(&format!("{AXE}; 0"));

@@ -28,8 +28,8 @@ pub struct Chromium {
 }
 
 impl Chromium {
-    /// Starts Chromium. Returns `None` with a notice if it is not installed, and panics if `CI` is
-    /// set.
+    /// Starts Chromium. If it is not installed, prints a notice and returns `None`, or panics if
+    /// `CI` is set.
     pub fn start() -> Option<Self> {
         let Some(program) = find() else {
             assert!(
@@ -68,7 +68,7 @@ impl Chromium {
             .map_while(Result::ok)
             .find_map(|line| Some(line.strip_prefix("DevTools listening on ")?.to_owned()))
             .expect("Chromium prints its address");
-        // Keeps reading, so that Chromium never blocks on a full pipe.
+        // The thread keeps reading, so that Chromium never blocks on a full pipe.
         std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
         Some(Chromium {
             process,

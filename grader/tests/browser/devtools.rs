@@ -1,4 +1,4 @@
-//! As much of the DevTools protocol as these tests need: <https://chromedevtools.github.io>.
+//! The part of the DevTools protocol that these tests need: <https://chromedevtools.github.io>.
 //!
 //! Written by hand on top of a WebSocket, since crates for the whole protocol bring a hundred
 //! others.
@@ -13,7 +13,7 @@ use tungstenite::{Message, WebSocket};
 /// The timeout for reading a message.
 const READ_TIMEOUT: Duration = Duration::from_secs(60);
 
-/// The display settings of the reader.
+/// The display settings of the page's reader.
 #[derive(Clone, Copy)]
 pub struct Viewer {
     pub width: u32,
@@ -172,7 +172,7 @@ impl Tab {
     }
 
     /// Reads one message. Returns the answer to the last call, or `None` for an event, which is
-    /// kept.
+    /// stored.
     fn read_message(&mut self) -> Option<Value> {
         let message = self.socket.read().unwrap();
         let message: Value = serde_json::from_str(message.to_text().unwrap()).ok()?;

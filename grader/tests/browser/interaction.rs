@@ -9,7 +9,7 @@ const FLICKER: &str = "document.querySelector('#triangle\\\\.picture .flicker')"
 const CLIP_PATH: &str =
     "document.querySelector('#triangle\\\\.picture .stage .got').style.clipPath";
 
-/// Opens the page with wrong pictures.
+/// Opens the page on which all pictures are wrong.
 fn open_noisy_page(chromium: &Chromium, reader: Viewer) -> Tab {
     let mut tab = chromium.tab();
     tab.load(&pages::NOISY, reader);
@@ -142,7 +142,7 @@ fn the_keyboard_reaches_and_opens_everything() {
     assert_eq!(tab.eval("document.activeElement.className"), "skip");
     tab.press("Enter", 13);
     assert_eq!(tab.eval("location.hash"), "#next");
-    // The next stop is the link to the item to fix, which opens that item.
+    // The next Tab stop is the link to the item to fix. Following it opens that item.
     tab.press("Tab", 9);
     let href = tab.eval("document.activeElement.getAttribute('href')");
     let fold = format!(
@@ -176,7 +176,7 @@ fn a_watched_page_reloads_and_keeps_open_sections() {
         .map(|id| format!("document.getElementById('{id}').open"));
     tab.eval(&format!("{opened} = true; {folded} = false; 0"));
     std::fs::write(&path, watched.replace("<h1>", "<h1>newer ")).unwrap();
-    // The reader is in the editor, so the page does not have the focus.
+    // Simulates a reader who is in the editor, so that the page does not have the focus.
     tab.eval("document.hasFocus = () => false; 0");
     tab.wait_until_loaded();
     let title = tab.eval("document.querySelector('h1').textContent");

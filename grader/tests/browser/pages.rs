@@ -7,20 +7,20 @@ use std::sync::LazyLock;
 
 const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 
-/// Everything is correct.
+/// The page of a submission in which everything is correct.
 pub static PERFECT: LazyLock<PathBuf> = LazyLock::new(|| page("perfect", |_| {}));
 
-/// Nothing is written yet.
+/// The page of a submission in which nothing is written yet.
 pub static STARTER: LazyLock<PathBuf> = LazyLock::new(|| {
     page("starter", |source| {
         copy(&workspace().join("grader/starter"), source);
     })
 });
 
-/// Every quantity in every picture is wrong, and differs from pixel to pixel: the largest page.
+/// The largest page: every quantity in every picture is wrong, and differs from pixel to pixel.
 pub static NOISY: LazyLock<PathBuf> = LazyLock::new(|| page("noisy", add_noise));
 
-/// Fails in many ways, and tries to take over the page.
+/// The page of a submission that fails in many ways, and tries to take over the page.
 pub static HOSTILE: LazyLock<PathBuf> = LazyLock::new(|| page("broken", add_hostile_text));
 
 /// Returns all four pages.
@@ -61,8 +61,8 @@ fn add_hostile_text(source: &Path) {
     replace(source, "triangle.rs", "Some(Trace {", &panic);
 }
 
-/// Returns the page of a changed copy of the reference. It stays in the target folder until the
-/// next run.
+/// Returns the path of the page of a changed copy of the reference. The page stays in the target
+/// folder until the next run.
 fn page(name: &str, prepare: impl FnOnce(&Path)) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("pages")

@@ -39,14 +39,14 @@ fn detects_a_page_that_runs_an_injected_script() {
     std::fs::write(&path, page.replace("</main>", script)).unwrap();
     let mut tab = chromium.tab();
     tab.load(&path, DESKTOP);
-    // The content security policy blocks both, and logs it.
+    // The content security policy blocks both the script and the image, and the console shows this.
     let errors = tab.errors().join("\n");
     assert!(
         errors.contains("script-src") && errors.contains("img-src"),
         "{errors}"
     );
     assert_ne!(tab.eval("document.title"), "taken");
-    // Without the policy, the script runs.
+    // If the policy is removed, the script runs.
     let open = page
         .replace("Content-Security-Policy", "x")
         .replace("</main>", script);

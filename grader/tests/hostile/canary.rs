@@ -64,7 +64,7 @@ impl Canaries {
         self.folder.path().join("out")
     }
 
-    /// Returns the values of the placeholders in an entry's text.
+    /// Returns the placeholders in the text of entries, with their values.
     pub fn placeholders(&self) -> [(&'static str, String); 8] {
         let port = |address: std::io::Result<std::net::SocketAddr>| {
             address.expect("the socket is bound").port().to_string()
@@ -84,7 +84,8 @@ impl Canaries {
         ]
     }
 
-    /// Returns the secrets that a text contains, as they are, reversed, or in base 64.
+    /// Returns the names of the secrets that a text contains, whether unchanged, reversed, or in
+    /// base 64.
     pub fn secrets_in(&self, text: &str) -> Vec<&'static str> {
         let is_in_text = |secret: &str| {
             let reversed: String = secret.chars().rev().collect();
@@ -101,7 +102,7 @@ impl Canaries {
         found.map(|(what, _)| what).collect()
     }
 
-    /// Returns the listeners that were contacted.
+    /// Returns the names of the listeners that were contacted.
     pub fn reached_listeners(&self) -> Vec<&'static str> {
         let is_contacted = |result: std::io::Result<()>| match result {
             Ok(()) => true,

@@ -1,4 +1,4 @@
-//! The checks after every run, whatever was graded.
+//! The checks after every run, which are the same for all submissions.
 
 use std::sync::LazyLock;
 
@@ -10,10 +10,10 @@ use crate::canary::Canaries;
 use crate::entry::Entry;
 use crate::run::GraderRun;
 
-/// The most memory that the grader itself may use, in bytes.
+/// The maximum amount of memory that the grader itself may use, in bytes.
 const MAX_MEMORY: u64 = 256 << 20;
-/// The most files that it may have open at once: three streams, three for each program that it has
-/// started, and those that it is reading or writing.
+/// The maximum number of files that the grader may have open at once: three streams, three for each
+/// program that it has started, and those that it is reading or writing.
 const MAX_OPEN_FILES: usize = 32;
 /// Markup that entries print, which must never be on the page unescaped.
 const MARKUP: &str = "<b id=forged>";
@@ -40,7 +40,7 @@ pub enum ViolationKind {
     Harmed,
 }
 
-/// Returns all failed checks. If `baseline` is given, the score must be the same.
+/// Returns all failed checks. If there is a `baseline`, the score must be the same as its score.
 pub fn violations(
     entry: &Entry,
     run: &GraderRun,

@@ -24,7 +24,7 @@ struct Selection {
 }
 
 impl Selection {
-    /// Reads the command line. Flags of the usual test harness are ignored.
+    /// Reads the command line. Flags of the standard test harness are ignored.
     fn from_arguments() -> Self {
         let arguments: Vec<String> = std::env::args().skip(1).collect();
         let (flags, names): (Vec<String>, _) = arguments
@@ -76,7 +76,8 @@ pub fn main() -> ExitCode {
         .levels
         .iter()
         .map(|level| run_at_level(&entries, *level));
-    // Collected, so that every level is run even after one that does not hold.
+    // The results are collected first, so that every level is run even if an earlier one does not
+    // hold.
     match held.collect::<Vec<bool>>().contains(&false) {
         false => ExitCode::SUCCESS,
         true => ExitCode::FAILURE,
@@ -92,7 +93,7 @@ fn assert_listed(entries: &[Entry], list: &Path) {
     }
 }
 
-/// Runs all entries at one level, and returns whether they hold.
+/// Runs all entries at one level, and returns whether the grader withstood all of them.
 fn run_at_level(entries: &[Entry], level: Isolation) -> bool {
     let reference = Entry::reference();
     // The first run compiles what all later runs share.
@@ -110,7 +111,8 @@ fn run_at_level(entries: &[Entry], level: Isolation) -> bool {
     let mut tally = Tally::default();
     for entry in &here {
         let own = grade_and_check(entry, None, level);
-        // Even if the entry did not hold: the point is whether it affects the next submission.
+        // This also runs if a check of the entry failed, to find out whether the entry affects the
+        // next submission.
         let next = grade_and_check(&reference, Some(&first), level);
         let violations: Vec<Violation> = [own, next]
             .into_iter()
@@ -148,7 +150,7 @@ fn forbidden_calls_fail(level: Isolation) -> bool {
 }
 
 fn print_result(verdict: &str, entry: &Entry, violations: &[Violation]) {
-    /// The most violations of one entry that are printed.
+    /// The maximum number of violations to print for an entry.
     const MOST: usize = 10;
     println!("{verdict:>6}  {}: {}", entry.name, entry.expect.does);
     // Leftovers come last: the other violations often explain them.
@@ -170,8 +172,8 @@ impl Tally {
     }
 }
 
-/// Grades one entry and checks everything that it may have done. If `baseline` is given, the score
-/// must be the same.
+/// Grades one entry and checks everything that it may have done. If there is a `baseline`, the
+/// score must be the same as its score.
 fn grade_and_check(
     entry: &Entry,
     baseline: Option<&GraderRun>,

@@ -12,12 +12,12 @@ use crate::canary::Canaries;
 use crate::packaging::{Packaging, pack};
 
 const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
-/// The file whose text is appended to one of the task files. All other files are put beside the
-/// task files, or replace them.
+/// The name of the file whose text is appended to a task file. All other files of an entry are put
+/// beside the task files, or replace them.
 const ATTACK_FILE: &str = "attack.rs";
 const EXPECT_FILE: &str = "expect.toml";
 
-/// A folder in `entries/`.
+/// A hostile submission, which is read from a folder in `entries/`.
 pub struct Entry {
     pub name: String,
     pub expect: Expectation,
@@ -30,10 +30,11 @@ pub struct Entry {
 pub struct Expectation {
     /// A description of the attack in one sentence: "It …".
     pub does: String,
-    /// The lowest level that holds against this attack; it is skipped at lower levels.
+    /// The lowest isolation level that withstands this attack. The attack is skipped at lower
+    /// levels.
     #[serde(default = "Expectation::any_level")]
     pub least: Isolation,
-    /// The task files that it changes.
+    /// The task files that the attack changes.
     #[serde(default)]
     base: Base,
     /// The task file to which `attack.rs` is appended.
@@ -44,23 +45,23 @@ pub struct Expectation {
     /// The statement that is inserted into these methods.
     #[serde(default = "Expectation::default_call")]
     call: String,
-    /// The form in which it is submitted, if not as a plain folder.
+    /// The form in which the entry is submitted; `None` for a plain folder.
     pack: Option<Packaging>,
-    /// Part of the message with which it is rejected, if it is not graded.
+    /// Part of the error message, if the entry is rejected without being graded.
     pub refused: Option<String>,
-    /// The most points for each task that it affects. All other tasks must score as without the
-    /// attack.
+    /// The maximum number of points for each task that the attack affects. All other tasks must get
+    /// the same points as without the attack.
     #[serde(default)]
     pub points: BTreeMap<String, u64>,
-    /// The permitted verdicts of items of those tasks, besides `pass`.
+    /// The permitted verdicts, in addition to `pass`, of the items of those tasks.
     #[serde(default)]
     pub verdicts: Vec<String>,
     /// Text that the report must contain.
     pub says: Option<String>,
-    /// The longest wall time, in seconds.
+    /// The maximum wall time, in seconds.
     #[serde(default = "default_wall_seconds")]
     wall: u64,
-    /// Whether it runs only with `--all` or by name.
+    /// Whether the entry runs only with `--all` or if it is named on the command line.
     #[serde(default)]
     pub slow: bool,
     #[serde(default)]
@@ -114,7 +115,7 @@ impl Entry {
         }
     }
 
-    /// Returns the reference without any change.
+    /// Returns an entry that is the reference, without any change.
     pub fn reference() -> Self {
         Entry {
             name: "reference".to_owned(),
@@ -207,7 +208,7 @@ fn insert_first_statement(text: &str, method: &str, call: &str) -> String {
     format!("{}        {call}\n{}", &text[..body], &text[body..])
 }
 
-/// Replaces `@NAME@` by the value of that name, and `@{1000x(}` by a thousand parentheses.
+/// Replaces `@NAME@` with the value of that name, and `@{1000x(}` with a thousand parentheses.
 fn fill_placeholders(text: &str, placeholders: &[(&str, String)]) -> String {
     let mut text = text.to_owned();
     for (name, value) in placeholders {

@@ -24,31 +24,31 @@ pub enum Packaging {
     Absolute,
     /// A zip with another spelling of a path that it already has.
     TwoSpellings,
-    /// A tar with a link to the key in place of a file.
+    /// A tar with a symbolic link to the key in place of a file.
     LinkToTheKey,
-    /// A tar with a link to a folder, and a file in it.
+    /// A tar with a symbolic link to a folder, and a file whose path leads through that link.
     LinkedFolder,
-    /// A tar with a hard link to a file of the machine.
+    /// A tar with a hard link to the key in place of a file.
     HardLink,
-    /// A tar with a pipe that nothing writes to.
+    /// A tar with a named pipe in place of a file.
     Pipe,
     /// A zip with a file of 256 MiB that compresses well.
     Bomb,
     /// A zip with more files than the limit.
     ManyFiles,
-    /// A tar with a name of escapes, line breaks, and text that runs backwards.
+    /// A tar with a file name that contains escape sequences, line breaks and right-to-left text.
     OddNames,
     /// An empty file.
     Empty,
     /// The first half of a zip.
     Truncated,
-    /// An archive of another kind.
+    /// The beginning of a RAR archive, in a file that is named as a zip.
     OtherKind,
     /// A folder with a sparse file of 10 GB.
     Sparse,
     /// A folder in which one file has all permissions, and another has none.
     OddModes,
-    /// A folder with a pipe in place of a file.
+    /// A folder with a named pipe in place of a file.
     PipeOnDisk,
     /// A folder with a link in place of a file, which leads to a correct file elsewhere.
     LinkedFileOnDisk,
@@ -150,8 +150,8 @@ pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
     }
 }
 
-/// Moves the files to a folder beside this one, as if they were another student's, into its
-/// subfolder `below`. Returns the other folder. This one is empty afterwards.
+/// Moves the files into the subfolder `below` of a new folder beside this one, as if they were
+/// another student's. Returns the new folder. This folder is empty afterwards.
 fn move_elsewhere(folder: &Path, below: &str) -> PathBuf {
     let others = folder.with_extension("others");
     let target = others.join(below);
@@ -208,8 +208,8 @@ fn write_zip(folder: &Path, files: &[(String, Vec<u8>)], also: Option<&str>) -> 
 
 type Member<'a> = (&'a str, EntryType, Option<&'a Path>);
 
-/// Writes a tar. The other members come first, so that a program that unpacks one by one reads them
-/// first.
+/// Writes a tar. The members in `others` come first, so that a program that unpacks members one by
+/// one reads them before the files.
 fn write_tar(folder: &Path, files: &[(String, Vec<u8>)], others: &[Member]) -> PathBuf {
     let compressed = GzEncoder::new(Vec::new(), Compression::fast());
     let mut builder = Builder::new(compressed);

@@ -15,14 +15,14 @@ use crate::entry::Entry;
 
 /// The result of one run of the grader.
 pub struct GraderRun {
-    /// `None` if it took too long and was killed.
+    /// The exit code; `None` if the grader took too long and was killed.
     pub exit_code: Option<i32>,
     pub elapsed: Duration,
-    /// Peak memory of the grader itself, in bytes.
+    /// The peak memory of the grader itself, in bytes.
     pub memory: u64,
-    /// The most files that it had open at once.
+    /// The highest number of files that the grader had open at once.
     pub open_files: usize,
-    /// Standard output and standard error.
+    /// The standard output and standard error.
     pub printed: String,
     pub score: Option<String>,
     pub page: Option<String>,
@@ -45,7 +45,7 @@ pub fn become_subreaper() {
     rustix::process::set_child_subreaper(Some(own)).expect("Linux can do this");
 }
 
-/// Grades one submission. Kills the grader if it takes longer than the entry may.
+/// Grades one submission. Kills the grader if it takes longer than the entry allows.
 pub fn grade(entry: &Entry, canaries: &Canaries, level: Isolation) -> GraderRun {
     let folder = tempfile::TempDir::new().expect("temporary folder");
     let submission = folder.path().join("submission");

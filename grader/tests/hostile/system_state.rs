@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use crate::canary::Canaries;
 
-/// The longest time that a killed process may take to disappear.
+/// The maximum time that a killed process may take to disappear.
 const EXIT_TIMEOUT: Duration = Duration::from_millis(500);
 
 /// A snapshot of processes, files and kernel objects, as lines of text.
@@ -133,7 +133,7 @@ fn list_files(folder: &Path, found: &mut Vec<String>) {
         if metadata.is_dir() {
             list_files(&path, found);
         }
-        // A folder's time changes whenever it is used.
+        // A folder's modification time changes whenever the folder is used.
         let detail = match metadata.is_dir() {
             true => String::new(),
             false => format!(" {} {:?}", metadata.len(), metadata.modified().ok()),

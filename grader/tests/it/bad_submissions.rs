@@ -4,7 +4,7 @@ use insta::assert_snapshot;
 
 use crate::harness::{FULL_POINTS, Submission};
 
-/// Returns full points except for these tasks, which are given by their index in lecture order.
+/// Returns the full points of each task, but 0 for the tasks with these indices in lecture order.
 fn full_points_except(zero: &[usize]) -> Vec<u64> {
     let mut points = FULL_POINTS.to_vec();
     zero.iter().for_each(|&task| points[task] = 0);
@@ -71,7 +71,8 @@ fn a_file_that_does_not_compile_costs_its_own_task() {
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
     assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
     assert_snapshot!(graded.report());
-    // Printed before the other files are compiled without it, which takes four times as long.
+    // This line is printed before the other files are compiled without `sphere.rs`, which takes
+    // four times as long.
     let line = "sphere.rs: error[E0609]: no field `direction` on type `&Ray`; grading the rest\n";
     assert!(graded.error().ends_with(line), "{}", graded.error());
 }
@@ -234,7 +235,7 @@ fn unsafe_code_does_not_compile() {
 
 #[test]
 fn does_not_reuse_a_build_of_files_with_the_same_modification_time() {
-    // Archives restore old modification times. A build that compares times would reuse the program
+    // Archives restore old modification times. A build that compares these would reuse the program
     // of the other submission.
     let old = std::time::SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(315_532_800);
     let aged = |submission: Submission| {

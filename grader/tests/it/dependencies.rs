@@ -101,8 +101,9 @@ fn student_crates_do_not_depend_on_the_grader() {
     assert_eq!(forbidden_dependencies("protocol", &["framework"]), [""; 0]);
 }
 
-/// A second version of `syn` would add a tenth to the compile time. So the lock file holds back
-/// `serde`, `clap` and `thiserror` until `maud` and `landlock` use the same version.
+/// Checks that no crate is compiled twice: a second version of `syn` would add a tenth to the
+/// compile time. So the lock file holds back `serde`, `clap` and `thiserror` until `maud` and
+/// `landlock` use the same version of `syn`.
 #[test]
 fn the_grader_has_no_crate_in_two_versions() {
     let text = tree("grader", "{p}");
@@ -120,8 +121,8 @@ fn the_grader_has_no_crate_in_two_versions() {
     assert_eq!(versions, BTreeMap::new());
 }
 
-/// With different features, Cargo would compile these crates twice before the first grade: once for
-/// the grader, and once for submissions.
+/// Checks that the features are equal. Otherwise, Cargo would compile these crates twice before the
+/// first grade: once for the grader, and once for submissions.
 #[test]
 fn crates_shared_with_submissions_have_the_same_features() {
     let of = |package| -> BTreeMap<String, String> {

@@ -17,7 +17,7 @@ pub fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// A submission in a temporary folder, which is deleted when dropped.
+/// A submission in a temporary folder. The folder is deleted when this is dropped.
 pub struct Submission {
     folder: TempDir,
     name: String,
@@ -34,7 +34,8 @@ impl Submission {
         Submission::copy_of(name, &workspace().join("grader/starter"))
     }
 
-    /// Copies the reference, with the files of `tests/submissions/NAME` instead of its own.
+    /// Copies the task files of the reference, and replaces some of them by the files in
+    /// `tests/submissions/NAME`.
     pub fn case(name: &str) -> Self {
         let submission = Submission::reference(name);
         let case = workspace().join("grader/tests/submissions").join(name);
@@ -118,7 +119,7 @@ pub fn grader() -> Command {
     command
 }
 
-/// The results of one run.
+/// The results of one run of the grader.
 pub struct GradeRun {
     pub output: Output,
     /// The folder of the submission.

@@ -5,7 +5,8 @@ use serde_json::Value;
 
 use crate::harness::{GradeRun, Submission};
 
-/// A solution that takes the far root first, with other formulas than the catalogue of mistakes.
+/// Returns a solution that takes the far root first, but uses other formulas for this than the
+/// catalogue of mistakes does.
 fn far_first() -> Submission {
     Submission::reference("far-first").with_replaced(
         "sphere.rs",

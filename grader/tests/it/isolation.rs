@@ -1,5 +1,5 @@
-//! Untrusted code, graded by the real binary: every attempt succeeds without isolation, and fails
-//! at every isolation level.
+//! Untrusted code, graded by the real binary: every attempt to do something forbidden succeeds
+//! without isolation, and fails at every isolation level.
 
 use std::fs;
 use std::path::Path;
@@ -17,7 +17,7 @@ use crate::harness::{FULL_POINTS, GradeRun, Submission, grader};
 const LEVELS: [&str; 3] = ["full", "no-namespaces", "seccomp-only"];
 const SECRET: &str = "the final exam";
 
-/// A file that every user of this machine may read.
+/// A file with a secret, which every user of this machine may read.
 struct SecretFile {
     folder: TempDir,
 }
@@ -40,7 +40,7 @@ fn make_readable_by_all(folder: &Path) {
     fs::set_permissions(folder, fs::Permissions::from_mode(0o755)).unwrap();
 }
 
-/// The reference, with code that runs before each camera ray is made.
+/// Returns the reference with this code added, which runs before each camera ray is made.
 fn running(what: &str) -> Submission {
     let method = "let height = 2.0 * framework";
     Submission::reference("mallory").with_replaced(
@@ -79,8 +79,9 @@ fn is_available(level: &str) -> bool {
     works
 }
 
-/// Asserts that an attempt succeeds without isolation and fails at every level, and that the
-/// submission still gets full points.
+/// Asserts that an attempt to do something forbidden succeeds without isolation and fails at every
+/// level, and that the submission still gets full points. `attempt` is an expression that is true
+/// if it succeeds.
 #[track_caller]
 fn assert_blocked(attempt: &str) {
     let submission = running(&format!("if {attempt} {{ println!(\"done\"); }}"));
@@ -158,7 +159,7 @@ fn loops_recursion_and_allocation_cost_only_their_task() {
         for level in LEVELS.into_iter().filter(|level| is_available(level)) {
             let graded = submission.grade_with(&["--isolation", level, "--cpu-limit", "1"]);
             assert_eq!(graded.verdicts("camera"), [verdict], "{level}");
-            // Not `traverse`: its picture needs a camera.
+            // `traverse` is left out, because its picture needs a camera.
             assert_eq!(graded.points()[1..5], FULL_POINTS[1..5], "{level}");
         }
     }

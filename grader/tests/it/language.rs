@@ -1,12 +1,12 @@
-//! Checks the words that are always wrong here (see "Language" in `.github/CONTRIBUTING.md`), in
-//! every file that a person reads. Everything else in that section is left to reviewers.
+//! Checks that no file that people read contains a phrase that is always wrong here (see "Language"
+//! in `.github/CONTRIBUTING.md`). The other rules of that section are left to reviewers.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::harness::workspace;
 
-/// Phrases to avoid, word by word, each with what to write instead.
+/// Phrases to avoid, each as a list of words, with the text to write instead.
 const PHRASES: [(&[&str], &str); 9] = [
     (&["can", "not"], "cannot"),
     (&["whoever"], "the person meant, such as \"the caller\""),
@@ -19,7 +19,7 @@ const PHRASES: [(&[&str], &str); 9] = [
     (&["orphans"], "unreferenced primitives"),
 ];
 
-/// First words of a doc comment that does not say what the item is or does.
+/// Beginnings of doc comments that do not say what the item is or does.
 const FIRST_WORDS: [&str; 5] = ["What ", "Which.", "Where.", "Whoever ", "Said of "];
 
 /// Folders and files by others, and this file, which quotes the phrases.
@@ -63,9 +63,9 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// The words of a text, in lower case, each with its line from 1. Words go on over line ends, so
-/// that "can" at the end of a comment's line and "not" in the next are found. In Markdown, what is
-/// in double quotes is left out: it is quoted.
+/// Returns the words of a text in lower case, each with its line number, counted from 1. Lines are
+/// not kept apart, so that a phrase such as "can not" is also found across a line break. In
+/// Markdown, text in double quotes is skipped, because it is a quotation.
 fn words(text: &str, is_markdown: bool) -> Vec<(usize, String)> {
     let mut words = Vec::new();
     for (number, line) in text.lines().enumerate() {
@@ -80,7 +80,8 @@ fn words(text: &str, is_markdown: bool) -> Vec<(usize, String)> {
     words
 }
 
-/// One message for each phrase to avoid and each doc comment that begins with a wrong word.
+/// Returns a message for each phrase to avoid, and for each doc comment that begins with a wrong
+/// word.
 fn complaints(name: &str, text: &str) -> Vec<String> {
     let mut complaints = Vec::new();
     let words = words(text, name.ends_with(".md"));

@@ -13,8 +13,9 @@ use crate::harness::{Submission, workspace};
 
 /// A user that exists on every system and owns nothing.
 const NOBODY: u32 = 65_534;
-/// Only root may read root's home. So the script mounts an empty home in its own mount namespace,
-/// with only the folders that are given before `--`.
+/// A script that runs the command after `--` as another user, in its own mount namespace. Only root
+/// may read root's home, so the script mounts a home there that contains only the folders named
+/// before `--`.
 const SCRIPT: &str = r#"
     set -e
     mount --make-rprivate / || exit 99
@@ -107,7 +108,7 @@ fn an_unprivileged_user_grades_untrusted_code_as_well_as_root() {
     fs::write(key.path().join("key"), "the final exam").unwrap();
     let key = key.path().join("key");
 
-    // Tries what its user may do, and is correct otherwise.
+    // The submission tries things that its user is allowed to do, and is correct otherwise.
     let attempt = format!(
         "if std::fs::read({key:?}).is_ok() || std::net::UdpSocket::bind(\"127.0.0.1:0\").is_ok() {{ \
          println!(\"done\"); }}"

@@ -15,7 +15,7 @@ const SETUP: (&str, &str) = ("setup.sh", "#!/bin/sh\n");
 const RUN: (&str, &str) = ("run_autograder", "#!/bin/sh\n");
 const POLICY: (&str, &str) = ("pathtracing/policy.toml", "");
 const GRADE: (&str, &str) = ("pathtracing/grade", "#!/bin/sh\n");
-/// Other files, which only need to exist.
+/// The other files of a package, which only need to exist.
 const OTHER_FILES: [(&str, &str); 6] = [
     ("pathtracing/grader/src/main.rs", ""),
     ("pathtracing/student/framework/src/lib.rs", ""),
@@ -59,7 +59,8 @@ fn check_bytes(bytes: &[u8]) -> (i32, String) {
     check_path(&path)
 }
 
-/// Checks the package at this path. The output is returned without the path of its folder.
+/// Checks the package at this path. Returns the exit code, and the output without the path of the
+/// package's folder.
 fn check_path(path: &Path) -> (i32, String) {
     let output = grader()
         .args(["--doctor", "--package"])
@@ -72,7 +73,8 @@ fn check_path(path: &Path) -> (i32, String) {
     (output.status.code().unwrap(), text.replace(&folder, ""))
 }
 
-/// Returns a complete package, in which the file `name` is removed, or replaced by `file`.
+/// Returns the files of a complete package, but without the file `name`, or with `file` in its
+/// place.
 fn package_except<'a>(
     exam: &'a str,
     name: &str,
@@ -121,7 +123,8 @@ fn reports_each_problem_with_a_remedy() {
         ("no shebang line", with(RUN.0, "echo"), 0o755),
         ("not executable", without(""), 0o644),
         ("practice exam", with(exam, &practice), 0o755),
-        // Truncated before any answer, so that the error position does not depend on the exam.
+        // The exam is truncated before any answer, so that the error position does not depend on
+        // its contents.
         ("truncated exam", with(exam, &good[..100]), 0o755),
         ("no exam, no crates", vec![SETUP, RUN, POLICY], 0o755),
         ("no grading script", without(GRADE.0), 0o755),
@@ -156,7 +159,8 @@ fn reports_each_problem_with_a_remedy() {
     insta::assert_snapshot!(all);
 }
 
-/// Returns a package with a crate, but without those that only Linux needs.
+/// Returns the files of a package that contains a crate, but none of the crates that only Linux
+/// needs.
 fn package_without_linux_crates(exam: &str) -> Vec<(&str, &str)> {
     let other = ("pathtracing/crates/registry/cache/x/glam-0.34.crate", "");
     package_except(exam, OTHER_FILES[4].0, Some(other))

@@ -1,4 +1,4 @@
-//! Guarantees of the score file.
+//! Guarantees about the score file.
 
 use insta::assert_snapshot;
 use serde_json::Value;
@@ -76,7 +76,7 @@ fn every_score_file_matches_the_published_schema() {
             panic!("{error}");
         }
     }
-    // The validation can fail.
+    // An invalid score must fail the validation.
     let mut score = Submission::starter("starter").grade().score();
     score["tasks"][0]["items"][0]["verdict"] = "splendid".into();
     assert!(schemas.validate(&score, schema).is_err());

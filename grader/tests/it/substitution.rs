@@ -1,4 +1,5 @@
-//! One mistake costs once: what depends on a failed task is graded again with the reference's part.
+//! A mistake costs points only once: items that depend on a failed task are graded again with the
+//! reference's parts.
 
 use insta::assert_snapshot;
 
@@ -7,8 +8,8 @@ use crate::harness::{FULL_POINTS, Submission};
 const BBOX: usize = 3;
 const TRAVERSE: usize = 5;
 
-/// A box test that works only for rays with positive directions, since it does not swap entry and
-/// exit.
+/// Returns a submission whose box test works only for rays with positive directions, since it does
+/// not swap entry and exit.
 fn without_swap() -> Submission {
     Submission::reference("no-swap").with_replaced(
         "bbox.rs",
@@ -52,7 +53,7 @@ fn a_wrong_traversal_with_a_wrong_box_test_costs_both() {
 
 #[test]
 fn finds_two_mistakes_that_hide_each_other() {
-    // A box test that ignores `times`, and a traversal that passes the interval from 0 to 0.
+    // The box test ignores `times`, and the traversal passes the interval from 0 to 0 to it.
     let graded = Submission::reference("hiding")
         .with_replaced(
             "bbox.rs",

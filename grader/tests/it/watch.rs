@@ -1,4 +1,4 @@
-//! `--watch` with an output that is not a terminal.
+//! Tests of `--watch` with an output that is not a terminal.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -6,7 +6,7 @@ use std::process::{Child, ChildStdout, Stdio};
 
 use crate::harness::{Submission, grader};
 
-/// A grader that waits for changes. It is killed when dropped.
+/// A grader process that waits for changes. The process is killed when this is dropped.
 struct WatchProcess {
     child: Child,
     lines: BufReader<ChildStdout>,
@@ -70,7 +70,8 @@ fn grades_every_save_and_updates_the_score_file() {
     assert!(report.contains("100 / 100"), "{report}");
     assert_eq!(score(), (Some(100), Some(true)));
 
-    // Missing for a while, as with editors that write another file and rename it.
+    // The file is missing for a while, as it is with editors that write another file and then
+    // rename it.
     let aside = submission.path().join("sphere.away");
     fs::rename(&sphere, &aside).unwrap();
     let report = watching.report();

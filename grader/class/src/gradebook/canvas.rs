@@ -13,7 +13,7 @@ use crate::model::GradedClass;
 use crate::table::{Table, TableError};
 
 const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and name that file";
-/// The last of the columns that identify people.
+/// The last column that identifies people.
 const SECTION: &str = "Section";
 /// The name in the row with the maximum points.
 const POINTS_POSSIBLE: &str = "Points Possible";
@@ -66,7 +66,8 @@ pub fn fill_canvas(
             table,
             target,
             keys,
-            // Rows that are not people's, such as the one with the maximum, have no id.
+            // Rows that do not belong to people, such as the row with the maximum points, have no
+            // id.
             is_person: &|row| !row[id].trim().is_empty() && row[student].trim() != POINTS_POSSIBLE,
             is_locked: &|_| false,
             name: &|row| row[student].clone(),
@@ -77,7 +78,8 @@ pub fn fill_canvas(
     Ok(filled)
 }
 
-/// Returns the index of the column with this title or number; without one, of the only assignment.
+/// Returns the index of the column with this title or number. If `column` is `None`, returns the
+/// index of the only assignment's column.
 fn find_target(
     table: &Table,
     section: usize,

@@ -42,15 +42,15 @@ pub struct CellChange {
     pub now: String,
 }
 
-/// A gradebook, and how to read it.
+/// A gradebook, with the rules for reading and filling it in.
 struct GradebookSpec<'a> {
     title: String,
     table: Table,
-    /// The column to fill in.
+    /// The index of the column to fill in.
     target: usize,
     /// The keys that identify people, the most reliable first.
     keys: Vec<MatchKey<'a>>,
-    /// Whether a row is a person's.
+    /// Whether a row belongs to a person.
     is_person: &'a dyn Fn(&[String]) -> bool,
     /// Whether the platform does not allow changes to a row.
     is_locked: &'a dyn Fn(&[String]) -> bool,
@@ -153,7 +153,8 @@ fn match_rows<'c>(
     name: &dyn Fn(&[String]) -> String,
     class: &'c GradedClass,
 ) -> (Vec<(&'c ClassRow, usize)>, Vec<String>) {
-    // For each key, the rows by their text. A text in several rows identifies nobody.
+    // For each key, the indices of the rows with each text. A text that is in several rows
+    // identifies nobody.
     let indices: Vec<BTreeMap<String, Vec<usize>>> = keys
         .iter()
         .map(|key| {
@@ -195,7 +196,7 @@ fn match_rows<'c>(
     (matches, warnings)
 }
 
-/// Returns the text in lower case and without surrounding space.
+/// Returns the text in lower case, without white space at its ends.
 fn normalise(text: &str) -> String {
     text.trim().to_lowercase()
 }
@@ -205,7 +206,8 @@ fn cell_equals(cell: &str, points: u32) -> bool {
     number.is_ok_and(|number| number == f64::from(points))
 }
 
-/// Returns a warning if the points that were graded have another maximum than the gradebook.
+/// Returns a warning if the maximum of the counted points differs from the maximum in the
+/// gradebook.
 fn maximum_warning(class: &GradedClass, listed: &str) -> Option<String> {
     let counted = class.rows.iter().find_map(|class_row| class_row.counted)?;
     let listed = listed.trim();
@@ -217,7 +219,8 @@ fn maximum_warning(class: &GradedClass, listed: &str) -> Option<String> {
     })
 }
 
-/// Returns the index of the column with this name; the error says what to do.
+/// Returns the index of the column with this name. If there is no such column, the error says what
+/// to do.
 fn require_column(
     table: &Table,
     path: &Path,
@@ -231,7 +234,7 @@ fn require_column(
     })
 }
 
-/// Returns a list of the text, or an empty list for an empty text.
+/// Returns a list that contains only the text, or an empty list if the text is empty.
 fn non_empty(text: &str) -> Vec<String> {
     match text {
         "" => Vec::new(),

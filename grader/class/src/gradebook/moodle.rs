@@ -1,5 +1,5 @@
-//! Moodle's grading worksheet. Moodle imports only `Grade` and the feedback, by the participant's
-//! number. Grades that can no longer be changed are left unchanged.
+//! Moodle's grading worksheet. Moodle imports only the `Grade` column and the feedback, and matches
+//! rows by the participant's number. Grades that can no longer be changed are left unchanged.
 
 use std::path::Path;
 
@@ -51,7 +51,7 @@ pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, 
     Ok(filled)
 }
 
-/// Returns `123` for `Participant 123`, in any language of the site.
+/// Returns `123` for `Participant 123`, whatever the language of the site.
 fn participant(identifier: &str) -> String {
     let number = identifier.rsplit(' ').next();
     number.unwrap_or(identifier).to_owned()

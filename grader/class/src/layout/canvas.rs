@@ -1,7 +1,7 @@
 //! Canvas's "Download submissions": files in one folder, named like
-//! `doejane_LATE_7001_9001_camera.rs`: the sortable name without punctuation, `LATE` if it is late,
-//! the user id, the attachment id, and the student's file name. Canvas appends `-1`, `-2`, … to the
-//! file name when it is handed in again.
+//! `doejane_LATE_7001_9001_camera.rs`: the student's sortable name without punctuation, `LATE` if
+//! the file is late, the user id, the attachment id, and the student's file name. Canvas appends
+//! `-1`, `-2`, … to the name of a file that is handed in again.
 
 use std::collections::BTreeMap;
 
@@ -9,12 +9,12 @@ use super::{LayoutContents, is_task_file, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
-/// The reason for a user without files.
+/// The reason why a user without files has nothing to grade.
 const TEXT_ONLY: &str = "a text or a link was handed in, but no file";
-/// The reason for a text or link of a user who has files as well.
+/// The reason why a text or link is not graded if its user also handed in files.
 const TEXT_BESIDE_FILES: &str = "a text or a link; the files handed in with it are graded";
 
-/// The parts of a file name.
+/// The parts of a file name in Canvas's download.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct CanvasName<'a> {
     who: String,
@@ -120,7 +120,8 @@ fn entry_of_files(mut files: Vec<(CanvasName, &Node)>) -> Entry {
     let archive = archive.filter(|_| !files.iter().any(is_one));
     let source = match archive {
         Some((_, archive)) => Source::Path(archive.path.clone()),
-        // Files that were handed in again come later, and the last one of a name counts.
+        // Files that were handed in again come later in the list. Of several files with the same
+        // name, the last one counts.
         None => Source::Files(
             files
                 .iter()
@@ -156,8 +157,8 @@ fn entry(name: &CanvasName, late: bool, from: String, source: Source) -> Entry {
     }
 }
 
-/// Removes the number that Canvas appends: returns `camera.rs` for `camera-2.rs`. Only for task
-/// files, since other names may end in a number themselves.
+/// Removes the number that Canvas appends: returns `camera.rs` for `camera-2.rs`. Changes only the
+/// names of task files, since other names may end in a number of their own.
 fn original_name(name: &str) -> String {
     let original = |file: &str| -> Option<String> {
         let (stem, end) = file.rsplit_once('.')?;

@@ -10,7 +10,7 @@ use crate::listing::Node;
 const SUBMISSIONS_SUFFIX: &str = "-submissions";
 /// The file that classroom50's tool writes beside the repositories: a row per student and attempt.
 pub const CLASSROOM50_SCORES: &str = "scores.csv";
-/// A file that is in each repository of classroom50.
+/// A file that is in every repository of classroom50.
 const CLASSROOM50_RESULT: &str = "result.json";
 
 /// Returns the prefix of all repositories' names; `None` if the folder has another layout.
@@ -24,8 +24,8 @@ pub(super) fn prefix(root: &Node) -> Option<String> {
     is_classroom50.then(|| common_prefix(folders().map(|node| node.name.as_str())))
 }
 
-/// Returns the common prefix of all names up to its last `-`, since accounts may contain `-`. It is
-/// empty for a single name, where the account cannot be told from the assignment.
+/// Returns the common prefix of all names up to its last `-`, since accounts may contain `-`. For a
+/// single name, the prefix is empty, since nothing shows where the account's name begins.
 fn common_prefix<'a>(mut names: impl Iterator<Item = &'a str>) -> String {
     let Some(first) = names.next() else {
         return String::new();

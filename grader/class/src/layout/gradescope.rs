@@ -10,10 +10,10 @@ use super::{LayoutContents, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
-/// The file that lists the people of each folder.
+/// The name of the file that lists the people of each folder.
 pub const METADATA: &str = "submission_metadata.yml";
 
-/// The metadata cannot be read.
+/// An error in the metadata file.
 #[derive(Debug, thiserror::Error)]
 #[error(
     "cannot read {METADATA}: {0}; export the submissions again, or delete the file to go by folder \
@@ -40,7 +40,7 @@ struct Submitter {
     email: Option<Scalar>,
 }
 
-/// A text. Student ids may be numbers without quotes.
+/// A YAML value that is read as text. Student ids may be numbers without quotes.
 #[derive(Debug, Deserialize)]
 #[serde(untagged)]
 enum Scalar {

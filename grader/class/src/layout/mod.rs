@@ -35,9 +35,9 @@ pub struct RecognisedClass {
 /// A file or folder in the input that belongs to no submission.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnmatchedPath {
-    /// Its name.
+    /// The name of the file or folder.
     pub name: String,
-    /// The reason.
+    /// The reason why the file or folder belongs to no submission.
     pub why: String,
 }
 
@@ -52,7 +52,7 @@ pub enum Layout {
     Moodle,
     /// Clones of GitHub Classroom or classroom50.
     GitHub,
-    /// A folder of folders or archives.
+    /// A folder with a folder or archive for each student.
     Plain,
 }
 
@@ -94,7 +94,7 @@ pub fn recognise(root: &Node, metadata: Option<&str>) -> Result<RecognisedClass,
     })
 }
 
-/// Marks each entry that a link stands for as one without files.
+/// Marks each entry whose files include a link as an entry without files.
 fn reject_links(root: &Node, entries: &mut [Entry]) {
     let links = root.children().iter().filter(|node| node.is_link);
     let links: BTreeMap<&Path, &str> = links
@@ -143,7 +143,8 @@ fn is_majority(root: &Node, is_one: impl Fn(&Node) -> bool) -> bool {
     2 * count > root.children().len()
 }
 
-/// Appends numbers to ids that are equal on a file system that ignores case.
+/// Turns ids into safe folder names, and appends numbers to those that would be equal on a file
+/// system that ignores case.
 fn make_ids_unique(entries: &mut [Entry]) {
     let mut used = BTreeSet::new();
     for entry in entries {

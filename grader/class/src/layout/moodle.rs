@@ -9,12 +9,12 @@ use crate::entry::{Entry, EntryInfo, Person, Source, several_archives_message};
 use crate::listing::Node;
 
 const MARK: &str = "_assignsubmission_";
-/// The reason for a participant without files.
+/// The reason why a participant without files has nothing to grade.
 const TEXT_ONLY: &str = "a text was handed in, but no file";
-/// The reason for a text of a participant who has files as well.
+/// The reason why a text is not graded if its participant also handed in files.
 const TEXT_BESIDE_FILES: &str = "a text; the files handed in with it are graded";
 
-/// The parts of a name.
+/// The parts of a file or folder name in Moodle's download.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct MoodleName<'a> {
     /// The participant's name, with the group in front if there are groups.
@@ -26,7 +26,7 @@ pub(super) struct MoodleName<'a> {
     file: &'a str,
 }
 
-/// Parses a name; returns `None` if it is not in Moodle's format.
+/// Parses the name of a file or folder; returns `None` if it is not in Moodle's format.
 pub(super) fn parse(name: &str) -> Option<MoodleName<'_>> {
     let (head, tail) = name.split_once(MARK)?;
     let (kind, file) = tail.split_once('_').unwrap_or((tail, ""));
@@ -69,8 +69,8 @@ pub(super) fn read(root: &Node) -> LayoutContents {
     (entries, others)
 }
 
-/// Chooses the files of a participant to grade, by the same rules as in a folder. Also returns the
-/// file that names the entry.
+/// Chooses which of a participant's files to grade, by the same rules as in a folder. Also returns
+/// the file whose name identifies the entry.
 fn choose_source<'f, 'n>(
     files: &'f [(MoodleName<'n>, &'n Node)],
 ) -> (&'f (MoodleName<'n>, &'n Node), Source) {

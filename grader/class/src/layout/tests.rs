@@ -1,5 +1,5 @@
-//! Tests of recognising layouts. The entries of each layout are tested with the binary, in
-//! `tests/it/layouts.rs`.
+//! Tests that layouts are recognised. The entries of each layout are tested by running the binary,
+//! in `tests/it/layouts.rs`.
 
 use std::path::PathBuf;
 

@@ -17,8 +17,8 @@ const COLUMNS_BEFORE_TASKS: [&str; 9] = [
 ];
 const COLUMNS_AFTER_TASKS: [&str; 5] = ["late_days", "submitted", "from", "why", "report"];
 
-/// Returns the table of the class. Points are empty without a score: the teacher decides what such
-/// a submission counts for.
+/// Returns the table of the class. If a submission has no score, its points are left empty: the
+/// teacher decides how many it gets.
 pub fn grades_table(class: &GradedClass) -> Table {
     let first = class.scores().next();
     let tasks: Vec<&str> = first.map_or(Vec::new(), |(_, score)| {

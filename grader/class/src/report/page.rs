@@ -14,7 +14,7 @@ use crate::summary::ClassSummary;
 
 const STYLE: &str = include_str!("page.css");
 
-/// Renders the page.
+/// Renders the page of a class.
 pub fn render_page(class: &GradedClass, summary: &ClassSummary) -> String {
     let count = match class.rows.len() {
         1 => "1 submission".to_owned(),
@@ -61,7 +61,8 @@ pub fn render_page(class: &GradedClass, summary: &ClassSummary) -> String {
     page.into_string()
 }
 
-/// Returns a policy that forbids scripts and external resources, and allows only [`STYLE`].
+/// Returns a content security policy that forbids scripts and external resources, and allows only
+/// [`STYLE`].
 fn content_security_policy() -> String {
     let hash = STANDARD.encode(Sha256::digest(STYLE));
     format!("default-src 'none'; style-src 'sha256-{hash}'; base-uri 'none'; form-action 'none'")
@@ -239,7 +240,8 @@ fn report_link(id: &str) -> String {
     format!("students/{id}/report.html")
 }
 
-/// Returns text from others without control characters that could affect the text around it.
+/// Returns untrusted text, shortened and without control characters that could affect the text
+/// around it.
 fn sanitized(text: &str) -> Markup {
     html! { (sanitize(text, 300)) }
 }

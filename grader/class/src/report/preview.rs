@@ -8,7 +8,7 @@ use crate::entry::{Entry, Person};
 use crate::input::collect_submission;
 use crate::layout::{RecognisedClass, UnmatchedPath};
 
-/// The maximum number of characters of a name or reason.
+/// The maximum length of a name or reason, in characters.
 const MAX_CHARS: usize = 200;
 
 /// Renders the entries with the files that each would be graded from.
@@ -51,8 +51,8 @@ fn write_preview(out: &mut String, class: &RecognisedClass, missing: &[Person]) 
     )
 }
 
-/// Renders the problems that the teacher has to resolve. They are printed after grading as well,
-/// since the grades do not include them.
+/// Renders the problems that the teacher has to resolve. They are part of the preview, and are also
+/// printed after grading, since the grades do not include them.
 pub fn render_warnings(class: &RecognisedClass) -> String {
     let mut text = String::new();
     write_warnings(&mut text, class).expect("writing to a string succeeds");

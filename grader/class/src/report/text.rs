@@ -1,5 +1,5 @@
-//! The reports on the terminal: a summary of the class, and the changes to gradebooks or by a
-//! regrade.
+//! The reports on the terminal: a summary of the class, the changes to gradebooks, and the changes
+//! of a regrade.
 
 use std::fmt::{self, Write};
 
@@ -13,9 +13,9 @@ use crate::summary::ClassSummary;
 
 const STRONG: Style = Style::new().bold();
 const FAINT: Style = Style::new().dimmed();
-/// The columns of a bar chart, from the lowest to the highest.
+/// The characters for the columns of a bar chart, from the lowest to the highest.
 const COLUMNS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
-/// The maximum number of changes to list.
+/// The maximum number of changes to list for a gradebook or a regrade.
 const MAX_LINES: usize = 40;
 
 /// Renders the summary.
@@ -169,7 +169,7 @@ pub fn render_drifts(drifts: &[Drift], causes: &[&str]) -> String {
     text
 }
 
-/// Returns text from others on one line, without control characters.
+/// Returns untrusted text on one line, shortened and without control characters.
 fn one_line(text: &str) -> String {
     sanitize(text, 160).replace('\n', " ")
 }

@@ -77,7 +77,7 @@ fn late_days_cost_what_the_policy_says() {
         "{grades}"
     );
 
-    // A run that is continued without the policy prints a warning.
+    // A run that is resumed without the policy prints a warning.
     let again = class.grade(&exam, &[]);
     successful_stdout(&again);
     let error = String::from_utf8(again.stderr).unwrap();
@@ -87,8 +87,8 @@ fn late_days_cost_what_the_policy_says() {
     );
 }
 
-/// Anybody can put links into a clone or a shared folder. One that leads to another student's files
-/// must not be graded as its owner's work.
+/// Grades a class that contains links. Anybody can put a link into a clone or a shared folder, and
+/// one that leads to another student's files must not be graded as its owner's work.
 #[cfg(unix)]
 #[test]
 fn links_are_listed_with_the_reason_and_never_followed() {

@@ -1,4 +1,4 @@
-//! Filling in the teacher's gradebooks with the points of one class.
+//! Tests that fill in the teacher's gradebooks with the points of a class.
 
 use insta::assert_snapshot;
 

@@ -83,7 +83,7 @@ impl TestClass {
         self
     }
 
-    /// Replaces text in a file, and panics if it is not found.
+    /// Replaces text in a file, and panics if the file does not contain it.
     pub fn with_replaced(self, path: &str, from: &str, to: &str) -> Self {
         let text = fs::read_to_string(self.input().join(path)).unwrap();
         assert!(text.contains(from), "{path} no longer contains {from:?}");
@@ -97,8 +97,8 @@ impl TestClass {
         path.to_str().unwrap().to_owned()
     }
 
-    /// Writes an exam with only these items of the practice exam, which is faster, and returns its
-    /// path.
+    /// Writes an exam with only these items of the practice exam, so that grading is fast. Returns
+    /// the path of the exam.
     pub fn small_exam(&self, items: &[&str]) -> String {
         let path = workspace().join("grader/exams/practice.json");
         let mut exam: Value = serde_json::from_slice(&fs::read(path).unwrap()).unwrap();

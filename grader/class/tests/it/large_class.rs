@@ -1,5 +1,6 @@
-//! A large class that is killed twenty times: the results are the same as those of an uninterrupted
-//! run. The test uses all cores for minutes, so it is ignored by default. Run it with:
+//! A large class whose grading is killed twenty times: the results are the same as those of an
+//! uninterrupted run. The test uses all cores for minutes, so it is ignored by default. Run it
+//! with:
 //!
 //! ```text
 //! cargo run --release -p author --example submissions -- target/class 200
@@ -32,7 +33,8 @@ fn run(input: &Path, out: &Path) -> Command {
 /// Returns the CPU time of all child processes that have ended.
 fn children_cpu_time() -> Duration {
     let stat = fs::read_to_string("/proc/self/stat").unwrap();
-    // After the name, which may contain spaces: fields 16 and 17, in ticks of 10 ms.
+    // Fields 16 and 17, in ticks of 10 ms. Fields are counted from the end of the name, which may
+    // contain spaces.
     let (_, fields) = stat.rsplit_once(") ").unwrap();
     let fields: Vec<&str> = fields.split(' ').collect();
     let ticks = |index: usize| fields[index].parse::<u64>().unwrap();
@@ -66,7 +68,7 @@ fn a_large_class_killed_twenty_times_gives_the_same_results() {
     let wanted = comparable_files(&uninterrupted);
     println!("{count} submissions: {took:.1?} by the clock, {cpu:.1?} of CPU time");
 
-    // Pseudorandom times, which are the same in every run of this test.
+    // The times are pseudorandom, and the same in every run of this test.
     let mut random = 88_172_645_463_325_252_u64;
     let mut killed = 0;
     for _ in 0..KILLS {

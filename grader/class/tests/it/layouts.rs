@@ -1,4 +1,4 @@
-//! Previews of each platform's export. Names are as unusual as real ones.
+//! Previews of each platform's export. The names are as unusual as those in real classes.
 
 use std::fs::File;
 use std::io::Write;

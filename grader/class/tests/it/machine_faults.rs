@@ -11,7 +11,7 @@ use crate::harness::{TestClass, exit_code_and_stderr, successful_stdout};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 
-/// A linker that fails once for each file `fault-*` next to it, which it removes.
+/// A linker that fails if there is a file `fault-*` next to it. Each failure removes one such file.
 const LINKER: &str = r#"#!/bin/sh
 here=$(dirname "$0")
 for fault in "$here"/fault-*; do

@@ -50,7 +50,8 @@ fn a_killed_run_resumes_to_the_same_results() {
         run.wait().unwrap();
     }
     assert!(killed > 0, "no run was killed");
-    // Temporary files remain if a run is killed while it writes one, which may not have happened.
+    // A run that is killed while it writes a file leaves a temporary file. That may not have
+    // happened above, so such files are added here.
     for folder in ["", "students/ann"] {
         let folder = class.out().join(folder);
         fs::create_dir_all(&folder).unwrap();
@@ -140,7 +141,7 @@ fn an_abandoned_regrade_keeps_the_old_scores() {
     successful_stdout(&class.grade(&exam, &[]));
     let (_, wrong) = exam_with_changed_points(&class, &exam, 1);
     successful_stdout(&class.grade(&wrong, &["--regrade"]));
-    // As if the run had been interrupted because it is the wrong exam.
+    // Simulates a regrade that was interrupted because it used the wrong exam.
     let run = class.out().join("run.json");
     let text = fs::read_to_string(&run).unwrap();
     let text = text.replace("inished\": true", "inished\": false");

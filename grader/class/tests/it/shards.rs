@@ -11,7 +11,7 @@ use crate::harness::{
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
-/// Returns a class in a folder with a name like Moodle's.
+/// Returns a class of three submissions, in a folder with a name like Moodle's.
 fn three_submissions() -> TestClass {
     TestClass::named("CG-Path tracing (2)")
         .with_reference("ann")

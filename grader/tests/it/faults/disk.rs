@@ -13,8 +13,8 @@ use serde_json::Value;
 use super::workspace::WorkspaceCopy;
 use crate::harness::{FULL_POINTS, Submission, grader};
 
-/// Mounts a `tmpfs` of a given size at a path, runs the remaining arguments as a command, and
-/// prints the score file on that disk.
+/// A script that mounts a `tmpfs` of a certain size at a path, runs a command, and prints the score
+/// file on that disk. Its arguments are the size, the path, and the command.
 const SCRIPT: &str = r#"
     mount -t tmpfs -o "size=$1" none "$2" || exit 99
     disk=$2
@@ -23,7 +23,7 @@ const SCRIPT: &str = r#"
     code=$?
     cat "$disk/out/score.json" 2>/dev/null
     exit $code"#;
-/// The exit code of the script if it cannot mount.
+/// The exit code of the script if it cannot mount the disk.
 const MOUNT_FAILED: i32 = 99;
 
 /// Grades on a disk of this size in kilobytes. Returns `None` if this system does not allow the
@@ -65,8 +65,8 @@ fn grade_on_disk(
     output
 }
 
-/// From a disk on which nothing fits to one on which everything fits: a full disk is never the
-/// student's fault.
+/// Grades on disks of increasing size, from one on which nothing fits to one on which everything
+/// fits: a full disk is never the student's fault.
 #[test]
 fn a_full_disk_is_reported_and_gives_no_score() {
     let (workspace, submission) = (
@@ -91,7 +91,8 @@ fn a_full_disk_is_reported_and_gives_no_score() {
             }
             code => {
                 assert_eq!(code, Some(3), "{kilobytes} kB: {error}");
-                // The page may be the file that did not fit, after a complete score.
+                // The file that did not fit may be the page, which is written after a complete
+                // score.
                 let is_complete = score["complete"] == true;
                 assert!(!is_complete || score["points"] == 100, "{kilobytes} kB");
                 let reasons = ["No space left on device", "the disk is full"];
@@ -110,7 +111,7 @@ fn a_full_disk_is_reported_and_gives_no_score() {
 
 /// Denies `tmpfs` mounts for the rest of this thread and for all processes that it starts.
 fn deny_tmpfs_mounts() {
-    // Exactly the flags with which the sandbox mounts its new root.
+    // These are exactly the flags with which the sandbox mounts its new root.
     let flags = libc::MS_NOSUID | libc::MS_NODEV;
     let condition = SeccompCondition::new(3, SeccompCmpArgLen::Qword, SeccompCmpOp::Eq, flags);
     let rule = SeccompRule::new(vec![condition.unwrap()]).unwrap();

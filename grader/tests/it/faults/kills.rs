@@ -32,7 +32,7 @@ fn read_score(out: &Path) -> Option<Value> {
     Some(score)
 }
 
-/// Panics if an output file of a platform is incomplete.
+/// Panics if an output file for a platform is incomplete.
 fn assert_outputs_parse(out: &Path) {
     if let Ok(text) = fs::read(out.join("gradescope.json")) {
         serde_json::from_slice::<Value>(&text).expect("a results file is complete, or missing");
@@ -42,7 +42,8 @@ fn assert_outputs_parse(out: &Path) {
     }
 }
 
-/// Kills the grader at this many moments, spread over a run.
+/// Starts the grader this many times, and kills each run at another moment. The moments are spread
+/// over the duration of a run.
 fn kill_at_moments(times: u32) {
     let submission = Submission::reference("killed");
     let out = submission.path().join("undisturbed");
@@ -93,7 +94,7 @@ fn two_hundred_killed_runs_leave_no_incomplete_file_that_looks_complete() {
     kill_at_moments(200);
 }
 
-/// A submission that hangs, whose grader is killed while it runs.
+/// Kills the grader while it runs a submission that hangs.
 #[cfg(target_os = "linux")]
 #[test]
 fn no_process_outlives_a_killed_grader() {

@@ -8,7 +8,7 @@ use super::assert_grader_fault;
 use super::processes::{child_named, cpu_time, eventually};
 use crate::harness::{Submission, grader};
 
-/// The CPU time after which a process is certainly doing its real work.
+/// The CPU time after which a process has certainly finished starting up.
 const BUSY_CPU_TIME: Duration = Duration::from_millis(200);
 
 /// Starts to grade a submission into this folder.
@@ -26,7 +26,7 @@ fn kill(process: u32) {
     assert!(status.unwrap().success());
 }
 
-/// Grades a submission while its child process of this name is killed this many times.
+/// Grades a submission, and kills the grader's child process of this name this many times.
 fn grade_while_killing(name: &str, times: usize, submission: &Submission, out: &Path) -> Output {
     let grader = start(submission, out);
     let mut last = 0;

@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 use crate::harness::{self, Submission};
 
-/// A copy of the workspace. It is deleted when dropped.
+/// A copy of the workspace. The copy is deleted when this is dropped.
 pub struct WorkspaceCopy {
     folder: TempDir,
 }
@@ -39,7 +39,7 @@ impl WorkspaceCopy {
         self.folder.path()
     }
 
-    /// Creates a toolchain whose cargo is this script. It runs in this folder.
+    /// Creates a toolchain in the copy whose cargo is this script. Returns the path of that cargo.
     pub fn fake_cargo(&self, script: &str) -> PathBuf {
         let tools = self.path().join("tools");
         fs::create_dir(&tools).unwrap();

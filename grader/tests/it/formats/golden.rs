@@ -1,5 +1,5 @@
-//! Snapshots of each format for six submissions, each graded once and checked against the model of
-//! its platform.
+//! Snapshots of each format for six submissions. Each submission is graded once, and each output is
+//! also checked against the model of its platform.
 
 use insta::assert_snapshot;
 
@@ -29,8 +29,8 @@ fn assert_snapshots(case: &str, submission: &Submission, arguments: &[&str]) {
     });
 }
 
-/// Returns the lines that the runner would take for commands, outside the part in which commands
-/// are stopped.
+/// Returns the lines in which the runner looks for commands: those outside the parts of the log in
+/// which commands are stopped.
 fn runner_commands(log: &str) -> String {
     let mut stop_token: Option<&str> = None;
     let mut commands = Vec::new();

@@ -10,7 +10,7 @@ use crate::formats::{
 };
 use crate::harness::Submission;
 
-/// Returns everything that students can read: every format, and the log.
+/// Returns all text that students can read: every format, and the log.
 fn student_text(written: &FormatTexts) -> String {
     let formats = FORMATS
         .iter()
@@ -18,7 +18,7 @@ fn student_text(written: &FormatTexts) -> String {
     formats.chain([written["log"].clone()]).collect()
 }
 
-/// Returns what only staff may read: parts of the score file.
+/// Returns the parts of the score file that only staff may read.
 fn secrets(written: &FormatTexts) -> Vec<String> {
     let score: Value = serde_json::from_str(&written["json"]).unwrap();
     let mut secrets = vec![score["exam"]["hash"].as_str().unwrap().to_owned()];
@@ -97,7 +97,7 @@ fn hidden_items_are_left_out_or_summed_up() {
             "hidden", visible, visible, later, later, visible, visible, visible
         ]
     );
-    // Platforms that cannot show an item later get only a sum.
+    // Platforms that cannot reveal an item later get only the sum of the points.
     for format in [
         "classroom50",
         "junit",

@@ -1,4 +1,5 @@
-//! Output formats: they match the documentation of their platform, and look as in the snapshots.
+//! Tests of the output formats: each output must match the documentation of its platform and its
+//! snapshot.
 
 mod golden;
 mod leaks;
@@ -39,7 +40,7 @@ const RUNNER_VARIABLES: [(&str, &str); 9] = [
     ("SUBMITTED_AT", "2026-11-20T21:09:58Z"),
 ];
 
-/// A few items of each task. A format treats all items alike.
+/// A few items of each task. They are enough, since a format treats all items alike.
 const ITEMS: [&str; 8] = [
     "camera.corners",
     "camera.unit_length",
@@ -51,7 +52,8 @@ const ITEMS: [&str; 8] = [
     "traverse.closest_hit",
 ];
 
-/// The output of one run by format. `log` is the standard output, `json` the score file.
+/// The outputs of one run, by format. The key `log` is for the standard output, and `json` for the
+/// score file.
 pub type FormatTexts = BTreeMap<&'static str, String>;
 
 /// Returns a part of the practice exam under another id.
@@ -107,7 +109,8 @@ pub fn grade_in_all_formats(
     written
 }
 
-/// A submission whose panic messages and printed text attack the programs that display them.
+/// Returns a submission whose panic messages and printed text attack the programs that display
+/// them.
 pub fn hostile_submission() -> Submission {
     let head = "pub fn hit(&self, ray: &Ray) -> Option<Trace> {";
     let attack = r#"{head}

@@ -29,7 +29,8 @@ pub fn readable(format: &str, text: &str) -> String {
     match format {
         "github-classroom" => format!("{:#}", decoded(text)),
         "html" => without_element(without_element(text, "style"), "script"),
-        // The same XML, since quick-junit ignores properties with a separate end tag.
+        // The replacement does not change the meaning of the XML. It is needed because quick-junit
+        // ignores properties with a separate end tag.
         "junit" => {
             let text = text.replace("></property>", "/>");
             let report = Report::deserialize_from_str(&text).unwrap();
@@ -154,7 +155,8 @@ enum AssignmentType {
     Group,
 }
 
-/// Additional keys are allowed here, and kept.
+/// A test in classroom50's results. Unlike elsewhere, classroom50 allows additional keys here, and
+/// keeps them.
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case")]
 struct Classroom50Test {

@@ -1,4 +1,4 @@
-//! Jobs that were killed, and formats that run on the wrong platform.
+//! Jobs that were killed, and formats that are requested on the wrong platform.
 
 use clap::ValueEnum;
 use grader::exam_file;

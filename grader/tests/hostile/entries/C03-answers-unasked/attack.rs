@@ -1,5 +1,5 @@
 
-/// Everything that this process has open for writing.
+/// Returns every file that this process has open for writing.
 fn open() -> impl Iterator<Item = std::fs::File> {
     let open = (0..64).map(|number| format!("/proc/self/fd/{number}"));
     open.filter_map(|path| std::fs::OpenOptions::new().write(true).open(path).ok())

@@ -1,5 +1,6 @@
 //! Measures the cost of the sandbox: starting a probe up to its first answer, and compiling a
-//! submission, with and without it. The two alternate, so that a busy machine affects both.
+//! submission, each with and without the sandbox. Runs with and without it alternate, so that a
+//! busy machine affects both.
 //!
 //! `cargo bench -p grader --bench sandbox` prints CPU time and wall time at the best isolation
 //! level that is available.

@@ -13,7 +13,7 @@ pub struct BareRustc {
 }
 
 impl BareRustc {
-    /// Uses the dependencies of the most recent grade.
+    /// Prepares calls that use the dependencies compiled for the most recent grading run.
     pub fn prepare(cache: &Path) -> Self {
         BareRustc {
             dependencies: newest(cache),
@@ -35,13 +35,14 @@ impl BareRustc {
         command
     }
 
-    /// Returns the command that compiles the five files and this root to a program.
+    /// Returns the command that compiles the five files to a program, with `root` as the crate
+    /// root.
     pub fn program(&self, folder: &Path, root: &str) -> Command {
         self.rustc(folder, &["--crate-type=bin", root])
     }
 
     fn rustc(&self, folder: &Path, arguments: &[&str]) -> Command {
-        // Not rustup's proxy, which takes 8 ms.
+        // This bypasses rustup's proxy, which takes 8 ms.
         let rustc = Path::new(env!("CARGO")).with_file_name("rustc");
         let mut command = Command::new(rustc);
         command.current_dir(folder);

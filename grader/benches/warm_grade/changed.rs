@@ -15,8 +15,8 @@ pub fn submission(root: &Path) -> TempDir {
     folder
 }
 
-/// Does the same for the bare compiler call, without the module `world`, which only the probe
-/// needs.
+/// Returns a new folder with the reference's files, for bare compiler calls. Its `lib.rs` lacks the
+/// module `world`, which only the probe needs.
 pub fn baseline(root: &Path) -> TempDir {
     let folder = submission(root);
     let lib = folder.path().join("lib.rs");

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use nix::sys::resource::{UsageWho, getrusage};
 use nix::sys::time::TimeVal;
 
-/// Wall time and CPU time. On a busy machine only CPU time can be compared.
+/// The wall time and CPU time of an operation. On a busy machine, only CPU times can be compared.
 #[derive(Clone, Copy, Debug)]
 pub struct Cost {
     pub wall: Duration,
@@ -23,7 +23,7 @@ impl Cost {
         }
     }
 
-    /// Measures a program, which must succeed.
+    /// Measures a run of a program. Panics if the program fails.
     pub fn of_program(command: &mut Command) -> Cost {
         Cost::of(|| {
             let status = command.stdout(Stdio::null()).status();
@@ -33,7 +33,8 @@ impl Cost {
     }
 }
 
-/// Returns the CPU time so far. That of a child is included once it has been waited for.
+/// Returns the CPU time used so far. The CPU time of a child process is included once the child has
+/// been waited for.
 fn used() -> Duration {
     let [own, children] = [UsageWho::RUSAGE_SELF, UsageWho::RUSAGE_CHILDREN].map(|who| {
         let usage = getrusage(who).expect("the system reports CPU time");

@@ -27,7 +27,8 @@ use watch::WatchProcess;
 
 const ROUNDS: usize = 15;
 
-/// The quantities in the order of a round, and the baselines that they are compared with.
+/// The measured quantities, in the order of a round, with the baselines that they are compared
+/// with.
 const ROWS: [Row; 7] = [
     Row::new("bare rustc of the five files (F)", "F", TimeKind::Cpu),
     Row::new("the same up to type checking (T)", "F", TimeKind::Cpu),
@@ -146,8 +147,8 @@ fn print(rounds: &[[Cost; ROWS.len()]]) {
     }
 }
 
-/// Measures the time to the first error of a file that does not compile. The rest is graded after
-/// that.
+/// Measures the time until the first error of a file that does not compile is printed. The other
+/// files are graded after that.
 fn first_error(folder: &Path) -> Cost {
     let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
     command.arg(folder).arg("--out").arg(folder.join("out"));

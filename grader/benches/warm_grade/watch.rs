@@ -4,7 +4,7 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, ChildStdout, Command, Stdio};
 
-/// A grader that waits for saved files. It is killed when dropped.
+/// A running grader that waits for saved files. It is killed when this is dropped.
 pub struct WatchProcess {
     child: Child,
     lines: BufReader<ChildStdout>,

@@ -1,5 +1,5 @@
-//! Measures the cost of the pipe: 100,000 rays sent to a probe, compared with the same questions
-//! answered by the same code in one process. The two alternate.
+//! Measures the cost of the pipe: questions with 100,000 rays are sent to a probe, and the same
+//! questions are answered by the same code in one process. The two measurements alternate.
 
 use std::fs;
 use std::path::Path;
@@ -16,7 +16,7 @@ use crate::median;
 
 const ROUNDS: usize = 7;
 const RAYS: usize = 100_000;
-/// Number of additional repetitions in one process. Their time does not include reading the
+/// The number of additional repetitions in one process. Their time does not include reading the
 /// questions.
 const REPETITIONS: u32 = 20;
 const BUDGET: Budget = Budget {
@@ -45,8 +45,8 @@ fn main() {
 }
 "#;
 
-/// Prints a row for a hundred rays per question, as in the exam, and one for the worst case of one
-/// ray.
+/// Prints two rows: one for 100 rays per question, as in the exam, and one for the worst case, a
+/// single ray per question.
 pub fn compare(folder: &Path, bare: &BareRustc, launcher: &Launcher) {
     let lib = fs::read_to_string(folder.join("lib.rs")).expect("the file was copied");
     fs::write(folder.join("in_process.rs"), lib + IN_PROCESS).expect("the file can be written");
@@ -67,7 +67,7 @@ pub fn compare(folder: &Path, bare: &BareRustc, launcher: &Launcher) {
     }
 }
 
-/// Returns CPU times in milliseconds: in one process, and over the pipe.
+/// Measures one round. Returns two CPU times in milliseconds: in one process, and over the pipe.
 fn round(folder: &Path, launcher: &Launcher, questions: &[Question]) -> [f64; 2] {
     let frames = questions.iter().fold(Vec::new(), |frames, question| {
         wire::append(frames, 0, question).expect("the question can be encoded")
@@ -90,8 +90,8 @@ fn round(folder: &Path, launcher: &Launcher, questions: &[Question]) -> [f64; 2]
     [more.saturating_sub(once) / REPETITIONS, over_pipe.cpu].map(|cpu| 1e3 * cpu.as_secs_f64())
 }
 
-/// Returns questions with this number of rays each, all toward one triangle. About half of them
-/// hit.
+/// Returns questions with this number of rays each, all of them toward one triangle. About half of
+/// them hit.
 fn questions(rays_per_question: usize) -> Vec<Question> {
     let corner = |x, y| Vertex::new(vec3(x, y, -2.0), Vec3::Z, Vec2::ZERO);
     let triangle = Shape::Triangle {

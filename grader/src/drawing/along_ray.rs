@@ -1,4 +1,5 @@
-//! A ray through many primitives, which would hide each other: only distances along it are drawn.
+//! A ray through many primitives. They would hide each other, so only distances along the ray are
+//! drawn.
 
 use protocol::Interval;
 
@@ -9,7 +10,7 @@ use super::ink::LineStyle;
 use super::sheet::{Sheet, Symbol};
 use crate::describe;
 
-/// Draws the range, and for both answers the part of the ray before the hit.
+/// Draws the range of the ray, and the part of the ray before the expected and the submitted hit.
 pub(super) fn draw(comparison: &HitComparison) -> Drawing {
     let range = comparison.ray.range;
     let before = |distance: f64| Interval::new(range.min, distance as f32);

@@ -16,7 +16,7 @@ const RIGHT: f64 = WIDTH - 12.0;
 /// The style of a bar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BarStyle {
-    /// For comparison.
+    /// A neutral interval, shown for comparison.
     Plain,
     /// The range of the ray.
     Range,
@@ -45,8 +45,8 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Creates an axis from `left` to the right edge of the page that covers all distances that are
-    /// finite.
+    /// Creates an axis that covers all of these distances, except those of 1e9 or more, which count
+    /// as infinite. On the page, it extends from `left` to the right edge.
     pub(super) fn over(left: f64, distances: impl IntoIterator<Item = f64>) -> Axis {
         let finite = distances.into_iter().filter(|t| t.abs() < 1e9);
         let (first, last) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), t| {
@@ -84,7 +84,7 @@ impl Axis {
         self.first <= t && t <= self.last
     }
 
-    /// Draws the axis line with a few tick labels.
+    /// Draws the line of the axis with a few labelled ticks.
     pub(super) fn draw(&self, canvas: &mut Canvas, y: f64) {
         canvas.line(
             dvec2(self.left, y),
@@ -106,7 +106,7 @@ impl Axis {
     }
 }
 
-/// Returns the smallest of 1, 2 and 5 times a power of ten that is at least `least`.
+/// Returns the smallest number that is at least `least` and is 1, 2 or 5 times a power of ten.
 fn tick_step(least: f64) -> f64 {
     let power = 10f64.powf(least.log10().floor());
     let steps = [1.0, 2.0, 5.0].map(|step| step * power);
@@ -126,7 +126,7 @@ pub(super) fn draw(
 ) -> f64 {
     let axis = Axis::over(LEFT, distances);
     let foot = y + ROW_HEIGHT * rows.len() as f64;
-    // Lines through all rows at both ends of the expected interval.
+    // Draws lines through all rows at both ends of the expected interval.
     let right = rows.iter().find(|row| row.style == BarStyle::Right);
     if let Some(span) = right.and_then(|row| row.span) {
         for t in [span.min, span.max].map(f64::from) {

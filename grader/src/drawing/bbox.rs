@@ -1,5 +1,6 @@
-//! A ray and a box: in the plane of the two axes that decide whether the ray hits, and as the
-//! intervals between the two planes of each axis. Those intervals come with the exam.
+//! A ray and a box, drawn in two ways: in the plane of the two axes that decide whether the ray
+//! hits, and as the intervals in which the ray is between the two planes of each axis. The exam
+//! stores these intervals.
 
 use glam::{DVec2, DVec3, Vec3, dvec2};
 use protocol::{Answer, ElementOutcome, Interval, Ray};
@@ -14,7 +15,7 @@ use super::window::Window;
 use crate::describe;
 use crate::drawing_data::DrawingData;
 
-/// One query of a box.
+/// A question about one ray and one box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxQuery {
     /// The minimum and maximum corner of the box.
@@ -25,7 +26,7 @@ pub(super) struct BoxQuery {
     pub(super) times: Interval,
     /// The expected result.
     pub(super) wanted: Option<Interval>,
-    /// The interval between the planes of each axis, if the exam has them.
+    /// For each axis, the interval in which the ray is between the two planes, if the exam has it.
     pub(super) slabs: Option<[Interval; 3]>,
 }
 
@@ -84,7 +85,8 @@ fn span_answer(element: usize, answer: Option<&Answer>) -> SpanAnswer {
 /// miss like a miss.
 fn deciding_axes(query: &BoxQuery) -> (usize, usize) {
     let Some(slabs) = query.slabs else {
-        // Without slabs, look along the axis with the smallest component of the direction.
+        // If the exam has no slabs, look along the axis with the smallest component of the
+        // direction.
         let along = query.ray.dir.abs();
         let least = (0..3).min_by(|&a, &b| along[a].total_cmp(&along[b]));
         let least = least.unwrap_or(2);
@@ -94,7 +96,8 @@ fn deciding_axes(query: &BoxQuery) -> (usize, usize) {
     let last_in = last_in.unwrap_or(0);
     let others = [(last_in + 1) % 3, (last_in + 2) % 3];
     let [p, q] = others;
-    // If the slab entered last is also left first, the second axis is the next one to be left.
+    // If the slab that the ray enters last is also the one that it leaves first, the second axis is
+    // the one whose slab it leaves next.
     let first_out = if slabs[p].max <= slabs[q].max { p } else { q };
     in_order(last_in, first_out)
 }
@@ -143,7 +146,7 @@ fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, got: SpanAnswer, plane: Pla
         window.page_position(corners[0]),
         window.page_position(corners[1]),
     );
-    // A flat box has an outline, too.
+    // An outline makes a flat box visible.
     canvas.rectangle(low, high, LineStyle::Outline, Fill::Tint(Ink::Text, 0.08));
     draw_ray(canvas, &window, query, plane);
     if let Some(span) = query.wanted {
@@ -219,8 +222,8 @@ fn rows(query: &BoxQuery, got: SpanAnswer) -> Vec<BarRow> {
     rows
 }
 
-/// Returns the distances that the axis must cover. Of the slabs, these are the last entry and the
-/// first exit.
+/// Returns the distances that the axis must cover. Among the ends of the slabs, it must cover only
+/// the last entry and the first exit.
 fn axis_distances(query: &BoxQuery, got: SpanAnswer) -> Vec<f64> {
     let ends = |span: Interval| [f64::from(span.min), f64::from(span.max)];
     let mut seen: Vec<f64> = [query.wanted, Some(query.times)]

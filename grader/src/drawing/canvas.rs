@@ -15,7 +15,7 @@ pub(super) const WIDTH: f64 = 340.0;
 const FONT_SIZE: f64 = 12.5;
 /// The maximum size of a drawing in bytes.
 const MAX_BYTES: usize = 120_000;
-/// The largest coordinate that is drawn.
+/// The limit for the absolute value of a coordinate. Points beyond it are not drawn.
 const MAX_COORDINATE: f64 = 1e4;
 
 /// The position of a text relative to its point.
@@ -32,11 +32,11 @@ pub(super) enum Anchor {
 /// A mark at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mark {
-    /// Expected: a disc.
+    /// A disc, for what was expected.
     Right,
-    /// Submitted, and wrong: a cross.
+    /// A cross, for what was submitted, if it is wrong.
     Wrong,
-    /// The origin of a ray: a ring.
+    /// A ring, for the origin of a ray.
     Origin,
 }
 
@@ -47,7 +47,8 @@ pub(super) struct Canvas {
 }
 
 impl Canvas {
-    /// Returns the whole image with this height. `title` and `description` are for screen readers.
+    /// Returns the complete image, with this height. `title` and `description` are for screen
+    /// readers.
     pub(super) fn finish(self, height: f64, title: &str, description: &str) -> String {
         let (title, description) = (escape(title), escape(description));
         format!(
@@ -92,13 +93,13 @@ impl Canvas {
         }
     }
 
-    /// Draws a rectangle between two corners.
+    /// Draws a rectangle from two opposite corners.
     pub(super) fn rectangle(&mut self, from: DVec2, to: DVec2, line: LineStyle, fill: Fill) {
         let corners = [from, dvec2(to.x, from.y), to, dvec2(from.x, to.y)];
         self.polygon(&corners, line, fill);
     }
 
-    /// Fills the rectangle between two corners, without an outline.
+    /// Fills a rectangle between two opposite corners, without an outline.
     pub(super) fn area(&mut self, from: DVec2, to: DVec2, fill: Fill) {
         if is_drawable(from) && is_drawable(to) {
             let (min, size) = (from.min(to), (to - from).abs());

@@ -1,5 +1,5 @@
-//! Colours and line styles. Colour is never the only difference: expected things are solid lines
-//! and discs, submitted ones are dashed lines and crosses.
+//! Colours and line styles. Colour is never the only difference: what was expected is drawn as
+//! solid lines and discs, what was submitted as dashed lines and crosses.
 //!
 //! For its dark theme, a page sets the custom properties `--right`, `--wrong` and `--paper`. The
 //! default colours are from Okabe and Ito, "Color Universal Design", 2008.
@@ -9,11 +9,11 @@
 pub(super) enum Ink {
     /// The text colour of the page.
     Text,
-    /// The text colour, lighter.
+    /// A lighter shade of the text colour.
     Faint,
-    /// Expected.
+    /// The colour of what was expected.
     Right,
-    /// Submitted, and wrong.
+    /// The colour of what was submitted, if it is wrong.
     Wrong,
 }
 
@@ -49,9 +49,9 @@ pub(super) enum LineStyle {
     Behind,
     /// The range of a ray.
     Range,
-    /// Expected.
+    /// The line of what was expected.
     Right,
-    /// Submitted, and wrong.
+    /// The line of what was submitted, if it is wrong.
     Wrong,
 }
 

@@ -1,8 +1,8 @@
 //! Drawings of failed questions, to scale: the question, the submitted answer and the expected one.
 //!
-//! This module is pure and computes no answers: how a ray hits a shape, and how a tree is built or
-//! traversed, comes with the exam ([`crate::drawing_data`]). Submitted answers may contain any
-//! numbers.
+//! This module is pure and computes no answers: the exam stores what is needed to show how a ray
+//! hits a shape and how a tree is built or traversed ([`crate::drawing_data`]). Submitted answers
+//! may contain any numbers.
 
 mod along_ray;
 mod bars;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// Formats a number with four significant digits, for places where six do not fit.
+/// Formats a number with four significant digits, for use where six do not fit.
 pub(super) fn short(value: f64) -> String {
     if value.is_nan() {
         return "NaN".to_owned();

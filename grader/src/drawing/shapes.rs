@@ -1,4 +1,4 @@
-//! A ray and several shapes, of which the relevant one is drawn.
+//! A ray and several shapes. Only the relevant shape is drawn.
 
 use glam::DVec3;
 use protocol::Shape;

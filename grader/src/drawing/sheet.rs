@@ -15,11 +15,11 @@ const MAX_LINE_CHARS: usize = 47;
 /// The symbol at the start of a line of the legend.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Symbol {
-    /// A mark.
+    /// A mark, such as a disc or a cross.
     Mark(Mark),
-    /// A line.
+    /// A short line in this style.
     Line(LineStyle),
-    /// A filled area.
+    /// A small area with this fill.
     Area(Fill),
     /// No symbol: the line is a remark.
     None,
@@ -43,7 +43,7 @@ impl Sheet {
         panel
     }
 
-    /// Adds two panels side by side, each below its title.
+    /// Adds two panels side by side, each with its title above it.
     pub(super) fn panels(&mut self, titles: [&str; 2], height: f64) -> [Panel; 2] {
         let middle = WIDTH / 2.0;
         self.titles([(1.0, titles[0]), (middle + 3.0, titles[1])]);

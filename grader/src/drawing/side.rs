@@ -19,8 +19,8 @@ pub(super) struct SideView {
 }
 
 impl SideView {
-    /// Creates the plane through the ray that contains the direction `toward`. If that is parallel
-    /// to the ray, any plane through the ray will do.
+    /// Creates the plane through the ray that contains the direction `toward`. If `toward` is
+    /// parallel to the ray, any plane through the ray will do.
     pub(super) fn new(comparison: &HitComparison, toward: DVec3) -> SideView {
         let dir = comparison.dir();
         let up = (toward - toward.dot(dir) * dir).try_normalize();
@@ -41,22 +41,23 @@ impl SideView {
         dvec2(vector.dot(self.dir), vector.dot(self.up))
     }
 
-    /// Projects a point along the ray. The ray itself is at (0, 0).
+    /// Projects a point to the plane perpendicular to the ray, as seen along the ray. The ray
+    /// itself is at (0, 0).
     pub(super) fn project_along_ray(&self, point: DVec3) -> DVec2 {
         let aside = point - self.origin;
         dvec2(aside.dot(self.dir.cross(self.up)), aside.dot(self.up))
     }
 }
 
-/// Returns the points that the drawing should show: those of the shape, and the ray's origin, the
-/// hits and the ends of the range, unless they are so far away that the shape would shrink to a
+/// Returns the points that the drawing should show: those of the shape, and also the ray's origin,
+/// the hits and the ends of the range, except those so far away that the shape would shrink to a
 /// dot.
 pub(super) fn landmarks(
     comparison: &HitComparison,
     side: &SideView,
     shape: &[DVec2],
 ) -> Vec<DVec2> {
-    /// The maximum distance, as a multiple of the shape's size.
+    /// The maximum distance from the shape, as a multiple of its size.
     const MAX_SIZES: f64 = 5.0;
 
     let mut seen = shape.to_vec();
@@ -91,7 +92,7 @@ pub(super) fn draw_ray(canvas: &mut Canvas, window: &Window, comparison: &HitCom
     }
     along(-FAR, 0.0, LineStyle::Behind);
     along(0.0, FAR, LineStyle::Ray);
-    // Ticks across the ray at the ends of the range.
+    // Draws ticks across the ray at the ends of the range.
     let ends = range.map_or([f32::NAN; 2], |range| [range.min, range.max]);
     for end in ends {
         if let Some((at, false)) = window.pin_to_border(dvec2(end.into(), 0.0)) {
@@ -104,14 +105,14 @@ pub(super) fn draw_ray(canvas: &mut Canvas, window: &Window, comparison: &HitCom
     }
 }
 
-/// Draws the expected and the submitted hit, with the field that the drawing is about.
+/// Draws the expected and the submitted hit, with the field that the drawing shows.
 pub(super) fn draw_hits(
     canvas: &mut Canvas,
     window: &Window,
     comparison: &HitComparison,
     side: &SideView,
 ) {
-    /// The length of a normal, in page units.
+    /// The length of the arrow for a unit normal, in page units.
     const ARROW: f64 = 46.0;
 
     let wanted = comparison.wanted.map(|hit| side.project(hit.position));
@@ -129,7 +130,7 @@ pub(super) fn draw_hits(
                 canvas.arrow(foot, tip, line, ink);
             }
         };
-        // Side by side where they would cover each other.
+        // Arrows that would cover each other are drawn side by side.
         let is_same_way = wanted.normal.angle_between(hit.normal) < 0.15;
         let aside = if is_same_way { 6.0 } else { 0.0 };
         arrow(wanted.normal, 0.0, LineStyle::Right, Ink::Right);

@@ -56,7 +56,7 @@ fn draw_circle(canvas: &mut Canvas, window: &Window, middle: DVec2, radius: f64)
     let arm = dvec2(3.0, 0.0);
     canvas.line(at - arm, at + arm, LineStyle::Outline);
     canvas.line(at - arm.perp(), at + arm.perp(), LineStyle::Outline);
-    // Above the centre, since the ray passes below it.
+    // The label goes above the centre, since the ray passes below it.
     let above = at - dvec2(0.0, 7.0);
     canvas.text(above, Anchor::Middle, Ink::Faint, "center");
 }

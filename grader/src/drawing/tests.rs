@@ -1,4 +1,4 @@
-//! Any answer of a submission gives a small, well-formed image, or none.
+//! Tests that any answer of a submission gives a small, well-formed image, or none.
 
 use std::sync::LazyLock;
 
@@ -14,7 +14,7 @@ use crate::exam_file;
 /// A size that no drawing reaches.
 const MAX_BYTES: usize = 130_000;
 
-/// One question of each item of the practice exam.
+/// The first question of each item of the practice exam.
 static QUESTIONS: LazyLock<Vec<ExamQuestion>> = LazyLock::new(|| {
     let exam = exam_file::load(None)
         .expect("the practice exam is embedded")
@@ -25,7 +25,7 @@ static QUESTIONS: LazyLock<Vec<ExamQuestion>> = LazyLock::new(|| {
         .collect()
 });
 
-/// Numbers that submissions may answer, among them extreme ones.
+/// Generates numbers that submissions may answer, among them extreme ones.
 fn number() -> impl Strategy<Value = f32> {
     prop_oneof![
         4 => -5.0f32..5.0,
@@ -93,7 +93,7 @@ fn tree() -> impl Strategy<Value = Tree> {
     })
 }
 
-/// The index of a question, the element to draw, and an answer of the right kind.
+/// Generates the index of a question, the element to draw, and an answer.
 fn any_answer() -> impl Strategy<Value = (usize, usize, Answer)> {
     let ray = (point(), point(), interval());
     let ray = ray.prop_map(|(origin, dir, range)| Ray { origin, dir, range });

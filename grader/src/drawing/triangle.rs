@@ -17,8 +17,8 @@ use super::window::{Panel, Window};
 pub(super) fn draw(comparison: &HitComparison, vertices: &[Vertex; 3]) -> Drawing {
     let corners = vertices.map(|vertex| vertex.position.as_dvec3());
     let [p0, p1, p2] = corners;
-    // Seen in the plane of the ray and the normal, the triangle is edge-on. A degenerate triangle
-    // has no normal: use its first edge instead.
+    // In a plane that contains the ray and the normal, the triangle is seen edge-on. A degenerate
+    // triangle has no normal, so its first edge is used instead.
     let normal = (p1 - p0).cross(p2 - p0).try_normalize();
     let side = SideView::new(comparison, normal.unwrap_or(p1 - p0));
 
@@ -73,7 +73,7 @@ fn draw_outline(canvas: &mut Canvas, window: &Window, corners: [DVec2; 3]) {
     let middle = (page[0] + page[1] + page[2]) / 3.0;
     let mut labels: Vec<DVec2> = Vec::new();
     for (at, name) in page.into_iter().zip(["p0", "p1", "p2"]) {
-        // Away from the centre, so that no label covers an edge or another label.
+        // The labels are moved away from the centre, so that none covers an edge or another label.
         let outward = (at - middle).normalize_or_zero();
         let mut label = at + 11.0 * outward + dvec2(0.0, 4.0);
         let is_taken = |other: &DVec2| (*other - label).abs().cmplt(dvec2(15.0, 11.0)).all();

@@ -1,4 +1,4 @@
-//! Maps a plane of the world to a panel of the page, to scale, with clipping.
+//! Windows, which map a plane of the world to a panel of the page, to scale, with clipping.
 
 use glam::{DVec2, dvec2};
 
@@ -20,7 +20,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Creates a window that shows all points that are finite, with a margin.
+    /// Creates a window that shows all finite points, with a margin.
     pub(super) fn around(panel: Panel, points: impl IntoIterator<Item = DVec2>) -> Window {
         /// The margin on each side, in page units.
         const MARGIN: f64 = 20.0;
@@ -54,7 +54,7 @@ impl Window {
     }
 
     /// Converts a point to page coordinates and clamps it to the panel. The flag is true if the
-    /// point was outside. Returns `None` if it is not finite.
+    /// point was outside. Returns `None` if the point is not finite.
     pub(super) fn pin_to_border(&self, at: DVec2) -> Option<(DVec2, bool)> {
         let (min, max) = (self.panel.min + 7.0, self.panel.max - 7.0);
         let page = self.page_position(at);
@@ -75,7 +75,7 @@ impl Window {
         if !(from.is_finite() && to.is_finite()) {
             return None;
         }
-        // Far enough to look infinite, near enough for the precision of `f64`.
+        // This is far enough to look infinite, and near enough for the precision of `f64`.
         let farthest = DVec2::splat(1e9);
         let [mut from, mut to] = [from, to].map(|at| at.clamp(-farthest, farthest));
         for axis in 0..2 {

@@ -1,7 +1,7 @@
 //! check50's JSON
 //! (<https://cs50.readthedocs.io/projects/check50/en/latest/json_specification.html>).
 //!
-//! `passed` has three values: null means that a check did not run, or did not finish.
+//! `passed` is true, false or null. Null means that a check did not run, or did not finish.
 
 use serde_json::{Value, json};
 

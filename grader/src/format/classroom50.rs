@@ -1,8 +1,8 @@
 //! classroom50's `result.json`, version 1
 //! (<https://github.com/foundation50/classroom50>, `schemas/result-v1.schema.json`).
 //!
-//! The runner's environment variables say whose submission it is, and the runner checks that the
-//! file repeats them.
+//! The runner's environment variables say whose submission this is, and the runner checks that the
+//! file repeats their values.
 
 use serde_json::{Value, json};
 
@@ -10,7 +10,7 @@ use crate::format::item_text::{item_message, item_text};
 use crate::format::{FormatContext, StudentView};
 use crate::score::Verdict;
 
-/// Environment variables that the runner sets.
+/// The environment variables that describe the submission. The runner sets all but the last.
 pub const VARIABLES: [&str; 9] = [
     "CLASSROOM",
     "ASSIGNMENT",
@@ -20,7 +20,7 @@ pub const VARIABLES: [&str; 9] = [
     "COMMIT_URL",
     "RELEASE_URL",
     "REVIEW_URL",
-    // The commit date of the graded commit, which the package's script sets.
+    // The date of the graded commit. The script of the autograder package sets it.
     "SUBMITTED_AT",
 ];
 

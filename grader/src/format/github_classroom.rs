@@ -29,7 +29,7 @@ fn result(view: &StudentView, context: &FormatContext, max_chars: usize) -> Valu
             json!({
                 "name": format!("{}: {}", item.id, item.title),
                 "status": if has_all { "pass" } else { "fail" },
-                // Without a score, the reporter's total would be NaN.
+                // If a test had no score, the reporter's total would be NaN.
                 "score": item.points,
                 "message": if has_all { Value::Null } else { truncate(&text, max_chars).into() },
                 "test_code": "",

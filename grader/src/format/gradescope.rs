@@ -54,7 +54,8 @@ fn results(view: &StudentView, context: &FormatContext, max_chars: usize) -> Val
     })
 }
 
-/// Returns the text above all tests. It omits the total if hidden items are part of it.
+/// Returns the text above all tests. It omits the total if some items are hidden, since the total
+/// includes their points.
 fn output(view: &StudentView) -> String {
     let all_shown = view
         .all_items

@@ -8,7 +8,8 @@ use crate::section::Section;
 /// The id of the exam that students can run themselves.
 const PRACTICE: &str = "practice";
 
-/// Returns one line per row, such as `what: …` and `asked: …`. Empty if there is nothing to report.
+/// Returns one line per row, such as `what: …` and `asked: …`. The text is empty if there is
+/// nothing to report.
 pub fn item_text(view: &StudentView, item: &ItemScore, context: &FormatContext) -> String {
     let evidence = item.evidence.as_ref();
     let is_passed = item.verdict == Verdict::Pass;
@@ -33,7 +34,8 @@ pub fn item_text(view: &StudentView, item: &ItemScore, context: &FormatContext) 
     rows.collect::<Vec<_>>().join("\n")
 }
 
-/// Returns what happened, in one sentence. Empty if the item passed or its message is hidden.
+/// Returns what happened, in one sentence. The text is empty if the item has no message or if the
+/// message is hidden.
 pub fn item_message(item: &ItemScore) -> String {
     match (item.verdict == Verdict::Pending, item.message.is_empty()) {
         (true, _) => item.verdict.label().to_owned(),

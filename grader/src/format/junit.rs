@@ -1,8 +1,8 @@
 //! JUnit XML with a suite for each task and a test case for each item.
 //!
-//! Written with `maud`, whose escaping is valid XML. A crate for JUnit would add seven others, a
-//! tenth of the compile time of the first `cargo grade`. Every element is closed explicitly with
-//! `{}`, since XML has no void elements.
+//! The file is written with `maud`, whose escaping is valid XML. A crate for JUnit would bring
+//! seven other crates, and add a tenth to the compile time of the first `cargo grade`. Every
+//! element is closed explicitly with `{}`, since XML has no void elements.
 
 use maud::{Markup, PreEscaped, html};
 
@@ -129,7 +129,8 @@ impl<'a> FromIterator<&'a ItemScore> for Counts {
     }
 }
 
-/// Returns whether XML allows the character. Other characters are invalid even when escaped.
+/// Returns whether XML allows the character. Characters that it does not allow are invalid even
+/// when escaped.
 fn is_xml_char(character: &char) -> bool {
     matches!(character, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }

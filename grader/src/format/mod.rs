@@ -55,20 +55,21 @@ pub enum Format {
 pub struct OutputSpec {
     /// The format.
     pub format: Format,
-    /// The file to write, unless it is the format's default file.
+    /// The file to write, or `None` for the format's default file.
     pub path: Option<PathBuf>,
 }
 
 /// Facts about a submission that are not part of its score.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FormatContext {
-    /// The folder of the task files in the repository, such as `student/src`. Empty at the top.
+    /// The folder of the task files in the repository, such as `student/src`. It is empty if they
+    /// are at the top level.
     pub folder: String,
     /// The line where each task's method begins in its file.
     pub method_lines: BTreeMap<Task, u32>,
-    /// Environment variables with which the platform describes the submission.
+    /// The environment variables with which the platform describes the submission.
     pub variables: BTreeMap<&'static str, String>,
-    /// Whether to print full hints, and not only nudges.
+    /// Whether to print full hints instead of nudges.
     pub full_hints: bool,
 }
 
@@ -166,7 +167,7 @@ impl FromStr for OutputSpec {
 }
 
 impl Format {
-    /// Returns the name on the command line.
+    /// Returns the format's name on the command line.
     pub fn id(self) -> &'static str {
         match self {
             Format::Json => "json",

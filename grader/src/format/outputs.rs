@@ -1,4 +1,5 @@
-//! Writes the output files. Only this module of the formats accesses files and the environment.
+//! Writes the output files. This is the only module of [`format`](crate::format) that accesses
+//! files and the environment.
 
 use std::collections::BTreeMap;
 use std::env;
@@ -16,10 +17,10 @@ use crate::submission::Submission;
 /// The folders of a checkout that may contain the task files, in the order of the search.
 const TASK_FILE_FOLDERS: [&str; 3] = ["", "src", "student/src"];
 
-/// An error while writing a format.
+/// Reasons why an output file cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// An environment variable is missing.
+    /// An environment variable that the format needs is missing.
     #[error(
         "--format {format} needs the environment variable {variable}, which is not set: run it on the platform's runner, or set all of {all}"
     )]
@@ -53,13 +54,14 @@ pub struct Outputs {
 struct Output {
     format: Format,
     path: PathBuf,
-    /// The text that other steps wrote to the file before. It is kept.
+    /// The text that other commands wrote to the file earlier. It is kept.
     existing_text: String,
 }
 
 impl Outputs {
-    /// Resolves the paths of the requested outputs: the path in the request, else the platform's,
-    /// else a file in `folder`. Fails if the environment lacks a variable that a format needs.
+    /// Resolves the path of each requested output: the path in the request if there is one, else
+    /// the platform's, else a file in `folder`. Fails if the environment lacks a variable that a
+    /// format needs.
     pub fn new(
         specs: &[OutputSpec],
         folder: &Path,
@@ -177,7 +179,7 @@ fn read_variables(
 }
 
 /// Returns the folder of the task files relative to the checkout, which is `GITHUB_WORKSPACE` or
-/// the current folder. Empty if the files are not below it.
+/// the current folder. The result is empty if the files are not below the checkout.
 fn folder_in_checkout(submitted: &Path) -> String {
     let current = env::current_dir().unwrap_or_default();
     let submitted = current.join(submitted);

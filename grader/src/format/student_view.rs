@@ -8,7 +8,8 @@ use crate::score::{ItemScore, Score, TaskScore, Verdict};
 /// A score without what the policy hides, and without notes for staff.
 #[derive(Clone, Debug)]
 pub struct StudentView {
-    /// The score as students may see it now. The hidden items of a task are summed up in one item.
+    /// The score as students may see it now. The hidden items of each task are summed up in a
+    /// single item.
     pub visible: Score,
     /// All items, for platforms that can show some of them later.
     pub all_items: Vec<ItemView>,
@@ -31,7 +32,7 @@ impl StudentView {
     /// Creates the view that a policy allows.
     pub fn new(score: &Score, policy: &Policy, lateness: Lateness) -> Self {
         let mut visible = score.clone();
-        // Students rerun on their own machine, where their own submission is the default.
+        // Students grade again on their own machine, where their own submission is the default.
         visible.rerun_command = RerunCommand::default();
         let mut all_items = Vec::new();
         for task in &mut visible.tasks {
@@ -79,7 +80,7 @@ impl StudentView {
         })
     }
 
-    /// Returns whether no task file of the submission compiled.
+    /// Returns whether none of the submission's task files compiled.
     pub fn nothing_compiled(&self) -> bool {
         let all = crate::given_files::TASK_FILES.len();
         self.visible.build.not_compiled.len() == all
@@ -93,7 +94,8 @@ fn hidden_ids(policy: &Policy, score: &Score) -> Vec<String> {
     hidden.map(|item| item.id.clone()).collect()
 }
 
-/// Removes from an item what students may not see even when the item itself is shown.
+/// Removes everything from an item that students with this visibility may not see, including the
+/// ids of `hidden` items.
 fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemScore {
     let mut item = ItemScore {
         staff: None,

@@ -1,4 +1,4 @@
-//! Atomic writes: a file is complete at any moment, even if the process is killed.
+//! Atomic writes: a file is never incomplete, even if the process is killed.
 
 use std::fs;
 use std::io::{self, Write};

@@ -1,4 +1,4 @@
-//! `score.json`.
+//! The format of `score.json`.
 
 use crate::score::Score;
 

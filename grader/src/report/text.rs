@@ -12,7 +12,7 @@ use crate::section::Section;
 
 const WIDTH: usize = 80;
 const BAR_WIDTH: usize = 20;
-/// The maximum number of lines of a compiler message.
+/// The maximum number of lines of a compiler message to show.
 const MAX_COMPILER_LINES: usize = 20;
 
 const STRONG: Style = Style::new().bold();
@@ -21,7 +21,7 @@ const GOOD: Style = AnsiColor::Green.on_default();
 const PART: Style = AnsiColor::Yellow.on_default();
 const BAD: Style = AnsiColor::Red.on_default();
 
-/// How much a hint about a recognised mistake says.
+/// The level of detail of a hint about a recognised mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HintDetail {
     /// A question that points toward the mistake.
@@ -30,8 +30,8 @@ pub enum HintDetail {
     Full,
 }
 
-/// Renders the report with ANSI colours, which the output stream strips if necessary. With `only`,
-/// the report covers that task alone.
+/// Renders the report with ANSI colours, which the output stream strips if necessary. If `only` is
+/// a task, the report covers that task alone.
 pub fn report(score: &Score, only: Option<Task>, hints: HintDetail) -> String {
     let mut text = String::new();
     write_report(&mut text, score, only, hints).expect("writing to a string cannot fail");
@@ -54,7 +54,7 @@ fn write_report(
     for task in &tasks {
         write_task_line(out, task)?;
     }
-    // A message of one line is repeated at the items of the task.
+    // Messages of a single line are omitted here, because the items of the task show them.
     let compiler_messages = score
         .build
         .not_compiled

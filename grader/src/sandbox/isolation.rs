@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// How well submissions are isolated from the machine, from not at all to best.
+/// A level of isolation between submissions and the machine. The levels are in ascending order.
 /// `grader/SECURITY.md` says what each level promises.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, clap::ValueEnum,
@@ -23,7 +23,7 @@ pub enum Isolation {
 }
 
 impl Isolation {
-    /// All levels, from best to none.
+    /// All levels, from the best isolation to none.
     pub const ALL: [Self; 4] = [
         Isolation::Full,
         Isolation::NoNamespaces,

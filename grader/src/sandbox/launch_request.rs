@@ -11,10 +11,11 @@ use crate::system::Limits;
 pub(super) const LAUNCH_FLAG: &str = "--launch-confined";
 
 /// The byte that the launcher writes to standard output once the sandbox is in place. All further
-/// output comes from the confined program. If the byte is missing, the fault is the grader's.
+/// output comes from the confined program. If the byte is missing, the launcher failed, not the
+/// program.
 pub(super) const READY: u8 = b'+';
 
-/// The system access that a program is granted. Everything else is refused.
+/// The access to the system that a program is granted. All other access is refused.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Profile {
     /// A submission's program: it computes, and communicates through the pipes that it inherits.
@@ -22,9 +23,9 @@ pub enum Profile {
     Probe,
     /// The compiler, and the linker that it starts.
     Compiler {
-        /// The files and folders that they may read and execute.
+        /// The files and folders that the two may read and execute.
         readable: Vec<PathBuf>,
-        /// The folder that they may write to.
+        /// The folder that the two may write to.
         writable: PathBuf,
     },
 }
@@ -32,7 +33,7 @@ pub enum Profile {
 /// The launcher's instructions for starting one program.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct LaunchRequest {
-    /// The required level. If it cannot be reached, nothing is started.
+    /// The required level of isolation. If it is not available, nothing is started.
     pub(super) level: Isolation,
     /// The grader's process id. A probe is killed when the grader ends.
     pub(super) grader: u32,

@@ -6,7 +6,7 @@
 //! drops its privileges one after the other and then executes the untrusted program. The launcher
 //! works on Linux only; on other systems, `none` is the only level.
 //!
-//! `grader/SECURITY.md` says what each level promises and what no level does.
+//! `grader/SECURITY.md` says what each level promises, and what no level promises.
 
 mod isolation;
 mod launch_request;
@@ -67,13 +67,13 @@ impl Sandbox {
     pub fn at(level: Isolation) -> Self {
         Sandbox {
             level,
-            // Refers to the running executable even if its file has been replaced since.
+            // This path refers to the running executable, even if its file has been replaced since.
             launcher: PathBuf::from("/proc/self/exe"),
         }
     }
 
-    /// Uses another executable as the launcher, for programs such as tests whose own `main` does
-    /// not begin with [`run_as_launcher`]. That of `launcher` must.
+    /// Uses another executable as the launcher. Programs such as tests need this, because their own
+    /// `main` does not begin with [`run_as_launcher`]. The `main` of `launcher` must begin with it.
     pub fn with_launcher(self, launcher: PathBuf) -> Self {
         Sandbox { launcher, ..self }
     }
@@ -83,12 +83,12 @@ impl Sandbox {
         self.level
     }
 
-    /// Returns whether programs are isolated from the machine at all.
+    /// Returns whether programs are isolated from the machine at any level above `none`.
     pub fn confines(&self) -> bool {
         self.level > Isolation::None
     }
 
-    /// Starts a program in `folder`. Its environment is what `command` sets, and nothing else.
+    /// Starts a program in `folder`. Its environment has only the variables that `command` sets.
     ///
     /// Call it from a thread that lives as long as the program: on Linux, a confined program is
     /// killed when the *thread* that started it ends.

@@ -8,10 +8,11 @@ use std::time::Duration;
 use crate::sandbox::launch_request::READY;
 use crate::system::{self, ExitReason, Limits};
 
-/// The most that is read of a launcher's error message, in bytes.
+/// The maximum number of bytes to read of a launcher's error message.
 const MAX_REASON_BYTES: u64 = 4 << 10;
 
-/// A running program, with pipes to its three standard streams. Killed when dropped.
+/// A running program, with pipes to its three standard streams. The program is killed when this is
+/// dropped.
 #[derive(Debug)]
 pub struct Process {
     /// The program's process, or the launcher that supervises it.
@@ -104,13 +105,15 @@ impl Drop for Process {
 }
 
 impl ExitReason {
-    /// Returns whether the process exited with code 0. Proves nothing for an untrusted program.
+    /// Returns whether the process exited with code 0. For an untrusted program, this proves
+    /// nothing.
     pub fn is_success(self) -> bool {
         self == ExitReason::Code(0)
     }
 
-    /// Returns whether the process was killed from outside, neither by itself nor by one of its
-    /// limits, which use other signals. When memory runs out, the system does this.
+    /// Returns whether the process was killed with SIGKILL, as the system does when memory runs
+    /// out. The cause is outside the process: its own limits use other signals, and a confined
+    /// probe cannot send itself this one.
     pub fn is_external_kill(self) -> bool {
         /// The number of SIGKILL on every system.
         const KILL: i32 = 9;

@@ -37,7 +37,7 @@ pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
             None => SubmissionError::NoTaskFiles(path.to_owned()),
         });
     };
-    // It could lead to anybody's files.
+    // A link could lead to another person's files.
     if let Some((_, first)) = found.links.iter().find(|(folder, _)| *folder == source) {
         return Err(link(first));
     }
@@ -59,7 +59,7 @@ pub(super) fn read_files(files: &[(String, PathBuf)]) -> SubmissionFiles {
     read_each(files, |path| system::open_regular_file(path))
 }
 
-/// Reads those of the files that are needed, each given by its name and an argument for `open`.
+/// Reads the files that are needed. Each file has a name and an argument for `open`.
 fn read_each<'a, T>(
     files: impl Iterator<Item = (&'a str, T)>,
     open: impl Fn(T) -> io::Result<Option<File>>,
@@ -102,16 +102,17 @@ fn read_file(
 /// folder, with `/`.
 #[derive(Debug, Default)]
 struct Search {
-    /// All task files in folders where they may be. A folder that is a link counts as one that has
-    /// them.
+    /// The paths of all task files in the searched folders. A folder that is a link counts as one
+    /// that has task files.
     files: Vec<String>,
-    /// Links among them, each with the folder of the task files that it replaces.
+    /// Links in place of task files or their folders. Each link follows the path of the folder in
+    /// which the task files are expected.
     links: Vec<(String, String)>,
     /// Links at the top level, which may be meant as folders with task files.
     linked_folders: Vec<String>,
 }
 
-/// Looks for task files in [`CANDIDATES`], and in the same places of each top-level folder.
+/// Looks for task files in the [`CANDIDATES`] of this folder and of each folder in it.
 fn search(folder: &Folder) -> io::Result<Search> {
     let mut found = Search::default();
     search_candidates(folder, "", &mut found)?;
@@ -119,7 +120,7 @@ fn search(folder: &Folder) -> io::Result<Search> {
         let Some(text) = name.to_str() else { continue };
         match folder.kind(&name)? {
             EntryKind::Folder => {
-                // A folder without permission to read has nothing that could be graded.
+                // A folder that we may not read has nothing that could be graded.
                 if let Ok(Some(top)) = folder.subfolder(&name) {
                     search_candidates(&top, text, &mut found)?;
                 }
@@ -161,13 +162,14 @@ fn search_candidates(folder: &Folder, path: &str, found: &mut Search) -> io::Res
 #[derive(Debug)]
 enum Subfolder {
     Found(Folder),
-    /// A part of the path is a link.
+    /// A component of the path is a link.
     Link,
-    /// A part of the path does not exist, is no folder, or is not readable.
+    /// A component of the path does not exist, is not a folder, or is not readable.
     Missing,
 }
 
-/// Opens each part of a path with `/` relative to the part before.
+/// Opens a path below a folder one component at a time, so that no link is followed. `path` uses
+/// `/`.
 fn open_below(folder: &Folder, path: &str) -> io::Result<Subfolder> {
     let mut opened = folder.try_clone()?;
     for part in path.split('/').filter(|part| !part.is_empty()) {

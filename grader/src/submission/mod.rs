@@ -14,11 +14,12 @@ use crate::sanitize::sanitize;
 
 pub use archive::{Archive, ArchiveError, Listing, Member};
 
-/// The longest file that is read, in bytes. The reference's files have about 10,000.
+/// The maximum length of a file that is read, in bytes. The reference's files have about 10,000
+/// bytes.
 const MAX_FILE_BYTES: u64 = 1 << 20;
-/// The most notes about other files in a report.
+/// The maximum number of notes about other files in a report.
 const MAX_NOTES: usize = 20;
-/// The most characters of a name that are shown.
+/// The maximum number of characters of a name to show.
 const MAX_NAME_CHARS: usize = 200;
 
 /// The five task files as they were submitted.
@@ -26,36 +27,37 @@ const MAX_NAME_CHARS: usize = 200;
 pub struct Submission {
     /// The name of the folder or archive, for reports.
     pub name: String,
-    /// The text of each task file, in lecture order, or the reason why there is none.
+    /// The text of each task file, or the reason why it has none, in lecture order.
     pub files: Vec<(TaskFile, Result<String, TaskFileError>)>,
     /// Notes about other files that were found, which are not graded.
     pub notes: Vec<String>,
 }
 
-/// Reasons why a task file cannot be graded. Its tasks score nothing; the other files are graded.
+/// Reasons why a task file cannot be graded. The tasks of such a file score nothing; the other
+/// files are graded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TaskFileError {
-    /// It does not exist.
+    /// The file does not exist.
     #[error("{0} is missing")]
     Missing(&'static str),
-    /// It is a folder, a link or a device.
+    /// The path is a folder, a link or a device.
     #[error("{0} is not a regular file")]
     NotRegular(&'static str),
-    /// It is longer than any reasonable solution.
+    /// The file is longer than any reasonable solution.
     #[error("{0} is longer than 1 MiB")]
     TooLong(&'static str),
-    /// It is not valid UTF-8.
+    /// The file is not valid UTF-8.
     #[error("{name} is not UTF-8 text: byte {byte} is invalid")]
     NotText {
-        /// The file.
+        /// The name of the file.
         name: &'static str,
         /// The position of the first invalid byte, counted from 1.
         byte: usize,
     },
-    /// The system cannot read it.
+    /// The system cannot read the file.
     #[error("cannot read {name}: {why}")]
     Io {
-        /// The file.
+        /// The name of the file.
         name: &'static str,
         /// The system's message.
         why: String,
@@ -68,54 +70,54 @@ pub enum SubmissionError {
     /// The path does not exist.
     #[error("there is no {0}: name the folder with the five files, such as `student`")]
     NotFound(PathBuf),
-    /// It is a device, a pipe or a socket.
+    /// The path is a device, a pipe or a socket.
     #[error("{0} is neither a folder nor a file: name the folder that holds the five files")]
     NotFileOrFolder(PathBuf),
-    /// It has none of the five files.
+    /// The folder or archive has none of the five files.
     #[error(
         "{0} has none of camera.rs, triangle.rs, sphere.rs, bbox.rs and bvh.rs, and neither has its src/ or student/src/"
     )]
     NoTaskFiles(PathBuf),
-    /// A link is in the place of a file or folder that would be read.
+    /// A file or folder that would be read is a link.
     #[error(
         "{path}: {link} is a link, and links are not followed: put the file or folder itself there"
     )]
     Link {
-        /// The folder.
+        /// The path of the folder.
         path: PathBuf,
         /// The link, relative to the folder.
         link: String,
     },
-    /// The system cannot read it.
+    /// The system cannot read the folder.
     #[error("cannot read {path}: {why}")]
     Io {
-        /// The folder.
+        /// The path of the folder.
         path: PathBuf,
         /// The system's message.
         why: String,
     },
-    /// It has several folders with task files.
+    /// The folder or archive has several folders with task files.
     #[error("{path} has several submissions, in {}: name one of them", folders.join(", "))]
     Ambiguous {
-        /// The folder or archive.
+        /// The path of the folder or archive.
         path: PathBuf,
         /// The folders that have task files.
         folders: Vec<String>,
     },
-    /// It is a file, but not an archive that can be read.
+    /// The path is a file, but not an archive that can be read.
     #[error("{path}: {why}")]
     Archive {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// The reason.
+        /// The reason why the archive is rejected.
         why: ArchiveError,
     },
 }
 
 impl Submission {
     /// Reads the task files from the top level of a folder or archive, or else from its `src/` or
-    /// `student/src/`. If there are none, looks in the same three folders of its only subfolder
-    /// that has any.
+    /// `student/src/`. If none of these three folders has any, looks in the same three folders of
+    /// each subfolder; only one subfolder may have task files.
     pub fn collect(path: &Path) -> Result<Self, SubmissionError> {
         if path.is_dir() {
             return Ok(Submission::from_contents(
@@ -136,7 +138,7 @@ impl Submission {
         })
     }
 
-    /// Reads a submission from single files, each given by its submitted name and its path on disk.
+    /// Reads a submission from single files, listed by submitted name and path on disk.
     pub fn from_files(name: &str, files: &[(String, PathBuf)]) -> Self {
         Submission::from_contents(name.to_owned(), folder::read_files(files))
     }
@@ -167,13 +169,14 @@ struct SubmissionFiles {
     other_files: BTreeMap<String, Vec<u8>>,
 }
 
-/// Returns the name of the task file with exactly this name. A similar name is another file.
+/// Returns the task file's name if `name` is exactly that of a task file. A similar name, such as
+/// `Bvh.rs`, is another file.
 fn task_file_name(name: &str) -> Option<&'static str> {
     let mut files = TASK_FILES.into_iter();
     files.find(|file| file.name == name).map(|file| file.name)
 }
 
-/// Returns whether students were given a file of this name.
+/// Returns whether this is the name of a given file.
 fn is_given_file(name: &str) -> bool {
     let mut given = GIVEN_FILES.iter().chain([&MAIN_FILE]);
     given.any(|(given, _)| *given == name)

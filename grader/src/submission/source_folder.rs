@@ -9,13 +9,15 @@ pub(super) const CANDIDATES: [&str; 3] = ["", "src", "student/src"];
 /// A folder of metadata that macOS adds to archives.
 const MACOS_METADATA: &str = "__MACOSX";
 
-/// Several top-level folders have task files, so it is unclear which one is meant.
+/// The error if several top-level folders have task files, so that it is unclear which one is
+/// meant.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct AmbiguousSource(pub(super) Vec<String>);
 
-/// Returns the folder that has the task files, given the paths of all files. It is one of
-/// [`CANDIDATES`], or else one of them inside the only top-level folder that has any, as in
-/// archives made by people or by GitHub. Returns `None` if there is no such folder.
+/// Returns the folder that has the task files, from the paths of all files. It is one of
+/// [`CANDIDATES`]. If none of these has task files, it is one of them inside the only top-level
+/// folder that has any, as in archives made by people or by GitHub. Returns `None` if there is no
+/// such folder.
 pub(super) fn find<'a>(
     paths: impl IntoIterator<Item = &'a str>,
 ) -> Result<Option<String>, AmbiguousSource> {

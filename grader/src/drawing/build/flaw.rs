@@ -14,9 +14,9 @@ pub(super) enum Flaw<'a> {
     TooLarge(NodePosition<'a>),
     /// A leaf has too many primitives.
     LeafTooLarge(NodePosition<'a>),
-    /// A leaf has half of the primitives or more.
+    /// A leaf has at least half of all primitives.
     NotSplit(NodePosition<'a>),
-    /// A node was split although it could be a leaf.
+    /// A node was split although it has few enough primitives for a leaf.
     NeedlessSplit(NodePosition<'a>),
     /// Some primitives are in no leaf, or in several.
     Partition {
@@ -98,7 +98,7 @@ fn find_partition_flaw<'a>(case: &BuildCase, positions: &[NodePosition<'a>]) -> 
 }
 
 impl<'a> Flaw<'a> {
-    /// Returns the node that has the flaw, if a single node has it.
+    /// Returns the node that has the flaw, unless the whole tree has it.
     pub(super) fn node(&self) -> Option<&NodePosition<'a>> {
         match self {
             Flaw::TooSmall(node)
@@ -110,7 +110,7 @@ impl<'a> Flaw<'a> {
         }
     }
 
-    /// Returns the legend of the marked node.
+    /// Returns the text that describes the marked node in the legend.
     pub(super) fn label(&self) -> &'static str {
         match self {
             Flaw::TooSmall(_) => "got: a box that does not contain everything",

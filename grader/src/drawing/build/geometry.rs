@@ -1,4 +1,4 @@
-//! The primitives and boxes that a flaw is about, projected to two axes.
+//! The primitives and boxes that a flaw concerns, projected to the plane of two axes.
 
 use glam::{DVec2, DVec3, dvec2};
 use protocol::Shape;
@@ -16,7 +16,7 @@ use crate::judge::tree::bounds::Bounds;
 
 /// The maximum number of primitives that are drawn one by one.
 const MAX_PRIMITIVES: usize = 250;
-/// The maximum number of marks. More would hide each other.
+/// The maximum number of marks. More marks would hide each other.
 const MAX_MARKS: usize = 60;
 /// The maximum number of primitives for which the first split is drawn.
 const MAX_ROW_PRIMITIVES: usize = 32;
@@ -82,7 +82,7 @@ fn draw_boxes(sheet: &mut Sheet, case: &BuildCase, primitives: &[usize], node: &
     let out = |axis: usize| {
         let below = (needs.min[axis] - has.min[axis]).abs();
         let above = (needs.max[axis] - has.max[axis]).abs();
-        // NaN counts as infinitely far off.
+        // A box with a NaN counts as infinitely wrong.
         let out = below.max(above);
         if below.is_nan() || above.is_nan() {
             f64::INFINITY

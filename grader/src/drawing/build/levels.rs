@@ -86,7 +86,7 @@ pub(super) fn draw(
 }
 
 fn draw_node(canvas: &mut Canvas, node: &LevelNode, [from, to]: [f64; 2], y: f64) {
-    /// The width of a digit.
+    /// The approximate width of a digit, in page units.
     const DIGIT_WIDTH: f64 = 8.0;
 
     let times = if node.is_leaf { node.count.max(1) } else { 1 };
@@ -97,7 +97,7 @@ fn draw_node(canvas: &mut Canvas, node: &LevelNode, [from, to]: [f64; 2], y: f64
     } else {
         ROW_HEIGHT - 3.0
     };
-    // A small gap between neighbours, narrower for narrow nodes.
+    // Neighbours are separated by a small gap, which is narrower for narrow nodes.
     let gap = (0.1 * (to - from)).min(1.0);
     let (low, high): (DVec2, DVec2) = (dvec2(from, y), dvec2(to - gap, y + height));
     let fill = Fill::Tint(Ink::Text, 0.1 + 0.75 * area.sqrt());

@@ -91,7 +91,7 @@ fn draw_sweep(sheet: &mut Sheet, sweep: &Sweep) {
         return;
     };
     sheet.title("with the best split at every node");
-    // The exam has only the upper levels, so the total is unknown.
+    // The exam stores only the upper levels, so the total is unknown.
     let total = f64::NAN;
     levels::draw(sheet, &sweep.nodes, all, total, None);
 }
@@ -122,7 +122,8 @@ fn draw_legend(sheet: &mut Sheet, case: &BuildCase, flaw: &Flaw, symbol: Symbol,
     }
 }
 
-/// The marked node: its level, the number of primitives to the left of it, and the number in it.
+/// The position of the marked node, if there is one: its level, the number of primitives to its
+/// left, and the number of primitives in it.
 type MarkedNode = Option<(u32, u32, u32)>;
 
 /// Returns the indices of the primitives below a node.

@@ -42,7 +42,8 @@ pub(super) fn positions<'a>(nodes: &'a [ReachedNode<'a>]) -> Vec<NodePosition<'a
     positions
 }
 
-/// Returns the upper levels, in the form in which the exam stores those of the exact sweep.
+/// Returns the upper levels of a tree, in the form in which the exam stores the tree of the exact
+/// sweep.
 pub(super) fn upper_levels(positions: &[NodePosition]) -> Vec<LevelNode> {
     let root = positions
         .first()

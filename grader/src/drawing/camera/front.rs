@@ -13,7 +13,8 @@ use crate::drawing::numbers::short;
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
 
-/// Draws where the ray should cross the sensor, and where it does.
+/// Draws the sensor, the point where the ray should cross it, and the point where the ray does
+/// cross it.
 pub(super) fn draw(
     query: &CameraQuery,
     sensor: &Sensor,
@@ -103,7 +104,8 @@ pub(super) fn draw(
     sheet.finish(title, caption(sensor, wanted, got))
 }
 
-/// Returns the points that the close-up shows: the sampled pixel and both points, with a margin.
+/// Returns the points that the close-up shows: the corners of the sampled pixel and the expected
+/// and submitted points, with a margin.
 fn closeup_points(
     query: &CameraQuery,
     sensor: &Sensor,
@@ -125,7 +127,7 @@ fn closeup_points(
 fn draw_sampled_pixel(canvas: &mut Canvas, window: &Window, sensor: &Sensor, pixel: UVec2) {
     let pixel = pixel.as_dvec2();
     let corners = [pixel, pixel + 1.0].map(|corner| window.page_position(sensor.corner(corner)));
-    // Keeps a tiny pixel visible.
+    // A minimum size keeps a tiny pixel visible.
     let (min, max) = (corners[0].min(corners[1]), corners[0].max(corners[1]));
     let grow = (0.5 * (3.0 - (max - min))).max(DVec2::ZERO);
     canvas.area(min - grow, max + grow, Fill::Tint(Ink::Text, 0.35));

@@ -1,5 +1,5 @@
-//! A camera ray: where it goes through the sensor, or, if its direction is right, its origin,
-//! length and range from the side.
+//! A camera ray. The drawing shows where the ray goes through the sensor. If its direction is
+//! right, the drawing shows its origin, length and range from the side instead.
 
 mod front;
 mod sensor;
@@ -12,12 +12,12 @@ use super::Drawing;
 
 use sensor::Sensor;
 
-/// One sample of a camera, and the expected direction.
+/// A question about one sample of a camera, with the expected direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CameraQuery {
     /// The camera.
     pub(super) camera: PinholeCamera,
-    /// The sample.
+    /// The sampled pixel, and the offset in it.
     pub(super) sample: Sample,
     /// The expected direction of the ray.
     pub(super) wanted: DVec3,
@@ -63,7 +63,8 @@ fn sensor_crossing(dir: DVec3) -> Option<DVec2> {
     (dir.z < 0.0 && point.is_finite()).then_some(point)
 }
 
-/// Chooses what is drawn, and nothing else: the judge has finer tolerances.
+/// Returns whether a direction is about right. This only chooses what is drawn: the judge has finer
+/// tolerances.
 fn is_direction_right(ray: &Ray, wanted: DVec3) -> bool {
     let dir = ray.dir.as_dvec3().normalize_or_zero();
     dir.distance(wanted) <= 1e-3

@@ -7,14 +7,15 @@ use crate::drawing::canvas::Canvas;
 use crate::drawing::ink::LineStyle;
 use crate::drawing::window::{Panel, Window};
 
-/// The sensor, a rectangle at z = -1, and the number of pixels across and up.
+/// The sensor, a rectangle at z = -1, with its size and its numbers of pixels.
 pub(super) struct Sensor {
     pub(super) size: DVec2,
     pub(super) film: UVec2,
 }
 
 impl Sensor {
-    /// Creates the sensor as the task describes it. Returns `None` if it has no area or no pixels.
+    /// Creates the sensor of a camera, as the task describes it. Returns `None` if it has no area
+    /// or no pixels.
     pub(super) fn new(camera: &PinholeCamera) -> Option<Sensor> {
         let height = 2.0 * (0.5 * f64::from(camera.vertical_fov)).to_radians().tan();
         let size = dvec2(f64::from(camera.aspect_ratio) * height, height);

@@ -13,7 +13,7 @@ use crate::drawing::ink::{Ink, LineStyle};
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
 
-/// Draws the plane of -z and the expected ray.
+/// Draws the plane that contains the -z axis and the expected ray.
 pub(super) fn draw(query: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {
     let lateral = query.wanted.truncate().try_normalize().unwrap_or(DVec2::Y);
     let see = |point: DVec3| dvec2(-point.z, point.truncate().dot(lateral));
@@ -127,7 +127,7 @@ fn caption(ray: &Ray, length: f64) -> String {
     }
 }
 
-/// Chooses the caption, and nothing else. NaN is off.
+/// Returns whether a value is noticeably wrong; NaN always is. This only chooses the caption.
 fn is_off(value: f64, wanted: f64) -> bool {
     let is_close = (value - wanted).abs() <= 1e-3;
     !is_close

@@ -1,4 +1,4 @@
-//! Captions of common mistakes.
+//! Snapshot tests of the captions of common mistakes.
 
 mod rays;
 mod trees;

@@ -1,4 +1,4 @@
-//! Captions of trees that were built or traversed.
+//! Tests of the captions of trees that were built or traversed.
 
 use glam::vec3;
 use insta::assert_snapshot;
@@ -20,7 +20,7 @@ fn node(x: [f32; 2], leaf: Option<[u32; 2]>, [l, r]: [u32; 2]) -> TreeNode {
     }
 }
 
-/// A tree over two distant balls, with one leaf each.
+/// Returns a tree over two distant spheres, with one leaf for each.
 fn two_leaf_tree() -> Vec<TreeNode> {
     vec![
         node([-1.0, 11.0], None, [1, 2]),

@@ -80,7 +80,7 @@ impl HitComparison {
     }
 }
 
-/// Formats a distance with all the digits that are judged.
+/// Formats a distance with as many digits as the text of the report has.
 fn number(value: f64) -> String {
     describe::number(value as f32)
 }

@@ -1,4 +1,4 @@
-//! The expected hit of a ray, and the hit that the submission answered.
+//! The expected hit of a ray, and the submitted hit.
 
 mod caption;
 
@@ -7,7 +7,7 @@ use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Trace};
 
 use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, Surface};
 
-/// A hit as it is drawn. The key of a picture does not give a material.
+/// A hit to draw. If it comes from the key of a picture, it has no material.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::drawing) struct DrawnHit {
     pub(in crate::drawing) distance: f64,
@@ -27,7 +27,7 @@ pub(in crate::drawing) enum HitAnswer {
     Hit(DrawnHit),
 }
 
-/// The field of a hit that the drawing is about: the first one that is judged and wrong.
+/// The field of a hit that the drawing shows: the first judged field that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::drawing) enum Focus {
     /// Whether there is a hit, and its distance.
@@ -38,9 +38,9 @@ pub(in crate::drawing) enum Focus {
     Normal,
     /// The texture coordinates.
     Uv,
-    /// The origin of the ray, as the answer gives it.
+    /// The origin of the ray that is stored in the hit.
     Origin,
-    /// The material, as the answer gives it.
+    /// The material of the primitive.
     Material,
 }
 
@@ -55,7 +55,7 @@ pub(in crate::drawing) struct HitComparison {
 
 impl HitComparison {
     /// Compares one element of a question about rays. Returns `None` for any other question, for an
-    /// element that does not exist, and for a ray without a finite origin and direction.
+    /// element that does not exist, and for a ray whose origin or direction is not finite.
     pub(in crate::drawing) fn new(
         question: &ExamQuestion,
         element: usize,
@@ -177,7 +177,8 @@ fn choose_focus(checks: &[HitCheck], wanted: Option<&DrawnHit>, got: &HitAnswer)
     }
 }
 
-/// Chooses what is drawn, and nothing else: the judge has finer tolerances.
+/// Returns whether two numbers differ noticeably. This only chooses what is drawn: the judge has
+/// finer tolerances.
 fn numbers_differ(a: f64, b: f64) -> bool {
     let is_close = (a - b).abs() <= 1e-4 * b.abs().max(1.0);
     !is_close

@@ -1,4 +1,4 @@
-//! Chooses the nodes of a traversal that are drawn, with the status of each.
+//! The nodes of a traversal that are drawn, and the status of each.
 
 use std::collections::BTreeMap;
 
@@ -17,11 +17,11 @@ pub(super) enum NodeStatus {
     Entered,
     /// The ray misses the box.
     Missed,
-    /// The ray is in the box, but only outside its range.
+    /// The ray hits the box, but only outside the ray's range.
     OutOfRange,
     /// The box begins beyond the closest hit so far.
     Beyond,
-    /// Rows are left out here; the row's `node` is their number.
+    /// Several rows are left out here. The `node` of this row is the number of those rows.
     Elided,
 }
 
@@ -35,11 +35,11 @@ impl NodeStatus {
     }
 }
 
-/// A node, or several nodes that are left out.
+/// A row, which is a node, or stands for several nodes that are left out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NodeRow {
     pub(super) node: u32,
-    /// The position of the node among the entered nodes, from 1.
+    /// The position of the node among the entered nodes, counted from 1.
     pub(super) number: usize,
     pub(super) depth: usize,
     pub(super) is_leaf: bool,
@@ -55,7 +55,7 @@ pub(super) struct Layout {
     pub(super) wanted_leaf: Option<u32>,
     /// The leaf of the submitted hit.
     pub(super) got_leaf: Option<u32>,
-    /// The nodes from that leaf up to the root.
+    /// The nodes from the leaf of the submitted hit up to the root.
     path_to_got: Vec<u32>,
 }
 
@@ -136,8 +136,9 @@ fn node_status(is_entered: bool, span: Option<Interval>, comparison: &HitCompari
     }
 }
 
-/// Keeps at most [`MAX_ROWS`] rows: first those on the path to a relevant leaf, then their
-/// siblings, then the others in order.
+/// Chooses at most [`MAX_ROWS`] rows: first those on the path to a relevant leaf, then the children
+/// of nodes on such a path, then the others in order. Each run of omitted rows becomes a single
+/// row.
 fn shorten(rows: &[NodeRow], matters: impl Fn(&NodeRow) -> (bool, bool)) -> Vec<NodeRow> {
     let mut ranks: Vec<(usize, usize)> = rows
         .iter()
@@ -173,7 +174,7 @@ fn shorten(rows: &[NodeRow], matters: impl Fn(&NodeRow) -> (bool, bool)) -> Vec<
     shown
 }
 
-/// The parent of each node below the root.
+/// The parent of each node that can be reached from the root. The root has none.
 struct ParentMap(BTreeMap<u32, Option<u32>>);
 
 impl ParentMap {
@@ -184,7 +185,7 @@ impl ParentMap {
             let Some(node) = traversal.nodes.get(index as usize) else {
                 continue;
             };
-            // A node that already has a parent closes a cycle: do not follow it.
+            // A node that was reached before is shared or closes a cycle: do not follow it again.
             if parents.contains_key(&index) {
                 continue;
             }

@@ -1,5 +1,5 @@
-//! A traversal of the exam's tree: the nodes that a correct one tests, in order, and the part of
-//! the ray inside each box. The traversal comes with the exam.
+//! A traversal of the exam's tree: the nodes that a correct traversal tests, in order, and the part
+//! of the ray inside the box of each. The exam stores this traversal.
 
 mod layout;
 mod rows;
@@ -32,7 +32,7 @@ pub(super) struct RecordedTraversal<'a> {
     pub(super) steps: &'a [TraversalStep],
 }
 
-/// Draws the traversal. Returns `None` for a tree without nodes.
+/// Draws the traversal. Returns `None` if it has no steps, because the tree is empty.
 pub(super) fn draw(comparison: &HitComparison, traversal: &RecordedTraversal) -> Option<Drawing> {
     if traversal.steps.is_empty() {
         return None;

@@ -13,7 +13,7 @@ use crate::drawing::ink::{Fill, Ink, LineStyle};
 const ROW_HEIGHT: f64 = 17.0;
 /// The left end of the axis.
 pub(super) const LEFT: f64 = 156.0;
-/// The indentation per level.
+/// The indentation per level, in page units.
 const INDENT: f64 = 5.0;
 /// The maximum number of levels that are indented.
 const MAX_INDENTS: usize = 9;
@@ -108,7 +108,7 @@ fn draw_span(canvas: &mut Canvas, axis: &Axis, y: f64, row: &NodeRow) {
         return;
     };
     let from = axis.page_position(span.min.into());
-    // Keeps a flat box visible.
+    // A minimum width keeps a flat box visible.
     let to = axis.page_position(span.max.into()).max(from + 2.0);
     let fill = match row.status {
         NodeStatus::Entered => Fill::Tint(Ink::Text, if row.is_leaf { 0.4 } else { 0.15 }),
@@ -118,7 +118,7 @@ fn draw_span(canvas: &mut Canvas, axis: &Axis, y: f64, row: &NodeRow) {
     };
     let (low, high) = (dvec2(from, y + 3.0), dvec2(to, y + ROW_HEIGHT - 3.0));
     canvas.rectangle(low, high, LineStyle::Grid, fill);
-    // Beside the bar, on the side with more space.
+    // The label goes beside the bar, on the side with more space.
     let (x, anchor) = match from - LEFT > WIDTH - to {
         true => (from - 4.0, Anchor::End),
         false => (to + 4.0, Anchor::Start),

@@ -11,8 +11,8 @@ const MAX_ANNOTATIONS: usize = 10;
 /// The maximum number of characters in an annotation.
 const MAX_CHARS: usize = 1_000;
 
-/// Returns commands for standard output: the first compiler error in each file, and the first item
-/// that lost points in each other task.
+/// Returns commands for standard output that annotate the first compiler error in each file, and
+/// the first item that lost points in each other task.
 pub fn annotations(view: &StudentView, context: &FormatContext) -> String {
     let files = view.visible.build.not_compiled.iter();
     let files = files.map(|file| file_annotation(file, context));

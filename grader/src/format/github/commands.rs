@@ -1,9 +1,10 @@
-//! Commands to the runner, which are lines in the log
+//! Workflow commands, which are lines in the log that the runner executes
 //! (<https://docs.github.com/en/actions/reference/workflows-and-actions/workflow-commands>).
 
 use std::fmt::Write;
 
-/// Returns a command with properties. Everything is escaped, so that it stays one command.
+/// Returns a command with properties. Everything is escaped, so that no text can start another
+/// command.
 pub fn command(name: &str, properties: &[(&str, String)], message: &str) -> String {
     let properties = properties.iter();
     let properties: Vec<String> = properties

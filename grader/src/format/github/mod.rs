@@ -1,5 +1,5 @@
 //! GitHub Actions: a summary on the page of the run, annotations on the student's lines, and a log
-//! in which a submission's output cannot pass for a command.
+//! in which a submission's output cannot be mistaken for a command.
 
 mod annotations;
 mod commands;

@@ -89,14 +89,14 @@ fn write_item(
     )
 }
 
-/// Puts a text into a code block whose fence no line of the text can close.
+/// Puts a text into a code block, with a fence so long that no line of the text can close it.
 fn fence(text: &str) -> String {
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let fence = "`".repeat((longest + 1).max(3));
     format!("{fence}text\n{text}\n{fence}")
 }
 
-/// Escapes a text for Markdown, in one line.
+/// Escapes a text for Markdown, and puts it on one line.
 fn escape_markdown(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {

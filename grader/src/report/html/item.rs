@@ -12,7 +12,7 @@ use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Verdict};
 
-/// Renders an item that lost points: what happened, where to look, and how to run it again.
+/// Renders an item that lost points: what happened, where to look, and how to run the item again.
 pub(super) fn failing(
     score: &ItemScore,
     item: Option<&Item>,
@@ -57,7 +57,7 @@ pub(super) fn passed(score: &ItemScore, item: Option<&Item>, answers: &ReportAns
     }
 }
 
-/// Renders the verdict. The sign only repeats the text.
+/// Renders the verdict, as a sign and as text with the same meaning.
 fn verdict(score: &ItemScore) -> Markup {
     let (class, sign) = match score.verdict {
         Verdict::Pass => ("good", "✓"),
@@ -98,7 +98,7 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> (String, String, String) 
     };
     let all = format!("{count} questions, one after the other");
     match &score.verdict {
-        // The first question shows what there is to write.
+        // The first question shows what the code should do.
         Verdict::Unimplemented => match first {
             Some(first) => (
                 describe::element(&first.question, 0),
@@ -149,7 +149,7 @@ fn look(score: &ItemScore) -> Markup {
     }
 }
 
-/// Renders each hint: the nudge, and the full hint folded away.
+/// Renders each hint: the nudge, and the full hint in a folded section.
 fn hints(score: &ItemScore) -> Markup {
     html! {
         @for (index, hint) in score.hints.iter().enumerate() {
@@ -167,8 +167,8 @@ fn hints(score: &ItemScore) -> Markup {
     }
 }
 
-/// Renders a drawing of the question that went wrong, if it can be drawn. For code that is not
-/// written yet, it is the first question.
+/// Renders a drawing of the question that went wrong, if it can be drawn. If the code is not
+/// written yet, draws the first question.
 fn figure(score: &ItemScore, item: Option<&Item>, answers: &ReportAnswers) -> Markup {
     let number = match (&score.evidence, &score.verdict) {
         (Some(evidence), _) => Some(evidence.number),

@@ -1,5 +1,6 @@
-//! The mask, which shows the error in each pixel as a colour and a pattern, so that it can be read
-//! without colours, too. The colours are from Okabe and Ito (2008), "Color universal design".
+//! The mask, which shows the error in each pixel as a colour and a pattern, so that readers who
+//! cannot distinguish the colours can use the patterns. The colours are from Okabe and Ito (2008),
+//! "Color universal design".
 
 use glam::UVec2;
 
@@ -18,7 +19,7 @@ const EMPTY: Colour = [40, 40, 44];
 const RIGHT: Colour = [104, 104, 108];
 const BLACK: Colour = [0, 0, 0];
 
-/// Returns the mask as the address of an image. Each pixel of the film is a block.
+/// Returns the mask as a data URI. Each pixel of the film becomes a block of screen pixels.
 pub(super) fn mask(picture: &Picture) -> String {
     let block = (WIDTH / picture.film.max_element()).max(1);
     let size = picture.film * block;
@@ -34,14 +35,14 @@ pub(super) fn mask(picture: &Picture) -> String {
     paint(size, colour)
 }
 
-/// Returns a legend patch as the address of an image.
+/// Returns a legend patch as a data URI.
 pub(super) fn patch(aspect: Aspect) -> String {
     paint(UVec2::splat(PATCH_WIDTH), |position| {
         pattern(aspect, position)
     })
 }
 
-/// Returns the name of an aspect, as people read it.
+/// Returns the name of an aspect for readers of the page.
 pub(super) fn aspect_name(aspect: Aspect) -> &'static str {
     match aspect {
         Aspect::NoAnswer => "no answer",
@@ -83,7 +84,7 @@ mod tests {
 
     use super::*;
 
-    /// Compares where the colour is, for the aspects that can occur in one mask.
+    /// Compares the patterns without their colours, for the aspects that can occur in one mask.
     #[test]
     fn no_two_aspects_of_a_mask_have_the_same_pattern() {
         let aspects = [

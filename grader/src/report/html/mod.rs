@@ -1,7 +1,7 @@
 //! `report.html`: everything about one score, in one file that loads nothing from the network. The
-//! page depends only on the score, the exam and the answers, and not on the time.
+//! page depends only on the score, the exam and the answers, and not, for example, on the date.
 //!
-//! Nothing that a submission writes can take the page over: `maud` escapes it, `plain_text` removes
+//! Nothing that a submission writes can take over the page: `maud` escapes it, `plain_text` removes
 //! control characters, and the content security policy allows only the page's own script and style,
 //! by their hashes.
 
@@ -98,7 +98,8 @@ fn render_page(
                     }
                 }
                 (footer(score, rerun))
-                // Tells screen readers what a button has done.
+                // The script writes here what a button has done, so that screen readers announce
+                // it.
                 p #status .quiet role="status" {}
                 script { (PreEscaped(SCRIPT)) }
             }

@@ -14,7 +14,8 @@ use crate::picture::{self, LayerComparison, Picture, WorstPixel};
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 
-/// The width of the SVG that holds the marks, whatever the size of the film.
+/// The width of the SVG that contains the marks, in its own units. It does not depend on the size
+/// of the film.
 const MARKS_WIDTH: f32 = 64.0;
 /// The radius of a mark. The mask is 256 screen pixels wide, so a mark is large enough to click.
 const MARK_RADIUS: f32 = 3.2;
@@ -37,7 +38,8 @@ pub(super) fn failing(item: &Item, answers: &ReportAnswers, rerun: &RerunCommand
     }
 }
 
-/// Renders the pictures of an item that passed. Here the submitted pictures are enough.
+/// Renders the pictures of an item that passed: only the submitted ones, since they match the
+/// expected ones.
 pub(super) fn passed(item: &Item, answers: &ReportAnswers) -> Markup {
     let questions = item.questions.iter().enumerate();
     let pictures = questions.filter_map(|(index, question)| {
@@ -55,7 +57,8 @@ pub(super) fn passed(item: &Item, answers: &ReportAnswers) -> Markup {
     }
 }
 
-/// A wrong picture, and its question. `describe_got` formats the submitted answer for an element.
+/// A wrong picture, with its item and question. `describe_got` formats the submitted answer for an
+/// element.
 struct WrongPicture<'a, F: Fn(usize) -> String> {
     item: &'a Item,
     question: usize,
@@ -183,7 +186,7 @@ fn spot_label(spot: &WorstPixel) -> String {
     format!("pixel ({x}, {y}): {}", mask::aspect_name(spot.aspect))
 }
 
-/// Renders one layer: the expected picture, the submitted one, and their difference.
+/// Renders one layer of a picture: as expected, as submitted, and the difference between the two.
 fn row(picture: &Picture, view: &LayerComparison) -> Markup {
     html! {
         div .row data-view=(view.name) {

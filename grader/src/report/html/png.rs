@@ -6,7 +6,7 @@ use glam::UVec2;
 
 use crate::picture::Colour;
 
-/// Encodes a picture as a data URI. The rows of `pixels` begin at the bottom.
+/// Encodes a picture as a data URI. The first row of `pixels` is the bottom row.
 pub(super) fn data_uri(film: UVec2, pixels: &[Colour]) -> String {
     let mut bytes = Vec::with_capacity(pixels.as_flattened().len());
     for row in pixels.rchunks(film.x as usize) {
@@ -21,7 +21,7 @@ fn encode(film: UVec2, bytes: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
     let mut out = Vec::new();
     let mut encoder = png::Encoder::new(&mut out, film.x, film.y);
     encoder.set_color(png::ColorType::Rgb);
-    // Speed over size: every run encodes pictures, and few pages are ever opened.
+    // Speed matters more than size: every run encodes pictures, and few pages are ever opened.
     encoder.set_compression(png::Compression::Fastest);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(bytes)?;

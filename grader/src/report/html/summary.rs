@@ -61,7 +61,8 @@ fn row(task: &TaskScore) -> Markup {
     }
 }
 
-/// Renders a bar, hidden from screen readers: the numbers beside it say the same.
+/// Renders a bar for the points of a task. It is hidden from screen readers, since the numbers
+/// beside it say the same.
 fn bar(task: &TaskScore) -> Markup {
     let width = 100.0 * f64::from(task.points) / f64::from(task.max_points.max(1));
     PreEscaped(format!(

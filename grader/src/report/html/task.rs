@@ -10,10 +10,11 @@ use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore};
 
-/// The number of failing items per task that start open. Items with pictures always do.
+/// The maximum number of failing items per task that are open when the page loads. Items with
+/// pictures are not subject to this limit.
 const MAX_OPEN_ITEMS: usize = 3;
 
-/// Renders the files that did not compile, and the notes. Empty if there are none.
+/// Renders the files that did not compile, and the notes. Returns nothing if there are neither.
 pub(super) fn files(score: &Score) -> Markup {
     let build = &score.build;
     if build.not_compiled.is_empty() && build.notes.is_empty() {

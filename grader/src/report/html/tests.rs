@@ -10,7 +10,7 @@ use crate::report_answers::ReportAnswers;
 use crate::score::{Evidence, FileReport, Hint, Score, Verdict};
 use crate::verdict::pending_score;
 
-/// Text that attacks the page, used for everything that a submission can write.
+/// Text that attacks the page. The tests use it for every text that a submission can write.
 const HOSTILE: &str =
     "</title></script><script>alert(1)</script>\"><img src=x>&amp;\u{202e}\u{1b}[2J";
 
@@ -32,7 +32,8 @@ fn page(score: &Score, exam: &Exam, answers: &ReportAnswers) -> String {
     page.replace(super::STYLE, "").replace(super::SCRIPT, "")
 }
 
-/// Returns a score in which everything passed except the item `id`, which `change` adjusts.
+/// Returns an exam, and a score for it in which all items passed except the item `id`, which
+/// `change` adjusts.
 fn all_passed_except(id: &str, change: impl Fn(&mut crate::score::ItemScore)) -> (Exam, Score) {
     let exam = exam();
     let mut score = sample_pending_score(&exam, "alice");
@@ -93,7 +94,7 @@ fn escapes_everything_that_a_submission_can_write() {
     for bad in ["<script>alert", "<img src=x", "\u{202e}", "\u{1b}"] {
         assert!(!page.contains(bad), "{bad:?}");
     }
-    // The page's own script.
+    // The only script is the page's own.
     assert_eq!(page.matches("<script").count(), 1);
 }
 

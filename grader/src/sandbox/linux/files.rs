@@ -14,11 +14,12 @@ use super::super::launch_request::{LaunchRequest, Profile};
 use super::start::Program;
 use super::while_doing;
 
-/// The newest Landlock ABI that this code was tested with. On an older kernel, all the access
-/// rights that it knows are used.
+/// The newest Landlock ABI that this code was tested with. An older kernel restricts only the
+/// access rights that it knows.
 const LANDLOCK_ABI: ABI = ABI::V6;
 
-/// Access rights for writing to a folder. They exclude creating links, devices, sockets and pipes.
+/// Access rights for writing to a folder. They do not allow the program to create symbolic links,
+/// devices, sockets or pipes.
 const WRITE_ACCESS: BitFlags<AccessFs> = make_bitflags!(AccessFs::{
     WriteFile | RemoveFile | RemoveDir | MakeReg | MakeDir | Refer | Truncate
 });
@@ -74,7 +75,7 @@ fn add_rule(
     path: &Path,
     access: BitFlags<AccessFs>,
 ) -> Result<RulesetCreated, Box<dyn std::error::Error>> {
-    // Folder rights do not apply to a file, and Landlock would report them.
+    // Rights for folders do not apply to a file, and Landlock would report them.
     let access = match path.is_dir() {
         true => access,
         false => access & AccessFs::from_file(LANDLOCK_ABI),

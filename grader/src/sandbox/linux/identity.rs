@@ -14,13 +14,15 @@ use super::super::isolation::Isolation;
 use super::super::launch_request::{LaunchRequest, Profile};
 use super::while_doing;
 
-/// The first of the user ids far above any that a machine assigns to people or services.
+/// The first id for dedicated users. It is far above all ids that machines assign to people or
+/// services.
 const HIGH_UID_BASE: u32 = 0x7000_0000;
-/// First id and number of ids, used where such high ids do not exist, as in most rootless
-/// containers: 500 ids that systemd leaves unassigned (`systemd.io/UIDS-GIDS`).
+/// The first id for dedicated users and the number of such ids, on systems that do not have ids as
+/// high as [`HIGH_UID_BASE`], such as most rootless containers. Systemd leaves these 500 ids
+/// unassigned (`systemd.io/UIDS-GIDS`).
 const LOW_UIDS: (u32, u32) = (60_600, 500);
 
-/// Switches to the dedicated user, if there is one, and drops all privileges beyond that user's.
+/// Switches to the dedicated user, if there is one, and drops all capabilities for good.
 pub(super) fn drop_privileges(request: &LaunchRequest, user: Option<u32>) -> io::Result<()> {
     if let Some(user) = user {
         let switch = || while_doing("switch to another user, for which root needs CAP_SETUID");
@@ -32,7 +34,7 @@ pub(super) fn drop_privileges(request: &LaunchRequest, user: Option<u32>) -> io:
         set_thread_res_gid(gid, gid, gid).map_err(switch())?;
         set_thread_res_uid(uid, uid, uid).map_err(switch())?;
     }
-    // Without this, a program started as root would regain root's capabilities.
+    // Otherwise, a program started as root would regain root's capabilities.
     set_no_new_privs(true).map_err(while_doing("set no_new_privs"))?;
     let nothing = CapabilitySets {
         effective: CapabilitySet::empty(),
@@ -42,11 +44,12 @@ pub(super) fn drop_privileges(request: &LaunchRequest, user: Option<u32>) -> io:
     set_capabilities(None, nothing).map_err(while_doing("drop capabilities"))
 }
 
-/// Returns a user id that nothing else uses. It is derived from the process id, so no other program
-/// has it at the same time.
+/// Returns a user id for this program alone. It is derived from the process id, so that programs
+/// that run at the same time have different users. Only among the few low ids could two be the
+/// same.
 ///
-/// Returns `None` if this process is not root, or if the dedicated user could not read the program:
-/// the toolchain may be in root's home folder, which is accessible only with namespaces.
+/// Returns `None` if this process is not root. Also returns `None` for a compiler without
+/// namespaces: its toolchain may be in root's home folder, which another user can then not read.
 pub(super) fn dedicated_user(request: &LaunchRequest) -> Option<u32> {
     let is_reachable = match request.profile {
         Profile::Probe => true,
@@ -62,7 +65,8 @@ pub(super) fn dedicated_user(request: &LaunchRequest) -> Option<u32> {
     })
 }
 
-/// Returns whether a user id is in a map with lines of the form `first outside count`.
+/// Returns whether a user id is mapped by the text of a `uid_map` file, whose lines have the form
+/// `first outside count`.
 fn is_mapped(map: &str, user: u32) -> bool {
     map.lines().any(|line| {
         let mut numbers = line.split_whitespace().map(str::parse::<u64>);

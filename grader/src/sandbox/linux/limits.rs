@@ -8,13 +8,13 @@ use super::super::launch_request::{LaunchRequest, Profile};
 use super::while_doing;
 use crate::system::CPU_GRACE_SECONDS;
 
-/// The most threads of a probe, including its own two. Set only for a dedicated user, which has no
-/// other processes.
+/// The maximum number of threads of a probe, including the two that it needs itself. This limit is
+/// set only for a dedicated user, who has no other processes.
 const PROBE_THREADS: u64 = 34;
-/// The most processes and threads of the compiler, the linker and their helpers.
+/// The maximum number of processes and threads of the compiler, the linker and their helpers.
 const COMPILER_PROCESSES: u64 = 256;
-/// Stack size of a program's main thread, in bytes. A submission runs in another thread, with its
-/// own stack size.
+/// The stack size of a program's main thread, in bytes. A submission runs in another thread, which
+/// has its own stack size.
 const STACK: u64 = 8 << 20;
 
 /// Sets all limits. Soft and hard limits are equal except for CPU time: there, the hard limit sends

@@ -1,6 +1,6 @@
-//! The launcher: drops its privileges one after the other, then executes the confined program. It
-//! has a single thread, and is a fresh process rather than a fork of the grader, so its only state
-//! comes from its arguments.
+//! The launcher, which drops its privileges one after the other and then executes the confined
+//! program. It has a single thread, and is a fresh process rather than a fork of the grader, so all
+//! its state comes from its arguments.
 //!
 //! The order matters: namespaces first, while the launcher may still create them; then the user,
 //! which gives up that right; then limits; then Landlock, after which no other file can be opened;
@@ -47,7 +47,7 @@ fn confine(request: &LaunchRequest, command: Command) -> io::Result<ExitCode> {
         Isolation::Full => namespaces::enter(&request.profile, program)?,
         Isolation::NoNamespaces | Isolation::SeccompOnly | Isolation::None => program,
     };
-    // Only now, because the folders of the new root must be accessible to every user.
+    // Not earlier, because the folders of the new root must be accessible to every user.
     umask(Mode::RWXG | Mode::RWXO);
     identity::drop_privileges(request, user)?;
     limits::set(request, user)?;
@@ -72,7 +72,7 @@ fn signal_ready() -> io::Result<()> {
     stdout.flush()
 }
 
-/// Returns a function that converts an error, for `map_err`: its message says what failed.
+/// Returns a function for `map_err` that puts what failed in front of the error's message.
 fn while_doing<E: Display>(what: &str) -> impl FnOnce(E) -> io::Error {
     let what = what.to_owned();
     move |error| io::Error::other(format!("cannot {what}: {error}"))

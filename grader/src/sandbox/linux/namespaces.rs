@@ -17,11 +17,11 @@ use super::super::launch_request::Profile;
 use super::start::Program;
 use super::while_doing;
 
-/// The folder on which the new root is mounted. Any folder will do that every system has.
+/// The folder on which the new root is mounted. Any folder that exists on every system would do.
 const NEW_ROOT: &str = "/tmp";
-/// Path of the machine's root in the new one, until it is unmounted.
+/// The path of the machine's root inside the new root, until it is unmounted.
 const OLD_ROOT: &str = "/host";
-/// Path of a probe in the new root.
+/// The path of a probe in the new root.
 const PROBE_PATH: &str = "/probe";
 
 /// Moves this process into new namespaces. Returns the program with its path in the new root.
@@ -63,11 +63,13 @@ pub(super) fn enter(profile: &Profile, program: Program) -> io::Result<Program> 
 
 /// A file or folder of the machine that is mounted in the new root.
 struct BindMount {
-    /// Path on the machine, without symbolic links, which would be resolved in the new root.
+    /// The path on the machine. It has no symbolic links, because they would be resolved in the new
+    /// root.
     source: PathBuf,
     target: PathBuf,
     is_writable: bool,
-    /// Whether it is mounted `noexec` on the machine. An unprivileged user cannot remove that flag.
+    /// Whether the source is mounted `noexec` on the machine. An unprivileged user cannot remove
+    /// that flag.
     is_noexec: bool,
 }
 
@@ -111,7 +113,8 @@ fn unshare(profile: &Profile) -> io::Result<()> {
          kernel.apparmor_restrict_unprivileged_userns user.max_user_namespaces`), forbid it",
     ))?;
     if !uid.is_root() {
-        // Maps the user only, to the same id: mapped to root, the compiler behaves differently.
+        // Maps only this user, and to the same id: if the user were mapped to root, the compiler
+        // would behave differently.
         let itself = |id: u32| format!("{id} {id} 1");
         let map = || while_doing("map the user into the namespace");
         fs::write("/proc/self/setgroups", "deny").map_err(map())?;

@@ -19,20 +19,21 @@ use rustix::process::{
 use super::super::launch_request::{LaunchRequest, Profile};
 use super::{signal_ready, while_doing};
 
-/// The most attempts, a millisecond apart, to execute a program whose file is still open for
-/// writing in another process.
+/// The maximum number of retries, one millisecond apart, to execute a program whose file is still
+/// open for writing in another process.
 const MAX_EXEC_RETRIES: u32 = 1_000;
 
 /// The program to execute, with its arguments.
 pub(super) struct Program {
     command: Command,
     path: PathBuf,
-    /// Keeps the file open if its path leads through folders that become inaccessible.
+    /// The program's open file, if its path leads through folders that will become inaccessible.
     _file: Option<File>,
 }
 
 impl Program {
-    /// Opens a probe's file while it is still accessible: it may be in a folder of root's.
+    /// Opens the file of a probe while it is still accessible: it may be in a folder that only root
+    /// can read.
     pub(super) fn open(command: Command, request: &LaunchRequest) -> io::Result<Self> {
         let path = PathBuf::from(command.get_program());
         match request.profile {
@@ -53,7 +54,7 @@ impl Program {
         }
     }
 
-    /// Returns the same command with another path to the program.
+    /// Creates a program from a command, with another path to its executable.
     pub(super) fn with_path(command: Command, path: PathBuf) -> Self {
         let mut moved = Command::new(&path);
         moved.args(command.get_args());
@@ -75,7 +76,8 @@ impl Program {
     }
 
     /// Replaces this process with the program. It keeps the process id, so the grader measures and
-    /// kills the program itself. The system kills it when the grader ends for whatever reason.
+    /// kills the program itself. The system kills the program when the grader ends, for whatever
+    /// reason.
     pub(super) fn exec(mut self) -> io::Result<ExitCode> {
         signal_ready()?;
         let mut error = self.command.exec();
@@ -91,15 +93,15 @@ impl Program {
         Err(error)
     }
 
-    /// Starts the program and waits for it, because it starts other processes, which must end with
-    /// it. `cpu` is the limit of its CPU time.
+    /// Starts the program and waits for it. This process stays, because the program starts other
+    /// processes, which must not outlive it or the grader. `cpu` is the limit of its CPU time.
     pub(super) fn supervise(mut self, cpu: Duration) -> io::Result<ExitCode> {
         signal_ready()?;
         let mut child = self.command.stdin(Stdio::null()).spawn()?;
         let pid = i32::try_from(child.id()).ok().and_then(Pid::from_raw);
         let pid = pid.ok_or_else(|| io::Error::other("the compiler has no process id"))?;
         let ended = pidfd_open(pid, PidfdFlags::empty())?;
-        // The grader never writes to our standard input, so it closes only when the grader ends.
+        // The grader never writes to our standard input, which is closed only when the grader ends.
         let grader = io::stdin();
         let mut events = [
             PollFd::new(&ended, PollFlags::IN),
@@ -117,7 +119,8 @@ impl Program {
                 true => Signal::XCPU,
                 false => signal,
             };
-            // Ends by the same signal, and kills everything that the program left running.
+            // Ends this process by the same signal, together with everything that the program left
+            // running.
             kill_current_process_group(signal)?;
         }
         let code = u8::try_from(status.code().unwrap_or(1)).unwrap_or(1);

@@ -22,7 +22,8 @@ mod lists;
 /// without conditions is always allowed.
 type CallRules = BTreeMap<i64, Vec<SeccompRule>>;
 
-/// Blocks all system calls except those of the profile. The last step before executing the program.
+/// Blocks all system calls except those of the profile. This is the last step before the program is
+/// executed.
 pub(super) fn restrict(profile: &Profile) -> io::Result<()> {
     let filters = filters(profile).map_err(while_doing("compile the system call filter"))?;
     for filter in &filters {
@@ -47,7 +48,7 @@ fn filters(profile: &Profile) -> Result<[BpfProgram; 2], seccompiler::Error> {
             SeccompAction::Errno(libc::EPERM as u32),
             SeccompAction::Allow,
         )?,
-        // ENOSYS, because compilers and linkers then fall back to other calls.
+        // The error is ENOSYS, because compilers and linkers then fall back to other calls.
         Profile::Compiler { .. } => compile_filter(
             compiler_calls()?,
             SeccompAction::Errno(libc::ENOSYS as u32),
@@ -66,7 +67,7 @@ fn compile_filter(
     Ok(SeccompFilter::new(calls, default_action, listed_action, architecture)?.try_into()?)
 }
 
-/// Returns the calls of a probe, which computes, creates threads, and uses its pipes.
+/// Returns the calls that a probe may make: it computes, creates threads, and uses its pipes.
 fn probe_calls() -> Result<CallRules, seccompiler::Error> {
     let mut calls = unconditional(&[lists::COMMON, lists::COMMON_X86]);
     let thread = libc::CLONE_THREAD as u64;
@@ -74,9 +75,10 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
         libc::SYS_clone,
         vec![if_argument(0, masked(thread), thread)?],
     );
-    // `abort` signals its own process; the same user may have other processes. Any other signal
-    // would let a program choose how it seems to end: SIGKILL looks as if memory had run out, which
-    // is nobody's fault, so that the exam would have to be repeated.
+    // A program may only signal itself, since its user may have other processes, and only with
+    // SIGABRT, for `abort`. With other signals, it could choose how it seems to end: SIGKILL looks
+    // as if memory had run out, which does not count as the program's fault, so the exam would have
+    // to be repeated.
     let own = u64::from(std::process::id());
     let abort = libc::SIGABRT as u64;
     let equal = |argument, value| {
@@ -109,8 +111,8 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
             0,
         )?])?],
     );
-    // `prctl` may name threads only. In particular, the program must not undo that it is killed
-    // when the grader ends.
+    // `prctl` may only name threads. In particular, the program must not cancel the signal that
+    // kills it when the grader ends.
     calls.insert(
         libc::SYS_prctl,
         if_argument_in(0, [libc::PR_SET_NAME as u64])?,
@@ -118,8 +120,8 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
     Ok(calls)
 }
 
-/// Returns the calls of a compiler, which reads and writes files and starts programs, but has no
-/// network and cannot create namespaces.
+/// Returns the calls that a compiler may make: it reads and writes files and starts programs, but
+/// has no network and cannot create namespaces.
 fn compiler_calls() -> Result<CallRules, seccompiler::Error> {
     let mut calls = unconditional(&[
         lists::COMMON,
@@ -141,10 +143,10 @@ fn compiler_calls() -> Result<CallRules, seccompiler::Error> {
         libc::SYS_clone,
         vec![if_argument(0, masked(namespaces), 0)?],
     );
-    // Only for its own process group: this is how the launcher kills it.
+    // Signals are allowed only within the own process group, which the launcher kills in this way.
     calls.insert(libc::SYS_kill, vec![if_argument(0, SeccompCmpOp::Eq, 0)?]);
-    // Rust's standard library starts programs with the help of a socket pair. This type of socket
-    // stays connected; through a datagram socket, messages could go to other sockets.
+    // Rust's standard library starts programs with the help of a socket pair. Sockets of this type
+    // stay connected, while a datagram socket could send messages to other sockets.
     let unix = SeccompCondition::new(
         0,
         SeccompCmpArgLen::Dword,
@@ -183,7 +185,7 @@ fn if_argument(
     Ok(SeccompRule::new(vec![condition])?)
 }
 
-/// Returns rules of which one holds if the 32-bit argument is one of `values`.
+/// Returns one rule for each of `values`, which holds if the 32-bit argument is equal to it.
 fn if_argument_in<const N: usize>(
     argument: u8,
     values: [u64; N],

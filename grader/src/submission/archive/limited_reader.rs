@@ -13,8 +13,8 @@ pub(super) struct LimitedReader<R> {
     budget: ByteBudget,
 }
 
-/// The number of bytes that may still be read. Clones share the count, so that it is known outside
-/// the reader.
+/// The number of bytes that may still be read. Clones share the number, so that the owner of a
+/// reader can check and reset it.
 #[derive(Clone, Debug)]
 pub(super) struct ByteBudget(Rc<Cell<u64>>);
 
@@ -49,7 +49,7 @@ impl ByteBudget {
 }
 
 impl<R> LimitedReader<R> {
-    /// Limits `inner` to `bytes` bytes in all, at whatever offsets. Also returns the budget.
+    /// Limits `inner` to `bytes` bytes in total, at any offsets. Also returns the budget.
     pub(super) fn new(inner: R, bytes: u64) -> (Self, ByteBudget) {
         let budget = ByteBudget(Rc::new(Cell::new(bytes)));
         let reader = LimitedReader {

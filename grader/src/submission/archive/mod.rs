@@ -1,6 +1,6 @@
-//! Reads a submission from an archive, which may be malicious. It is read in memory and never
-//! unpacked. Sizes and counts in its headers are not trusted: limits apply to the bytes that are
-//! actually read and inflated.
+//! Reads a submission from an archive, which may be malicious. The archive is read in memory and
+//! never unpacked. The sizes and counts in its headers are not trusted: limits apply to the bytes
+//! that are actually read and inflated.
 
 mod limited_reader;
 mod tarball;
@@ -23,24 +23,24 @@ use limited_reader::LimitedReader;
 use tarball::Tarball;
 use zip_reader::ZipReader;
 
-/// The most files that an archive may have. A checkout with its `target/` has several thousand.
+/// The maximum number of files in an archive. A checkout with its `target/` has several thousand.
 pub const MAX_MEMBERS: usize = 50_000;
 
 /// Reasons for rejecting an archive.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ArchiveError {
-    /// It has no bytes, or no members.
+    /// The archive has no bytes, or no members.
     #[error("it is empty: download or submit it again")]
     Empty,
-    /// It is an archive of another kind.
+    /// The file is an archive of an unsupported kind.
     #[error(
         "it is a {0} archive, but only .zip, .tar and .tar.gz can be read: pack it as one of these"
     )]
     UnsupportedKind(&'static str),
-    /// It is not an archive.
+    /// The file is not an archive.
     #[error("it is neither a folder nor a .zip, .tar or .tar.gz, whatever its name says")]
     NotAnArchive,
-    /// It is truncated or malformed.
+    /// The archive is truncated or malformed.
     #[error("it is damaged ({0}): download or pack it again")]
     Damaged(String),
     /// A member is encrypted.
@@ -49,13 +49,13 @@ pub enum ArchiveError {
     /// A member is compressed with an unusual method.
     #[error("its file {0} has an unusual compression method: pack it as a plain .zip")]
     UnsupportedCompression(String),
-    /// Two Rust files have the same path, on some file system or other.
+    /// Two Rust files have the same path, at least on some file systems.
     #[error("{0} is in it twice, or is the same file as {1} on some systems: pack it again")]
     DuplicatePath(String, String),
     /// There are too many members.
     #[error("it has more than {MAX_MEMBERS} files: pack the five files, without target/")]
     TooManyFiles,
-    /// Its contents are too large.
+    /// The contents are too large.
     #[error("it has more than {} MiB: pack the five files, without target/", .0 >> 20)]
     TooLarge(u64),
     /// A member's path leads out of the archive.
@@ -64,7 +64,7 @@ pub enum ArchiveError {
     /// A member is a link or a device.
     #[error("{0} in it is a link or device, not a regular file: pack the file itself")]
     NotRegular(String),
-    /// The system cannot read it.
+    /// The system cannot read the file.
     #[error("it cannot be read: {0}")]
     Io(String),
 }
@@ -72,25 +72,26 @@ pub enum ArchiveError {
 /// A regular file in an archive.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
-    /// Its path, with `/` and without `.` components. It is relative and stays inside the archive.
+    /// The path, with `/` and without `.` components. It is relative and stays inside the archive.
     pub path: String,
-    /// Its position in the archive.
+    /// The position of the file in the archive.
     index: usize,
 }
 
 /// The contents of an archive.
 #[derive(Debug, Default)]
 pub struct Listing {
-    /// Its regular files.
+    /// The regular files.
     pub members: Vec<Member>,
-    /// Its folders, with `/`.
+    /// The paths of the folders, with `/`.
     pub folders: Vec<String>,
     /// Reasons for rejecting other members.
     pub errors: Vec<ArchiveError>,
 }
 
 impl Listing {
-    /// Records a link or device. It is rejected, but its folder is listed.
+    /// Records a link or device: adds an error, and lists its folder. In `target/`, links and
+    /// devices are ignored.
     fn add_special(&mut self, path: &str) {
         if let Err(why) = check_special(path) {
             let folder = path.rsplit_once('/').map(|(folder, _)| folder.to_owned());
@@ -130,8 +131,8 @@ impl Archive {
         }))
     }
 
-    /// Lists all contents. A path that leads outside, a link, or a device is rejected on its own:
-    /// in the archive of a class, it affects only one student.
+    /// Lists all contents. If a member is a link or a device, or its path leads outside, only this
+    /// member is rejected: in the archive of a whole class, it affects only one student.
     pub fn listing(&mut self) -> Result<Listing, ArchiveError> {
         let mut listing = match &mut self.0 {
             ArchiveReader::Zip(zip) => zip.listing(),
@@ -164,8 +165,8 @@ impl Archive {
         }
     }
 
-    /// Returns how many members are best read in one call. A tar is scanned from the front on each
-    /// call, so all its members should be read at once.
+    /// Returns the number of members that should be read in one call. A tar is scanned from the
+    /// front on each call, so all its members should be read at once.
     pub fn batch_size(&self) -> usize {
         match &self.0 {
             ArchiveReader::Zip(_) => 1,
@@ -252,8 +253,8 @@ fn normalize_path(path: &str) -> Result<String, ArchiveError> {
     Ok(parts.collect::<Vec<_>>().join("/"))
 }
 
-/// Returns an error for each Rust file whose path another one has already had. Which of the two
-/// counts would depend on the program that unpacks them.
+/// Returns an error for each Rust file with the same path as an earlier one. Which of the two is
+/// used would depend on the program that unpacks them.
 fn duplicate_paths(members: &[Member]) -> Vec<ArchiveError> {
     let mut known: BTreeMap<String, &str> = BTreeMap::new();
     let mut errors = Vec::new();
@@ -270,8 +271,9 @@ fn duplicate_paths(members: &[Member]) -> Vec<ArchiveError> {
     errors
 }
 
-/// Returns the path as the least exact file systems compare it: in lower case (macOS, Windows), in
-/// Unicode's composed form (macOS), and without dots and spaces at the end of a name (Windows).
+/// Returns the path in a form in which two paths are equal if any common file system treats them as
+/// the same: in lower case (macOS, Windows), in Unicode's composed form (macOS), and without dots
+/// and spaces at the end of a name (Windows).
 fn folded_path(path: &str) -> String {
     let folded: String = path.to_lowercase().nfc().collect();
     let names = folded

@@ -14,9 +14,9 @@ use super::{
     normalize_path,
 };
 
-/// The most bytes of an uncompressed tar, including members that are skipped.
+/// The maximum size of an uncompressed tar in bytes, including members that are skipped.
 const MAX_BYTES: u64 = 256 << 20;
-/// Offset and bytes of a tar header's magic number.
+/// The offset and the bytes of the magic number in a tar header.
 const MAGIC: (usize, &[u8]) = (257, b"ustar");
 
 /// A tar archive, possibly compressed with gzip.
@@ -46,7 +46,8 @@ impl Tarball {
     fn reader(&self) -> Result<(LimitedReader<Box<dyn Read>>, ByteBudget), ArchiveError> {
         let file = || File::open(&self.path).map(BufReader::new).map_err(io_error);
         let mut magic = [0; 2];
-        // A shorter file is not an archive, and is rejected later for lack of a magic number.
+        // A file of fewer than two bytes is not an archive. It is rejected later, because it has no
+        // magic number.
         let _ = file()?.read(&mut magic).map_err(io_error)?;
         let inner: Box<dyn Read> = match magic {
             [0x1f, 0x8b] => Box::new(MultiGzDecoder::new(file()?)),
@@ -70,7 +71,7 @@ impl Tarball {
                 Ok(path) if kind.is_file() || kind.is_contiguous() || kind.is_gnu_sparse() => {
                     listing.members.push(Member { path, index });
                 }
-                // Headers that apply to all files, such as the one with Git's commit id.
+                // Other entries are metadata, such as the header in which Git stores the commit id.
                 Ok(_) => {}
             }
             Ok(())

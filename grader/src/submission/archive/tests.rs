@@ -25,7 +25,8 @@ fn zip(files: Files) -> Vec<u8> {
     writer.finish().unwrap().into_inner()
 }
 
-/// Writes the path unchanged; the crate's own method rejects some paths.
+/// Returns a tar archive with one member, whose path is written unchanged. The `tar` crate's own
+/// method rejects some paths.
 fn tar_with(path: &str, kind: EntryType, bytes: &[u8]) -> Vec<u8> {
     let mut header = Header::new_ustar();
     header.as_ustar_mut().unwrap().name[..path.len()].copy_from_slice(path.as_bytes());
@@ -111,7 +112,7 @@ fn rejects_two_spellings_of_one_path() {
         "src/bvh.rs..",
     ];
     for spelling in spellings {
-        // The crate that writes zips refuses the same path twice.
+        // The crate that writes zip files refuses to write the same path twice.
         let bytes = match spelling {
             "src/bvh.rs" => tar(&[("src/bvh.rs", b"1"), (spelling, b"2")]),
             _ => zip(&[("src/bvh.rs", b"1"), (spelling, b"2")]),
@@ -133,7 +134,7 @@ fn reads_zip_tar_and_tar_gz_alike() {
         collect("alice.zip", &zip(FILES)),
         collect("alice.TAR", &tar(FILES)),
         collect("alice.tar.gz", &gzip(&tar(FILES))),
-        // The bytes count, not the extension.
+        // The bytes of a file decide, not its extension.
         collect("alice.tgz", &zip(FILES)),
     ];
     for submission in all {

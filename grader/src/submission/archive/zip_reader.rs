@@ -15,7 +15,8 @@ use super::{
     normalize_path,
 };
 
-/// The most bytes that are read to list the contents: the directory of some 50,000 members.
+/// The maximum number of bytes to read for a list of the contents. This is about the size of a
+/// directory with 50,000 members.
 const MAX_DIRECTORY_BYTES: u64 = 8 << 20;
 
 /// A zip archive whose directory has been read.
@@ -76,7 +77,7 @@ impl ZipReader {
     }
 }
 
-/// Converts an error of a zip, or of its member with this path.
+/// Converts an error in a zip file, or in its member with this path.
 fn archive_error(error: &ZipError, path: &str) -> ArchiveError {
     match error {
         ZipError::Encrypted => ArchiveError::Encrypted(display_name(path)),

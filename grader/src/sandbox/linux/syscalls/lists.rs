@@ -1,5 +1,5 @@
-//! The numbers of system calls. Calls that only x86 has are listed separately: on newer
-//! architectures, other calls do the same.
+//! Lists of allowed system calls, by number. Calls that exist only on x86 are listed separately:
+//! newer architectures have other calls for the same purpose.
 
 #[cfg(target_arch = "x86_64")]
 use libc::{
@@ -79,9 +79,9 @@ pub(super) const COMMON: &[c_long] = &[
     SYS_exit_group,
 ];
 
-/// Further calls of a compiler and a linker.
+/// Additional calls that a compiler and a linker need.
 pub(super) const COMPILER: &[c_long] = &[
-    // files; Landlock and the mount namespace restrict which
+    // files; Landlock and the mount namespace restrict which files are accessible
     SYS_openat,
     SYS_newfstatat,
     SYS_statx,
@@ -160,11 +160,11 @@ pub(super) const COMPILER: &[c_long] = &[
     SYS_getpriority,
 ];
 
-/// The calls of [`COMMON`] that only x86 has.
+/// Calls that belong to [`COMMON`] but exist only on x86.
 #[cfg(target_arch = "x86_64")]
 pub(super) const COMMON_X86: &[c_long] = &[SYS_arch_prctl, SYS_dup2, SYS_pipe, SYS_poll];
 
-/// The calls of [`COMPILER`] that only x86 has.
+/// Calls that belong to [`COMPILER`] but exist only on x86.
 #[cfg(target_arch = "x86_64")]
 pub(super) const COMPILER_X86: &[c_long] = &[
     SYS_open,

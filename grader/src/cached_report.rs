@@ -19,7 +19,7 @@ use crate::report_files::ReportFiles;
 use crate::score::{Score, Verdict};
 use crate::submission::Submission;
 
-/// File name of the record, beside the score.
+/// Name of the file that stores the cached report, in the folder of the score.
 const RECORD: &str = "earlier.json";
 
 /// The inputs of a score.
@@ -45,7 +45,7 @@ pub struct CachedReport {
 }
 
 impl CachedReport {
-    /// Reads the record beside these files, if there is a valid one.
+    /// Reads the cached report that is stored beside these files, if there is a valid one.
     pub fn read(files: &ReportFiles) -> Option<Self> {
         serde_json::from_slice(&fs::read(files.folder.join(RECORD)).ok()?).ok()
     }
@@ -130,7 +130,7 @@ fn submission_hash(submission: &Submission) -> String {
     ContentHash::default().with(all.as_bytes()).hex()
 }
 
-/// Returns the hashes of the files' contents. That of an unreadable file is empty.
+/// Returns the hashes of the files' contents. The hash of an unreadable file is empty.
 fn content_hashes(files: &ReportFiles) -> Vec<String> {
     let paths: Vec<PathBuf> = files.paths().map(Path::to_owned).collect();
     let hash = |bytes: Vec<u8>| ContentHash::default().with(&bytes).hex();

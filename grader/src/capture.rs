@@ -6,7 +6,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// The output of a process so far: its beginning, and its length.
+/// The beginning and the length of the output that a process has printed so far.
 #[derive(Clone, Debug)]
 pub struct Capture {
     shared: Arc<Shared>,
@@ -61,7 +61,7 @@ impl Capture {
         String::from_utf8_lossy(&self.lock().head).into_owned()
     }
 
-    /// Returns the number of bytes so far.
+    /// Returns the number of bytes that the process has printed so far.
     pub fn total(&self) -> u64 {
         self.lock().total
     }

@@ -14,8 +14,8 @@ enum OpenError {
     NoProgram(#[from] io::Error),
 }
 
-/// Opens a file with the desktop's program for it, without waiting for that program. If this does
-/// not work, prints the path of the file, which is not an error.
+/// Opens a file with the desktop's default program for it, without waiting for that program. If
+/// this does not work, prints the path of the file, which is not an error.
 pub fn show(file: &Path) {
     if let Err(why) = open(file) {
         anstream::eprintln!("{why}: open {} yourself", file.display());
@@ -30,7 +30,7 @@ fn open(file: &Path) -> Result<(), OpenError> {
 }
 
 /// Returns whether there is a desktop. Windows and macOS always have one. On other systems, over a
-/// plain ssh connection, a program would start and fail unseen.
+/// plain ssh connection, a program would start and fail without the user noticing.
 fn has_desktop() -> bool {
     let is_set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
     cfg!(any(windows, target_os = "macos"))

@@ -21,7 +21,7 @@ use grader::sandbox;
 use grader::score;
 use grader::watch::watch;
 
-/// Printed below a cached report.
+/// Notice that is printed below a cached report.
 const UNCHANGED_NOTICE: &str =
     "  Nothing has changed since this was graded; use `--fresh` to grade it again.\n\n";
 
@@ -150,7 +150,7 @@ fn print_text(text: &str) -> Result<(), Error> {
     Ok(())
 }
 
-/// Returns the path relative to the current folder, if it is inside.
+/// Returns the path relative to the current folder, if it is inside that folder.
 fn relative_to_current_folder(path: &Path) -> &Path {
     let here = std::env::current_dir().unwrap_or_default();
     path.strip_prefix(here).unwrap_or(path)

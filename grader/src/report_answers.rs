@@ -34,7 +34,7 @@ impl ReportAnswers {
         }
     }
 
-    /// Returns the answer to one question of an item, by its index.
+    /// Returns the answer to the question of an item with this index.
     pub fn answer(&self, item: &str, question: usize) -> Option<&Answer> {
         self.0.get(item)?.get(question)
     }

@@ -11,10 +11,11 @@ use crate::report::{atomic_write, json};
 use crate::report_answers::ReportAnswers;
 use crate::score::Score;
 
-/// The shortest time between two writes of the score file during an exam. Most items take a
-/// millisecond, and so does writing a score. A grader that is killed loses no more than this.
+/// Minimum time between two writes of the score file during an exam. Most items take a millisecond,
+/// and so does writing a score. A grader that is killed loses no more than this.
 const SCORE_INTERVAL: Duration = Duration::from_millis(100);
-/// The same for the page, which takes longer to write than most items take to test.
+/// Minimum time between two writes of the page, which takes longer to write than most items take to
+/// test.
 const PAGE_INTERVAL: Duration = Duration::from_secs(1);
 
 /// The report files of one submission.
@@ -27,7 +28,7 @@ pub struct ReportFiles {
     score_written_at: Option<Instant>,
     /// The files for grading platforms.
     pub outputs: Outputs,
-    /// The folder that they are written to, unless a platform requires another.
+    /// The folder of the files for grading platforms, unless a platform requires another location.
     pub folder: PathBuf,
     page_written_at: Option<Instant>,
     reload: Reload,

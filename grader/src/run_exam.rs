@@ -18,7 +18,7 @@ use crate::verdict::{
     ItemOutcome, add_hints, blocked_score, blocking_item, item_score, substituted_score,
 };
 
-/// After this many time-outs, the remaining items of a task are skipped.
+/// Maximum number of time-outs in a task. After that, the task's remaining items are skipped.
 const MAX_TIMEOUTS: usize = 2;
 /// Maximum length of the stored output of a submission, in characters.
 const MAX_PRINTED_CHARS: usize = 1_000;
@@ -240,7 +240,7 @@ impl Session {
         }
     }
 
-    /// Ends a probe and keeps what it printed, unless something is kept already.
+    /// Ends a probe and keeps what it printed, unless earlier output has already been kept.
     fn keep_output(&mut self, probe: Probe) {
         let output = probe.finish();
         if self.printed.is_empty() {

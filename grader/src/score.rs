@@ -36,7 +36,8 @@ pub struct Score {
     /// Whether every item has been graded. False while the file is being written, or if the grader
     /// was stopped.
     pub complete: bool,
-    /// The options to repeat in commands. Not in the file, whose contents must not depend on paths.
+    /// The options to repeat in commands. Not stored in the file, whose contents must not depend on
+    /// paths.
     #[serde(skip)]
     pub rerun_command: RerunCommand,
     /// Sum of the points of all tasks.
@@ -244,14 +245,14 @@ pub struct Timings {
     pub build_ms: u64,
     /// Time to run the exam.
     pub exam_ms: u64,
-    /// Details for `--timings`. Not in the file.
+    /// Details for `--timings`. Not stored in the file.
     #[serde(skip)]
     pub stages: StageTimes,
 }
 
 impl ItemScore {
-    /// Returns the command that runs the item again: the question of its evidence, or else the
-    /// task.
+    /// Returns the command that runs the item again: only the question of its evidence or, if there
+    /// is no evidence, the whole task.
     pub fn rerun_command(&self, command: &RerunCommand) -> String {
         match &self.evidence {
             Some(evidence) => command.replay(&self.id, evidence.number),

@@ -7,18 +7,18 @@ use crate::build::{Builder, SelfTestError};
 use crate::cli::Arguments;
 use crate::sandbox::{Isolation, Sandbox};
 
-/// The lowest level for other people's code, unless another level is requested.
+/// The minimum level for other people's code, unless another level is requested.
 pub const MIN_FOR_UNTRUSTED: Isolation = Isolation::NoNamespaces;
 
-/// The requested isolation is not available on this machine.
+/// Reasons why the requested isolation is not available on this machine.
 #[derive(Debug, thiserror::Error)]
 pub enum IsolationError {
     /// The requested level does not work.
     #[error("isolation level {level} is not available: {why}\n{ADVICE}")]
     LevelUnavailable {
-        /// The level.
+        /// The requested level.
         level: Isolation,
-        /// The reason.
+        /// The reason why it does not work.
         why: SelfTestError,
     },
     /// No level works that is good enough for other people's code.
@@ -33,8 +33,8 @@ pub enum IsolationError {
 
 const ADVICE: &str = "see `cargo grade --doctor`; to grade your own work, leave out --untrusted";
 
-/// Returns the builder with the isolation that the command line requests, after testing it. For
-/// your own work, that is none.
+/// Returns the builder with the isolation that the command line requests, after testing it. If it
+/// requests none, as for your own work, the builder is returned unchanged.
 pub fn with_requested_level(
     builder: Builder,
     arguments: &Arguments,

@@ -40,7 +40,7 @@ pub struct Limits {
     pub memory: u64,
     /// Total CPU time of the process.
     pub cpu: Duration,
-    /// The largest file that it may write, in bytes.
+    /// Maximum size of a file that the process may write, in bytes.
     pub file: u64,
 }
 
@@ -78,9 +78,9 @@ fn single_name(name: &OsStr) -> io::Result<&OsStr> {
 /// How a process ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExitReason {
-    /// It exited with this code.
+    /// The process exited with this code.
     Code(i32),
-    /// This signal ended it.
+    /// The process was ended by this signal.
     Signal(i32),
 }
 
@@ -97,7 +97,7 @@ const REQUIRED_VARIABLES: [&str; 16] = [
     "ProgramData",
     "ProgramFiles",
     "ProgramFiles(x86)",
-    // Set if a linker was chosen by hand.
+    // These are set if the user has chosen a linker.
     "VCINSTALLDIR",
     "INCLUDE",
     "LIB",
@@ -106,7 +106,7 @@ const REQUIRED_VARIABLES: [&str; 16] = [
     "SDKROOT",
 ];
 
-/// Removes all environment variables except those that the system cannot do without.
+/// Removes all environment variables except those that programs on this system cannot do without.
 pub fn clear_environment(command: &mut Command) {
     command.env_clear();
     // On Linux an empty environment is enough, and it is the same on every machine.
@@ -128,13 +128,13 @@ pub fn set_limits(_: &std::process::Child, _: Limits) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Returns `None`: not available on this system.
+/// Returns `None`: a process's CPU time is not available on this system.
 #[cfg(not(target_os = "linux"))]
 pub fn cpu_time(_: &std::process::Child) -> Option<Duration> {
     None
 }
 
-/// Returns `None`: not available on this system.
+/// Returns `None`: a process's memory use is not available on this system.
 #[cfg(not(target_os = "linux"))]
 pub fn memory(_: &std::process::Child) -> Option<u64> {
     None

@@ -1,4 +1,4 @@
-//! Turns the outcome of an item into its score. Pure.
+//! Turns the outcome of an item into its score. This module is pure.
 
 use crate::build::NotCompiled;
 use crate::describe;
@@ -250,8 +250,8 @@ pub fn blocking_item<'a>(item: &'a Item, others: &Score) -> Option<&'a str> {
     item.needs.iter().find(earned_nothing).map(String::as_str)
 }
 
-/// Returns the score of an item that may fail because of `by`. Without substituted parts, nobody
-/// can tell which of the two is wrong.
+/// Returns the score of an item that may have failed only because the item `by` failed. If there
+/// are no substituted parts, it is impossible to tell which task has the mistake.
 pub fn blocked_score(by: &str, line: ItemScore) -> ItemScore {
     if line.points > 0 || line.verdict == Verdict::Pending {
         return line;
@@ -277,7 +277,7 @@ pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
         hint: mistake.hint.clone(),
     };
     line.hints = mistakes.iter().map(hint).collect();
-    // The most likely mistake comes first.
+    // If several mistakes are possible, students see the section of the first one.
     if let Some(section) = mistakes.first().and_then(|mistake| mistake.section.clone()) {
         line.section = Some(section);
     }

@@ -9,7 +9,7 @@ pub struct Workspace {
     root: PathBuf,
 }
 
-/// The workspace cannot be found.
+/// The error when the workspace cannot be found.
 #[derive(Debug, thiserror::Error)]
 #[error(
     "cannot find the assignment's folder, which contains student/framework: run the command inside it"
@@ -35,7 +35,7 @@ impl Workspace {
             .ok_or(WorkspaceError)
     }
 
-    /// Returns the folder itself.
+    /// Returns the workspace's root folder.
     pub fn root(&self) -> &Path {
         &self.root
     }
@@ -45,7 +45,7 @@ impl Workspace {
         self.root.join("student")
     }
 
-    /// Returns the folder of the solved files, if it exists.
+    /// Returns the folder of the reference solution, if it exists.
     pub fn reference(&self) -> Option<PathBuf> {
         let folder = self.root.join("reference/src");
         folder.is_dir().then_some(folder)

@@ -18,7 +18,7 @@ const CODE_PAGE_437: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿ�
 #[derive(Debug)]
 pub struct Zip<R> {
     archive: ZipArchive<R>,
-    /// Its entries, in directory order.
+    /// The archive's entries, in directory order.
     pub entries: Vec<Entry>,
 }
 
@@ -36,9 +36,9 @@ pub enum EntryKind {
 /// A file, folder, link or device in a zip.
 #[derive(Debug)]
 pub struct Entry {
-    /// The recorded name. It may be a path that leads outside.
+    /// The recorded name. It may be a path that leads outside the folder being unpacked.
     pub name: String,
-    /// Its kind.
+    /// The kind of the entry.
     pub kind: EntryKind,
     /// The nine permission bits of Unix.
     pub permissions: u32,
@@ -50,13 +50,13 @@ pub struct Entry {
 /// Reasons why a zip, or an entry of it, cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ZipError {
-    /// It is truncated or malformed.
+    /// The zip is truncated or malformed.
     #[error("{0}")]
     Damaged(#[from] rawzip::Error),
-    /// Its directory has more or fewer entries than it declares.
+    /// The directory has more or fewer entries than the zip declares.
     #[error("the number of files in its directory differs from the declared one")]
     WrongCount,
-    /// It has too many entries.
+    /// The zip has too many entries.
     #[error("it has more than {0} files")]
     TooManyEntries(usize),
     /// The entry is encrypted.
@@ -81,14 +81,14 @@ impl<R: ReaderAt> Zip<R> {
             }
             entries.push(Entry::new(&header));
         }
-        // Otherwise entries that were cut out of the directory would go unnoticed.
+        // Without this check, entries that were cut out of the directory would go unnoticed.
         if archive.entries_hint() != entries.len() as u64 {
             return Err(ZipError::WrongCount);
         }
         Ok(Zip { archive, entries })
     }
 
-    /// Returns a reader of an entry's contents. Damage is reported when it reaches their end.
+    /// Returns a reader of an entry's contents. Damage is reported only at the end of the contents.
     pub fn read(&self, entry: &Entry) -> Result<impl Read + '_, ZipError> {
         if entry.is_encrypted {
             return Err(ZipError::Encrypted);

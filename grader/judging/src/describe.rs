@@ -157,7 +157,7 @@ fn nth_ray(rays: &Rays, element: usize) -> String {
     }
 }
 
-/// Describes a single shape in full, and several by their number.
+/// Describes a single shape in full. For several shapes, returns only their number.
 fn shapes_text(shapes: &[Shape]) -> String {
     match shapes {
         [one] => shape_text(one),

@@ -16,14 +16,14 @@ pub enum DrawingData {
     #[default]
     #[serde(alias = "nothing")]
     None,
-    /// For `BBox`: for each query, the interval in which the ray is between the two planes of each
-    /// axis, ignoring the ranges of query and ray. If the ray is parallel to the planes, the
-    /// interval is unbounded or empty.
+    /// Data for `BBox` questions: for each query, the interval in which the ray is between the two
+    /// planes of each axis, ignoring the ranges of query and ray. If the ray is parallel to the
+    /// planes, the interval is unbounded or empty.
     Slabs(#[serde(with = "packed::text")] Vec<[Interval; 3]>),
-    /// For `Traverse` with a list of rays: one correct traversal per ray.
+    /// Data for `Traverse` questions with a list of rays: one correct traversal per ray.
     #[serde(alias = "walks")]
     Traversals(#[serde(with = "packed::text")] Vec<Vec<TraversalStep>>),
-    /// For `Build`: the tree of the exact SAH sweep.
+    /// Data for `Build` questions: the tree of the exact SAH sweep.
     Sweep(#[serde(with = "packed::text")] Sweep),
 }
 
@@ -60,12 +60,12 @@ pub struct LevelNode {
     pub level: u32,
     /// Number of primitives in the nodes to its left.
     pub start: u32,
-    /// Number of primitives below it.
+    /// Number of primitives below the node.
     pub count: u32,
     /// Whether the node is a leaf.
     pub is_leaf: bool,
-    /// Its contribution to the tree's SAH cost: its area divided by the root's area, times `count`
-    /// if it is a leaf.
+    /// The node's contribution to the tree's SAH cost: its area divided by the root's area, times
+    /// `count` if it is a leaf.
     pub cost: f32,
 }
 
@@ -78,7 +78,7 @@ impl DrawingData {
         }
     }
 
-    /// Returns why the data does not fit `question`, if it does not.
+    /// Returns the reason why the data does not fit `question`, or `None` if it fits.
     pub fn problem(&self, question: &Question) -> Option<String> {
         let count = question.count();
         match (self, question) {

@@ -50,7 +50,7 @@ impl ExamFile {
     }
 }
 
-/// An exam cannot be used.
+/// Reasons why an exam cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum ExamError {
     /// The file cannot be read.
@@ -143,7 +143,7 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, ExamError> {
     })
 }
 
-/// Returns the first problem of an exam, if it has one.
+/// Returns the first problem found in an exam, if there is one.
 fn problem(exam: &Exam) -> Option<String> {
     if exam.schema != SCHEMA_VERSION {
         return Some(format!(
@@ -230,7 +230,7 @@ fn film(question: &Question) -> Option<UVec2> {
     }
 }
 
-/// Returns why the item's signatures are invalid, if they are.
+/// Returns the reason why the item's signatures are invalid, or `None` if they are valid.
 fn signatures_problem(item: &Item, mistakes: usize) -> Option<String> {
     let count: usize = item
         .questions
@@ -301,7 +301,7 @@ fn match_key(question: &Question, key: &Key) -> (bool, usize) {
 mod tests {
     use super::*;
 
-    /// Keys of exam files, and the former name of each, which existing final exams still have.
+    /// Keys of exam files, and the former name of each key, which existing final exams still use.
     const FORMER_KEYS: [(&str, &str); 12] = [
         ("queries", "shots"),
         ("flat_triangle", "facet"),
@@ -329,7 +329,7 @@ mod tests {
             found += usize::from(former.contains(&now));
             former = former.replace(&now, &then);
         }
-        // A practice exam has no panics, so it has no location of one.
+        // The practice exam has no panics, so the key for the location of a panic does not occur.
         assert_eq!(found, FORMER_KEYS.len() - 1);
         let former = format!("{exam_level}\"items\"{former}");
         let parsed = parse(path, former.as_bytes()).unwrap().exam;

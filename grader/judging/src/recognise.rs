@@ -2,9 +2,9 @@
 //!
 //! A mistake *explains* an item if the submission's answers to the item's signature elements equal
 //! those of the mistake. A mistake is named only if it explains every item of the task that it
-//! affects, because a false hint is worse than none. Items that it does not affect may be wrong for
-//! other reasons. Of several candidates, those that explain the most items are named; if they
-//! explain equally many, all of them are.
+//! affects, because a false hint is worse than none. Items that the mistake does not affect may be
+//! wrong for other reasons. Of several candidates, those that explain the most items are named. If
+//! several explain equally many, all of these are named.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,8 @@ use crate::exam::{Exam, ExamQuestion, ExpectedHit, HitCheck, Item, Key, RayCheck
 use crate::judge::{FailureKind, judge};
 use crate::signatures::{KnownMistake, MistakeAnswers, NoAnswerReason, ObservedAnswer};
 
-/// Maximum number of mistakes that are named together. A longer list would be no help.
+/// Maximum number of mistakes that are named together. If there are more, none is named, because a
+/// long list would not help.
 const MAX_MISTAKES: usize = 3;
 
 /// A submission's answers to the signature elements of each item, by item id.
@@ -45,7 +46,7 @@ impl Observations {
     }
 
     /// Returns the known mistakes that explain an item. There are several if the answers do not
-    /// tell them apart.
+    /// distinguish them.
     pub fn explain<'a>(&self, exam: &'a Exam, item: &Item) -> Vec<&'a KnownMistake> {
         let Some(observed) = self.0.get(&item.id) else {
             return Vec::new();
@@ -76,8 +77,8 @@ impl Observations {
         }
     }
 
-    /// Returns whether no answer in the whole task, correct or wrong, says anything about the
-    /// cause.
+    /// Returns whether no answer in the whole task says anything about the cause, because the code
+    /// only panicked or gave no answers.
     fn is_uninformative(&self, exam: &Exam, task: Task) -> bool {
         let items = exam.items.iter().filter(|item| item.task == task);
         let mut observed = items.filter_map(|item| self.0.get(&item.id)).flatten();
@@ -102,7 +103,8 @@ impl Observations {
     }
 }
 
-/// Returns whether the submission's answers equal those of the mistake, including the correct ones.
+/// Returns whether the submission's answers equal those that the mistake gives, including the
+/// answers that the mistake leaves correct.
 fn explains(item: &Item, answers: &MistakeAnswers, observed: &[ObservedAnswer]) -> bool {
     let mut wrong = answers.answers.iter().peekable();
     observed
@@ -245,7 +247,7 @@ fn observe_span(span: Option<Interval>) -> ObservedAnswer {
     })
 }
 
-/// Observes a tree by the defect that the judge finds: correct builders produce different trees, so
+/// Returns the defect that the judge finds in a tree. Correct builders produce different trees, so
 /// the nodes themselves cannot be compared.
 fn observe_tree(question: &ExamQuestion, answer: &Answer) -> ObservedAnswer {
     let defect = judge(question, answer).failure.map(|failure| failure.kind);

@@ -20,14 +20,15 @@ pub fn sanitize(text: &str, longest: usize) -> String {
     sanitized
 }
 
-/// The most characters of a folder's name.
+/// Maximum length of a folder name, in characters.
 const MAX_FOLDER_NAME_CHARS: usize = 80;
-/// Names of devices on Windows, with any extension.
+/// Device names that Windows reserves, even if they are followed by digits or an extension.
 const DEVICES: [&str; 6] = ["con", "prn", "aux", "nul", "com", "lpt"];
 
-/// Returns a folder name that is valid on every system and in links, whatever the text is: letters
-/// and digits of any language, `-`, `_` and `.`. It never leads elsewhere, and begins neither with a
-/// dot, which hides a folder, nor with a dash, which programs take for an option.
+/// Returns a folder name that is valid on every system and in links, for any text. The name
+/// consists of letters and digits of any language, `-`, `_` and `.`. It never refers to another
+/// folder. It begins neither with a dot, which would hide the folder, nor with a dash, which
+/// programs would take for an option.
 pub fn safe_folder_name(text: &str) -> String {
     let safe = |c: char| match c {
         c if c.is_alphanumeric() || "-_.".contains(c) => c,

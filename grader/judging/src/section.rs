@@ -36,9 +36,9 @@ impl Section {
         self.0.split_once('#').map_or("", |(_, anchor)| anchor)
     }
 
-    /// Returns the heading's text, such as `Zero and minus zero`. Anchors have lost punctuation and
-    /// capitals, so this works only for headings of plain words with one initial capital. A test
-    /// ensures that only such headings are referenced.
+    /// Returns the heading's text, such as `Zero and minus zero`. Anchors do not preserve
+    /// punctuation and capitals, so this works only for headings of plain words with one initial
+    /// capital. A test ensures that only such headings are referenced.
     pub fn heading(&self) -> String {
         let mut heading = self.anchor().replace('-', " ");
         if let Some(first) = heading.get_mut(..1) {
@@ -47,8 +47,8 @@ impl Section {
         heading
     }
 
-    /// Returns the file to open and the heading to find: `handout/src/boxes.md, "Zero and minus
-    /// zero"`.
+    /// Returns the file to open and the heading to find, such as `handout/src/boxes.md, "Zero and
+    /// minus zero"`.
     pub fn location(&self) -> String {
         let chapter = self.chapter();
         match self.anchor() {

@@ -1,4 +1,4 @@
-//! Signatures of known mistakes: the answers that they give, by which they are recognised.
+//! Signatures of known mistakes: the answers that a mistake gives, from which it is recognised.
 
 use protocol::packed;
 use serde::{Deserialize, Serialize};
@@ -11,7 +11,7 @@ use crate::section::Section;
 pub struct KnownMistake {
     /// Id of the mistake, such as `sphere.far_first`.
     pub id: String,
-    /// A question that leads students to the mistake.
+    /// A question that helps students find the mistake.
     pub nudge: String,
     /// An explanation of the mistake.
     pub hint: String,
@@ -20,7 +20,7 @@ pub struct KnownMistake {
     pub section: Option<Section>,
 }
 
-/// The answers of each known mistake of a task to some elements of one item.
+/// The answers that a task's known mistakes give to some elements of one item.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MistakeSignatures {
@@ -86,11 +86,12 @@ pub enum NoAnswerReason {
 }
 
 impl ObservedAnswer {
-    /// Maximum difference of two numbers that may come from the same mistake, since equivalent
+    /// Maximum difference between two numbers that may come from the same mistake, since equivalent
     /// formulas round differently. Relative for values above 1, otherwise absolute.
     const TOLERANCE: f32 = 1e-3;
-    /// The same for the cost of a tree: builders with the same mistake produce somewhat different
-    /// trees.
+    /// Maximum difference between the amounts of two tree defects, such as SAH costs, that may come
+    /// from the same mistake. It is larger because builders with the same mistake produce somewhat
+    /// different trees.
     const COST_TOLERANCE: f32 = 0.08;
 
     /// Returns whether the answer says nothing about the cause, only that there is no result.

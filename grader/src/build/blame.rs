@@ -41,8 +41,8 @@ impl NotCompiled {
     }
 }
 
-/// Returns the files that need not be compiled: unreadable ones, and those without a declaration
-/// that other files use.
+/// Returns the files that are rejected before compiling: unreadable ones, and those without a
+/// declaration that other files use.
 pub(super) fn unusable_files(submission: &Submission) -> BTreeMap<&'static str, NotCompiled> {
     let why = |file: &TaskFile, text: &Result<String, TaskFileError>| match text {
         Err(unreadable) => Some(NotCompiled::Unreadable(unreadable.clone())),

@@ -8,7 +8,7 @@ use crate::build::program_cache::ContentHash;
 use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
 use crate::given_files::GIVEN_FILES;
 
-/// The crate's root: the given `lib.rs` and a `main` function.
+/// File name of the crate's root, which contains the given `lib.rs` and a `main` function.
 const ROOT: &str = "probe.rs";
 const ENTRY: &str = "
 /// Answers the grader's questions.
@@ -17,7 +17,7 @@ fn main() -> std::process::ExitCode {
 }
 ";
 
-/// Compiles the task files, given as names and texts, together with the given files in `folder`.
+/// Compiles, in `folder`, the task files (pairs of name and text) together with [`GIVEN_FILES`].
 pub fn compile(files: &[(&str, &str)], folder: &Path, rustc: &Rustc) -> io::Result<CompileOutcome> {
     let content = files.iter().chain(&GIVEN_FILES).fold(
         ContentHash::default().with(rustc.identity()),

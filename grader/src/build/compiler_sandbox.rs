@@ -26,7 +26,8 @@ const SYSTEM_PATHS: [&str; 14] = [
     "/etc/ld.so.conf",
 ];
 
-/// Adds arguments for what the compiler usually finds out from `/proc`, which the sandbox hides.
+/// Adds arguments with information that the compiler usually reads from `/proc`, which the sandbox
+/// hides.
 pub(super) fn arguments(rustc: &Rustc, source: &Crate, command: &mut Command) {
     let sysroot = rustc.toolchain.sysroot();
     command

@@ -24,7 +24,8 @@ use crate::workspace::Workspace;
 const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
 /// Cargo arguments for the package that depends on all of them, with the probe's features.
 const FRAMEWORK_PACKAGE: [&str; 3] = ["--package", "framework", "--no-default-features"];
-/// Change this when the same sources are compiled in a different way.
+/// Version of the way in which the dependencies are compiled. Change it when the same sources are
+/// to be compiled differently.
 const RECIPE_VERSION: &str = "4";
 
 /// Locations of the compiled dependencies.
@@ -36,7 +37,7 @@ pub struct Dependencies {
     pub folder: PathBuf,
 }
 
-/// The dependencies cannot be built, which is the fault of the grader or the machine.
+/// Reasons why the dependencies cannot be built. They are the fault of the grader or the machine.
 #[derive(Debug, thiserror::Error)]
 pub enum DependenciesError {
     /// The cache cannot be used.
@@ -77,8 +78,8 @@ impl Dependencies {
         })
     }
 
-    /// Returns these dependencies and more crates of the lock file. Only the course's own solutions
-    /// are built with them, never a submission.
+    /// Returns the dependencies together with additional crates of the lock file. Only the course's
+    /// own solutions are built with these crates, never a submission.
     pub fn with_crates(
         names: &[String],
         workspace: &Workspace,
@@ -102,7 +103,7 @@ impl Dependencies {
 }
 
 /// Returns the dependencies in this folder, or builds them there. They are never built twice,
-/// because a compiler may be reading the first ones.
+/// because another process may be reading the existing files.
 fn prepare_once(
     cache: &Path,
     make: impl FnOnce() -> Result<Dependencies, DependenciesError>,
@@ -229,8 +230,8 @@ fn build(
     Ok(libraries(&String::from_utf8_lossy(&output.stdout)))
 }
 
-/// Runs the command and returns its output. Its standard input is kept open meanwhile: the command
-/// is killed when it closes.
+/// Runs the command and returns its output. Its standard input is kept open until it ends, because
+/// the command is killed when its standard input closes.
 fn output(cargo: &mut Command) -> io::Result<Output> {
     let mut child = cargo.stdout(Stdio::piped()).spawn()?;
     let tie = child.stdin.take();

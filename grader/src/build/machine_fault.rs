@@ -13,10 +13,10 @@ const MIN_FREE_BYTES: u64 = 64 << 20;
 /// never send.
 const LINKER_KILLED: &str = "signal: 9 (SIGKILL)";
 
-/// The machine cannot compile at the moment, regardless of the source code.
+/// Reasons why the machine cannot compile at the moment, regardless of the source code.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum MachineFault {
-    /// Most likely out of memory.
+    /// The compiler was killed, most likely because the machine ran out of memory.
     #[error(
         "the system killed the compiler (signal 9): give this machine more memory, or grade fewer submissions at once"
     )]

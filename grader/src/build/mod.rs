@@ -45,7 +45,7 @@ pub use crate::build::toolchain::file_fingerprint;
 /// Maximum number of attempts to compile a submission.
 const MAX_ATTEMPTS: usize = 3;
 
-/// Builds submissions. It is prepared once and used for many.
+/// Builds submissions. A builder is prepared once and used for many submissions.
 #[derive(Clone, Debug)]
 pub struct Builder {
     rustc: Rustc,
@@ -114,7 +114,7 @@ impl Builder {
         })
     }
 
-    /// Returns a builder with more crates of the lock file. It is used for the course's own
+    /// Returns a builder with additional crates of the lock file. It is used for the course's own
     /// solutions, and never for submissions.
     pub fn with_crates(&self, names: &[String], workspace: &Workspace) -> Result<Self, BuildError> {
         let mut builder = self.clone();
@@ -143,7 +143,7 @@ impl Builder {
         &self.rustc.dependencies.folder
     }
 
-    /// Returns how submissions will be isolated from the machine.
+    /// Returns the isolation level at which submissions will be compiled and run.
     pub fn isolation(&self) -> Isolation {
         self.rustc.sandbox.level()
     }
@@ -169,8 +169,8 @@ impl Builder {
         self.build_with_progress(submission, |_| {})
     }
 
-    /// Does the same, and calls `report_errors` whenever more files are found that do not compile,
-    /// before the others are compiled. Students see errors without waiting for the rest to be graded.
+    /// Builds a submission like [`Builder::build`]. Calls `report_errors` whenever it finds more
+    /// files that do not compile, before it compiles the others, so that students see errors early.
     pub fn build_with_progress(
         &self,
         submission: &Submission,
@@ -218,8 +218,8 @@ impl Builder {
         })
     }
 
-    /// Compiles the starter after nothing of a submission compiled. If this fails too, the cause is
-    /// a full disk, a broken linker or too little memory, and not the submission.
+    /// Compiles the starter, after every attempt to compile a submission has failed. If this fails
+    /// too, the cause is a full disk, a broken linker or too little memory, and not the submission.
     fn check_machine(&self, folder: &Path) -> Result<(), BuildError> {
         let starter = TASK_FILES.map(|file| (file.name, file.starter));
         let why = match compile(&starter, &folder.join("starter"), &self.rustc) {

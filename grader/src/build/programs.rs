@@ -19,7 +19,7 @@ pub struct Build {
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
     pub(super) substitution: Option<Substitution>,
     pub(super) sandbox: Sandbox,
-    /// Contains the programs, and is removed when dropped.
+    /// The directory that contains the programs. It is removed when dropped.
     pub(super) _build_dir: BuildDir,
 }
 
@@ -30,12 +30,12 @@ pub enum SubstitutedProgram<'a> {
     Program(&'a Path),
     /// The file does not compile with these parts.
     NotCompiled,
-    /// There is no reference, or no `bvh.rs`.
+    /// There is no reference, or the submission's `bvh.rs` is missing or does not compile.
     NoReference,
 }
 
 impl Build {
-    /// Returns how the submission is isolated from the machine.
+    /// Returns the isolation level of the submission.
     pub fn isolation(&self) -> Isolation {
         self.sandbox.level()
     }

@@ -27,7 +27,7 @@ const LIMITS: Limits = Limits {
 };
 /// Wall time limit, for a compiler that waits instead of working.
 const WALL_LIMIT: Duration = Duration::from_secs(90);
-/// Maximum amount of compiler messages that is stored.
+/// Maximum size of the compiler messages that are stored, in bytes.
 const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
 /// A crate to compile.
@@ -37,7 +37,7 @@ pub struct Crate<'a> {
     pub name: &'a str,
     /// Type of the crate.
     pub kind: CrateKind,
-    /// Folder of the sources, in which the output is written too.
+    /// Folder of the sources. The output is also written there.
     pub folder: &'a Path,
     /// File of the root module, relative to the folder.
     pub root: &'a str,
@@ -91,7 +91,8 @@ pub struct Rustc {
 }
 
 impl Rustc {
-    /// Returns everything that its output depends on besides the sources.
+    /// Returns bytes that identify everything that the compiler's output depends on besides the
+    /// sources.
     pub fn identity(&self) -> &[u8] {
         // The folder's name is a hash of the compiler and of the dependencies' sources.
         self.dependencies.folder.as_os_str().as_encoded_bytes()
@@ -226,7 +227,7 @@ fn failure_message(exit_reason: ExitReason) -> String {
     }
 }
 
-/// The same flags for students, TAs and CI.
+/// Compiler flags. They are the same for students, TAs and CI.
 const FLAGS: [&str; 10] = [
     "--edition=2024",
     "-Copt-level=2",

@@ -20,7 +20,7 @@ use crate::system::{self, Limits};
 
 /// Source of a program that attempts everything that a submission must not do.
 const ATTACK_PROGRAM: &str = include_str!("../../trial/attempts.rs");
-/// Its last line of output.
+/// The last line that the program prints.
 const END: &str = "end";
 /// Contents of a file that the sandbox must hide.
 const SECRET: &str = "a secret that no submission may read";
@@ -30,7 +30,7 @@ const LIMITS: Limits = Limits {
     cpu: Duration::from_secs(10),
     file: 0,
 };
-/// A test takes milliseconds, unless the machine is very busy.
+/// Wall time limit of a test. A test takes milliseconds, unless the machine is very busy.
 const WALL_LIMIT: Duration = Duration::from_secs(30);
 
 /// The reason why an isolation level is not available.

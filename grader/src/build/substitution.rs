@@ -1,10 +1,11 @@
 //! Compiles a submission's `bvh.rs` with the reference's parts, so that a mistake in a box test
 //! does not also cost the points for traversing a tree.
 //!
-//! The parts are the reference's other four files, compiled once. The submission is compiled
-//! against their metadata only, and linked with them in a step that reads none of its source. The
-//! reference's own `bvh.rs` is not used. The submission's `build` is replaced by a plain one, so
-//! that a mistake in building does not cost the points for traversing either.
+//! The parts are the reference's other four task files and `primitive.rs`, compiled once. The
+//! submission is compiled against their metadata only, and linked with them in a step that reads
+//! none of its source. The reference's own `bvh.rs` is not used. The submission's `build` is
+//! replaced by a plain one, so that a mistake in building does not cost the points for traversing
+//! either.
 
 use std::fs;
 use std::io;
@@ -56,7 +57,7 @@ struct Scaffold {
     probe_files: [(&'static str, String); 2],
 }
 
-/// The reference cannot be used to make the parts. Students cannot fix this.
+/// Reasons why the reference cannot be used to make the parts. Students cannot fix them.
 #[derive(Debug, thiserror::Error)]
 pub enum SubstitutionError {
     /// A file cannot be read or written.
@@ -198,7 +199,7 @@ pub struct Substitution {
     pub rustc: Rustc,
     /// The build folder, which does not exist yet.
     pub folder: PathBuf,
-    /// The program, once it was requested.
+    /// The result of compiling the program, once it has been requested.
     pub program: OnceLock<Option<PathBuf>>,
 }
 
@@ -235,7 +236,8 @@ impl Substitution {
     }
 
     /// Compiles the starter's `bvh.rs` with the parts, if no error explains why the submission's
-    /// does not compile. If the starter's does not compile either, the machine is to blame.
+    /// file does not compile. If the starter's file does not compile either, the machine is to
+    /// blame.
     fn check_starter(&self) -> io::Result<()> {
         let [.., bvh] = TASK_FILES;
         let starter = Substitution {

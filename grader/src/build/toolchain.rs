@@ -16,7 +16,7 @@ pub struct Toolchain {
     pub rustc: PathBuf,
 }
 
-/// The compiler cannot be found.
+/// The error when the compiler cannot be found.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot find rustc: install Rust, or put it on the PATH ({0})")]
 pub struct ToolchainError(String);
@@ -45,8 +45,8 @@ impl Toolchain {
         bin.and_then(Path::parent).unwrap_or(Path::new("/"))
     }
 
-    /// Returns text that changes when the compiler does. Running it to get its version would take
-    /// 10 ms.
+    /// Returns text that changes when the compiler changes. Running the compiler to get its version
+    /// would take 10 ms.
     pub fn fingerprint(&self) -> String {
         let driver = self.sysroot().join("lib");
         let [rustc, driver] = [&self.rustc, &driver].map(|path| file_fingerprint(path));
@@ -54,8 +54,8 @@ impl Toolchain {
     }
 }
 
-/// Returns text that changes when a file, or the contents of a folder, are replaced: size and
-/// modification time.
+/// Returns text that changes when a file or the contents of a folder are replaced. It consists of
+/// the size and the modification time.
 pub fn file_fingerprint(path: &Path) -> String {
     let metadata = fs::metadata(path);
     let size = metadata.as_ref().map_or(0, fs::Metadata::len);

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 
 use crate::system;
 
-/// Maximum size of a program, in bytes. The reference's has about 6 million.
+/// Maximum size of a program, in bytes. The reference's program has about 6 million.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// First bytes of programs and libraries: ELF, `ar`.
+/// First bytes of programs (ELF) and of libraries (`ar`).
 const MAGIC_NUMBERS: [&[u8]; 2] = [b"\x7fELF", b"!<arch>\n"];
 
 /// Copies a file from `folder` to one that only the grader can write, and returns the path of the

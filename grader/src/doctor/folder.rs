@@ -9,7 +9,7 @@ use crate::given_files::TASK_FILES;
 
 /// The script that classroom50 runs, and the zip that the script unpacks.
 const CLASSROOM50: [&str; 2] = ["autograder.py", "pathtracing.zip"];
-/// The most bytes that classroom50 accepts.
+/// Maximum total size of both files that classroom50 accepts, in bytes.
 const MAX_FOLDER_BYTES: u64 = 10 << 20;
 /// The folders in that zip from which the grader is built.
 const REQUIRED_FOLDERS: [&str; 2] = [

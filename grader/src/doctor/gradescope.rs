@@ -14,7 +14,7 @@ const REQUIRED_FOLDERS: [&str; 4] = [
     "pathtracing/reference/src/",
     "pathtracing/reference/substitution/",
 ];
-/// The folder of crates, so that nothing is downloaded.
+/// The folder that contains the crates, so that nothing has to be downloaded.
 const CRATE_CACHE: &str = "pathtracing/crates/registry/cache/";
 /// The index of these crates, without which Cargo does not find them.
 const CRATE_INDEX: &str = "pathtracing/crates/registry/index/";

@@ -17,31 +17,31 @@ pub(super) const SCRIPTS: [&str; 2] = ["setup.sh", "run_autograder"];
 pub(super) const GRADE: &str = "pathtracing/grade";
 pub(super) const EXAM: &str = "pathtracing/exam.json";
 pub(super) const POLICY: &str = "pathtracing/policy.toml";
-/// The longest file that is inspected, in bytes.
+/// Maximum size of the inspected part of a file, in bytes.
 const MAX_FILE_BYTES: u64 = 64 << 20;
-/// The most entries of a zip; a package has several thousand.
+/// Maximum number of entries in a zip. A package has several thousand.
 const MAX_ENTRIES: usize = 100_000;
 
 /// Reasons why a package cannot be checked.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
-    /// It does not exist or cannot be read.
+    /// The package does not exist or cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// The package.
+        /// Path of the package.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
     },
-    /// It is not a zip.
+    /// The package is not a zip.
     #[error(
         "{} is not a zip that can be unpacked ({source}): create it with `cargo author package gradescope`",
         path.display()
     )]
     Zip {
-        /// The package.
+        /// Path of the package.
         path: PathBuf,
-        /// The error.
+        /// The reason why it cannot be unpacked.
         source: ZipError,
     },
 }
@@ -57,7 +57,7 @@ pub(super) struct PackageContents {
     damaged: BTreeMap<String, String>,
 }
 
-/// Reads a zip and unpacks every entry in memory, to see that this works.
+/// Reads a zip and unpacks every entry in memory, to check that it can be unpacked.
 pub(super) fn read_package(path: &Path) -> Result<PackageContents, PackageError> {
     let io = |source| PackageError::Io {
         path: path.to_owned(),
@@ -126,7 +126,7 @@ impl PackageContents {
     }
 }
 
-/// Returns the reason why a policy does not fit the exam, if it does not.
+/// Returns the reason why a policy does not fit the exam, or `None` if it fits.
 pub(super) fn policy_problem(policy: &[u8], exam: &Exam) -> Option<String> {
     let path = Path::new(POLICY);
     let policy = Policy::from_text(path, &String::from_utf8_lossy(policy));

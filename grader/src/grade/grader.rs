@@ -46,8 +46,8 @@ pub struct BuiltSubmission {
 }
 
 impl BuiltSubmission {
-    /// Builds a submission as far as it compiles. `report_errors` is called with files that do not
-    /// compile as soon as they are known.
+    /// Builds a submission. Files that do not compile are replaced by the starter's.
+    /// `report_errors` is called with these files as soon as they are known.
     fn new(
         builder: &Builder,
         submission: &Submission,
@@ -84,7 +84,7 @@ impl<'a> Grader<'a> {
         Grader::new(arguments, workspace, builder, file)
     }
 
-    /// Does the same for one submission and builds it at the same time. Reading the exam takes a
+    /// Loads the exam, prepares the builder and builds one submission. Reading the exam takes a
     /// tenth of the time of compiling, so the two run in parallel.
     pub(super) fn prepare_and_build(
         arguments: &'a Arguments,
@@ -119,7 +119,8 @@ impl<'a> Grader<'a> {
         Ok((grader, submission, built))
     }
 
-    /// Prepares a grader without a submission of its own, for callers that bring several.
+    /// Prepares a grader without a submission of its own, for callers that grade several
+    /// submissions.
     pub fn for_many(arguments: &'a Arguments) -> Result<Self, Error> {
         let file = exam_file::load(arguments.exam.as_deref())?;
         let workspace = Workspace::find()?;
@@ -176,7 +177,7 @@ impl<'a> Grader<'a> {
         self.builder.identity()
     }
 
-    /// Returns how submissions will be isolated from the machine.
+    /// Returns the isolation level at which submissions will be compiled and run.
     pub fn isolation(&self) -> Isolation {
         self.builder.isolation()
     }
@@ -197,7 +198,7 @@ impl<'a> Grader<'a> {
         collect(self.arguments, &self.workspace)
     }
 
-    /// Builds a submission as far as it compiles.
+    /// Builds a submission. Files that do not compile are replaced by the starter's.
     pub fn build(&self, submission: &Submission) -> Result<BuiltSubmission, Error> {
         Ok(BuiltSubmission::new(&self.builder, submission, |_| {})?)
     }

@@ -19,7 +19,7 @@ use crate::verdict::file_message;
 pub use grader::{BuiltSubmission, Grader};
 pub use resolve::{budget, builder, collect, default_folder};
 
-/// The score of a submission, and the files in which it was written.
+/// The score of a submission, and the files to which it was written.
 #[derive(Debug)]
 pub struct GradedSubmission {
     /// The score.

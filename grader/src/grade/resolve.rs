@@ -1,4 +1,4 @@
-//! Resolves what the command line names.
+//! Finds the files and settings that the command line refers to.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -23,7 +23,7 @@ pub(super) fn policy(arguments: &Arguments, exam: &Exam) -> Result<Policy, Polic
     Ok(policy)
 }
 
-/// Returns how late the submission is, if the platform's metadata are given.
+/// Returns how late the submission is, if the command line names the platform's metadata.
 pub(super) fn lateness(
     arguments: &Arguments,
     policy: &Policy,
@@ -44,8 +44,8 @@ pub fn default_folder(workspace: &Workspace, submission: &Submission) -> PathBuf
         .join(safe_folder_name(&submission.name))
 }
 
-/// Returns the builder. It uses the reference's parts if they exist and `--no-reference` is not
-/// given.
+/// Returns the builder. It uses the reference's parts if they exist, unless `--no-reference` is
+/// set.
 pub fn builder(arguments: &Arguments, workspace: &Workspace) -> Result<Builder, BuildError> {
     let builder = Builder::prepare(workspace)?;
     match workspace.reference() {
@@ -59,7 +59,7 @@ pub fn collect(arguments: &Arguments, workspace: &Workspace) -> Result<Submissio
     Ok(Submission::collect(&submission_path(arguments, workspace))?)
 }
 
-/// Returns the path of that submission.
+/// Returns the path of the submission that the command line names.
 pub(super) fn submission_path(arguments: &Arguments, workspace: &Workspace) -> PathBuf {
     match &arguments.submission {
         Some(path) => workspace.resolve(path),
@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn no_name_leads_out_of_the_output_folder_or_into_the_caches() {
         let workspace = Workspace::find().unwrap();
-        // `...zip` without its extension, and the folder of the caches.
+        // These include `...zip` without its extension, and the name of the cache folder.
         for name in ["..", ".", "", "../..", "/etc", ".cache", "a/b"] {
             let submission = Submission {
                 name: name.to_owned(),

@@ -17,7 +17,7 @@ pub struct Lateness {
 }
 
 impl Lateness {
-    /// On time.
+    /// The lateness of a submission that is on time.
     pub const NONE: Lateness = Lateness { seconds: 0 };
 }
 
@@ -66,8 +66,8 @@ impl Policy {
         }
     }
 
-    /// Returns how late a submission of this time is, in seconds since 1970 UTC. `None` without a
-    /// due time.
+    /// Returns how late a submission is that was made at `submitted`, in seconds since 1970 UTC.
+    /// `None` if the policy has no due time.
     pub fn lateness(&self, submitted: i64) -> Option<Lateness> {
         let seconds = submitted - unix_seconds(self.late.due.as_ref()?)?;
         Some(Lateness {
@@ -133,7 +133,7 @@ impl Fraction {
     }
 }
 
-/// Returns the seconds since 1970 UTC. `None` without a date, a time and an offset.
+/// Returns the seconds since 1970 UTC. `None` if the date, the time or the offset is missing.
 pub(super) fn unix_seconds(datetime: &Datetime) -> Option<i64> {
     let (date, time) = (datetime.date?, datetime.time?);
     let minutes = match datetime.offset? {

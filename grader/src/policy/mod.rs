@@ -47,12 +47,12 @@ pub struct PointsPolicy {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rounding {
-    /// To the integer below.
+    /// Rounding to the integer below.
     Down,
-    /// To the nearest integer, halves up.
+    /// Rounding to the nearest integer. Halves are rounded up.
     #[default]
     Nearest,
-    /// To the integer above.
+    /// Rounding to the integer above.
     Up,
 }
 
@@ -60,7 +60,7 @@ pub enum Rounding {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LatePolicy {
-    /// The due time.
+    /// The due time. If there is none, the platform's due time is used.
     pub due: Option<Datetime>,
     /// Grace period after the due time, in minutes.
     pub grace_minutes: u32,
@@ -70,7 +70,7 @@ pub struct LatePolicy {
     pub percent_per_day: u32,
     /// The points to which the percentage refers.
     pub percent_of: PercentBase,
-    /// Maximum for a late submission, in percent of all points.
+    /// Maximum final points of a late submission, in percent of all points.
     pub most_percent: u32,
     /// Number of days after which a submission counts for nothing.
     pub closed_after_days: Option<u32>,
@@ -83,7 +83,7 @@ pub enum PercentBase {
     /// The submission's own points.
     #[default]
     Earned,
-    /// All points.
+    /// The points of a perfect submission.
     Possible,
 }
 
@@ -91,12 +91,12 @@ pub enum PercentBase {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct VisibilityPolicy {
-    /// For the practice exam, which students have.
+    /// Visibility of the practice exam, which students have.
     pub practice: Visibility,
-    /// For all other exams.
+    /// Visibility of all other exams.
     #[serde(rename = "final")]
     pub other_exams: Visibility,
-    /// Exceptions, by task or item.
+    /// Exceptions for single tasks or items, by id.
     pub items: BTreeMap<String, Visibility>,
 }
 

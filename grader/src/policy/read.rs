@@ -1,4 +1,5 @@
-//! Reads policies. An invalid one is rejected with the line and what to do.
+//! Reads policies. An invalid policy is rejected with a message that shows the line and says what
+//! to do.
 
 use std::fs;
 use std::io;
@@ -8,7 +9,7 @@ use crate::exam::Exam;
 use crate::policy::Policy;
 use crate::policy::late::unix_seconds;
 
-/// A policy cannot be used.
+/// Reasons why a policy cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum PolicyError {
     /// The file cannot be read.

@@ -16,11 +16,11 @@ use crate::policy::late::{Lateness, unix_seconds};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SubmissionTime {
     submitted: i64,
-    /// `None` if the assignment has no due date.
+    /// The due time, or `None` if the assignment has no due date.
     due: Option<i64>,
 }
 
-/// The platform's file cannot be used. Students cannot fix this.
+/// Reasons why the platform's file cannot be used. Students cannot fix them.
 #[derive(Debug, thiserror::Error)]
 pub enum SubmissionTimeError {
     /// The file cannot be read.
@@ -44,7 +44,7 @@ pub enum SubmissionTimeError {
     },
 }
 
-/// The fields that are read. The file has others, which are ignored.
+/// The fields that are read from the file. Other fields are ignored.
 #[derive(Deserialize)]
 struct Metadata {
     created_at: String,
@@ -86,7 +86,8 @@ fn parse_time(text: &str) -> Result<i64, String> {
 }
 
 impl Policy {
-    /// Returns how late a submission is by the policy's due time, or else by the platform's.
+    /// Returns how late a submission is, relative to the policy's due time or, if there is none, to
+    /// the platform's.
     pub fn lateness_of(&self, submission: SubmissionTime) -> Lateness {
         let late = |due: i64| Lateness {
             seconds: u64::try_from(submission.submitted - due).unwrap_or(0),

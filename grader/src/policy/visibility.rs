@@ -23,7 +23,7 @@ pub enum Visibility {
     AfterDue,
     /// Nothing before grades are published.
     AfterPublished,
-    /// Nothing.
+    /// Nothing at any time.
     Hidden,
 }
 
@@ -49,7 +49,7 @@ impl Policy {
         })
     }
 
-    /// Returns an exception that matches neither a task nor an item.
+    /// Returns an exception that matches neither a task nor an item, if there is one.
     pub(super) fn unmatched_exception<'a>(
         &self,
         items: impl Iterator<Item = &'a str> + Clone,

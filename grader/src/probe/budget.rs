@@ -28,7 +28,7 @@ pub(super) struct BudgetTracker {
 }
 
 impl BudgetTracker {
-    /// Starts the clock.
+    /// Starts tracking the time of an item.
     pub(super) fn start(budget: Budget) -> Self {
         BudgetTracker {
             started: Instant::now(),

@@ -13,7 +13,8 @@ use super::subset::subset;
 use super::{Budget, Launcher};
 use crate::exam::Item;
 
-/// Most correct items take less than this in total, so an element that takes longer hangs.
+/// Budget of each question that is sent. Most correct items take less than this in total, so a
+/// question that takes longer is considered to hang.
 const BUDGET: Budget = Budget {
     cpu: Duration::from_millis(250),
 };

@@ -42,7 +42,7 @@ pub enum Crash {
 }
 
 impl Fault {
-    /// Reduces the fault to what distinguishes known mistakes.
+    /// Converts the fault to the reason that is compared with the signatures of known mistakes.
     pub fn no_answer_reason(&self) -> NoAnswerReason {
         match self {
             Fault::TimedOut(_) => NoAnswerReason::Time,

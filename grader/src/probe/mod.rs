@@ -30,7 +30,7 @@ pub use culprit::culprit;
 pub use fault::{Crash, Fault, TimeLimit};
 pub use subset::subset;
 
-/// Maximum amount of a submission's output that is stored.
+/// Maximum size of a submission's output that is stored, in bytes.
 const MAX_OUTPUT_BYTES: usize = 64 << 10;
 /// Polling interval for a silent probe.
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
@@ -71,13 +71,13 @@ pub struct Launcher {
 }
 
 impl Launcher {
-    /// Address space of a probe, in bytes. Its stack uses 64 MiB of it.
+    /// Maximum address space of a probe, in bytes. Its stack uses 64 MiB of it.
     const MEMORY_LIMIT: u64 = 1 << 30;
-    /// A probe serves a whole task, and each item has its own time limit. The CPU time of this many
-    /// items ends the probe even if the grader itself is killed.
+    /// Number of items whose time limits add up to the CPU time limit of a probe, which serves a
+    /// whole task. This limit ends the probe even if the grader itself is killed.
     const MAX_ITEMS_PER_TASK: u32 = 30;
-    /// A probe that is killed while using more than this is considered out of memory. Correct
-    /// solutions use less than half of it.
+    /// Memory use, in bytes, above which a probe that was killed is considered out of memory.
+    /// Correct solutions use less than half of it.
     const LARGE_MEMORY: u64 = Self::MEMORY_LIMIT / 4;
 
     /// Starts a probe that waits for questions. On Linux it ends with the thread that started it,

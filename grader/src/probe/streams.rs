@@ -14,7 +14,7 @@ use std::vec;
 use protocol::Question;
 use protocol::wire::{self, Frame, WireError};
 
-/// Capacity of a pipe, in bytes.
+/// Size in bytes from which a batch is sent. It is the capacity of a pipe.
 const BATCH_BYTES: usize = 1 << 16;
 
 /// Questions that are sent together.

@@ -14,7 +14,7 @@ pub fn use_own_process_group(_: &mut Command) {}
 /// Does nothing: the caller kills only the child itself.
 pub fn kill_group(_: &Child) {}
 
-/// Returns how a process ended. A crash is an exit code too, far below zero.
+/// Returns how a process ended. A crash also results in an exit code, a large negative number.
 pub fn exit_reason(status: ExitStatus) -> ExitReason {
     ExitReason::Code(status.code().unwrap_or(-1))
 }
@@ -42,7 +42,7 @@ pub fn open_file_without_hard_links(path: &Path) -> io::Result<Option<File>> {
 /// Opens a regular file. Returns `None` for anything else. Creating a symbolic link needs
 /// privileges on Windows that students do not have.
 pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
-    // Checked first, because not everything else can be opened.
+    // Checked first, because opening anything else may fail.
     if !path.symlink_metadata()?.is_file() {
         return Ok(None);
     }
@@ -109,7 +109,7 @@ pub fn make_folder_accessible(_: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Returns `None`: not available on this system.
+/// Returns `None`: free space is not available on this system.
 pub fn free_space(_: &Path) -> Option<u64> {
     None
 }

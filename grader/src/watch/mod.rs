@@ -91,7 +91,7 @@ fn grade_version(
             (false, Some(_)) => screen.show(&shown, Phase::Grading { done, total })?,
             (false, None) => screen.show(score, Phase::Grading { done, total })?,
         }
-        // After the screen, which should not wait for the page.
+        // The page is written after the screen is updated, so that the screen does not wait for it.
         if let Some(files) = &mut files {
             files.write_page(score, exam, answers)?;
         }
@@ -100,7 +100,7 @@ fn grade_version(
     Ok(score)
 }
 
-/// Returns an exam of the items that lost points and the items that they require.
+/// Returns an exam of the items that lost points and the items that these need.
 fn failed_items(exam: &Exam, last: &Score) -> Exam {
     let lost = last.items().filter(|item| item.points < item.max_points);
     let lost: Vec<&str> = lost.map(|item| item.id.as_str()).collect();

@@ -18,7 +18,8 @@ pub struct SaveWatcher<'a> {
 }
 
 impl<'a> SaveWatcher<'a> {
-    /// Watches the submission that `collect` reads, which returns `None` while there is none.
+    /// Creates a watcher of the submission that `collect` reads. `collect` returns `None` while
+    /// there is no submission.
     pub fn new(collect: impl Fn() -> Option<Submission> + 'a) -> Self {
         SaveWatcher {
             collect: Box::new(collect),

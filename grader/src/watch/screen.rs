@@ -32,7 +32,7 @@ pub enum Phase {
     Waiting,
 }
 
-/// The output that reports are shown on.
+/// The terminal, file or pipe that shows the reports.
 pub struct Screen {
     term: Term,
     task: Option<Task>,

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Key {
-    /// For `Camera`: one ray per sample.
+    /// Key of a `Camera` question: one ray per sample.
     Rays {
         /// Parts of each ray that are compared.
         #[serde(alias = "judged")]
@@ -17,8 +17,8 @@ pub enum Key {
         #[serde(with = "packed")]
         directions: Vec<Vec3>,
     },
-    /// For `Shapes`, `Traverse` and `BuildAndTraverse` with a list of rays. Every answer must be
-    /// correct.
+    /// Key of a `Shapes`, `Traverse` or `BuildAndTraverse` question with a list of rays. Every
+    /// answer must be correct.
     Hits {
         /// Parts of each hit that are compared, in addition to whether there is a hit.
         #[serde(alias = "judged")]
@@ -27,38 +27,38 @@ pub enum Key {
         #[serde(with = "packed")]
         hits: Vec<Option<ExpectedHit>>,
     },
-    /// For `BBox`: the interval of each query in which the ray is inside the box.
+    /// Key of a `BBox` question: for each query, the interval in which the ray is inside the box.
     Spans {
         /// The expected interval of each query.
         #[serde(with = "packed")]
         spans: Vec<Option<Interval>>,
     },
-    /// For `Build`: properties of the tree, and optionally its cost.
+    /// Key of a `Build` question: properties of the tree, and optionally its cost.
     Tree {
         /// Properties that are checked, in addition to the nodes forming a tree.
         #[serde(alias = "judged")]
         checks: Vec<TreeCheck>,
-        /// SAH cost of the tree with the best split at every node, found by an exact sweep that
-        /// stops at the same leaf size. C_trav = C_isect = 1, and areas are divided by the root's
-        /// area.
+        /// SAH cost of the tree that an exact sweep builds by choosing the best split at every node
+        /// and stopping at the same leaf size. C_trav = C_isect = 1, and areas are divided by the
+        /// root's area. `None` if the cost is not checked.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         sweep_cost: Option<f64>,
     },
-    /// For `Shapes`, `Traverse` and `BuildAndTraverse` with a view. Partial credit depends on the
-    /// number of correct positions.
+    /// Key of a `Shapes`, `Traverse` or `BuildAndTraverse` question with a view. Partial credit
+    /// depends on the number of correct positions.
     FirstHits {
         /// The expected first hit at each position.
         #[serde(with = "packed")]
         hits: Vec<Option<Surface>>,
-        /// Other correct answers, at positions where a ray less than 1/1000 of a pixel away hits a
-        /// different surface.
+        /// Additional correct answers, each with the index of its position. They exist where a ray
+        /// less than 1/1000 of a pixel away hits a different surface or none.
         #[serde(with = "packed")]
         #[serde(alias = "also")]
         alternatives: Vec<(u32, Option<Surface>)>,
     },
-    /// For `Radiance`.
+    /// Key of a `Radiance` question.
     Radiance {
-        /// Linear red, green and blue, row by row from the bottom.
+        /// The expected colour of each pixel in linear RGB, row by row from the bottom.
         #[serde(with = "packed")]
         pixels: Vec<Vec3>,
         /// Maximum number of pixels that may differ by more than 1 %.
@@ -120,7 +120,7 @@ pub enum TreeCheck {
     Stops,
 }
 
-/// The correct hit of one ray of a table.
+/// The correct hit of one ray of a `Hits` key.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedHit {

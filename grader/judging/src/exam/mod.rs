@@ -123,14 +123,14 @@ pub struct Exam {
 }
 
 impl Exam {
-    /// Returns an exam of the items that `wanted` selects and the items that they need.
+    /// Returns an exam with the items that `wanted` selects and the items that these need.
     pub fn with_needed_items(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
         let dependents = self.items.iter().filter(|item| wanted(item));
         let needed: Vec<&String> = dependents.flat_map(|item| &item.needs).collect();
         self.filter_items(|item| wanted(item) || needed.contains(&&item.id))
     }
 
-    /// Returns an exam of the items that `wanted` selects.
+    /// Returns an exam with only the items that `wanted` selects.
     pub fn filter_items(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
         let items = self.items.iter().filter(|item| wanted(item));
         Exam {
@@ -148,7 +148,7 @@ impl Exam {
 pub struct Item {
     /// The task's id, a dot, and a name, such as `sphere.from_inside`.
     pub id: String,
-    /// One sentence that says what must hold. It is the feedback that students read.
+    /// One sentence that says what a correct solution must do. Students read it as feedback.
     pub title: String,
     /// The task to which the points belong.
     pub task: Task,
@@ -164,7 +164,7 @@ pub struct Item {
     pub needs: Vec<String>,
     /// The questions. The item's credit is that of its worst question.
     pub questions: Vec<ExamQuestion>,
-    /// The answers of known mistakes, from which a wrong answer is recognised.
+    /// The answers that known mistakes give, used to recognise the mistake behind a wrong answer.
     #[serde(default, skip_serializing_if = "MistakeSignatures::is_empty")]
     #[serde(alias = "tells")]
     pub signatures: MistakeSignatures,
@@ -190,8 +190,8 @@ impl Item {
         before + element.min(last) + 1
     }
 
-    /// Returns the question index and the element index of a number, or `None` if it is out of
-    /// range.
+    /// Returns the indices of the question and the element with this number, or `None` if the
+    /// number is out of range.
     pub fn element(&self, number: usize) -> Option<(usize, usize)> {
         let mut left = number.checked_sub(1)?;
         for (index, question) in self.questions.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! The fraction of an item's points that an answer earns, in ten-thousandths. Only the final points
 //! are rounded.
 
-/// Minimum number of wrong positions that cost nothing: correct formulas may differ in the last
-/// bits.
+/// Number of wrong positions that cost nothing even in a small picture: correct formulas may differ
+/// in the last bits.
 pub(super) const TOLERATED_POSITIONS: usize = 2;
 
 /// A fraction of an item's points.
@@ -22,9 +22,9 @@ impl Credit {
         TOLERATED_POSITIONS.max(of / 10_000)
     }
 
-    /// Returns the credit for `wrong` of `of` positions being wrong. The steps distinguish
-    /// rounding, cracks, wrong edges and large wrong areas. This is a count and not a similarity
-    /// score, which small changes can raise without fixing anything.
+    /// Returns the credit if `wrong` of `of` positions are wrong. The steps distinguish rounding,
+    /// cracks, wrong edges and large wrong areas. Positions are counted, because a similarity score
+    /// could be raised by small changes that fix nothing.
     pub fn by_count(wrong: usize, of: usize) -> Self {
         if of == 0 {
             Credit::NONE
@@ -41,7 +41,7 @@ impl Credit {
         }
     }
 
-    /// Returns the sum of credits with weights in hundredths. The weights must add up to 100.
+    /// Returns the weighted sum of credits. The weights are in hundredths and must add up to 100.
     pub fn weighted(parts: impl IntoIterator<Item = (u32, Credit)>) -> Self {
         let sum = parts.into_iter().map(|(weight, credit)| weight * credit.0);
         Credit(sum.sum::<u32>() / 100)

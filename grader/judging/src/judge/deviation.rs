@@ -10,21 +10,21 @@ use super::measure::in_units_of;
 /// The error of one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// The tolerance to which the error is compared. `None` for errors of yes or no: hit or miss, a
-    /// panic, or nodes that do not form a tree.
+    /// The tolerance to which the error is compared. `None` for errors without a size: hit or miss,
+    /// a panic, or nodes that do not form a tree.
     pub threshold: Option<Threshold>,
-    /// The error as a multiple of the tolerance, correct up to 1. Never NaN. Without a threshold it
-    /// is 0 or infinite.
+    /// The error as a multiple of the tolerance. Values up to 1 are correct. Never NaN. If there is
+    /// no threshold, the value is 0 or infinite.
     pub value: f64,
 }
 
 impl Deviation {
-    /// Correct, with no tolerance involved.
+    /// The deviation of a correct answer to which no tolerance applies.
     pub const RIGHT: Deviation = Deviation {
         threshold: None,
         value: 0.0,
     };
-    /// Wrong, with no tolerance involved.
+    /// The deviation of a wrong answer to which no tolerance applies.
     pub const WRONG: Deviation = Deviation {
         threshold: None,
         value: f64::INFINITY,

@@ -12,7 +12,7 @@ use crate::judge::{
     measure_table,
 };
 
-/// A table of hits. Every one must be correct.
+/// The submitted hits and their key. Every hit must be correct.
 pub(super) struct Hits<'a> {
     pub(super) checks: &'a [HitCheck],
     pub(super) rays: Vec<Ray>,
@@ -84,7 +84,7 @@ fn deviation(part: HitCheck, ray: &Ray, trace: &Trace, hit: &ExpectedHit) -> Dev
     Deviation::new(threshold, error)
 }
 
-/// Returns how one part of a hit is wrong, if it is.
+/// Returns the error in one part of a hit, or `None` if that part is correct.
 fn failed_check(
     part: HitCheck,
     ray: &Ray,

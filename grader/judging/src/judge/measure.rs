@@ -1,4 +1,4 @@
-//! Errors of numbers, as multiples of their tolerance. A value is accepted up to 1.
+//! Errors of numbers, as multiples of their tolerance. Values up to 1 are accepted.
 //!
 //! No result is NaN: the error of values that cannot be compared is infinite.
 
@@ -33,7 +33,7 @@ pub(super) fn length_error(got: f32, wanted: f32, tolerance: f32) -> f64 {
     in_units_of(limit.into(), (got - wanted).abs().into())
 }
 
-/// Returns the distance of two points.
+/// Returns the error of a position.
 pub(super) fn point_error(got: Vec3, wanted: Vec3) -> f64 {
     let limit = LENGTH * wanted.length().max(1.0);
     in_units_of(limit.into(), got.distance(wanted).into())
@@ -55,7 +55,7 @@ pub(super) fn unit_error(got: Vec3) -> f64 {
 /// Returns the error of texture coordinates, where u wraps around.
 pub(super) fn uv_error(got: Vec2, wanted: Vec2) -> f64 {
     let u = (got.x - wanted.x).abs();
-    // One turn is no error. More than one is, since `uv` returns values from 0 to 1.
+    // A difference of one turn is no error. More is one, since `uv` returns values from 0 to 1.
     let u = u.min((1.0 - u).abs());
     let v = (got.y - wanted.y).abs();
     let error = |error: f32| in_units_of(UV.into(), error.into());

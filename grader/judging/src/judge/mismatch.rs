@@ -11,7 +11,7 @@ pub struct Mismatch {
 }
 
 impl Mismatch {
-    /// There is no answer at the position.
+    /// The mismatch at a position without an answer.
     pub(super) const NO_ANSWER: Mismatch = Mismatch {
         aspect: Aspect::NoAnswer,
         deviation: f64::INFINITY,
@@ -21,18 +21,19 @@ impl Mismatch {
 /// Kinds of errors at a position, the most serious first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Aspect {
-    /// The code panicked there, or the position was skipped after earlier panics.
+    /// A missing answer: the code panicked at the position, or the position was skipped after
+    /// earlier panics.
     NoAnswer,
     /// A hit instead of a miss, or a miss instead of a hit.
     HitOrMiss,
-    /// Distance of the hit along the ray.
+    /// A wrong distance of the hit along the ray.
     Depth,
-    /// The surface normal.
+    /// A wrong surface normal.
     Normal,
-    /// The texture coordinates.
+    /// Wrong texture coordinates.
     Uv,
-    /// Direction of the camera ray.
+    /// A wrong direction of the camera ray.
     Direction,
-    /// Brightness of the pixel.
+    /// A wrong brightness of the pixel.
     Radiance,
 }

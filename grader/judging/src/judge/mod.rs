@@ -1,4 +1,4 @@
-//! Compares answers with keys. This is pure, and the only way to earn points.
+//! Compares answers with keys. This module is pure, and points are earned only here.
 
 mod credit;
 mod deviation;
@@ -111,8 +111,7 @@ pub fn judge(question: &ExamQuestion, answer: &Answer) -> Judgement {
     }
 }
 
-/// Returns the deviations of the answer to one question. They are the numbers that decide in
-/// [`judge`].
+/// Returns the deviations of the answer to one question. [`judge`] decides by the same numbers.
 pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
     match comparison(question, answer) {
         Some(comparison) => comparison.measure(),
@@ -120,9 +119,9 @@ pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
     }
 }
 
-/// Returns the error at each position of a picture, in the order of the question's elements. They
-/// are the numbers that decide in [`judge`]. `None` if the question does not ask for a picture, or
-/// if the answer has another size.
+/// Returns the error at each position of a picture, in the order of the question's elements.
+/// [`judge`] decides by the same numbers. `None` if the question does not ask for a picture, or if
+/// the answer has another size.
 pub fn mismatches(question: &ExamQuestion, answer: &Answer) -> Option<Vec<Option<Mismatch>>> {
     comparison(question, answer)?.mismatches()
 }
@@ -198,7 +197,7 @@ fn comparison<'a>(
     })
 }
 
-/// Judges a table in which every element must be correct. `wrong` gets an element's index and its
+/// Judges a table in which every element must be correct. `wrong` receives an element's index and
 /// value, and returns the error if there is one.
 fn judge_table<T>(
     outcomes: &[ElementOutcome<T>],
@@ -230,7 +229,7 @@ fn judge_table<T>(
     }
 }
 
-/// Measures a table. `of_value` gets an element's index and its value, and returns the deviations.
+/// Measures a table. `of_value` receives an element's index and value, and returns the deviations.
 fn measure_table<T>(
     outcomes: &[ElementOutcome<T>],
     wanted: usize,

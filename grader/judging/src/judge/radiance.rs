@@ -1,5 +1,6 @@
 //! Compares path-traced pictures with common random numbers: the framework draws every random
-//! number from the same stream as when the key was recorded, so there is no noise to tolerate.
+//! number from the stream that was used when the key was recorded, so there is no noise to
+//! tolerate.
 
 use glam::Vec3;
 use protocol::ElementOutcome;
@@ -11,10 +12,10 @@ use crate::judge::{
     Threshold, deviation,
 };
 
-/// A pixel is wrong if a channel differs by more than this fraction of the expected brightest
-/// channel.
+/// A pixel is wrong if a channel differs by more than this fraction of the brightest channel of the
+/// expected pixel.
 pub(super) const RELATIVE_TOLERANCE: f32 = 0.01;
-/// Darker pixels use the tolerance of this brightness.
+/// Minimum brightness from which a tolerance is computed. Darker pixels use this brightness.
 const MIN_BRIGHTNESS: f32 = 0.01;
 
 /// A path-traced picture and its key.
@@ -108,7 +109,7 @@ fn judge(pixels: &[Vec3], allowed: u32, answer: &ElementOutcome<Vec<Vec3>>) -> J
 
 fn pixel_deviation(got: Vec3, wanted: Vec3) -> Deviation {
     let limit = RELATIVE_TOLERANCE * wanted.max_element().max(MIN_BRIGHTNESS);
-    // Taken one by one: the maximum of numbers that include NaN may be a number.
+    // Each channel is measured separately, because `f32::max` ignores NaN.
     let errors = (got - wanted).abs().to_array();
     let errors = errors.map(|error| in_units_of(limit.into(), error.into()));
     Deviation::new(Threshold::Radiance, errors.into_iter().fold(0.0, f64::max))

@@ -19,8 +19,8 @@ pub(super) struct CameraRays<'a> {
     pub(super) checks: &'a [RayCheck],
     pub(super) directions: &'a [Vec3],
     pub(super) rays: &'a [ElementOutcome<Ray>],
-    /// Whether these are all rays of a picture, which earn partial credit by count. Otherwise,
-    /// every ray must be correct.
+    /// Whether the rays are those of a whole picture, which earns partial credit by the number of
+    /// wrong rays. Otherwise, every ray must be correct.
     pub(super) is_picture: bool,
 }
 
@@ -117,7 +117,7 @@ impl CameraRays<'_> {
     }
 }
 
-/// Turns the judgement of a table into that of a picture.
+/// Converts the judgement of a list of rays to that of a picture, which can earn partial credit.
 fn with_partial_credit(mut judgement: Judgement) -> Judgement {
     if let Some((wrong, of)) = judgement.failure.as_ref().and_then(|failure| failure.count) {
         judgement.credit = Credit::by_count(wrong, of);

@@ -9,7 +9,7 @@ use crate::judge::{
     measure_table,
 };
 
-/// The interval of each query. Every one must be correct.
+/// The submitted intervals and their key. Every interval must be correct.
 pub(super) struct Spans<'a> {
     pub(super) spans: &'a [Option<Interval>],
     pub(super) answers: &'a [ElementOutcome<Option<Interval>>],

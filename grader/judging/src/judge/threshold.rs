@@ -6,8 +6,8 @@ use super::measure::{DIRECTION, LENGTH, UV};
 use super::radiance::RELATIVE_TOLERANCE;
 use super::tree::{CONTAIN_TOLERANCE, FULL_MARKS_RATIO, TIGHT_TOLERANCE};
 
-/// A threshold between correct and wrong. The steps of partial credit are not among them, because
-/// they are between one wrong answer and another.
+/// A threshold between correct and wrong. The steps of partial credit are not included, because
+/// they separate wrong answers from other wrong answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Threshold {
     /// Distance of a hit along its ray, in a table.
@@ -40,9 +40,9 @@ pub enum Threshold {
     RadiancePixels,
     /// SAH cost of a tree.
     SahCost,
-    /// Excess of a box over its contents.
+    /// Distance by which a box extends beyond its contents.
     BoxTooLarge,
-    /// Part of a primitive outside its box.
+    /// Distance by which a primitive extends beyond its box.
     BoxTooSmall,
 }
 
@@ -91,7 +91,7 @@ impl Threshold {
         }
     }
 
-    /// Returns the value of the threshold, which is a deviation of 1.
+    /// Returns the value of the threshold, which corresponds to a deviation of 1.
     pub fn limit(self) -> String {
         match self {
             Threshold::Distance | Threshold::Position | Threshold::Times | Threshold::Origin => {

@@ -26,7 +26,7 @@ pub struct Picture {
     pub layers: Vec<LayerComparison>,
     /// The error in each pixel.
     pub mask: Vec<MaskPixel>,
-    /// Number of positions that are judged. A pixel of first hits has five.
+    /// Number of positions that are judged. Each pixel of a picture of first hits has five.
     pub positions: usize,
     /// Number of positions at which each aspect is wrong, the most serious aspect first.
     pub wrong_counts: Vec<(Aspect, usize)>,
@@ -85,8 +85,8 @@ pub fn compare(question: &ExamQuestion, answer: &Answer) -> Option<Picture> {
     })
 }
 
-/// Returns the layers of a correct picture. They equal the submitted side of [`compare`] at a tenth
-/// of the cost. Most pictures are correct.
+/// Returns the layers of a correct submitted picture. [`compare`] would return the same layers at
+/// ten times the cost, and most pictures are correct.
 pub fn submitted_picture(question: &ExamQuestion, answer: &Answer) -> Option<SubmittedPicture> {
     let (film, per_pixel) = grid(&question.question)?;
     let layers = paint::submitted_layers(question, answer, per_pixel)?;

@@ -25,7 +25,8 @@ pub struct LayerComparison {
     pub wanted: Vec<Colour>,
     /// The submitted picture.
     pub got: Vec<Colour>,
-    /// The difference of both, amplified four times. It is black where the judge found no error.
+    /// The difference between the two, amplified four times. It is black where the judge found no
+    /// error.
     pub difference: Vec<Colour>,
 }
 
@@ -96,7 +97,7 @@ pub(super) fn compare_layers(
     Some(layers.iter().map(view).collect())
 }
 
-/// Returns the submitted layers, painted as [`compare_layers`] paints them without errors.
+/// Returns the submitted layers, painted as [`compare_layers`] paints a picture without errors.
 pub(super) fn submitted_layers(
     question: &ExamQuestion,
     answer: &Answer,
@@ -207,7 +208,7 @@ fn paint_outcome<T>(outcome: &ElementOutcome<T>, paint: impl Fn(&T) -> Vec3) -> 
     }
 }
 
-/// Returns a colour for components from -1 to 1.
+/// Returns the colour of a vector whose components are between -1 and 1.
 fn signed_colour(vector: Vec3) -> Vec3 {
     valid_colour(vector * 0.5 + 0.5)
 }
@@ -240,7 +241,7 @@ fn compare_layer(
     let differences = layer.wanted.iter().zip(&layer.got).zip(mismatches);
     let differences: Vec<Vec3> = differences
         .map(|((wanted, got), mismatch)| match mismatch {
-            // On an edge, a different answer may be correct as well.
+            // At an edge, an answer that differs from the expected one may also be correct.
             None => Vec3::ZERO,
             Some(_) => ((*got - *wanted).abs() * DIFFERENCE_GAIN).min(Vec3::ONE),
         })

@@ -48,7 +48,7 @@ fn mask_marks_exactly_the_wrong_pixels() {
 
 #[test]
 fn worst_pixels_are_sorted_and_spread_out() {
-    // All but the last are neighbours. The error grows from one to the next.
+    // All wrong pixels but the last are neighbours. Each error is larger than the one before.
     let picture = picture_with_errors_at(&[0, 1, 2, 99]).unwrap();
     let pixels: Vec<UVec2> = picture
         .worst_pixels

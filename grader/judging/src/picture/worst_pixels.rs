@@ -1,4 +1,4 @@
-//! Picks the pixels that show most about what is wrong.
+//! Picks the wrong pixels that are most useful for finding a mistake.
 
 use std::cmp::Ordering;
 
@@ -8,8 +8,8 @@ use crate::judge::{Aspect, Mismatch};
 
 /// Maximum number of pixels that are picked.
 const MAX_PIXELS: usize = 5;
-/// Minimum distance of two picked pixels, relative to the film's larger side. Neighbours rarely
-/// show different errors.
+/// Minimum distance between two picked pixels, relative to the film's larger side. Neighbours
+/// rarely show different errors.
 const MIN_SEPARATION: f32 = 1.0 / 9.0;
 
 /// A wrong pixel.
@@ -17,13 +17,13 @@ const MIN_SEPARATION: f32 = 1.0 / 9.0;
 pub struct WorstPixel {
     /// Coordinates of the pixel. (0, 0) is at the bottom left.
     pub pixel: UVec2,
-    /// Its worst position, as the index of an element of the question.
+    /// The pixel's worst position, as the index of an element of the question.
     pub element: usize,
-    /// The error there.
+    /// The kind of error at that position.
     pub aspect: Aspect,
 }
 
-/// Picks the worst pixels, sorted by the most serious aspect and then by the size of the error.
+/// Picks the worst pixels: first by how serious their aspect is, then by the size of the error.
 pub(super) fn pick(
     film: UVec2,
     per_pixel: usize,
@@ -54,7 +54,7 @@ pub(super) fn pick(
             (candidate, mismatch, distance_to_nearest(&picked, candidate))
         });
         let far = far.filter(|(_, _, distance)| *distance >= min_distance);
-        // Among equals, pick the pixel that is farthest from those already picked.
+        // Among equally wrong pixels, pick the one that is farthest from those already picked.
         let next =
             far.min_by(|(_, a, near), (_, b, far)| by_severity(a, b).then(far.total_cmp(near)));
         match next {

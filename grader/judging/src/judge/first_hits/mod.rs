@@ -20,8 +20,8 @@ use crate::judge::{
 pub(super) const DEPTH: f32 = 2e-4;
 pub(super) const NORMAL: f32 = 5e-3;
 
-/// The compared quantities with their weights in hundredths. Each is judged only where all before
-/// it are correct.
+/// The compared quantities with their weights in hundredths. A quantity is judged only at positions
+/// where all quantities before it are correct.
 const QUANTITIES: [(&str, u32); 4] = [
     ("hit or miss", 40),
     ("depth", 30),
@@ -95,8 +95,7 @@ impl Comparison for FirstHits<'_> {
             let allowed = Credit::tolerated(positions.len());
             let counted =
                 Measurement::of_positions(positions, allowed, Threshold::PicturePositions);
-            // A quantity that is judged at too few positions has already failed by an earlier
-            // quantity.
+            // If a quantity is judged at too few positions, an earlier quantity has already failed.
             is_enough.then_some(counted)
         };
         of_each.into_iter().filter_map(measured).collect()
@@ -130,8 +129,8 @@ impl FirstHits<'_> {
         others.sort_by_key(|(position, _)| *position);
         let mut others = others.into_iter().peekable();
         let answers = self.answers.iter().enumerate();
-        // Reused for every position: there are tens of thousands, and an allocation for each is
-        // slow.
+        // Reused for every position, because an allocation for each of tens of thousands of
+        // positions would be slow.
         let mut alike = Vec::new();
         answers.map(move |(position, outcome)| {
             let here = || others.next_if(|(other, _)| *other as usize == position);
@@ -163,19 +162,18 @@ impl FirstHits<'_> {
         tallies
     }
 
-    /// Returns whether a quantity was judged at half of the positions with a hit or more. An answer
-    /// without hits has no wrong normals, and must not earn points for them. Hit or miss is judged
-    /// everywhere.
+    /// Returns whether a quantity was judged at no fewer than half of the positions that have a hit
+    /// in the key. An answer without hits has no wrong normals, and must not earn points for them.
+    /// Hit or miss is judged everywhere.
     fn has_enough_judged(&self, judged: usize) -> bool {
         let to_hit = self.hits.iter().flatten().count();
         judged * 2 >= to_hit
     }
 }
 
-/// Returns the deviations at one position, up to the first wrong quantity. For each quantity, they
-/// are those of the closest answer in `right` among the answers that agree in all earlier
-/// quantities. A correct miss has only the first quantity. `alike` is a buffer whose contents are
-/// overwritten.
+/// Returns the deviations at one position, up to the first wrong quantity. For each quantity, this
+/// is the deviation from the closest answer in `right` that agrees in all earlier quantities. A
+/// correct miss has only the first quantity. `alike` is a buffer whose contents are overwritten.
 fn position_deviations<'a>(
     got: Option<&Trace>,
     right: impl Iterator<Item = &'a Option<Surface>>,

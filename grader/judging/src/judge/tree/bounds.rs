@@ -13,7 +13,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The empty box, which contains nothing. Enclosing another box gives that box.
+    /// The empty box, which contains nothing. Extending it by another box gives that box.
     pub const EMPTY: Bounds = Bounds {
         min: DVec3::INFINITY,
         max: DVec3::NEG_INFINITY,
@@ -65,13 +65,13 @@ impl Bounds {
         2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
     }
 
-    /// Returns how far this box extends beyond `outer`, apart from rounding in f32. A box with a
-    /// NaN extends infinitely far, so the result is never NaN.
+    /// Returns how far this box extends beyond `outer`, ignoring rounding errors of f32. A box with
+    /// a NaN extends infinitely far, so the result is never NaN.
     pub fn excess_over(self, outer: Bounds) -> f64 {
         let last_bits = self.min.abs().max(self.max.abs()) * 2.0 * f64::from(f32::EPSILON);
         let below = (outer.min - self.min - last_bits).to_array();
         let above = (self.max - outer.max - last_bits).to_array();
-        // Taken one by one: the maximum of numbers that include NaN may be a number.
+        // NaN is replaced in each number separately, because `f64::max` ignores NaN.
         let out = below.into_iter().chain(above);
         out.map(|out| if out.is_nan() { f64::INFINITY } else { out })
             .fold(0.0, f64::max)

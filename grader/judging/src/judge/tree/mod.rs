@@ -16,14 +16,15 @@ use crate::judge::{
 use bounds::Bounds;
 use reached_nodes::{ReachedNode, TreeDefect, reached_nodes};
 
-/// Maximum cost for full marks, relative to the exact sweep.
+/// Maximum cost for full marks, relative to the cost of the exact sweep's tree.
 pub const FULL_MARKS_RATIO: f64 = 1.12;
-/// Maximum cost for half marks, relative to the exact sweep.
+/// Maximum cost for half marks, relative to the cost of the exact sweep's tree.
 const HALF_MARKS_RATIO: f64 = 1.25;
-/// Maximum excess of a box over its contents, relative to the diagonal of the contents.
+/// Maximum distance by which a box may extend beyond its contents, relative to the diagonal of the
+/// contents.
 pub(super) const TIGHT_TOLERANCE: f64 = 1e-4;
-/// Maximum part of a primitive outside its box, relative to the diagonal of the contents. This
-/// allows for rounding only.
+/// Maximum distance by which a primitive may extend beyond its box, relative to the diagonal of the
+/// contents. This allows for rounding only.
 pub(super) const CONTAIN_TOLERANCE: f64 = 1e-5;
 
 /// A tree and the checks on it.
@@ -118,7 +119,7 @@ fn judge_cost(ratio: f64) -> Judgement {
     }
 }
 
-/// Returns the deviation of a cost from its ratio to the exact sweep's cost.
+/// Returns the deviation of a cost that is `ratio` times the cost of the exact sweep's tree.
 fn cost_deviation(ratio: f64) -> Deviation {
     Deviation::new(
         Threshold::SahCost,

@@ -1,5 +1,5 @@
-//! Traverses a tree from its root, collects the primitives below each node, and checks that it is a
-//! tree at all.
+//! Traverses a tree from its root, collects the primitives below each node, and checks that the
+//! nodes form a tree.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use protocol::{Shape, Tree, TreeNode};
 use super::bounds::Bounds;
 use crate::describe;
 
-/// Counting stops once the leaves list the primitives this many times on average.
+/// Maximum number of leaves that may list a primitive, on average, before counting stops.
 const MAX_LISTINGS_PER_PRIMITIVE: usize = 64;
 
 /// A defect of a tree, as text for the report.

@@ -3,7 +3,7 @@ use protocol::TreeNode;
 
 use super::*;
 
-/// Returns spheres of diameter 1 in a row, with centres two apart.
+/// Returns spheres of diameter 1 in a row. The distance between neighbouring centres is 2.
 fn row(count: u32) -> Vec<Shape> {
     let ball = |i| Shape::Sphere {
         center: vec3(2.0 * i as f32, 0.0, 0.0),
@@ -24,7 +24,7 @@ fn node(first: u32, last: u32, size: u32, l: u32, r: u32) -> TreeNode {
     }
 }
 
-/// Returns a tree over four spheres with two in each leaf, and the root in the middle of the nodes.
+/// Returns a tree over four spheres, with two in each leaf. The root is in the middle of the nodes.
 fn valid_tree() -> Tree {
     Tree {
         nodes: vec![
@@ -121,7 +121,7 @@ fn each_check_finds_its_defect() {
 
 #[test]
 fn counting_stops_when_leaves_list_too_many_primitives() {
-    // A chain of nodes, each with a leaf that lists the whole of a long order.
+    // A chain of nodes, each with a leaf that lists all of a long `order`.
     let (links, listed) = (2_000, 200_000);
     let link = |i: u32| {
         [
@@ -166,7 +166,7 @@ fn a_leaf_with_half_of_the_primitives_is_not_split() {
     let fork = node(0, 4, 0, 1, 2);
     let half = vec![fork, node(0, 1, 2, 0, 0), node(2, 3, 2, 0, 0)];
     assert_eq!(credit(4, half), Credit::NONE);
-    // Leaves with more than one primitive, but each with less than half of all.
+    // Some leaves hold more than one primitive, but each holds less than half of them.
     let thirds = vec![
         fork,
         node(0, 1, 2, 0, 0),

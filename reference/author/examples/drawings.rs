@@ -63,7 +63,7 @@ fn run() -> Result<(), Box<dyn error::Error>> {
                     let title = format!("{} in {}{location}", mistake.id, item.id);
                     write!(figures, "{}", figure(&title, drawing))
                         .expect("writing to a String cannot fail");
-                    // Without a word, one drawing per mistake is enough.
+                    // If there is no word to search for, one drawing per mistake is enough.
                     if word.is_empty() {
                         break;
                     }
@@ -80,7 +80,7 @@ fn run() -> Result<(), Box<dyn error::Error>> {
     Ok(fs::write(file, page)?)
 }
 
-/// Returns the first wrong question and element of an item, and its drawing.
+/// Describes the first wrong question and element of an item, and returns its drawing.
 fn first_failure(item: &Item, answers: &[Answer]) -> Option<(String, Option<Drawing>)> {
     let numbered = item.questions.iter().zip(answers).enumerate();
     let mut failures = numbered.filter_map(|(number, (question, answer))| {

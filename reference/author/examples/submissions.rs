@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         solutions.push((variant.id.clone(), variant.apply(&reference, root)?));
     }
     for index in 0..count {
-        // A stride, so that a small class contains mistakes in all tasks, too.
+        // The stride ensures that even a small class contains mistakes in all tasks.
         let (id, sources) = &solutions[(7 * index) % solutions.len()];
         write(&folder.join(format!("{index:04}-{id}")), sources)?;
     }

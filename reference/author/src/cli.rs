@@ -8,7 +8,7 @@ use clap::{Args, Parser, Subcommand};
 use crate::generated_file::Mode;
 use crate::package::Platform;
 
-/// Default folder of the built book.
+/// The default folder of the built book.
 const DEFAULT_BOOK: &str = "target/handout";
 
 /// Writes every generated file of this repository
@@ -52,8 +52,8 @@ pub enum Command {
         /// A built book to include as handout/book
         #[arg(long, value_name = "FOLDER")]
         book: Option<PathBuf>,
-        /// Unpack it with an empty home directory, run the commands that its documents show, and
-        /// grade the starter and the reference
+        /// Unpack the bundle with an empty home directory, run the commands that its documents
+        /// show, and grade the starter and the reference
         #[arg(long)]
         check: bool,
     },
@@ -70,13 +70,13 @@ pub enum Command {
         /// The final exam, as written by `cargo author exam` (gradescope only)
         #[arg(long, value_name = "FILE")]
         exam: Option<PathBuf>,
-        /// The policy on points, lateness and visibility; without one, the default policy, which
-        /// `cargo grade --policy-default` prints
+        /// The policy on points, lateness and visibility; `cargo grade --policy-default` prints the
+        /// default
         #[arg(long, value_name = "FILE")]
         policy: Option<PathBuf>,
-        /// Set it up and run it as the platform does, without a network and with half a core; grade
-        /// the reference, the starter and an attacking submission there (on Linux, as root or with
-        /// sudo)
+        /// Set up and run the package as the platform does, without a network and with half a core;
+        /// grade the reference, the starter, an empty submission and, for gradescope, an attacking
+        /// one (on Linux, as root or with sudo)
         #[arg(long)]
         check: bool,
     },
@@ -86,37 +86,39 @@ pub enum Command {
     Hints,
     /// List the mutants that cargo-mutants makes of the reference, and grade each of them
     Mutants {
-        /// Grade only a fixed sample of them
+        /// Grade only a fixed sample of the mutants
         #[arg(long)]
         fast: bool,
         /// Whether to write or to check the list.
         #[command(flatten)]
         check: CheckArgs,
     },
-    /// Grade every variant with every seed's exam, and every mistake with the first few
+    /// Grade every variant with the exams of all seeds, and every mistake with those of the first
+    /// few
     Prove {
         /// The seeds, such as 0..1000
         #[arg(long, value_parser = parse_seeds)]
         seeds: Range<u64>,
-        /// The number of seeds that the mistakes are graded with as well
+        /// Grade the mistakes with only this many of the seeds, from the first
         #[arg(long, default_value_t = 10)]
         mistakes: u64,
         /// Grade this variant alone, such as bvh.wide, and no mistakes
         #[arg(long, value_name = "ID", conflicts_with_all = ["mistakes", "write"])]
         variant: Option<String>,
-        /// Record the result, with date and commit
+        /// Record the result, with the date and the commit
         #[arg(long)]
         write: bool,
     },
     /// Measure how far correct answers and mistakes are from every threshold of the exam
     Calibrate {
-        /// The seeds that every variant is graded with; by default 0..200, with `--check` 0..2
+        /// The seeds that every variant is graded with; the default is 0..200, or 0..2 with
+        /// `--check`
         #[arg(long, value_parser = parse_seeds)]
         seeds: Option<Range<u64>>,
-        /// The number of seeds that the mistakes are graded with as well
+        /// Grade the mistakes with only this many of the seeds, from the first
         #[arg(long, default_value_t = 3)]
         mistakes: u64,
-        /// Change nothing, and use a few seeds only; fail if a margin is too small
+        /// Change nothing and use only a few seeds; fail if a margin is too small
         #[arg(long)]
         check: bool,
     },

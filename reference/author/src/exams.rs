@@ -45,7 +45,8 @@ pub fn load_practice(root: &Path) -> Result<Exam, ExamError> {
     Ok(exam_file::load(Some(&root.join(PRACTICE_FILE)))?.exam)
 }
 
-/// Generates the text of a final exam: other questions about the same ideas.
+/// Generates the text of a final exam: other questions about the same ideas as in the practice
+/// exam.
 pub fn final_exam_text(seed: u64) -> Result<String, ExamGenerationError> {
     exam_text("final", Seed(seed))
 }

@@ -23,22 +23,22 @@ impl GeneratedFile {
     }
 }
 
-/// Whether to write or to check generated files.
+/// The choice between writing generated files and checking them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Write those that differ.
+    /// Write the files that differ.
     Write,
-    /// Change nothing, and fail if any of them differs.
+    /// Change nothing, and fail if any file differs.
     Check,
 }
 
-/// Generated files are out of date, or cannot be written.
+/// The reason why generated files cannot be written, or fail the check.
 #[derive(Debug, thiserror::Error)]
 pub enum GeneratedFileError {
     /// Files differ from what would be generated, or are missing.
     #[error("out of date: {}; run `{command}`", paths.join(", "))]
     Differs {
-        /// Every file that differs or is missing.
+        /// The paths of all files that differ or are missing.
         paths: Vec<String>,
         /// The command that writes them.
         command: String,
@@ -79,7 +79,7 @@ pub fn write_or_check(
 }
 
 fn differs(file: &GeneratedFile, root: &Path) -> bool {
-    // A file that cannot be read counts as different, too.
+    // A file that cannot be read also counts as different.
     let found = fs::read(root.join(&file.path));
     !found.is_ok_and(|found| found == file.contents.as_bytes())
 }

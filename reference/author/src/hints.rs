@@ -129,7 +129,8 @@ fn same_answers(a: &[(u32, ObservedAnswer)], b: &[(u32, ObservedAnswer)]) -> boo
 }
 
 /// Returns the elements that best distinguish the mistakes from each other and from correct
-/// answers. Greedy: each next element distinguishes the most pairs that are still alike.
+/// answers. The choice is greedy: each next element is the one that distinguishes the largest
+/// number of the remaining pairs.
 fn choose_elements(
     correct: &[ObservedAnswer],
     by_mistake: &[(u32, &[ObservedAnswer])],
@@ -150,12 +151,13 @@ fn choose_elements(
                 element,
             )
         });
-        // Of equal gains, the first element: the result must be deterministic.
+        // If gains are equal, the first element is chosen, so that the result is deterministic.
         let Some((gain, best)) = gains.min_by_key(|(gain, element)| (usize::MAX - gain, *element))
         else {
             break;
         };
-        // With all pairs distinguished, any further element helps against unknown mistakes.
+        // An element without a gain only helps against unknown mistakes, so such elements are added
+        // only up to the minimum.
         if gain == 0 && chosen.len() >= MIN_ELEMENTS {
             break;
         }

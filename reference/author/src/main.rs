@@ -146,7 +146,7 @@ fn solutions() -> Result<Solutions, ProofError> {
     Solutions::load(Workbench::open()?)
 }
 
-/// Writes the students' bundle. Refuses if it contains a secret.
+/// Writes the students' bundle. Fails if the bundle contains a secret.
 fn write_bundle(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -> CommandResult {
     let secrets = Secrets::gather(root, bundle)?;
     let leaks = secrets.search(bundle);

@@ -1,4 +1,4 @@
-//! Recording of the keys that only the reference can give. The reference runs in a probe like any
+//! Records the keys that only the reference can provide. The reference runs in a probe like any
 //! submission, and answers over the same pipe.
 
 use std::io;
@@ -14,7 +14,7 @@ use crate::proof::workbench::{BuiltSolution, Workbench, WorkbenchError};
 /// The path of the radiance item's scene, relative to the workspace root.
 const SCENE: &str = "scenes/cornell-box.json";
 
-/// The limit for drawing a picture.
+/// The time limit for drawing a picture.
 const BUDGET: Budget = Budget {
     cpu: Duration::from_secs(60),
 };

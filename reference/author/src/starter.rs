@@ -8,7 +8,7 @@
 //! // end solution      ends the region
 //! ```
 //!
-//! `// starter:` works outside a region as well. All other lines outside are copied unchanged.
+//! `// starter:` also works outside a region. All other lines outside regions are copied unchanged.
 
 use std::fs;
 use std::io;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use crate::generated_file::GeneratedFile;
 
-/// The files of a submission's crate: the five task files and four that are given.
+/// The files of a submission's crate: the five task files and four given files.
 const FILES: [&str; 9] = [
     "bbox.rs",
     "bvh.rs",
@@ -36,7 +36,7 @@ const TARGET_FOLDERS: [&str; 2] = ["student/src", "grader/starter"];
 /// The folder of the marked files.
 const SOURCE_FOLDER: &str = "reference/src";
 
-/// The starter cannot be generated.
+/// The reason why the starter cannot be generated.
 #[derive(Debug, thiserror::Error)]
 pub enum StarterError {
     /// A file of the reference cannot be read.
@@ -65,7 +65,7 @@ pub enum MarkError {
     /// A region starts inside another.
     #[error("`// solution` inside a solution: end the previous one with `// end solution` first")]
     Nested,
-    /// A region ends that was never started.
+    /// An end mark has no region that it could end.
     #[error("`// end solution` without a `// solution` above it")]
     NotStarted,
     /// A region is never ended.

@@ -73,7 +73,7 @@ fn the_starter_is_formatted() {
         .args(["--check", "--edition", "2024"])
         .args(starter_files())
         .output();
-    // Without rustfmt, the format cannot be checked.
+    // If rustfmt is not installed, the format cannot be checked.
     if let Ok(output) = check {
         let differences = String::from_utf8_lossy(&output.stdout);
         assert!(output.status.success(), "{differences}");

@@ -1,5 +1,5 @@
-//! The exam catches every known mistake and gives full marks to every known correct solution. The
-//! checks of this are tested, too.
+//! The exam catches every known mistake and gives full marks to every known correct solution. These
+//! checks are themselves tested, too.
 
 use std::collections::BTreeSet;
 use std::fs;

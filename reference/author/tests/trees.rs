@@ -11,7 +11,8 @@ use protocol::{Question, Ray, Rays};
 
 use crate::exams::{SEEDS, exam_of};
 
-/// Returns the prebuilt trees of all questions with lists of rays: item id, tree and rays.
+/// Returns the prebuilt tree of every question with a list of rays: the item's id, the tree and the
+/// rays.
 fn trees(exam: &Exam) -> Vec<(&str, Tree, Vec<Ray>)> {
     let questions = exam.items.iter().flat_map(|item| {
         let questions = item.questions.iter();

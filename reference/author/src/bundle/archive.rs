@@ -14,7 +14,7 @@ use crate::bundle::Bundle;
 /// The folder that the archive unpacks to.
 pub const TOP_FOLDER: &str = "pathtracing";
 
-/// A bundle cannot be written.
+/// The reason why a bundle cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
     /// The folder already contains files, which are not overwritten.
@@ -37,8 +37,8 @@ pub enum WriteError {
     Zip(#[from] ZipError),
 }
 
-/// Writes an archive if `out` ends with `.zip`, and otherwise a folder, which may be an empty Git
-/// repository.
+/// Writes the bundle as an archive if `out` ends with `.zip`, and otherwise as a folder. The folder
+/// may be an empty Git repository.
 pub fn write(bundle: &Bundle, out: &Path) -> Result<(), WriteError> {
     let io_error = |source| WriteError::Io {
         path: out.to_owned(),
@@ -50,7 +50,7 @@ pub fn write(bundle: &Bundle, out: &Path) -> Result<(), WriteError> {
     write_folder(bundle, out)
 }
 
-/// Writes a new folder. It may exist if it contains nothing but `.git`.
+/// Writes the bundle as a folder. The folder may already exist if it contains nothing but `.git`.
 pub fn write_folder(bundle: &Bundle, out: &Path) -> Result<(), WriteError> {
     let io_error = |source| WriteError::Io {
         path: out.to_owned(),
@@ -82,8 +82,8 @@ pub fn zip(bundle: &Bundle) -> Result<Vec<u8>, ZipError> {
 
 /// Returns the bytes of an archive with all files below `top`, which is empty or ends with `/`.
 pub fn zip_with_prefix(bundle: &Bundle, top: &str) -> Result<Vec<u8>, ZipError> {
-    // Fixed time, system and permissions: otherwise the bytes would depend on when and where the
-    // archive is created.
+    // The time, system and permissions are fixed: otherwise the bytes would depend on when and
+    // where the archive is created.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .compression_level(Some(9))

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-/// The crates of a lock file cannot be read.
+/// The reason why the crates of a lock file cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum CratesError {
     /// Cargo's home folder is unknown.
@@ -67,7 +67,8 @@ fn io_error(path: &Path) -> impl FnOnce(io::Error) -> CratesError {
     move |source| CratesError::Io { path, source }
 }
 
-/// Returns the paths that may exist in the registry folder, with `/`.
+/// Returns the paths, relative to the registry folder and with `/`, of all files that could belong
+/// to these crates. Some of them may not exist.
 fn registry_paths(lock: &LockFile, folder: &Path) -> Result<Vec<String>, CratesError> {
     let mut paths = Vec::new();
     for registry in entry_names(&folder.join("index"))? {

@@ -16,9 +16,9 @@ const COPIED: [&str; 7] = [
     "student/framework",
     "student/protocol",
 ];
-/// Names of folders that only staff need, anywhere in the copied folders.
+/// Names of folders that only staff need. They are not copied, wherever they occur.
 const EXCLUDED_NAMES: [&str; 4] = ["tests", "benches", "fuzz", "target"];
-/// Files and folders for staff: they are about grading a class, or untrusted code.
+/// Files and folders for staff: they are about grading a class or running untrusted code.
 const STAFF_PATHS: [&str; 6] = [
     "grader/class",
     "grader/SECURITY.md",
@@ -38,7 +38,7 @@ const EXAMS: &str = "grader/exams";
 /// The exam that is handed out.
 const PRACTICE: &str = "grader/exams/practice.json";
 
-/// A file or folder of the repository cannot be used.
+/// The reason why a file or folder of the repository cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum FoldersError {
     /// A file operation failed.
@@ -57,7 +57,7 @@ pub enum FoldersError {
     NotAPlainFile(PathBuf),
 }
 
-/// Copies all of these folders into the bundle.
+/// Copies the files and folders in `COPIED` into the bundle.
 pub(super) fn copy(root: &Path, bundle: &mut Bundle) -> Result<(), FoldersError> {
     COPIED
         .iter()

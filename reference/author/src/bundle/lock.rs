@@ -14,7 +14,7 @@ use tempfile::TempDir;
 use crate::bundle::Bundle;
 use crate::bundle::archive;
 
-/// The lock file cannot be created.
+/// The reason why the lock file cannot be created.
 #[derive(Debug, thiserror::Error)]
 pub enum LockError {
     /// A file operation failed.

@@ -12,10 +12,10 @@ use crate::bundle::Bundle;
 
 /// The cargo aliases that work without the `reference` and `author` crates.
 const ALIASES: [&str; 3] = ["grade", "render", "examples"];
-/// The manifest keys about folders that are not in the bundle.
+/// The manifest keys that refer to folders that are not in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
-/// A manifest cannot be used.
+/// The reason why a manifest cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum ManifestError {
     /// A file cannot be read.

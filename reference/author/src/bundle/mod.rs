@@ -36,11 +36,12 @@ const STUDENT_ONLY: [(&str, &str); 4] = [
 /// The files of a bundle or package.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bundle {
-    /// Contents by path, with `/`. Sorted, so that the same workspace gives the same archive.
+    /// The contents of each file, by its path with `/`. Sorted, so that the same workspace gives
+    /// the same archive.
     pub files: BTreeMap<String, Vec<u8>>,
 }
 
-/// The bundle cannot be collected.
+/// The reason why a bundle cannot be collected.
 #[derive(Debug, thiserror::Error)]
 pub enum BundleError {
     /// A file or folder of the repository cannot be used.

@@ -44,11 +44,11 @@ pub struct Secrets {
 /// A secret found in a bundle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Leak {
-    /// A secret line.
+    /// A secret line that is in the bundle.
     Line {
-        /// The file and line in the bundle, as `file:line`.
+        /// The location in the bundle, as `file:line`.
         found: String,
-        /// The secret file and line that it is equal to.
+        /// The location of the secret line, as `file:line`.
         source: String,
     },
     /// An exam that is not the practice exam.
@@ -58,7 +58,7 @@ pub enum Leak {
     },
 }
 
-/// The secrets cannot be read.
+/// The reason why the secrets cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum SecretsError {
     /// A file or folder cannot be read.
@@ -152,7 +152,7 @@ impl Secrets {
     }
 }
 
-/// Returns a line without its white space, or `None` if it computes nothing.
+/// Returns a line without its white space, or `None` if it is too short or computes nothing.
 fn normalize(line: &str) -> Option<String> {
     let computes = is_formula(line) || line.contains('(');
     let is_no_code = ["//", "use ", "pub use ", "#["]

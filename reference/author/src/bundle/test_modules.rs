@@ -37,7 +37,7 @@ fn module_folder(path: &str) -> String {
     }
 }
 
-/// Returns the text without its declarations `#[cfg(test)] mod NAME;`, and those names.
+/// Returns the text without its declarations `#[cfg(test)] mod NAME;`, and the declared names.
 fn without_test_modules(text: &str) -> (String, Vec<String>) {
     let lines: Vec<&str> = text.lines().collect();
     let named = |line: &&str| {

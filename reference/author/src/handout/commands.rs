@@ -83,7 +83,7 @@ fn unknown_command(
     (error.use_stderr()).then(|| format!("`{text}`: {first}"))
 }
 
-/// Reports a flag that prose mentions if no command has it.
+/// Returns the problem with a flag that the text mentions, or `None` if some command has the flag.
 fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     let flag = text.split([' ', '=']).next().unwrap_or(text);
     let name = flag.trim_start_matches('-');
@@ -102,8 +102,8 @@ fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     unknown_option(&[flag], sources).map(|_| format!("no command has the flag {flag}"))
 }
 
-/// Reports the first flag that `cargo render` does not have. Its flags are the fields of its
-/// options.
+/// Returns a problem for the first flag that `cargo render` does not have. Its flags are the fields
+/// of its options.
 fn unknown_option(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let options = sources.iter().find(|source| source.path == RENDER_OPTIONS);
     let options = options.map_or("", |source| source.text.as_str());
@@ -115,7 +115,7 @@ fn unknown_option(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     Some(format!("cargo render has no flag --{unknown}"))
 }
 
-/// Reports an argument of `cargo examples` that is not the name of a file.
+/// Returns a problem for the first argument of `cargo examples` that is not the name of a file.
 fn unknown_example(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let unknown = words.iter().find(|word| {
         let file = format!("student/src/{word}.rs");

@@ -7,8 +7,8 @@ use grader::section::Section;
 
 use super::pages::{Page, anchor};
 
-/// Returns the broken links among the chapters, and files that no chapter links to. `figures` are
-/// files beside the chapters.
+/// Returns the broken links in the chapters, and the files that no chapter links to. `figures` are
+/// the names of the figures' files, which are in the chapters' folder.
 pub fn broken_links(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
     let anchors = anchors(pages);
     let mut problems = Vec::new();

@@ -34,7 +34,7 @@ pub struct Page {
     pub blocks: Vec<Snippet>,
 }
 
-/// Returns the Markdown extensions of the handout, which GitHub and mdBook support, too.
+/// Returns the Markdown extensions that the handout uses. GitHub and mdBook also support them.
 pub fn options() -> Options {
     Options::ENABLE_TABLES | Options::ENABLE_MATH
 }
@@ -59,7 +59,7 @@ impl Page {
         self.headings.iter().map(|heading| anchor(&heading.text))
     }
 
-    /// Returns a message about one of its snippets, with file name and line.
+    /// Returns a message about a snippet of this chapter, with the file name and the line.
     pub fn problem(&self, snippet: &Snippet, message: &str) -> String {
         format!("{}:{}: {message}", self.name, snippet.line)
     }

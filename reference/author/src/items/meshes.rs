@@ -33,7 +33,7 @@ pub fn number_shapes(shapes: impl IntoIterator<Item = Shape>) -> Vec<Shape> {
     (0..).zip(shapes).map(number).collect()
 }
 
-/// Returns a flat triangle around a point, not thin, inside a ball of radius `size`.
+/// Returns a flat triangle around a point. It is not thin, and is inside a ball of radius `size`.
 pub fn random_flat_triangle(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
     let across = rng.direction();
     let up = rng.perpendicular_to(across);
@@ -51,8 +51,9 @@ pub fn soup(rng: &mut Rng, count: usize, half: f64, size: f64) -> Vec<Shape> {
     number_shapes(triangles)
 }
 
-/// Returns long, thin triangles: along x in one region, and along y and z in two others. Partitions
-/// along the strands are of little use, but the strands' direction is the longest axis of a node.
+/// Returns long, thin triangles: along x in one region, along y in another, and along z in a third.
+/// Partitions along the strands are of little use, but the strands' direction is the longest axis
+/// of a node.
 pub fn strands(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let strands = (0..count).map(|i| {
         let axis = i % 3;

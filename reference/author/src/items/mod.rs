@@ -48,7 +48,8 @@ fn ray(from: DVec3, toward: DVec3) -> Ray {
     Ray::new(from.as_vec3(), (toward - from).as_vec3())
 }
 
-/// Creates a question that asks for the closest hit of each ray, by the shapes' own `hit`.
+/// Creates a question that asks for the closest hit of each ray, computed with the shapes' own
+/// `hit`.
 fn shapes_question(checks: &[HitCheck], shapes: Vec<Shape>, rays: Vec<Ray>) -> ExamQuestion {
     let key = hits_key(checks, &rays, |ray64| scan::closest_hit(ray64, &shapes));
     let rays = Rays::List(rays);

@@ -2,9 +2,9 @@
 //!
 //! At an edge, correct answers that differ in the last bit see different surfaces. The key of a
 //! position is therefore a set of surfaces: those seen at the position itself, at four neighbours
-//! that are closer than any mistake would move an edge, and in between. The positions in between
-//! are needed because the depth near a sphere's silhouette changes so steeply that a correct answer
-//! may be between those of two neighbours.
+//! that are closer to it than any mistake would move an edge, and in between. The positions in
+//! between are needed because the depth near a sphere's silhouette changes so steeply that a
+//! correct answer may be between those of two neighbours.
 
 use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
 use grader::exam::{ExamQuestion, Key, Surface};
@@ -40,7 +40,7 @@ pub fn camera_along(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> ExamCa
     }
 }
 
-/// Creates a question that asks for a picture of these shapes, by the shapes' own `hit`.
+/// Creates a question that asks for a picture of these shapes, computed with the shapes' own `hit`.
 pub fn picture_question(camera: ExamCamera, shapes: Vec<Shape>) -> ExamQuestion {
     let scan = Scan::new(&shapes);
     let key = first_hits_key(&camera, |ray64| scan.closest_hit(ray64));
@@ -78,8 +78,9 @@ pub fn first_hits_key(camera: &ExamCamera, sees: impl Fn(&Ray64) -> Option<Inter
     Key::FirstHits { hits, alternatives }
 }
 
-/// Returns the surfaces seen between `start` and `end`, and at `end`. Bisects until neighbouring
-/// surfaces are equal within the tolerances, or until `halvings` is used up, at an edge.
+/// Returns the surfaces seen between `start` and `end`, including the one at `end`. Bisects until
+/// neighbouring surfaces are equal within the tolerances. At an edge they never are, so it stops
+/// after `halvings` bisections.
 fn surfaces_between(
     toward: &impl Fn(f32) -> Option<Surface>,
     start: (f32, Option<Surface>),
@@ -115,7 +116,7 @@ fn is_judged_equal(a: &Option<Surface>, b: &Option<Surface>) -> bool {
 mod tests {
     use super::*;
 
-    /// Creates a picture of a wall that ends exactly at the middle of the film.
+    /// Creates a question about a picture of a wall that ends exactly at the middle of the film.
     fn wall() -> ExamQuestion {
         let corner = |x: f32, y: f32| Vec3::new(x, y, -1.0);
         let wall = Shape::FlatTriangle {

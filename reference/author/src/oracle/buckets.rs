@@ -1,5 +1,5 @@
-//! The cost of trees built with bucketed SAH: by several correct builders, which place the buckets
-//! differently, and by one with a known mistake.
+//! The cost of trees built with bucketed SAH: by correct builders with several kinds of buckets,
+//! and by builders with a known mistake.
 
 use crate::oracle::bbox::Bounds;
 
@@ -133,8 +133,8 @@ impl BucketContents {
         }
     }
 
-    /// Returns the area times the count, or 0 if empty, because the area of an empty box is
-    /// undefined.
+    /// Returns the area times the count. Returns 0 if there are no primitives, because the area of
+    /// an empty box is undefined.
     fn cost(self) -> f64 {
         match self.count {
             0 => 0.0,

@@ -1,5 +1,5 @@
-//! Correct answers in double precision, computed from the definitions. None of the formulas is the
-//! one that students are taught, so that the same slip cannot be in both.
+//! Correct answers in double precision, computed from the definitions. No formula is the one that
+//! students are taught, so that the same mistake cannot be in a solution and in its key.
 
 pub mod bbox;
 pub mod buckets;
@@ -20,9 +20,9 @@ pub struct Ray64 {
     pub origin: DVec3,
     /// The direction. Its length is one, except for the rounding of the question's ray.
     pub dir: DVec3,
-    /// The least distance at which hits count.
+    /// The minimum distance at which hits count.
     pub min: f64,
-    /// The greatest distance at which hits count. May be infinite.
+    /// The maximum distance at which hits count. May be infinite.
     pub max: f64,
 }
 
@@ -79,7 +79,7 @@ pub struct Intersection {
 }
 
 impl Intersection {
-    /// Converts to a key of a question with a list of rays.
+    /// Converts the intersection to the expected hit of a question with a list of rays.
     pub fn to_hit(&self) -> ExpectedHit {
         ExpectedHit {
             distance: self.distance as f32,
@@ -90,7 +90,7 @@ impl Intersection {
         }
     }
 
-    /// Converts to a key of a picture.
+    /// Converts the intersection to a surface in the key of a picture.
     pub fn to_surface(&self) -> Surface {
         Surface {
             depth: self.distance as f32,

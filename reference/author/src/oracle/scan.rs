@@ -44,7 +44,8 @@ pub fn closest_hit<'a>(
         .min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
-/// A list of shapes with bounding spheres, for scans with very many rays, as in pictures.
+/// A list of shapes with bounding spheres, for scans with very many rays, such as those of
+/// pictures.
 #[derive(Debug)]
 pub struct Scan<'a> {
     bounded_shapes: Vec<(Sphere, &'a Shape)>,
@@ -97,11 +98,11 @@ pub fn bounds(shape: &Shape) -> Bounds {
 /// Returns whether every correct formula in single precision agrees on whether and where the ray
 /// hits this shape: the hit or miss is not close to an edge, a tangent or an end of the range.
 pub fn is_unambiguous(ray: &Ray64, shape: &Shape) -> bool {
-    /// The least difference between a distance and the ends of the range.
+    /// The minimum difference between a distance and the ends of the range.
     const END_MARGIN: f64 = 2e-2;
-    /// The least absolute value of the least weight.
+    /// The minimum absolute value of the smallest weight.
     const EDGE_MARGIN: f64 = 2e-2;
-    /// The least difference between the closest approach and the radius, in radii.
+    /// The minimum difference between the closest approach and the radius, in radii.
     const TANGENT_MARGIN: f64 = 3e-2;
 
     let is_away_from_ends =

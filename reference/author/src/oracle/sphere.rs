@@ -19,8 +19,8 @@ pub struct Sphere {
 /// The relation of a ray's whole line to a sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct LineIntersection {
-    /// The least distance from the centre to the line, in radii. The line hits the sphere if this
-    /// is below 1.
+    /// The smallest distance from the centre to the line, in radii. The line hits the sphere if
+    /// this distance is below 1.
     pub closest_approach: f64,
     /// The distances at which the line enters and leaves the sphere, or NaN if it misses.
     pub roots: [f64; 2],

@@ -16,7 +16,8 @@ pub fn cost(boxes: &[Bounds], max_leaf_size: usize) -> f64 {
     SweepBuilder::new(boxes, max_leaf_size).node_cost(&mut indices, 0, 0)
 }
 
-/// Returns the upper levels of the same tree, and the plane that splits its root.
+/// Returns the upper levels of the tree whose cost [`cost`] returns, and the plane that splits its
+/// root.
 pub fn upper_levels(boxes: &[Bounds], max_leaf_size: usize) -> Sweep {
     let mut indices: Vec<usize> = (0..boxes.len()).collect();
     let mut builder = SweepBuilder::new(boxes, max_leaf_size);
@@ -39,7 +40,7 @@ pub fn upper_levels(boxes: &[Bounds], max_leaf_size: usize) -> Sweep {
 /// Returns the gap between two centres at which the best partition splits along this axis. Returns
 /// `None` if the best partition is along another axis, or if another one is nearly as good.
 pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
-    /// The least cost of the second best partition, relative to the best.
+    /// The minimum cost of the second-best partition, relative to the best.
     const MIN_RATIO: f64 = 1.05;
 
     let indices: Vec<usize> = (0..boxes.len()).collect();
@@ -76,7 +77,7 @@ impl SweepBuilder<'_> {
     }
 
     /// Returns the cost of the subtree over the primitives `indices`. `start` is the number of
-    /// primitives to the left of it.
+    /// primitives to the left of the subtree.
     fn node_cost(&mut self, indices: &mut [usize], level: u32, start: usize) -> f64 {
         let relative_area = bounds_of(self.boxes, indices).area() / self.root_area;
         let is_leaf = indices.len() <= self.max_leaf_size;

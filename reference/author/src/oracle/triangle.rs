@@ -1,4 +1,4 @@
-//! Intersections of rays and triangles: first with the plane, then a comparison of areas.
+//! Intersections of rays and triangles: by intersecting the triangle's plane, then comparing areas.
 
 use glam::{DVec2, DVec3};
 use protocol::Vertex;
@@ -15,7 +15,7 @@ pub struct PlaneIntersection {
 }
 
 impl PlaneIntersection {
-    /// Returns the least weight, which is positive inside the triangle and negative outside.
+    /// Returns the smallest weight, which is positive inside the triangle and negative outside.
     pub fn least_weight(&self) -> f64 {
         self.weights.into_iter().fold(f64::INFINITY, f64::min)
     }

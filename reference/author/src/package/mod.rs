@@ -30,16 +30,17 @@ pub enum Platform {
     Github,
 }
 
-/// The choices of a course.
+/// The choices of a course: its final exam and its policy.
 #[derive(Clone, Debug)]
 pub struct Course {
-    /// The text of the final exam, if the platform can hide it from students.
+    /// The text of the final exam, or `None` if there is none because the platform cannot hide it
+    /// from students.
     pub exam: Option<String>,
     /// The text of the policy file.
     pub policy: String,
 }
 
-/// The package cannot be collected.
+/// The reason why a package cannot be collected.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
     /// The students' bundle cannot be collected.
@@ -130,8 +131,8 @@ pub fn collect(root: &Path, platform: Platform, course: Course) -> Result<Bundle
     }
 }
 
-/// Returns the files of the students' bundle that the grader needs: not the handout, the scenes and
-/// the workflow.
+/// Returns the files of the students' bundle that the grader needs: all but the handout, the
+/// scenes, the workflow and the README.
 fn grader_files(students: &Bundle) -> impl Iterator<Item = (&str, &Vec<u8>)> {
     const EXCLUDED: [&str; 4] = ["handout/", "scenes/", ".github/", "README.md"];
     let files = students.files.iter();

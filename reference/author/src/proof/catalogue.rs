@@ -18,11 +18,11 @@ pub struct Mistake {
     pub id: String,
     /// A description of what the wrong code does.
     pub title: String,
-    /// The sources in which real people made the mistake, as numbers of the list in
+    /// The sources in which the mistake was seen, as numbers in the list of
     /// `reference/mistakes/README.md`.
     #[serde(default)]
     pub seen: Vec<String>,
-    /// A question for students that leads to the mistake.
+    /// A question for students that helps them find the mistake.
     pub nudge: String,
     /// An explanation for students of what is wrong.
     pub hint: String,
@@ -43,13 +43,13 @@ pub struct Mistake {
 pub struct Change {
     /// The task file to change. By default, the file of the mistake's task.
     pub file: Option<String>,
-    /// The text in the reference.
+    /// The text in the reference that is replaced.
     pub was: String,
     /// The text that replaces it.
     pub now: String,
 }
 
-/// The catalogue cannot be used.
+/// The reason why the catalogue cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum CatalogueError {
     /// A file or folder cannot be read.
@@ -80,7 +80,7 @@ pub enum CatalogueError {
          once; adapt it in reference/mistakes"
     )]
     DoesNotApply {
-        /// The mistake.
+        /// The id of the mistake.
         id: String,
         /// The file that it changes.
         file: String,

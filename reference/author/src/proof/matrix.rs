@@ -12,7 +12,7 @@ use crate::proof::graded_mistake::GradedMistake;
 use crate::proof::solutions::{ProofError, Solutions};
 use crate::proof::workbench::Workbench;
 
-/// The table's file.
+/// The path of the table, relative to the workspace's root.
 const PATH: &str = "reference/mistakes/matrix.md";
 
 /// Builds the table for the committed practice exam. It is an error if a mistake does not lose the

@@ -44,7 +44,7 @@ fn prove_seed(
     Ok(result)
 }
 
-/// Runs the proof for these seeds; mistakes are graded for the first `with_mistakes` of them only.
+/// Runs the proof for these seeds; mistakes are graded only with the first `with_mistakes` of them.
 /// The result of every seed is saved, so that an interrupted proof can be continued.
 pub fn prove(
     solutions: &Solutions,

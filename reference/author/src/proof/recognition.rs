@@ -15,15 +15,16 @@ use crate::proof::workbench::WorkbenchError;
 /// The results of recognising all known mistakes, by their ids.
 #[derive(Debug, Default)]
 pub struct Recognition {
-    /// Mistakes that are recognised: their hint is given, perhaps among others that fit as well.
+    /// Mistakes that are recognised: their hint is given, possibly together with other hints that
+    /// also fit.
     pub recognised: Vec<String>,
-    /// Mistakes that get other hints or none, with these hints.
+    /// Mistakes whose own hint is not given, each with the hints that are given instead, if any.
     pub misrecognised: Vec<(String, Vec<String>)>,
     /// Mistakes without a signature: only pictures show them, they give no answers, or too many
     /// other mistakes give the same ones.
     pub without_signature: Vec<String>,
-    /// Mistakes that get hints for other mistakes when they are removed from the catalogue, with
-    /// these hints.
+    /// Mistakes that get hints for other mistakes when they are removed from the catalogue, each
+    /// with these hints.
     pub confused_when_unknown: Vec<(String, Vec<String>)>,
 }
 
@@ -116,7 +117,7 @@ fn without_mistake(exam: &Exam, mistake: u32) -> Exam {
 }
 
 impl Recognition {
-    /// Returns the fraction of the mistakes with a signature that are recognised.
+    /// Returns the fraction of recognised mistakes among those that have a signature.
     pub fn recognised_share(&self) -> f64 {
         let with_signature = self.recognised.len() + self.misrecognised.len();
         self.recognised.len() as f64 / with_signature.max(1) as f64

@@ -14,7 +14,7 @@ use crate::proof::variants::{Variant, VariantsError, variants};
 use crate::proof::workbench::{BuiltSolution, Workbench, WorkbenchError};
 use crate::recording::{Recorder, RecordingError};
 
-/// A proof cannot be run.
+/// The reason why a proof cannot be run.
 #[derive(Debug, thiserror::Error)]
 pub enum ProofError {
     /// The mistakes cannot be used.
@@ -61,9 +61,9 @@ pub struct Solutions {
     pub mistakes: Vec<(Mistake, Sources)>,
     /// Known correct solutions, in the order of the list.
     pub variants: Vec<(Variant, Sources)>,
-    /// Builds solutions.
+    /// The workbench that builds the solutions.
     pub workbench: Workbench,
-    /// Records the exams' pictures.
+    /// The recorder of the exams' pictures.
     pub recorder: Recorder,
 }
 
@@ -144,7 +144,7 @@ impl Solutions {
     }
 }
 
-/// Returns the exam's items of these tasks, and those that depend on one of them.
+/// Returns the exam with only the items of these tasks and the items that depend on one of them.
 pub fn tasks_and_dependents(exam: &Exam, tasks: &[Task]) -> Exam {
     let of_tasks = |id: &String| {
         let task = id.split('.').next();

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use grader::given_files::{TASK_FILES, TaskFile};
 use grader::submission::Submission;
 
-/// A file or folder of the repository cannot be read.
+/// The error for a file or folder of the repository that cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot read {}: {source}", path.display())]
 pub struct ReadError {

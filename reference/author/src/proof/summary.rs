@@ -12,11 +12,11 @@ use crate::generated_file::GeneratedFile;
 pub struct SeedResult {
     /// The seed.
     pub seed: u64,
-    /// Whether the mistakes were graded as well.
+    /// Whether the mistakes were also graded with this seed.
     pub with_mistakes: bool,
-    /// The variants that lost points although they are correct, with the items.
+    /// The variants that lost points although they are correct, each with the items that it failed.
     pub false_fails: BTreeMap<String, Vec<String>>,
-    /// The mistakes that did not lose the points that they must lose, with the problems.
+    /// The mistakes that did not lose the points that they must lose, each with the problems found.
     pub uncaught: BTreeMap<String, Vec<String>>,
 }
 

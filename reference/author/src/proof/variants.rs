@@ -31,7 +31,7 @@ pub struct Variant {
     pub crates: Vec<String>,
 }
 
-/// The list cannot be used.
+/// The reason why the list of variants cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum VariantsError {
     /// A file cannot be read.
@@ -40,7 +40,7 @@ pub enum VariantsError {
     /// The list is invalid.
     #[error("{}: {source}", path.display())]
     Toml {
-        /// The list.
+        /// The path of the list.
         path: PathBuf,
         /// The parse error, with its line and column.
         source: toml::de::Error,
@@ -78,7 +78,7 @@ impl Variant {
         Task::ALL.into_iter().filter(of_file).collect()
     }
 
-    /// Returns the reference with its own file replaced by this variant.
+    /// Returns the reference with one task file replaced by this variant.
     pub fn apply(&self, reference: &Sources, root: &Path) -> Result<Sources, ReadError> {
         let text = read(&root.join(self.path()))?;
         let sources = reference.clone().with_file(&self.file(), text);

@@ -31,7 +31,7 @@ pub struct Workbench {
     builder: Builder,
 }
 
-/// A solution cannot be built or run.
+/// The reason why a solution cannot be built or run.
 #[derive(Debug, thiserror::Error)]
 pub enum WorkbenchError {
     /// The workspace cannot be found.
@@ -54,8 +54,8 @@ pub enum WorkbenchError {
 }
 
 impl Workbench {
-    /// Opens the workspace. Solutions are built as by instructors: with the reference's parts as
-    /// substitutes, if there is a reference.
+    /// Opens the workspace. Solutions are built as on an instructor's machine: if there is a
+    /// reference, its parts are used as substitutes.
     pub fn open() -> Result<Self, WorkbenchError> {
         let workspace = Workspace::find()?;
         let builder =
@@ -119,19 +119,19 @@ pub struct BuiltSolution {
 }
 
 impl BuiltSolution {
-    /// Returns the launcher of its probe.
+    /// Returns the launcher of the solution's probe.
     pub fn launcher(&self) -> &Launcher {
         &self.launcher
     }
 
-    /// Returns its answers to one item, given by a new probe.
+    /// Runs the solution in a new probe, and returns its answers to one item.
     pub fn answers(&self, item: &Item) -> std::io::Result<Result<Vec<Answer>, Fault>> {
         let mut probe = self.launcher.start(BUDGET)?;
         let questions = item.questions.iter().map(|question| &question.question);
         Ok(probe.ask(questions, BUDGET))
     }
 
-    /// Grades it with an exam.
+    /// Grades the solution with an exam.
     pub fn score(&self, exam: &Exam) -> Result<Score, WorkbenchError> {
         let name = ExamName {
             id: exam.id.clone(),

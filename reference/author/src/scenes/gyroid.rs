@@ -1,4 +1,4 @@
-//! A gyroid inside a ball: one surface with many holes, which boxes fit badly.
+//! A gyroid inside a ball: a surface with many holes, which bounding boxes fit badly.
 
 use std::f64::consts::TAU;
 

@@ -1,14 +1,14 @@
-//! Extraction of a mesh of the surface where a function is zero.
+//! Extraction of the surface where a function is zero, as a mesh.
 //!
 //! The method is Gibson's, "Constrained Elastic Surface Nets", 1998, without the relaxation: one
 //! vertex in each cell that the surface passes through, and one quadrilateral around each grid edge
-//! that it crosses.
+//! that the surface crosses.
 
 use std::collections::HashMap;
 
 use glam::{DVec3, IVec3, ivec3};
 
-/// Vertices, and triangles whose corners are counter-clockwise seen from outside.
+/// Vertices, and triangles whose corners are counter-clockwise when seen from outside.
 pub(super) struct Net {
     pub(super) positions: Vec<DVec3>,
     pub(super) triangles: Vec<[usize; 3]>,

@@ -23,7 +23,8 @@ pub enum SkipReason {
 }
 
 /// Returns the reason why no correct traversal with this ray enters the leaf, or `None` if one may
-/// enter it. The reason holds with a margin of [`MARGIN`] times the diagonal of the box.
+/// enter it. A reason is returned only if it holds by a clear margin: [`MARGIN`] times the diagonal
+/// of a box.
 pub fn skip_reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<SkipReason> {
     let bounds = tree.bounds(leaf);
     let grown = bounds.grown(MARGIN * bounds.diagonal());
@@ -53,9 +54,9 @@ pub fn skip_reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<SkipReason
 pub struct PathFork {
     /// The last node on both paths.
     pub parent: usize,
-    /// Its child on the path to the leaf.
+    /// The child of `parent` on the path to the leaf.
     pub toward_leaf: usize,
-    /// Its child on the path to the closest hit.
+    /// The child of `parent` on the path to the closest hit.
     pub toward_hit: usize,
     /// The leaf of the closest hit.
     pub hit_leaf: usize,

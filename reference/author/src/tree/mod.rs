@@ -28,7 +28,7 @@ pub enum RootPosition {
     First,
     /// At neither end.
     Middle,
-    /// At the end.
+    /// At the last index.
     Last,
 }
 
@@ -112,9 +112,10 @@ impl Tree {
             .collect()
     }
 
-    /// Returns whether one of these leaves holds the primitive and has it inside its box.
+    /// Returns whether a primitive is in one of these leaves and inside that leaf's box.
     fn is_ordinary(&self, index: usize, leaves: &[usize]) -> bool {
-        // A small tolerance, because boxes are rounded to single precision, not always outward.
+        // A small tolerance is needed, because boxes are rounded to single precision, and not
+        // always outward.
         let enlarged = |leaf: usize| self.bounds(leaf).grown(1e-5);
         let bounds = scan::bounds(&self.shapes[index]);
         let mut holders = leaves
@@ -156,7 +157,7 @@ impl Tree {
         self.nodes[leaf].size += 1;
     }
 
-    /// Returns the same tree with its nodes in random order and the root at the given position.
+    /// Returns the same tree with its nodes in random order and the root at this position.
     pub fn with_nodes_shuffled(&self, rng: &mut Rng, root: RootPosition) -> Tree {
         let others = (0..self.nodes.len()).filter(|&index| index != self.root);
         let mut order = rng.shuffled(others.collect());

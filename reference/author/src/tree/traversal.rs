@@ -12,7 +12,7 @@ pub struct TraversalRule {
     pub left_first: bool,
     /// Whether a node's box is tested when the node is entered, instead of by its parent.
     pub tests_on_entry: bool,
-    /// Whether to enter every node that is not skipped by a clear margin.
+    /// Whether to enter every node that cannot be skipped by a clear margin.
     pub conservative: bool,
 }
 
@@ -102,7 +102,7 @@ impl Traversal {
             }
         }
         for (child, entry) in candidates {
-            // A test on entry uses the ray as the closest hit so far has shortened it.
+            // A test on entry uses the ray's current range, which ends at the closest hit so far.
             let entry = if rule.tests_on_entry {
                 self.entry_distance(tree, child, ray64, rule)
             } else {

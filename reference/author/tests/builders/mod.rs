@@ -9,9 +9,9 @@ use protocol::Shape;
 pub enum Splitter {
     /// SAH with buckets, along one axis only.
     OneAxis(usize),
-    /// In the middle of the longest axis of the centres.
+    /// A split in the middle of the longest axis of the centres.
     Middle,
-    /// Half of the primitives to each side, along the longest axis.
+    /// A split with half of the primitives on each side, along the longest axis.
     Median,
     /// SAH with the areas of single buckets, instead of all buckets of a side.
     AreaPerBucket,

@@ -1,5 +1,5 @@
-//! An empty home directory, as on a student's machine with a fresh installation of Rust. It
-//! contains only the crates that the bundle needs, so that cargo does not use the network.
+//! A home directory like that of a student with a fresh installation of Rust. It contains only the
+//! crates that the bundle needs, so that cargo does not use the network.
 
 use std::env;
 use std::fs;
@@ -9,7 +9,7 @@ use std::process::Command;
 
 use crate::bundle::crates::{self, CratesError};
 
-/// An empty home directory, and the programs of a Rust toolchain.
+/// A home directory that contains only crates, and the programs of a Rust toolchain.
 #[derive(Debug)]
 pub(super) struct Home {
     folder: PathBuf,
@@ -18,7 +18,7 @@ pub(super) struct Home {
     programs: PathBuf,
 }
 
-/// The home directory cannot be created.
+/// The reason why the home directory cannot be created.
 #[derive(Debug, thiserror::Error)]
 pub enum HomeError {
     /// The environment variable `CARGO` is not set.
@@ -65,7 +65,8 @@ impl Home {
         self.folder.join(".cargo")
     }
 
-    /// Returns the toolchain's program with this name, or else the name itself.
+    /// Returns the path of the toolchain's program with this name, or the name itself if the
+    /// toolchain has no such program.
     pub(super) fn program(&self, name: &str) -> PathBuf {
         let program = self
             .programs
@@ -90,7 +91,7 @@ impl Home {
         let path = [self.programs.clone()]
             .into_iter()
             .chain(env::split_paths(&path));
-        // Joining fails only for names that the split could not have given.
+        // Joining fails only if a folder's name contains a character that `PATH` cannot hold.
         if let Ok(path) = env::join_paths(path) {
             command.env("PATH", path);
         }
@@ -99,7 +100,7 @@ impl Home {
             .env("USERPROFILE", &self.folder)
             .env("CARGO_HOME", self.cargo_home())
             .env("CARGO_NET_OFFLINE", "true")
-            // Beside the home directory, so that it is reused by the next check.
+            // Outside the home directory, so that the next check reuses the compiled files.
             .env("CARGO_TARGET_DIR", self.folder.with_file_name("built"));
     }
 }

@@ -21,12 +21,12 @@ use crate::bundle::{Bundle, archive};
 /// The folder of the check, relative to the workspace's root. Compiled files stay there for the
 /// next check.
 const TEST_FOLDER: &str = "target/bundle";
-/// The documents solution commands are run.
+/// The documents whose commands are run.
 const DOCUMENTS: [&str; 2] = ["README.md", "handout/src/start.md"];
 /// The score file that `cargo grade` writes, relative to the unpacked folder.
 const SCORE_FILE: &str = "target/grade/student/score.json";
 
-/// The bundle cannot be checked.
+/// The reason why the bundle cannot be checked.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
     /// The archive cannot be created or unpacked.
@@ -54,7 +54,7 @@ struct Score {
 /// A command that a document shows, and its result.
 struct CommandRun {
     command: String,
-    /// The exit code, or `None` after a signal.
+    /// The exit code, or `None` if the command was killed by a signal.
     code: Option<i32>,
     stderr: String,
 }
@@ -78,7 +78,8 @@ pub fn check(root: &Path, bundle: &Bundle) -> Result<Vec<String>, CheckError> {
         shell_commands::commands(DOCUMENTS.into_iter().filter_map(|path| unpacked.text(path)));
     let mut problems = Vec::new();
     for run in run_commands(&commands, &home, &folder)? {
-        // A stub ends `cargo examples` with 101 and `cargo render` with 1.
+        // Because of the stubs, `cargo examples` exits with code 101 and `cargo render` with code
+        // 1.
         let is_expected = matches!(run.code, Some(0 | 1 | 101));
         if !is_expected || run.stderr.contains("could not compile") {
             problems.push(run.problem("the starter"));

@@ -1,4 +1,5 @@
-//! Builds the handout as a book, whose pages need no network and no scripts but the book's own.
+//! Builds the handout as a book. Its pages need neither the network nor any scripts except the
+//! book's own.
 
 mod formulas;
 mod pages;
@@ -15,7 +16,7 @@ use self::pages::problems;
 use self::pictures::inline_figures;
 use crate::proof::sources::ReadError;
 
-/// The book cannot be built.
+/// The reason why the book cannot be built.
 #[derive(Debug, thiserror::Error)]
 pub enum BookError {
     /// A formula is invalid.

@@ -11,7 +11,7 @@ const Z: [f64; 2] = [0.8, 6.8];
 /// The argument `times` of the example.
 const TIMES: [f64; 2] = [2.4, 9.0];
 
-/// Draws two slabs, the box in which they cross, and a ray through it.
+/// Draws two slabs, the box where they overlap, and a ray through the box.
 pub fn slabs() -> String {
     let mut drawing = Drawing::new(480.0, 330.0);
     let (origin, step) = (dvec2(40.0, 300.0), dvec2(46.0, -32.0));

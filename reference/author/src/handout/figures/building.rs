@@ -42,7 +42,7 @@ fn cost(left: u32) -> f64 {
     1.0 + (side(left) + side(right)) / surface_area(SPHERES)
 }
 
-/// Draws nested boxes, and the same as a tree.
+/// Draws nested boxes, and the tree that they form.
 pub fn tree() -> String {
     let mut drawing = Drawing::new(480.0, 350.0);
     let triangle = |drawing: &mut Drawing, hue: Hue, at: DVec2| {

@@ -1,4 +1,4 @@
-//! Draws lines, areas and labels as SVG, as far as the handout's figures need them.
+//! Draws the lines, areas and labels of the handout's figures as SVG.
 //!
 //! Every drawing has a background card, so that it is readable on any page. The card follows the
 //! light or dark mode of the reader's system, or the theme of the book. No information depends on
@@ -25,17 +25,17 @@ font:17px system-ui,-apple-system,'Segoe UI',sans-serif}\
 /// The colour of a line, an area or a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hue {
-    /// For objects: boxes, axes, surfaces, and their labels.
+    /// The colour of objects: boxes, axes, surfaces, and their labels.
     Ink,
-    /// For helper lines: grids, continuations.
+    /// The colour of helper lines, such as grids and extended lines.
     Soft,
-    /// For the ray, and the first of several objects.
+    /// The colour of rays, and of the first of several objects.
     Blue,
-    /// For the second of several objects, and for mistakes.
+    /// The colour of the second of several objects, and of mistakes.
     Orange,
-    /// For the third of several objects, and for correct results.
+    /// The colour of the third of several objects, and of correct results.
     Green,
-    /// For the fourth of several objects.
+    /// The colour of the fourth of several objects.
     Pink,
 }
 
@@ -55,11 +55,11 @@ impl Hue {
 /// The horizontal alignment of a label relative to its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// To the right: the text starts at the position.
+    /// On the right: the text starts at the position.
     Right,
-    /// Centred at the position.
+    /// Centred: the middle of the text is at the position.
     Middle,
-    /// To the left: the text ends at the position.
+    /// On the left: the text ends at the position.
     Left,
 }
 
@@ -83,7 +83,7 @@ impl Drawing {
     /// Returns the SVG file. `title` names the figure, and `description` describes it in words.
     pub fn finish(&self, title: &str, description: &str) -> String {
         let (w, h) = (self.size.x, self.size.y);
-        // The preferred size, if the page has room for it.
+        // The preferred size, if the page is wide enough for it.
         let (wide, high) = (w * 1.25, h * 1.25);
         let (title, description) = (escape(title), escape(description));
         let body = &self.body;

@@ -39,7 +39,7 @@ fn mark(drawing: &mut Drawing, hue: Hue, side: Side, t: f64, text: &str) {
         .small_label(hue, side, foot + dvec2(0.0, 18.0), text);
 }
 
-/// Draws the case that the second box begins beyond the hit in the first: it is not entered.
+/// Draws the case in which the second box begins beyond the hit in the first, so it is not entered.
 pub fn pruned() -> String {
     let mut drawing = Drawing::new(480.0, 270.0);
     drawing.open_box(
@@ -77,7 +77,8 @@ pub fn pruned() -> String {
     )
 }
 
-/// Draws the case that the second box begins before the hit in the first, and has a closer hit.
+/// Draws the case in which the second box begins before the hit in the first, and contains a closer
+/// hit.
 pub fn overlapping() -> String {
     let mut drawing = Drawing::new(480.0, 270.0);
     node(&mut drawing, Hue::Blue, 2.0, 8.8, 84.0, 50.0);

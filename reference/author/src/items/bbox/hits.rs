@@ -96,7 +96,7 @@ pub(super) fn axis_parallel(seed: Seed) -> Item {
     let queries = hits_and_misses(&mut rng, &bounds, |rng| {
         let target = bounds.center() + rng.point(0.9) * (bounds.max - bounds.min);
         let axis = rng.index(3);
-        // Parallel to one axis, or perpendicular to one.
+        // The direction is parallel to an axis, or perpendicular to one.
         let mut dir = Vec3::from([zero(rng), zero(rng), zero(rng)]);
         dir[axis] = rng.sign() as f32;
         if rng.coin() {

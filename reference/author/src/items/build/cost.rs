@@ -33,8 +33,8 @@ pub const MAX_CORRECT_COST: f64 = 1.06;
 /// plane, relative to the exact sweep's. It makes sure that luck does not hide this common mistake.
 pub const MIN_ADJACENT_COST: f64 = 1.2;
 
-/// Creates an item with one question, about a random mesh that is fair to correct builders and
-/// reveals the mistake.
+/// Creates an item with one question about a random mesh, for which correct builders come close to
+/// the exact sweep, and builders that compare only adjacent buckets do not.
 fn cost_item(name: &str, points: u32, text: [&str; 2], mut rng: Rng, mesh: MeshFn) -> Item {
     let question = rng.retry(|rng| {
         let shapes = mesh(rng);
@@ -47,7 +47,7 @@ fn cost_item(name: &str, points: u32, text: [&str; 2], mut rng: Rng, mesh: MeshF
 }
 
 /// Returns the highest relative cost among correct bucketed builders. Occasionally, all planes of a
-/// builder just miss the best place to divide a mesh.
+/// builder just miss the best position to split a mesh.
 fn highest_correct_cost(question: &ExamQuestion) -> f64 {
     let costs = [8, 12, 16, 17, 24, 32].into_iter().flat_map(|count| {
         [BucketExtent::Centers, BucketExtent::Bounds]

@@ -38,9 +38,9 @@ pub fn items(seed: Seed) -> Vec<Item> {
     all.into_iter().map(|item| item(seed)).collect()
 }
 
-/// Creates an item, and adds a control question that is wrong if there is no tree or if half of the
-/// primitives are in one leaf. The exact leaf size is the idea of another item, so the control's
-/// primitives are far apart: no heuristic prefers to keep them together.
+/// Creates an item, and adds a control question, whose answer is wrong if there is no tree or if
+/// half of the primitives are in one leaf. The exact leaf size is the idea of another item, so the
+/// control's primitives are far apart: no heuristic prefers to keep them together.
 fn item(name: &str, points: u32, text: [&str; 2], mut questions: Vec<ExamQuestion>) -> Item {
     let mut rng = Seed(0).rng("build.control");
     let soup = meshes::soup(&mut rng, 24, 2.0, 0.1);

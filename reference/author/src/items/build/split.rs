@@ -1,4 +1,4 @@
-//! The item about a single split: a few primitives in a row, of which one partition is by far the
+//! The item about a single split: a few primitives in a row, for which one partition is by far the
 //! best.
 
 use glam::DVec3;
@@ -12,16 +12,18 @@ use crate::oracle::bbox::Bounds;
 use crate::oracle::{scan, sweep};
 use crate::seed::{Rng, Seed};
 
-/// Both sides of the best partition fit in a leaf, but all primitives together do not.
+/// The maximum leaf size. Both sides of the best partition fit in a leaf, but all primitives
+/// together do not.
 const MAX_LEAF_SIZE: u32 = 8;
 
 /// Clumps of primitives along a row of length one: the start, the end and the number of each clump.
 type Layout = &'static [(f64, f64, usize)];
 
-/// Three clumps, two of them near each other. To a builder that forgets the outermost bucket, one
-/// clump costs nothing on either side, so leaving it with the clump far from it seems best.
+/// Three clumps, two of them near each other. A builder that forgets the outermost bucket ignores
+/// the clump at that end, so splitting between the two near clumps can seem best to it.
 const CLUMPS: Layout = &[(0.0, 0.02, 4), (0.74, 0.8, 4), (0.98, 1.0, 4)];
-/// A gap from a little after one quarter to a little before one half, which four buckets miss.
+/// Clumps with a gap from just above one quarter to just below one half. A builder with four
+/// buckets has no plane in this gap.
 const GAP: Layout = &[
     (0.0, 0.2, 4),
     (0.262, 0.27, 2),
@@ -95,7 +97,7 @@ fn is_unambiguous(shapes: &[Shape], axis: usize) -> bool {
         [node_box, center_box].iter().all(|over| {
             let size = (over.max - over.min)[axis];
             let part = |position: f64| (position - over.min[axis]) / size * count as f64;
-            // A plane is between the two ends, and not close to either.
+            // Some plane is between the two ends of the gap, and not close to either.
             (part(gap.1) - 0.05).floor() > (part(gap.0) + 0.05).floor()
         })
     })

@@ -34,7 +34,8 @@ pub(super) fn coincident(seed: Seed) -> Item {
     let center = rng.point(2.0);
     let same = meshes::random_flat_triangle(&mut rng, center, 0.5);
     let all = meshes::number_shapes(vec![same; 20]);
-    // More than half of all, so that a leaf that holds all of them was clearly not split.
+    // More than half of the primitives are the same, so a leaf that holds all of these was clearly
+    // not split.
     let mut some = meshes::soup(&mut rng, 17, 3.0, 0.4);
     some.extend(vec![same; 30]);
     item(

@@ -1,8 +1,8 @@
 //! Items of task 1: cameras.
 //!
 //! A mistake in one quantity should not fail the items about the others. Most items therefore use
-//! the middle row of the film, where only x matters, and the middles of pixels; and except in the
-//! items about it, film and sensor have the same aspect ratio.
+//! the middle row of the film, where only x matters, and the middles of pixels. Film and sensor
+//! have the same aspect ratio, except in the items about the aspect ratio.
 
 mod ray;
 mod sensor;

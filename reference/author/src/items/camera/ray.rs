@@ -8,7 +8,7 @@ use super::{MIDDLE, camera, camera_question, direction_question, item, random_be
 use crate::seed::{Rng, Seed};
 
 fn random_offset(rng: &mut Rng) -> f32 {
-    // Not at the very ends, because 1 is not a valid offset.
+    // The very ends are avoided, because 1 is not a valid offset.
     rng.uniform(0.02, 0.98) as f32
 }
 
@@ -88,8 +88,8 @@ pub(super) fn large_film(seed: Seed) -> Item {
     )
 }
 
-/// Creates a question with very different directions, so that an item about length, origin or range
-/// is not passed by a constant answer.
+/// Creates a question with very different directions, so that no constant answer passes an item
+/// about length, origin or range.
 fn spread_question(checks: &[RayCheck], rng: &mut Rng) -> ExamQuestion {
     let film = uvec2(7, 7);
     let samples = (0..16).map(|_| Sample {

@@ -4,7 +4,8 @@
 //! Some rays have an unreferenced primitive in front of them, which is in no leaf. A linear scan
 //! over all primitives, without the tree, hits it and is wrong. [`crate::tree::decoy`] describes
 //! the decoys that reveal nodes that should not have been entered. The position of the root is the
-//! idea of one item; in all others, starting at the first or the last node is correct as well.
+//! idea of one item; in all others, starting at the first or the last node also gives correct
+//! answers.
 
 mod end_to_end;
 mod needs;
@@ -53,7 +54,7 @@ fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<ExamQuestion>) 
 const FIRST_UNREFERENCED: u32 = 10_000;
 
 /// Creates a question that asks for the closest hits of the rays in the tree. Only distances are
-/// judged: no two primitives that a ray could hit are at the same distance.
+/// judged. This suffices, because no two primitives that a ray could hit are at the same distance.
 fn traversal_question(tree: &Tree, rays: Vec<Ray>) -> ExamQuestion {
     let key = super::hits_key(&[HitCheck::Distance], &rays, |ray64| {
         tree.expected_hit(ray64)

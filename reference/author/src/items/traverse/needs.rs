@@ -1,6 +1,6 @@
-//! Dependencies of the traversal items: the items that could make a correct traversal fail, and no
-//! others. A student who fails an item and one of its dependencies is told to fix the dependency
-//! first.
+//! Dependencies of the traversal items. An item depends only on items whose mistakes could make it
+//! fail even if the traversal is correct. A student who fails an item and one of its dependencies
+//! is advised to fix the dependency first.
 
 use grader::exam::Item;
 

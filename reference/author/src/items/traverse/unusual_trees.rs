@@ -51,8 +51,8 @@ pub(super) fn root(seed: Seed) -> Item {
     )
 }
 
-/// Creates a question about a tree whose first node is a leaf that one of the rays hits: a child
-/// may have index 0, too.
+/// Creates a question about a tree whose first node is a leaf that one of the rays hits. Index 0 is
+/// valid for a child, too.
 fn question_with_a_leaf_in_front(rng: &mut Rng) -> ExamQuestion {
     let tree = soup_tree(rng, 20, 0.9, 1);
     let rays = unambiguous_rays(rng, &tree, [10, 4], ray_from_around);
@@ -64,7 +64,7 @@ fn question_with_a_leaf_in_front(rng: &mut Rng) -> ExamQuestion {
 }
 
 /// Adds two detached subtrees over primitives in front of the rays. Their roots are at the ends of
-/// the node list, except where the tree's own root is.
+/// the node list, unless the tree's own root is there.
 fn with_detached_subtrees(
     rng: &mut Rng,
     mut tree: Tree,

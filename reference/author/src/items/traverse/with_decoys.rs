@@ -1,4 +1,4 @@
-//! Items with decoys in their trees.
+//! Items whose trees contain decoys.
 
 use grader::exam::{ExamQuestion, Item};
 use protocol::Ray;
@@ -24,13 +24,13 @@ const FIRST_DECOY: u32 = 20_000;
 /// A filter for the leaves that may hold a decoy for a ray.
 type LeafFilter<'a> = &'a dyn Fn(&Tree, usize, &Ray64) -> bool;
 
-/// The number of rays of a question that may get a decoy. The others come after them.
+/// The maximum number of rays of a question that get a decoy. The other rays come after them.
 const RAYS_WITH_DECOYS: usize = 10;
 const OTHER_RAYS: [usize; 2] = [4, 4];
-/// A question with fewer decoys than this is drawn again.
+/// The minimum number of decoys of a question. A question with fewer decoys is drawn again.
 const MIN_DECOYS: usize = 4;
 
-/// Creates a question with decoys in front of most rays that hit something, each in a leaf that
+/// Creates a question with decoys in front of at least `MIN_DECOYS` rays, each in a leaf that
 /// `fits` accepts. The slides' literal pseudo-code answers rays with decoys as `slides` says, and
 /// all other rays correctly.
 fn question_with_decoys(rng: &mut Rng, fits: LeafFilter, slides: SlidesAnswer) -> ExamQuestion {
@@ -46,7 +46,7 @@ fn question_with_decoys(rng: &mut Rng, fits: LeafFilter, slides: SlidesAnswer) -
     })
 }
 
-/// Returns rays that have a leaf that fits, followed by some other rays.
+/// Returns rays for which `fits` accepts some leaf, followed by some other rays.
 fn rays_with_candidate_leaves(rng: &mut Rng, tree: &Tree, fits: LeafFilter) -> Vec<Ray> {
     let mut chosen = unambiguous_rays(rng, tree, [RAYS_WITH_DECOYS, 0], |rng, tree| {
         rng.retry(|rng| {
@@ -60,7 +60,8 @@ fn rays_with_candidate_leaves(rng: &mut Rng, tree: &Tree, fits: LeafFilter) -> V
     chosen
 }
 
-/// Adds a decoy for each of the first rays where that is possible, and counts the decoys.
+/// Adds a decoy for each of the first rays for which this is possible. Returns the tree and the
+/// number of decoys.
 fn add_decoys(
     rng: &mut Rng,
     mut tree: Tree,
@@ -81,7 +82,8 @@ fn add_decoys(
             });
             is_as_required.then_some(with_decoy)
         });
-        // A leaf that fits may be on a side where the slides' answer is not as required.
+        // There may be no decoy for this ray: every leaf that `fits` accepts may be on a side where
+        // the slides' answer is not as required.
         if let Some(with_decoy) = added {
             tree = with_decoy;
             done.push(index);
@@ -93,9 +95,9 @@ fn add_decoys(
 /// The answer of the slides' literal pseudo-code to a ray with a decoy.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum SlidesAnswer {
-    /// The decoy is not tested.
+    /// The correct answer: the decoy is not tested.
     Correct,
-    /// The decoy is tested and hit.
+    /// A wrong answer: the decoy is tested and hit.
     Wrong,
 }
 
@@ -103,7 +105,7 @@ fn is_skipped_for(tree: &Tree, leaf: usize, ray64: &Ray64, reason: SkipReason) -
     decoy::skip_reason(tree, leaf, ray64) == Some(reason)
 }
 
-/// Returns whether the ray misses the box of the leaf's sibling as well.
+/// Returns whether the ray misses the box of the leaf's sibling.
 fn misses_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     let sibling = tree.sibling(leaf);
     sibling.is_some_and(|sibling| tree.bounds(sibling).span(ray64).is_none())

@@ -1,4 +1,4 @@
-//! Items with trees without decoys: every primitive in a leaf is inside the leaf's box.
+//! Items whose trees contain no decoys: every primitive in a leaf is inside the leaf's box.
 
 use glam::DVec3;
 use grader::exam::Item;
@@ -89,8 +89,8 @@ pub(super) fn range(seed: Seed) -> Item {
 pub(super) fn leaf_of_several(seed: Seed) -> Item {
     let mut rng = seed.rng("traverse.leaf_of_several");
     let tree = soup_tree(&mut rng, 48, 1.0, 8);
-    // The closest of several hits in a leaf is in turn the first primitive's, the last one's, and
-    // one in between.
+    // The closest of several hits in a leaf is in turn that of the first primitive, of the last
+    // one, and of one in between.
     let mut count = 0;
     let kind = |rng: &mut Rng, tree: &Tree| {
         rng.retry(|rng| {

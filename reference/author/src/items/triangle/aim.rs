@@ -1,4 +1,4 @@
-//! Random triangles, and rays aimed at points that are given by barycentric weights.
+//! Random triangles, and rays aimed at points that are defined by barycentric weights.
 
 use glam::{DVec3, Vec2, vec2};
 use protocol::{Ray, Shape, Vertex};
@@ -23,7 +23,7 @@ pub(super) fn random_triangle(rng: &mut Rng) -> [Vertex; 3] {
         let [p0, p1, p2] = corners;
         let normal = (p1 - p0).cross(p2 - p0);
         let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
-        // Twice the area divided by the longest side is the least altitude.
+        // Twice the area divided by the longest side is the smallest altitude.
         (normal.length() / longest > 1.0).then(|| {
             let mut vertex = |corner: DVec3, uv: Vec2| {
                 let tilted = normal.normalize() + 0.7 * rng.direction();
@@ -50,7 +50,7 @@ pub(super) fn weights_beyond_edge(rng: &mut Rng, corner: usize) -> [f64; 3] {
 }
 
 /// Returns the weights of a point at distance `beyond` from the edge opposite this corner, on the
-/// other side of it. The unit is the distance of the corner from that edge.
+/// outer side of that edge. The unit is the distance of the corner from the edge.
 pub(super) fn weights_beyond_edge_by(rng: &mut Rng, corner: usize, beyond: f64) -> [f64; 3] {
     let along = rng.uniform(0.05, 0.95);
     let mut weights = [0.0; 3];
@@ -60,7 +60,8 @@ pub(super) fn weights_beyond_edge_by(rng: &mut Rng, corner: usize, beyond: f64) 
     weights
 }
 
-/// Returns a ray through the point with these weights, not at a grazing angle.
+/// Returns a ray through the point with these weights. It does not hit the triangle at a grazing
+/// angle.
 pub(super) fn ray_through(
     rng: &mut Rng,
     vertices: &[Vertex; 3],

@@ -1,4 +1,4 @@
-//! Items about hit or miss, and the distance.
+//! Items about whether a ray hits, and at which distance.
 
 use glam::{Vec2, Vec3, vec3};
 use grader::exam::{ExamQuestion, HitCheck, Item};
@@ -32,7 +32,7 @@ pub(super) fn outside(seed: Seed) -> Item {
         let vertices = random_triangle(&mut rng);
         let mut rays: Vec<Ray> = (0..12)
             .map(|i| {
-                // A third of them are next to the edge.
+                // A third of the rays pass close to the edge.
                 let beyond = if i < 4 { (0.022, 0.06) } else { (0.06, 0.6) };
                 let beyond = rng.uniform(beyond.0, beyond.1);
                 let weights = weights_beyond_edge_by(&mut rng, i % 3, beyond);

@@ -46,7 +46,7 @@ fn table_questions(name: &str, seed: Seed, checks: &[HitCheck], side: Side) -> V
         let mut rays: Vec<Ray> = (0..8)
             .map(|_| hitting_ray(&mut rng, &vertices, side))
             .collect();
-        // Beyond each edge in turn.
+        // These rays pass beyond each edge in turn.
         rays.extend((0..4).map(|i| {
             let weights = weights_beyond_edge(&mut rng, i % 3);
             ray_through(&mut rng, &vertices, weights, side)

@@ -19,8 +19,8 @@ const TRIAL_FOLDER: &str = "target/package/classroom50";
 const TIME_LIMIT: Duration = Duration::from_secs(15 * 60);
 /// The package's folder on the runner.
 const AUTOGRADER_FOLDER: &str = "/home/runner/autograder";
-/// The runner's environment variables. `CARGO_TARGET_DIR` is added: compiled files are reused by
-/// the next submission, which saves time here.
+/// The runner's environment variables. `CARGO_TARGET_DIR` is added, so that the next submission
+/// reuses compiled files, which saves time.
 const VARIABLES: [&str; 10] = [
     "CLASSROOM=gfx-f26",
     "ASSIGNMENT=pathtracer",
@@ -34,7 +34,7 @@ const VARIABLES: [&str; 10] = [
     "CARGO_TARGET_DIR=/home/runner/built",
 ];
 
-/// Tries the package in `folder`, and returns the problems found.
+/// Runs the trial of the package in `folder`, and returns the problems found.
 pub fn check(workspace: &Path, folder: &Path) -> Result<Vec<String>, TrialError> {
     let mut problems = package::problems(folder)?;
     let workspace = &workspace.canonicalize().map_err(io_error(workspace))?;

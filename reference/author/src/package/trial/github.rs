@@ -18,10 +18,11 @@ const TRIAL_FOLDER: &str = "target/package/github";
 const WORKFLOW: &str = ".github/workflows/grade.yml";
 /// The workflow's time limit for a push.
 const TIME_LIMIT: Duration = Duration::from_secs(20 * 60);
-/// Compiled files are reused by the next push, as with the workflow's cache.
+/// The environment variable that makes the next push reuse compiled files, as the workflow's cache
+/// does.
 const VARIABLES: [&str; 1] = ["CARGO_TARGET_DIR=/home/runner/built"];
 
-/// Tries the template repository, and returns the problems found.
+/// Runs the trial of the template repository, and returns the problems found.
 pub fn check(workspace: &Path, template: &Bundle) -> Result<Vec<String>, TrialError> {
     let mut problems = Vec::new();
     let workspace = &workspace.canonicalize().map_err(io_error(workspace))?;
@@ -78,7 +79,8 @@ fn replace_task_files(
     fs::remove_dir_all(folder).map_err(io_error(folder))
 }
 
-/// Returns the workflow's cargo commands. Others install the toolchain, which the machine has.
+/// Returns the workflow's cargo commands. The other commands install the toolchain, which the
+/// machine already has.
 fn grading_commands(workflow: &str) -> Vec<String> {
     let runs = workflow
         .lines()
@@ -88,8 +90,8 @@ fn grading_commands(workflow: &str) -> Vec<String> {
         .collect()
 }
 
-/// Returns whether the run's page shows the points, and each first mistake is annotated on its
-/// line.
+/// Returns whether the step reported the submission correctly: its points and an annotation at the
+/// first mistake, or an error if it has nothing to grade.
 fn is_correct(submission: TrialSubmission, step: &StepResult) -> bool {
     let has_line = |start: &str| step.job.output.lines().any(|line| line.starts_with(start));
     let points = format!("## {} of 100 points", submission.points());

@@ -49,7 +49,7 @@ struct Test {
     max_score: u64,
 }
 
-/// Tries the package in the file `zip`, and returns the problems found.
+/// Runs the trial of the package in the file `zip`, and returns the problems found.
 pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, TrialError> {
     let mut problems = package::problems(zip)?;
     let workspace = &workspace.canonicalize().map_err(io_error(workspace))?;
@@ -158,8 +158,9 @@ fn problem(machine: &Machine, submission: TrialSubmission, job: &JobResult) -> O
     })
 }
 
-/// Returns a problem for everything that the attacking submission could steal. It is also a problem
-/// if the submission steals nothing without isolation, since then its failure would prove nothing.
+/// Returns a problem for each secret that the attacking submission stole. Also returns a problem if
+/// the submission steals nothing even without isolation, since its failure would then prove
+/// nothing.
 fn theft_problems(
     machine: &Machine,
     protected: &ProtectedData,

@@ -41,11 +41,11 @@ pub enum Limits {
 /// A command to run on the machine.
 #[derive(Clone, Copy, Debug)]
 pub struct Job<'a> {
-    /// The user that it runs as.
+    /// The user that the command runs as.
     pub user: User,
-    /// Its resource limits.
+    /// The resource limits.
     pub limits: Limits,
-    /// Its working directory, as a path on the machine.
+    /// The working directory, as a path on the machine.
     pub folder: &'a str,
     /// The platform's environment variables: `NAME=value`.
     pub variables: &'a [&'a str],
@@ -56,7 +56,7 @@ pub struct Job<'a> {
 /// The result of a job.
 #[derive(Clone, Debug)]
 pub struct JobResult {
-    /// The exit code, or `None` after a signal.
+    /// The exit code, or `None` if the command was killed by a signal.
     pub code: Option<i32>,
     /// Standard output and standard error.
     pub output: String,
@@ -78,10 +78,10 @@ pub struct ResourceUsage {
 /// A simulated machine.
 #[derive(Clone, Debug)]
 pub struct Machine {
-    /// Its root directory, as a path on the host.
+    /// The machine's root directory, as a path on the host.
     pub root: PathBuf,
     toolchain: PathBuf,
-    /// The words before a command that runs it as root: none, or `sudo -n`.
+    /// The words that are put before a command to run it as root: none, or `sudo -n`.
     root_prefix: Vec<&'static str>,
     is_limited: bool,
 }
@@ -113,7 +113,7 @@ impl Machine {
         Ok(Some(machine))
     }
 
-    /// Returns the host's path of a path on the machine.
+    /// Converts a path on the machine to a path on the host.
     pub fn host_path(&self, path: &str) -> PathBuf {
         self.root.join(path.trim_start_matches('/'))
     }
@@ -207,7 +207,8 @@ impl ResourceUsage {
     }
 }
 
-/// Prints that something is skipped, or returns an error if `CI` is set.
+/// Prints that the trial, or part of it, is skipped for this reason. Returns an error instead if
+/// `CI` is set.
 fn skip_or_fail(reason: &str) -> Result<(), TrialError> {
     match env::var_os("CI") {
         Some(_) => Err(TrialError::Unsupported(reason.to_owned())),

@@ -1,4 +1,4 @@
-//! Trials of packages: each package is set up and run as its platform does it.
+//! Trials of packages: each package is set up and run as its platform would do it.
 
 pub mod classroom50;
 pub mod github;
@@ -20,7 +20,7 @@ use crate::bundle::crates::CratesError;
 use crate::bundle::secrets::SecretsError;
 use crate::package::trial::machine::JobResult;
 
-/// A package cannot be tried.
+/// The reason why a trial cannot be run.
 #[derive(Debug, thiserror::Error)]
 pub enum TrialError {
     /// The environment variable `CARGO` is not set.

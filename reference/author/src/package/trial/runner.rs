@@ -33,7 +33,7 @@ pub struct Runner(Machine);
 /// The result of a step.
 #[derive(Debug)]
 pub struct StepResult {
-    /// The exit code and output of its command.
+    /// The result of the step's command.
     pub job: JobResult,
     /// The summary that the run's page shows.
     pub summary: String,
@@ -53,7 +53,7 @@ impl Runner {
         Ok(Some(Runner(machine)))
     }
 
-    /// Returns the host's path of a path on the runner.
+    /// Converts a path on the runner to a path on the host.
     pub fn host_path(&self, path: &str) -> PathBuf {
         self.0.host_path(path)
     }

@@ -10,11 +10,11 @@ use crate::package::trial::{TrialError, io_error, thief};
 /// A submission of a trial, by its contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrialSubmission {
-    /// The solution.
+    /// The reference solution.
     Reference,
     /// The unchanged starter.
     Starter,
-    /// None of the five task files.
+    /// A submission without any of the five task files.
     Empty,
     /// Task files that try to steal solutions and keys: see [`thief`].
     Thief,
@@ -31,7 +31,7 @@ impl TrialSubmission {
         }
     }
 
-    /// Returns the points that it must get.
+    /// Returns the points that the submission must get.
     pub fn points(self) -> u64 {
         match self {
             TrialSubmission::Reference => 100,
@@ -39,7 +39,7 @@ impl TrialSubmission {
         }
     }
 
-    /// Writes its files into a folder, which is emptied first.
+    /// Writes the submission's files into a folder, which is emptied first.
     pub fn write_to(self, workspace: &Path, folder: &Path) -> Result<(), TrialError> {
         if folder.exists() {
             fs::remove_dir_all(folder).map_err(io_error(folder))?;

@@ -1,5 +1,5 @@
-//! An attacking submission, which knows the paths of the package's files. It includes, opens and
-//! overwrites them, and all of its output is searched for solutions and keys.
+//! An attacking submission, which knows the paths of the package's files, and includes, opens and
+//! overwrites these files. All of its output is searched for solutions and keys.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -100,7 +100,7 @@ impl ProtectedData {
         })
     }
 
-    /// Returns the protected data in a text, even if the text is quoted or escaped.
+    /// Returns the protected data that a text contains, even if it is quoted or escaped there.
     pub fn found_in(&self, text: &str) -> Vec<String> {
         let text = text.replace("\\n", "\n").replace('\\', "");
         let mut bundle = Bundle::default();

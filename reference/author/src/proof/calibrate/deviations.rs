@@ -20,7 +20,7 @@ pub(super) fn of_correct(item: &Item, answers: &Answers, may_lose: bool) -> Vec<
         .collect()
 }
 
-/// Returns the deviation that decides about a wrong solution: the largest one of the item.
+/// Returns the deviation that decides whether the item catches a wrong solution: the largest one.
 pub(super) fn of_mistake(item: &Item, answers: &Answers) -> Deviation {
     let deciders = measure_all(item, answers)
         .into_iter()
@@ -55,7 +55,7 @@ mod tests {
 
     use super::*;
 
-    /// An item of boxes that the ray enters at 1 and leaves at 2.
+    /// Returns an item with boxes that the ray enters at 1 and leaves at 2.
     fn item(questions: usize) -> Item {
         let question = Question::BBox {
             min: Vec3::ZERO,

@@ -6,11 +6,11 @@ use std::fmt;
 
 use grader::judge::{Deviation, Threshold};
 
-/// The smallest allowed margin. By this factor at least, every threshold could be made stricter or
-/// more lenient.
+/// The minimum margin. It must be possible to make every threshold stricter or more lenient by this
+/// factor without a wrong result.
 pub const MIN_MARGIN: f64 = 1.5;
 
-/// A deviation of one solution in one item.
+/// The deviation of one solution in one item of one exam.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DeviationSample {
     /// The deviation.
@@ -71,7 +71,8 @@ type SolutionAndItem = (String, String);
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Margins {
     by_threshold: BTreeMap<Threshold, Margin>,
-    /// Correct solutions that count as wrong for a reason without a threshold, one sample per item.
+    /// Correct solutions that count as wrong for a reason without a threshold, with one sample per
+    /// solution and item.
     failed_variants: BTreeMap<SolutionAndItem, DeviationSample>,
     /// Mistakes that are caught with too small a margin, or not at all, by an item that they must
     /// fail.
@@ -157,7 +158,8 @@ impl Margins {
     }
 }
 
-/// Replaces the known sample by the new one if its value is `nearer`.
+/// Replaces the known sample with the new one if there is none, or if `nearer` accepts the new
+/// value and the old one.
 fn replace_if(
     known: &mut Option<DeviationSample>,
     new: DeviationSample,

@@ -21,7 +21,7 @@ use crate::proof::sources::Sources;
 use crate::proof::workbench::{BuiltSolution, WorkbenchError};
 use crate::seed::Seed;
 
-/// The default seeds for the table in the repository.
+/// The default seeds for writing the table in the repository.
 pub const MANY_SEEDS: Range<u64> = 0..200;
 /// The default seeds for a check, which must be fast.
 pub const FEW_SEEDS: Range<u64> = 0..2;
@@ -31,7 +31,7 @@ pub const FEW_SEEDS: Range<u64> = 0..2;
 pub struct Calibration {
     /// The seeds of the exams that the variants were graded with.
     pub seeds: Range<u64>,
-    /// The seeds of the exams that the mistakes were graded with as well.
+    /// The seeds of the exams that the mistakes were graded with: the first few of `seeds`.
     pub mistake_seeds: Range<u64>,
     /// The number of variants.
     pub variants: usize,

@@ -11,7 +11,7 @@ use crate::proof::calibrate::Calibration;
 use crate::proof::calibrate::margins::{DeviationSample, MIN_MARGIN, Margin};
 use crate::proof::sources::{ReadError, read};
 
-/// The table's file.
+/// The path of the table, relative to the workspace's root.
 pub const PATH: &str = "reference/calibration.md";
 
 /// Builds the table.
@@ -25,7 +25,7 @@ pub fn generated_file(calibration: &Calibration) -> GeneratedFile {
     GeneratedFile::new(PATH, text)
 }
 
-/// The table cannot be read, or is out of date.
+/// The reason why the table fails the check.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
     /// The file cannot be read.

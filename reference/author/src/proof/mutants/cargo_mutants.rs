@@ -13,7 +13,7 @@ use crate::proof::mutants::list::{self, FileMutants, MutantList, UnnamedMutant};
 use crate::proof::mutants::span::{SourcePosition, SourceSpan};
 use crate::proof::sources::Sources;
 
-/// cargo-mutants is installed, but its list cannot be used.
+/// The reason why the list of cargo-mutants cannot be used although it is installed.
 #[derive(Debug, thiserror::Error)]
 pub enum CargoMutantsError {
     /// Cargo cannot be started.
@@ -22,7 +22,7 @@ pub enum CargoMutantsError {
     /// cargo-mutants failed.
     #[error("`cargo mutants --list` failed: {0}")]
     Failed(String),
-    /// The list has another format than that of version 27.1.
+    /// The list is not in the format of version 27.1.
     #[error(
         "cannot read the list of {made_by} ({reason}): install the version that {path} names",
         path = list::PATH

@@ -20,7 +20,7 @@ pub struct EquivalentMutant {
     pub why: String,
 }
 
-/// The list cannot be used.
+/// The reason why the list cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum EquivalentsError {
     /// The file cannot be read.

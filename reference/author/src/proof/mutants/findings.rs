@@ -7,13 +7,13 @@ use crate::proof::mutants::equivalent::{self, EquivalentMutant};
 /// The outcome of grading one mutant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MutantOutcome {
-    /// It does not compile.
+    /// The mutant does not compile.
     NotCompiled,
-    /// It loses points.
+    /// The mutant loses points.
     Caught,
-    /// It gets full marks.
+    /// The mutant gets full marks.
     Survived,
-    /// It is not in the sample, so it was not graded.
+    /// The mutant is not in the sample, so it was not graded.
     Skipped,
 }
 

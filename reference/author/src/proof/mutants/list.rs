@@ -15,8 +15,9 @@ pub const PATH: &str = "reference/mutants/list.json";
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mutant {
-    /// The file, the change, and the function. It has no line number, so that it stays the same
-    /// while the function does. Identical changes in one function are numbered in order.
+    /// The name: the file, the change, and the function. The name has no line number, so that it
+    /// does not change while the function stays the same. Identical changes in one function are
+    /// numbered in order.
     pub name: String,
     /// The span that is replaced.
     pub span: SourceSpan,
@@ -47,7 +48,7 @@ pub struct MutantList {
     pub files: Vec<FileMutants>,
 }
 
-/// The reference has changed since the list was generated.
+/// The error for a list that was generated before the reference changed.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{PATH} is out of date, because reference/src/{file} has changed: install cargo-mutants \

@@ -26,10 +26,11 @@ use crate::proof::mutants::list::{MutantList, OutdatedListError};
 use crate::proof::sources::{ReadError, Sources, read};
 use crate::proof::workbench::{Workbench, WorkbenchError};
 
-/// A sample contains one in this many mutants, in the order of their names.
+/// The step between the mutants of a sample: it contains one in this many, in the order of their
+/// names.
 const SAMPLE_STEP: usize = 8;
 
-/// The mutants cannot be graded.
+/// The reason why the mutants cannot be graded.
 #[derive(Debug, thiserror::Error)]
 pub enum MutantsError {
     /// A file cannot be read.
@@ -56,12 +57,12 @@ pub enum MutantsError {
     /// A mutant cannot be built or run.
     #[error(transparent)]
     Workbench(#[from] WorkbenchError),
-    /// The reference loses points, so a loss of a mutant would prove nothing.
+    /// The reference itself loses points, so a mutant's loss of points would prove nothing.
     #[error("the reference itself loses points: run `cargo grade reference`")]
     Reference,
 }
 
-/// The mutants to grade.
+/// The selection of the mutants to grade.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MutantSelection {
     /// All mutants.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct SourcePosition {
     /// The line, counted from 1.
     pub line: usize,
-    /// The character of the line, counted from 1.
+    /// The character in the line, counted from 1.
     pub column: usize,
 }
 
@@ -23,7 +23,7 @@ pub struct SourceSpan {
     pub end: SourcePosition,
 }
 
-/// A text is not a span.
+/// The error for a text that is not a span.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is not a span: expected lines and columns, such as `38:9-39:44`")]
 pub struct SpanError(String);
@@ -37,7 +37,8 @@ impl SourceSpan {
     }
 }
 
-/// Returns the byte offset of a position, which is a character of the text or the end of a line.
+/// Returns the byte offset of a position, or `None` if the position is neither a character of the
+/// text nor the end of a line.
 fn byte_offset(text: &str, position: SourcePosition) -> Option<usize> {
     let (line, column) = (
         position.line.checked_sub(1)?,

@@ -55,7 +55,7 @@ pub(super) const PATCHES: &[Patch] = &[
     Patch::left_and_right([80, 81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95]),
 ];
 
-/// All control points. A table: three to a line.
+/// All control points, as a table with three per line.
 #[rustfmt::skip]
 const POINTS: [DVec3; 127] = [
     dvec3(0.2, 0.0, 2.7), dvec3(0.2, -0.112, 2.7), dvec3(0.112, -0.2, 2.7),

@@ -106,6 +106,11 @@ fn collect_single_archive(folder: &Path) -> Result<Submission, String> {
         .filter(|n| n.is_archive())
         .collect();
     match archives.as_slice() {
+        // It could lead to another student's archive.
+        [only] if only.is_link => Err(format!(
+            "{} is a link, and links are not followed",
+            sanitize(&only.name, 200)
+        )),
         [only] => Submission::collect(&only.path).map_err(|error| error_message(&error, folder)),
         [] if listed.children().is_empty() => {
             Err("nothing was handed in: the folder is empty".into())

@@ -99,6 +99,7 @@ fn links_are_listed_with_the_reason_and_never_followed() {
         .with_folder("linked-source/student")
         .with_folder("linked-folder")
         .with_folder("linked-file")
+        .with_folder("linked-archive")
         .with(".hidden/camera.rs", "text");
     let input = class.input();
     let link = |original: &str, path: &str| symlink(original, input.join(path)).unwrap();
@@ -106,6 +107,7 @@ fn links_are_listed_with_the_reason_and_never_followed() {
     link("../alice/student", "linked-folder/student");
     link("../alice/student/src/camera.rs", "linked-file/camera.rs");
     link("alice", "linked-student");
+    link("../alice.zip", "linked-archive/work.zip");
     let exam = class.small_exam(&ITEMS);
     successful_stdout(&class.grade(&exam, &[]));
     let grades = class.read("grades.csv");
@@ -119,6 +121,7 @@ fn links_are_listed_with_the_reason_and_never_followed() {
         ("linked-folder,", "student/src"),
         ("linked-file,", "camera.rs"),
         ("linked-student,", "linked-student"),
+        ("linked-archive,", "work.zip"),
     ] {
         let (line, why) = (line(id), format!("{link} is a link"));
         assert!(line.contains("nothing to grade,,,"), "{line}");

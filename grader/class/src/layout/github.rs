@@ -18,7 +18,8 @@ pub(super) fn prefix(root: &Node) -> Option<String> {
     if let Some(assignment) = root.name.strip_suffix(SUBMISSIONS_SUFFIX) {
         return Some(format!("{assignment}-"));
     }
-    let folders = || root.children().iter().filter(|node| node.is_folder());
+    let is_clone = |node: &&Node| node.is_folder() && !node.is_link;
+    let folders = || root.children().iter().filter(is_clone);
     let is_classroom50 = root.find(CLASSROOM50_SCORES).is_some()
         || (folders().count() > 0 && folders().all(|node| node.find(CLASSROOM50_RESULT).is_some()));
     is_classroom50.then(|| common_prefix(folders().map(|node| node.name.as_str())))

@@ -3,10 +3,10 @@
 use crate::cached_report::{CacheKey, CachedReport};
 use crate::cli::Arguments;
 use crate::error::Error;
-use crate::exam_file;
 use crate::grade::{builder, collect, default_folder};
 use crate::report_files::ReportFiles;
 use crate::workspace::Workspace;
+use judging::exam_file;
 
 /// Returns the cached report and its files, if the submission was graded before and nothing has
 /// changed since.

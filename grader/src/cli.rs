@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Parser;
 
-use crate::exam::Task;
 use crate::format::OutputSpec;
 use crate::question_ref::QuestionRef;
 use crate::sandbox::Isolation;
+use judging::exam::Task;
 
 /// Grades a path-tracing submission: builds it, runs the exam and writes a score
 ///

@@ -1,7 +1,7 @@
 //! The starter's files, embedded in this program: the five task files and the given files. Given
 //! files in a submission are compared with these, but never used.
 
-use crate::exam::Task;
+use judging::exam::Task;
 
 /// One of the five files that students write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

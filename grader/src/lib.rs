@@ -14,13 +14,8 @@
 //! | its steps | [`select_isolation`], [`build`], [`probe`]; [`drawing`] of judged answers |
 //! | results | [`score`], [`rerun_command`], [`stage_times`] |
 //! | inputs | [`policy`], [`submission`], [`given_files`], [`question_ref`] |
-//! | [`judging`], a separate package | [`exam`], [`judge`], and the other modules re-exported below |
+//! | a separate package | [`judging`]: exams, keys and their comparison |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`], [`zipfile`] |
-
-pub use judging::{
-    describe, drawing_data, exam, exam_file, judge, picture, recognise, sanitize, section,
-    signatures,
-};
 
 pub mod build;
 pub mod cache_lookup;

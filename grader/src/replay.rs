@@ -6,17 +6,17 @@ use protocol::{Answer, ElementOutcome, Question};
 
 use crate::build::Builder;
 use crate::cli::Arguments;
-use crate::describe;
 use crate::error::Error;
-use crate::exam::{Exam, ExamQuestion};
-use crate::exam_file;
 use crate::grade::{budget, collect};
 use crate::probe::{Fault, subset};
 use crate::question_ref::QuestionRef;
-use crate::sanitize::sanitize;
 use crate::select_isolation::with_requested_level;
 use crate::verdict::file_message;
 use crate::workspace::Workspace;
+use judging::describe;
+use judging::exam::{Exam, ExamQuestion};
+use judging::exam_file;
+use judging::sanitize::sanitize;
 
 /// Maximum length of the printed text that is shown, in characters.
 const MAX_PRINTED_CHARS: usize = 20_000;

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 
 use protocol::Answer;
 
-use crate::exam::Item;
-use crate::picture;
 use crate::score::{ItemScore, Verdict};
+use judging::exam::Item;
+use judging::picture;
 
 /// The answers to items, by item id.
 #[derive(Clone, Debug, Default)]

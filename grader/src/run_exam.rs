@@ -7,16 +7,16 @@ use std::time::{Duration, Instant};
 use protocol::Answer;
 
 use crate::build::{Build, SubstitutedProgram};
-use crate::exam::{Exam, Item, Task};
-use crate::judge::judge;
 use crate::probe::{Budget, Crash, Fault, Launcher, Probe, TimeLimit, culprit};
-use crate::recognise::Observations;
 use crate::report_answers::ReportAnswers;
-use crate::sanitize::sanitize;
 use crate::score::{ItemScore, Score, Verdict};
 use crate::verdict::{
     ItemOutcome, add_hints, blocked_score, blocking_item, item_score, substituted_score,
 };
+use judging::exam::{Exam, Item, Task};
+use judging::judge::judge;
+use judging::recognise::Observations;
+use judging::sanitize::sanitize;
 
 /// Maximum number of time-outs in a task. After that, the task's remaining items are skipped.
 const MAX_TIMEOUTS: usize = 2;

@@ -6,13 +6,13 @@
 
 use serde::Serialize;
 
-use crate::exam::Task;
-use crate::exam_file::ExamName;
 use crate::given_files::TASK_FILES;
 use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
-use crate::section::Section;
 use crate::stage_times::StageTimes;
+use judging::exam::Task;
+use judging::exam_file::ExamName;
+use judging::section::Section;
 
 /// Version of the format.
 pub const SCHEMA_VERSION: u32 = 1;

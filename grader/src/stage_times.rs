@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::time::Duration;
 
-use crate::exam::Task;
+use judging::exam::Task;
 
 /// Wall time of each stage of grading one submission.
 #[derive(Clone, Copy, Debug, Default)]

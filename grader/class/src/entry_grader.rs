@@ -9,8 +9,8 @@ use grader::policy::Policy;
 use grader::report::html::Reload;
 use grader::report::json;
 use grader::report_files::ReportFiles;
-use grader::sanitize::sanitize;
 use grader::submission::Submission;
+use judging::sanitize::sanitize;
 
 use crate::entry::Entry;
 use crate::input::collect_submission;

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use grader::build::build_dir::{BuildDir, remove_abandoned};
-use grader::sanitize::sanitize;
 use grader::submission::{Submission, SubmissionError};
+use judging::sanitize::sanitize;
 
 use crate::entry::{Entry, Source, several_archives_message};
 use crate::input_error::ClassInputError;

@@ -3,22 +3,22 @@
 
 use std::sync::LazyLock;
 
-use grader::exam::{Exam, ExamQuestion, Item};
-use grader::exam_file::ExamFile;
-use grader::judge::{judge, measure, mismatches};
-use grader::recognise::Observations;
 use grader::report::html::{Reload, page};
 use grader::report::json;
 use grader::report::text::{HintDetail, report};
 use grader::report_answers::ReportAnswers;
 use grader::score::Verdict;
 use grader::verdict::{ItemOutcome, add_hints, item_score, pending_score};
+use judging::exam::{Exam, ExamQuestion, Item};
+use judging::exam_file::ExamFile;
+use judging::judge::{judge, measure, mismatches};
+use judging::recognise::Observations;
 use protocol::Answer;
 
 /// An exam with an item for each kind of answer key.
 static EXAM: LazyLock<ExamFile> = LazyLock::new(|| {
     let text = include_bytes!("small.json");
-    grader::exam_file::parse("small.json".as_ref(), text).expect("the exam is valid")
+    judging::exam_file::parse("small.json".as_ref(), text).expect("the exam is valid")
 });
 
 /// Grades the bytes: the first byte chooses the item, and the answers to the item's questions

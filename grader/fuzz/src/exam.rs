@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use grader::exam_file::parse;
 use grader::verdict::pending_score;
+use judging::exam_file::parse;
 use protocol::wire;
 
 /// Reads the bytes as an exam. If the exam is valid, it must be possible to encode its questions.

@@ -1,7 +1,7 @@
 //! Students' source files, which the grader reads before the compiler does.
 
 use grader::given_files::TASK_FILES;
-use grader::sanitize::sanitize;
+use judging::sanitize::sanitize;
 
 /// Compares the bytes with the starter's files, and makes them safe to print.
 pub fn read(bytes: &[u8]) {

@@ -30,11 +30,11 @@ use crate::build::program_cache::ProgramCache;
 use crate::build::rustc::{CompileOutcome, Rustc};
 use crate::build::substitution::{ReferenceParts, Substitution, SubstitutionError};
 use crate::build::toolchain::{Toolchain, ToolchainError};
-use crate::exam::Task;
 use crate::given_files::{TASK_FILES, TaskFile};
 use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, TaskFileError};
 use crate::workspace::Workspace;
+use judging::exam::Task;
 
 pub use crate::build::blame::NotCompiled;
 pub use crate::build::program_cache::ContentHash;

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::doctor::package_contents::{
     EXAM, GRADE, POLICY, PackageContents, SCRIPTS, policy_problem,
 };
-use crate::exam_file::{self, ExamFile};
+use judging::exam_file::{self, ExamFile};
 
 /// The folders from which the grader and the solution are built.
 const REQUIRED_FOLDERS: [&str; 4] = [

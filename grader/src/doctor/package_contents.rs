@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use rawzip::FileReader;
 
-use crate::exam::Exam;
 use crate::policy::Policy;
 use crate::zipfile::{Zip, ZipError};
+use judging::exam::Exam;
 
 /// The scripts that Gradescope runs, at the root of the zip.
 pub(super) const SCRIPTS: [&str; 2] = ["setup.sh", "run_autograder"];

@@ -8,7 +8,7 @@ use super::bars::{self, BarRow, BarStyle};
 use super::hit_comparison::{HitAnswer, HitComparison};
 use super::ink::LineStyle;
 use super::sheet::{Sheet, Symbol};
-use crate::describe;
+use judging::describe;
 
 /// Draws the range of the ray, and the part of the ray before the expected and the submitted hit.
 pub(super) fn draw(comparison: &HitComparison) -> Drawing {

@@ -12,8 +12,8 @@ use super::ink::{Fill, Ink, LineStyle};
 use super::sheet::{Sheet, Symbol};
 use super::sphere;
 use super::window::Window;
-use crate::describe;
-use crate::drawing_data::DrawingData;
+use judging::describe;
+use judging::drawing_data::DrawingData;
 
 /// A question about one ray and one box.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Drawings of failed questions, to scale: the question, the submitted answer and the expected one.
 //!
 //! This module is pure and computes no answers: the exam stores what is needed to show how a ray
-//! hits a shape and how a tree is built or traversed ([`crate::drawing_data`]). Submitted answers
+//! hits a shape and how a tree is built or traversed ([`judging::drawing_data`]). Submitted answers
 //! may contain any numbers.
 
 mod along_ray;
@@ -25,8 +25,8 @@ mod window;
 use glam::DVec3;
 use protocol::{Answer, Interval, Question};
 
-use crate::drawing_data::{DrawingData, TraversalStep};
-use crate::exam::{ExamQuestion, Key, TreeCheck};
+use judging::drawing_data::{DrawingData, TraversalStep};
+use judging::exam::{ExamQuestion, Key, TreeCheck};
 
 use bbox::BoxQuery;
 use camera::CameraQuery;

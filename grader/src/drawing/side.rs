@@ -8,7 +8,7 @@ use super::ink::{Ink, LineStyle};
 use super::numbers::{point, short};
 use super::sheet::{Sheet, Symbol};
 use super::window::{Window, extent};
-use crate::describe;
+use judging::describe;
 
 /// A plane through a ray. The ray points to the right.
 #[derive(Clone, Copy, Debug)]

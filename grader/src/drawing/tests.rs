@@ -8,8 +8,8 @@ use protocol::{Answer, ElementOutcome, Interval, Panic, Question, Ray, Trace, Tr
 use roxmltree::Document;
 
 use super::{Drawing, draw};
-use crate::exam::ExamQuestion;
-use crate::exam_file;
+use judging::exam::ExamQuestion;
+use judging::exam_file;
 
 /// A size that no drawing reaches.
 const MAX_BYTES: usize = 130_000;

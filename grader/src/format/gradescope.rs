@@ -6,12 +6,12 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::exam::Task;
 use crate::format::item_text::{build_report, headline, item_text};
 use crate::format::size::{fit, truncate};
 use crate::format::{FormatContext, ItemView, StudentView};
 use crate::policy::Visibility;
 use crate::score::Verdict;
+use judging::exam::Task;
 
 /// The maximum size in bytes. Gradescope documents no limit; similar platforms truncate at half
 /// this size.

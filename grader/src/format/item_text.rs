@@ -3,7 +3,7 @@
 use crate::format::{FormatContext, StudentView};
 use crate::policy::CountedPoints;
 use crate::score::{Hint, ItemScore, Verdict};
-use crate::section::Section;
+use judging::section::Section;
 
 /// The id of the exam that students can run themselves.
 const PRACTICE: &str = "practice";

@@ -19,9 +19,9 @@ use std::str::FromStr;
 
 use clap::ValueEnum;
 
-use crate::exam::Task;
 use crate::report::html;
 use crate::report::text::{HintDetail, report};
+use judging::exam::Task;
 
 pub use student_view::{ItemView, StudentView};
 

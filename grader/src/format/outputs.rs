@@ -7,12 +7,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::exam::Task;
 use crate::format::github::annotations;
 use crate::format::{Format, FormatContext, OutputSpec, StudentView};
 use crate::given_files::TASK_FILES;
 use crate::report::atomic_write;
 use crate::submission::Submission;
+use judging::exam::Task;
 
 /// The folders of a checkout that may contain the task files, in the order of the search.
 const TASK_FILE_FOLDERS: [&str; 3] = ["", "src", "student/src"];

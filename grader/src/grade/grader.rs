@@ -11,8 +11,6 @@ use super::resolve::{budget, builder, collect, default_folder, lateness, policy,
 use crate::build::{Build, BuildError, Builder, NotCompiled};
 use crate::cli::Arguments;
 use crate::error::Error;
-use crate::exam::Exam;
-use crate::exam_file::{self, ExamFile, ExamName};
 use crate::format::StudentView;
 use crate::format::outputs::{OutputError, Outputs};
 use crate::policy::{Lateness, Policy};
@@ -27,6 +25,8 @@ use crate::select_isolation::with_requested_level;
 use crate::submission::Submission;
 use crate::verdict::pending_score;
 use crate::workspace::Workspace;
+use judging::exam::Exam;
+use judging::exam_file::{self, ExamFile, ExamName};
 
 /// Everything that grading needs and that stays the same between versions of a submission.
 pub struct Grader<'a> {

@@ -6,12 +6,12 @@ use std::time::Duration;
 use crate::build::{BuildError, Builder};
 use crate::cli::Arguments;
 use crate::error::Error;
-use crate::exam::Exam;
 use crate::policy::{Lateness, Policy, PolicyError, SubmissionTime, SubmissionTimeError};
 use crate::probe::Budget;
-use crate::sanitize::safe_folder_name;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
+use judging::exam::Exam;
+use judging::sanitize::safe_folder_name;
 
 /// Returns the policy that the command line names, or the default.
 pub(super) fn policy(arguments: &Arguments, exam: &Exam) -> Result<Policy, PolicyError> {

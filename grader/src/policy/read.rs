@@ -5,9 +5,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::exam::Exam;
 use crate::policy::Policy;
 use crate::policy::late::unix_seconds;
+use judging::exam::Exam;
 
 /// Reasons why a policy cannot be used.
 #[derive(Debug, thiserror::Error)]

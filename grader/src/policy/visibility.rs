@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 
-use crate::exam_file::ExamName;
 use crate::policy::Policy;
+use judging::exam_file::ExamName;
 
 /// Id of the exam that students have, including its answer keys.
 const PRACTICE_EXAM: &str = "practice";

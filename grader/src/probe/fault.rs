@@ -3,7 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
-use crate::signatures::NoAnswerReason;
+use judging::signatures::NoAnswerReason;
 
 /// The reason why there is no answer. A fault ends the probe and fails the item.
 #[derive(Clone, Debug, PartialEq, Eq)]

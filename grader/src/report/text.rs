@@ -4,11 +4,11 @@ use std::fmt::{self, Write};
 
 use anstyle::{AnsiColor, Style};
 
-use crate::exam::Task;
 use crate::sandbox::Isolation;
-use crate::sanitize::sanitize;
 use crate::score::{Hint, ItemScore, Score, TaskScore, Verdict};
-use crate::section::Section;
+use judging::exam::Task;
+use judging::sanitize::sanitize;
+use judging::section::Section;
 
 const WIDTH: usize = 80;
 const BAR_WIDTH: usize = 20;

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::given_files::{GIVEN_FILES, MAIN_FILE, TASK_FILES, TaskFile};
-use crate::sanitize::sanitize;
+use judging::sanitize::sanitize;
 
 pub use archive::{Archive, ArchiveError, Listing, Member};
 

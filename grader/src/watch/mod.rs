@@ -10,13 +10,13 @@ use std::io;
 use crate::cli::Arguments;
 use crate::desktop;
 use crate::error::Error;
-use crate::exam::Exam;
 use crate::grade::Grader;
 use crate::report::text::HintDetail;
 use crate::score::Score;
 use crate::submission::Submission;
 use crate::watch::save_watcher::SaveWatcher;
 use crate::watch::screen::{Phase, Screen};
+use judging::exam::Exam;
 
 /// Grades until the process is stopped or an error occurs.
 pub fn watch(arguments: &Arguments, hints: HintDetail) -> Result<Infallible, Error> {

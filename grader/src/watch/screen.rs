@@ -5,9 +5,9 @@ use std::io;
 
 use console::{Term, truncate_str};
 
-use crate::exam::Task;
 use crate::report::text::{HintDetail, report};
 use crate::score::Score;
+use judging::exam::Task;
 
 /// The current phase of grading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,8 +12,8 @@ use author::exams;
 use author::proof::solutions::Solutions;
 use author::proof::workbench::Workbench;
 use grader::drawing::{self, Drawing};
-use grader::exam::Item;
-use grader::judge::{Credit, judge};
+use judging::exam::Item;
+use judging::judge::{Credit, judge};
 use protocol::Answer;
 use rayon::prelude::*;
 

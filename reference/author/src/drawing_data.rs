@@ -1,8 +1,8 @@
 //! Data for a report's drawings: the intermediate results of a correct solution, which are drawn
 //! beside a wrong answer. They are added to an exam after its questions have been generated.
 
-use grader::drawing_data::{DrawingData, TraversalStep};
-use grader::exam::{Exam, ExamQuestion};
+use judging::drawing_data::{DrawingData, TraversalStep};
+use judging::exam::{Exam, ExamQuestion};
 use protocol::{Interval, Question, Ray, Rays};
 
 use crate::oracle::bbox::Bounds;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use grader::exam::{Exam, Item};
-use grader::exam_file::{self, ExamError};
+use judging::exam::{Exam, Item};
+use judging::exam_file::{self, ExamError};
 
 use crate::drawing_data::with_drawing_data;
 use crate::generated_file::GeneratedFile;
@@ -106,7 +106,7 @@ fn to_text(exam: &Exam) -> Result<String, serde_json::Error> {
 
 #[cfg(test)]
 mod tests {
-    use grader::signatures::KnownMistake;
+    use judging::signatures::KnownMistake;
 
     use super::*;
 

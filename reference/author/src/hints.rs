@@ -3,10 +3,10 @@
 
 use std::collections::BTreeSet;
 
-use grader::exam::{Exam, Item, Key};
 use grader::probe::Fault;
-use grader::recognise::{expected, observe};
-use grader::signatures::{KnownMistake, MistakeAnswers, MistakeSignatures, ObservedAnswer};
+use judging::exam::{Exam, Item, Key};
+use judging::recognise::{expected, observe};
+use judging::signatures::{KnownMistake, MistakeAnswers, MistakeSignatures, ObservedAnswer};
 use protocol::{Answer, Question, Samples};
 use rayon::prelude::*;
 

@@ -6,7 +6,7 @@ mod builders;
 use author::items::build::{self, MAX_CORRECT_COST, MIN_ADJACENT_COST, relative_cost};
 use author::oracle::buckets::{BucketExtent, BucketedBuilder};
 use author::seed::Seed;
-use grader::exam::{ExamQuestion, Item, Key};
+use judging::exam::{ExamQuestion, Item, Key};
 use protocol::Question;
 
 use crate::builders::Splitter;

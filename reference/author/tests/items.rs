@@ -4,7 +4,7 @@ mod exams;
 
 use std::collections::BTreeSet;
 
-use grader::exam::{Item, Key, Task};
+use judging::exam::{Item, Key, Task};
 use protocol::{Question, Ray, Shape};
 
 use crate::exams::{SEEDS, exam_of, make_exam};

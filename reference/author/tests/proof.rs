@@ -13,7 +13,7 @@ use author::proof::recognition::recognise;
 use author::proof::solutions::Solutions;
 use author::proof::variants::Variant;
 use author::proof::workbench::Workbench;
-use grader::exam::Exam;
+use judging::exam::Exam;
 
 static SOLUTIONS: LazyLock<Solutions> = LazyLock::new(|| {
     let workbench = Workbench::open().expect("there are a toolchain and a workspace");

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use author::oracle::{Ray64, scan};
 use author::tree::{Tree, decoy};
-use grader::exam::{Exam, Task};
+use judging::exam::{Exam, Task};
 use protocol::{Question, Ray, Rays};
 
 use crate::exams::{SEEDS, exam_of};

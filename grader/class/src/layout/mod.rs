@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use grader::given_files::TASK_FILES;
-use grader::sanitize::safe_folder_name;
+use judging::sanitize::safe_folder_name;
 
 use crate::entry::{Entry, Source};
 use crate::listing::Node;

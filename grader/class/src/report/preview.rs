@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use grader::sanitize::sanitize;
+use judging::sanitize::sanitize;
 
 use crate::entry::{Entry, Person};
 use crate::input::collect_submission;

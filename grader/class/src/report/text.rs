@@ -4,7 +4,7 @@
 use std::fmt::{self, Write};
 
 use anstyle::Style;
-use grader::sanitize::sanitize;
+use judging::sanitize::sanitize;
 
 use crate::distribution::Distribution;
 use crate::drift::Drift;

@@ -2,8 +2,8 @@
 
 use super::{BuildCase, NodePosition};
 use crate::drawing::numbers::pluralize;
-use crate::exam::TreeCheck;
-use crate::judge::tree::{self, FULL_MARKS_RATIO};
+use judging::exam::TreeCheck;
+use judging::judge::tree::{self, FULL_MARKS_RATIO};
 
 /// The first thing that is wrong with a tree.
 #[derive(Clone)]

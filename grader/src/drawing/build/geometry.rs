@@ -11,8 +11,8 @@ use crate::drawing::numbers::point;
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::sphere;
 use crate::drawing::window::Window;
-use crate::drawing_data::Sweep;
-use crate::judge::tree::bounds::Bounds;
+use judging::drawing_data::Sweep;
+use judging::judge::tree::bounds::Bounds;
 
 /// The maximum number of primitives that are drawn one by one.
 const MAX_PRIMITIVES: usize = 250;

@@ -6,7 +6,7 @@ use super::MarkedNode;
 use crate::drawing::canvas::{Anchor, Canvas, Mark, WIDTH};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
 use crate::drawing::sheet::{Sheet, Symbol};
-use crate::drawing_data::{LevelNode, Sweep};
+use judging::drawing_data::{LevelNode, Sweep};
 
 /// The height of a level.
 const ROW_HEIGHT: f64 = 19.0;

@@ -12,10 +12,10 @@ use super::Drawing;
 use super::ink::{Fill, Ink};
 use super::numbers::short;
 use super::sheet::{Sheet, Symbol};
-use crate::drawing_data::{DrawingData, LevelNode, Sweep};
-use crate::exam::TreeCheck;
-use crate::judge::tree;
-use crate::judge::tree::reached_nodes::reached_nodes;
+use judging::drawing_data::{DrawingData, LevelNode, Sweep};
+use judging::exam::TreeCheck;
+use judging::judge::tree;
+use judging::judge::tree::reached_nodes::reached_nodes;
 
 use flaw::Flaw;
 use node_positions::NodePosition;

@@ -1,7 +1,7 @@
 //! The positions of a tree's nodes in a drawing by levels.
 
-use crate::drawing_data::{LevelNode, Sweep};
-use crate::judge::tree::reached_nodes::ReachedNode;
+use judging::drawing_data::{LevelNode, Sweep};
+use judging::judge::tree::reached_nodes::ReachedNode;
 
 /// A node, its depth, and the number of primitives to the left of it.
 #[derive(Clone, Copy)]

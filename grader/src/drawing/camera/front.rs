@@ -5,13 +5,13 @@ use protocol::Ray;
 
 use super::sensor::{Sensor, draw_grid, draw_grid_in};
 use super::{CameraQuery, sensor_crossing};
-use crate::describe;
 use crate::drawing::Drawing;
 use crate::drawing::canvas::{Anchor, Canvas, Mark};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
 use crate::drawing::numbers::short;
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
+use judging::describe;
 
 /// Draws the sensor, the point where the ray should cross it, and the point where the ray does
 /// cross it.

@@ -5,13 +5,13 @@ use protocol::{Interval, Ray};
 
 use super::CameraQuery;
 use super::sensor::Sensor;
-use crate::describe;
 use crate::drawing::Drawing;
 use crate::drawing::bars::{self, BarRow, BarStyle};
 use crate::drawing::canvas::{Anchor, Canvas, Mark};
 use crate::drawing::ink::{Ink, LineStyle};
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
+use judging::describe;
 
 /// Draws the plane that contains the -z axis and the expected ray.
 pub(super) fn draw(query: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {

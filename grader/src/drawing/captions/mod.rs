@@ -7,7 +7,7 @@ use glam::{Vec3, vec2, vec3};
 use protocol::{Answer, ElementOutcome, Ray, Shape, Trace};
 
 use super::draw;
-use crate::exam::{ExamQuestion, ExpectedHit};
+use judging::exam::{ExamQuestion, ExpectedHit};
 
 fn caption(question: &ExamQuestion, answer: Answer) -> String {
     let drawing = draw(question, 0, Some(&answer));

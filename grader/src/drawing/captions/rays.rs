@@ -7,8 +7,8 @@ use protocol::{
 };
 
 use super::{ahead, ball, caption, captions, hit, hits, trace};
-use crate::drawing_data::DrawingData;
-use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, RayCheck};
+use judging::drawing_data::DrawingData;
+use judging::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, RayCheck};
 
 fn sphere(ray: Ray, check: HitCheck, hit: Option<ExpectedHit>) -> ExamQuestion {
     let question = Question::Shapes {

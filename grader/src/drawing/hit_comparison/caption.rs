@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::{DrawnHit, Focus, HitAnswer, HitComparison};
-use crate::describe;
 use crate::drawing::numbers::short;
+use judging::describe;
 
 impl HitComparison {
     /// Returns a sentence that says what is wrong with the submitted hit.

@@ -5,7 +5,7 @@ mod caption;
 use glam::{DVec2, DVec3};
 use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Trace};
 
-use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, Surface};
+use judging::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, Surface};
 
 /// A hit to draw. If it comes from the key of a picture, it has no material.
 #[derive(Clone, Copy, Debug)]

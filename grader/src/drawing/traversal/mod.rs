@@ -14,8 +14,8 @@ use super::hit_comparison::{HitAnswer, HitComparison};
 use super::ink::{Fill, Ink, LineStyle};
 use super::numbers::short;
 use super::sheet::{Sheet, Symbol};
-use crate::describe;
-use crate::drawing_data::TraversalStep;
+use judging::describe;
+use judging::drawing_data::TraversalStep;
 
 use layout::{Layout, NodeRow, NodeStatus};
 

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::sanitize::sanitize;
+use judging::sanitize::sanitize;
 
 /// Renders untrusted text: escaped, without control characters, and without characters that change
 /// the direction of the text around it.

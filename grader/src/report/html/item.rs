@@ -5,12 +5,12 @@ use maud::{Markup, PreEscaped, html};
 use super::elements::{command, evidence_table, plain_text};
 use super::pictures;
 use super::prose::prose;
-use crate::describe;
 use crate::drawing;
-use crate::exam::Item;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Verdict};
+use judging::describe;
+use judging::exam::Item;
 
 /// Renders an item that lost points: what happened, where to look, and how to run the item again.
 pub(super) fn failing(

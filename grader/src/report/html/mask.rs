@@ -5,8 +5,8 @@
 use glam::UVec2;
 
 use super::png::data_uri;
-use crate::judge::Aspect;
-use crate::picture::{Colour, MaskPixel, Picture};
+use judging::judge::Aspect;
+use judging::picture::{Colour, MaskPixel, Picture};
 
 /// The width of a mask in screen pixels.
 const WIDTH: u32 = 256;

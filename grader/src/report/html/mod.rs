@@ -16,10 +16,10 @@ mod task;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::exam::Exam;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::Score;
+use judging::exam::Exam;
 
 use elements::plain_text;
 

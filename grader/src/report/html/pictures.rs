@@ -8,11 +8,11 @@ use maud::{Markup, html};
 use super::elements::{command, evidence_table, plain_text};
 use super::mask;
 use super::png::data_uri;
-use crate::describe;
-use crate::exam::Item;
-use crate::picture::{self, LayerComparison, Picture, WorstPixel};
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
+use judging::describe;
+use judging::exam::Item;
+use judging::picture::{self, LayerComparison, Picture, WorstPixel};
 
 /// The width of the SVG that contains the marks, in its own units. It does not depend on the size
 /// of the film.

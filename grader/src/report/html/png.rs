@@ -4,7 +4,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use glam::UVec2;
 
-use crate::picture::Colour;
+use judging::picture::Colour;
 
 /// Encodes a picture as a data URI. The first row of `pixels` is the bottom row.
 pub(super) fn data_uri(film: UVec2, pixels: &[Colour]) -> String {

@@ -4,11 +4,11 @@ use maud::{Markup, html};
 
 use super::elements::plain_text;
 use super::item;
-use crate::exam::{Exam, Item};
-use crate::picture;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore};
+use judging::exam::{Exam, Item};
+use judging::picture;
 
 /// The maximum number of failing items per task that are open when the page loads. Items with
 /// pictures are not subject to this limit.

@@ -4,11 +4,11 @@ use protocol::{Answer, ElementOutcome, Panic};
 use sha2::{Digest, Sha256};
 
 use super::Reload;
-use crate::exam::Exam;
-use crate::exam_file::{self, ExamName};
 use crate::report_answers::ReportAnswers;
 use crate::score::{Evidence, FileReport, Hint, Score, Verdict};
 use crate::verdict::pending_score;
+use judging::exam::Exam;
+use judging::exam_file::{self, ExamName};
 
 /// Text that attacks the page. The tests use it for every text that a submission can write.
 const HOSTILE: &str =

@@ -1,11 +1,11 @@
 //! Jobs that were killed, and formats that are requested on the wrong platform.
 
 use clap::ValueEnum;
-use grader::exam_file;
 use grader::format::{Format, FormatContext, StudentView};
 use grader::policy::{Lateness, Policy};
 use grader::score::Verdict;
 use grader::verdict::pending_score;
+use judging::exam_file;
 
 use crate::formats::models::{check, readable};
 use crate::harness::{Submission, grader};

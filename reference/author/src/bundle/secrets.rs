@@ -10,8 +10,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use grader::exam::Exam;
 use grader::given_files::TASK_FILES;
+use judging::exam::Exam;
 
 use crate::bundle::Bundle;
 use crate::proof::catalogue::{CatalogueError, mistakes};

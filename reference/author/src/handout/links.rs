@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use grader::exam::Exam;
-use grader::section::Section;
+use judging::exam::Exam;
+use judging::section::Section;
 
 use super::pages::{Page, anchor};
 

@@ -15,8 +15,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use grader::exam::Exam;
-use grader::section::CHAPTERS;
+use judging::exam::Exam;
+use judging::section::CHAPTERS;
 
 use crate::generated_file::GeneratedFile;
 use crate::handout::names::KnownNames;

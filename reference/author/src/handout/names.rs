@@ -6,7 +6,7 @@
 
 use std::collections::BTreeSet;
 
-use grader::exam::{Exam, Task};
+use judging::exam::{Exam, Task};
 
 use super::commands;
 use super::pages::{Page, Snippet};

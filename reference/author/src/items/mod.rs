@@ -14,8 +14,8 @@ pub mod traverse;
 pub mod triangle;
 
 use glam::DVec3;
-use grader::exam::{ExamQuestion, HitCheck, Item, Key, Task};
-use grader::signatures::MistakeSignatures;
+use judging::exam::{ExamQuestion, HitCheck, Item, Key, Task};
+use judging::signatures::MistakeSignatures;
 use protocol::{Question, Ray, Rays, Shape};
 
 use crate::oracle::{Intersection, Ray64, scan};

@@ -7,7 +7,7 @@
 //! correct answer may be between those of two neighbours.
 
 use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
-use grader::exam::{ExamQuestion, Key, Surface};
+use judging::exam::{ExamQuestion, Key, Surface};
 use protocol::{ExamCamera, Question, Rays, Sample, Shape, every_pixel};
 
 use crate::oracle::scan::Scan;

@@ -1,6 +1,6 @@
 //! The handout sections that teach what the items test.
 
-use grader::section::Section;
+use judging::section::Section;
 
 /// Returns the section that teaches an item, or `None` if the item is missing from this table. A
 /// test of the handout makes sure that none is missing.

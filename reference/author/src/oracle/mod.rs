@@ -10,7 +10,7 @@ pub mod sweep;
 pub mod triangle;
 
 use glam::{DVec2, DVec3};
-use grader::exam::{ExpectedHit, Surface};
+use judging::exam::{ExpectedHit, Surface};
 use protocol::{Interval, Ray};
 
 /// A question's ray, converted exactly to double precision.

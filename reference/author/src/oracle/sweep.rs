@@ -1,6 +1,6 @@
 //! The exact surface area heuristic (SAH): at each node, the best of all partitions by a plane.
 
-use grader::drawing_data::{LevelNode, Sweep};
+use judging::drawing_data::{LevelNode, Sweep};
 
 use super::bbox::Bounds;
 

@@ -11,8 +11,8 @@ pub mod trial;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use grader::exam_file::ExamError;
 use grader::policy::{self, Policy, PolicyError};
+use judging::exam_file::ExamError;
 
 use crate::bundle::crates::CratesError;
 use crate::bundle::folders::FoldersError;
@@ -94,7 +94,7 @@ impl Course {
         let exam = match (seed, exam) {
             (Some(seed), _) => Some(crate::exams::final_exam_text(seed)?),
             (None, Some(path)) => {
-                grader::exam_file::load(Some(path))?;
+                judging::exam_file::load(Some(path))?;
                 Some(read(path)?)
             }
             (None, None) => None,

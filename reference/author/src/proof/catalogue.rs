@@ -4,8 +4,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use grader::exam::Task;
-use grader::section::Section;
+use judging::exam::Task;
+use judging::section::Section;
 use serde::Deserialize;
 
 use crate::proof::sources::{ReadError, Sources, read};

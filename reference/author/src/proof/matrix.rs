@@ -3,8 +3,8 @@
 
 use std::fmt::Write;
 
-use grader::exam::{Exam, Item, Task};
 use grader::score::ItemScore;
+use judging::exam::{Exam, Item, Task};
 
 use crate::exams;
 use crate::generated_file::GeneratedFile;

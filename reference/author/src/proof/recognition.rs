@@ -3,9 +3,9 @@
 
 use std::fmt;
 
-use grader::exam::{Exam, Item};
 use grader::probe::Fault;
-use grader::recognise::Observations;
+use judging::exam::{Exam, Item};
+use judging::recognise::Observations;
 use rayon::prelude::*;
 
 use crate::proof::solutions::{ProofError, Solutions};

@@ -3,8 +3,8 @@
 use std::io;
 use std::path::PathBuf;
 
-use grader::exam::{Exam, Item, Task};
-use grader::exam_file::ExamError;
+use judging::exam::{Exam, Item, Task};
+use judging::exam_file::ExamError;
 use rayon::prelude::*;
 
 use crate::proof::catalogue::{CatalogueError, Mistake, mistakes};

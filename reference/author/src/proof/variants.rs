@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use grader::exam::Task;
+use judging::exam::Task;
 use serde::Deserialize;
 
 use crate::proof::sources::{ReadError, Sources, read};

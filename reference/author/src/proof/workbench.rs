@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use grader::build::{Build, BuildError, Builder, NotCompiled};
-use grader::exam::{Exam, Item};
-use grader::exam_file::ExamName;
 use grader::probe::{Budget, Fault, Launcher};
 use grader::run_exam::run_exam;
 use grader::score::Score;
 use grader::verdict::{file_message, pending_score};
 use grader::workspace::{Workspace, WorkspaceError};
+use judging::exam::{Exam, Item};
+use judging::exam_file::ExamName;
 
 use protocol::Answer;
 

@@ -7,7 +7,7 @@ use author::exams::assemble;
 use author::recording::RecordedPicture;
 use author::seed::Seed;
 use glam::{UVec2, Vec3};
-use grader::exam::Exam;
+use judging::exam::Exam;
 use protocol::Question;
 
 /// The seeds that the tests use.

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use grader::section::CHAPTERS;
+use judging::section::CHAPTERS;
 
 use crate::handout::links::SUMMARY;
 use crate::handout::pages::{Page, pages};

@@ -1,7 +1,7 @@
 //! Items about hits and misses of rays from all sides.
 
 use glam::{DVec3, Vec3, dvec3};
-use grader::exam::Item;
+use judging::exam::Item;
 use protocol::{Interval, Ray};
 
 use super::{bbox_question, clear_outcome, hits_and_misses, item, random_box, ray_from_around};

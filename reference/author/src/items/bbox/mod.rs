@@ -4,7 +4,7 @@ mod hits;
 mod times;
 
 use glam::{DVec3, dvec3};
-use grader::exam::{ExamQuestion, Item, Key, Task};
+use judging::exam::{ExamQuestion, Item, Key, Task};
 use protocol::{Interval, Question, Ray};
 
 use crate::oracle::Ray64;

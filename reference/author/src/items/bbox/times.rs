@@ -1,7 +1,7 @@
 //! Items about which times count.
 
 use glam::DVec3;
-use grader::exam::Item;
+use judging::exam::Item;
 use protocol::{Interval, Ray};
 
 use super::{bbox_question, hits_and_misses, item, random_box, ray_from_around};

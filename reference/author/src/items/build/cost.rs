@@ -1,6 +1,6 @@
 //! Items about the cost of a tree.
 
-use grader::exam::{ExamQuestion, Item, Key};
+use judging::exam::{ExamQuestion, Item, Key};
 use protocol::{Question, Shape};
 
 use super::item;

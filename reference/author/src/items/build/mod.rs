@@ -6,8 +6,8 @@ mod split;
 mod structure;
 mod unusual_inputs;
 
-use grader::exam::TreeCheck::{Partition, Split};
-use grader::exam::{ExamQuestion, Item, Key, Task, TreeCheck};
+use judging::exam::TreeCheck::{Partition, Split};
+use judging::exam::{ExamQuestion, Item, Key, Task, TreeCheck};
 use protocol::{Question, Shape};
 
 use super::meshes;

@@ -2,7 +2,7 @@
 //! best.
 
 use glam::DVec3;
-use grader::exam::{ExamQuestion, Item};
+use judging::exam::{ExamQuestion, Item};
 use protocol::Shape;
 
 use super::cost::cost_question;

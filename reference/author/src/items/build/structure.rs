@@ -1,7 +1,7 @@
 //! Items about properties that every tree must have.
 
-use grader::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight};
-use grader::exam::{ExamQuestion, Item};
+use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight};
+use judging::exam::{ExamQuestion, Item};
 
 use super::{build_question, item};
 use crate::items::meshes;

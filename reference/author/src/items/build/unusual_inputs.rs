@@ -1,8 +1,8 @@
 //! Items about primitives in unusual arrangements.
 
 use glam::{DVec3, dvec3};
-use grader::exam::Item;
-use grader::exam::TreeCheck::{Contains, Partition, Split, Tight};
+use judging::exam::Item;
+use judging::exam::TreeCheck::{Contains, Partition, Split, Tight};
 use protocol::Shape;
 
 use super::{build_question, item};

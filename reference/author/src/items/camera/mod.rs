@@ -8,7 +8,7 @@ mod ray;
 mod sensor;
 
 use glam::{UVec2, Vec2, uvec2};
-use grader::exam::{ExamQuestion, Item, Key, RayCheck, Task};
+use judging::exam::{ExamQuestion, Item, Key, RayCheck, Task};
 use protocol::{PinholeCamera, Question, Sample, Samples};
 
 use crate::oracle;

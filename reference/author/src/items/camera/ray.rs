@@ -1,7 +1,7 @@
 //! Items about the offset in the pixel and the ray itself.
 
 use glam::{UVec2, uvec2, vec2};
-use grader::exam::{ExamQuestion, Item, RayCheck};
+use judging::exam::{ExamQuestion, Item, RayCheck};
 use protocol::{Sample, Samples};
 
 use super::{MIDDLE, camera, camera_question, direction_question, item, random_below};

@@ -1,7 +1,7 @@
 //! Items about how the film maps to the sensor.
 
 use glam::{UVec2, uvec2};
-use grader::exam::Item;
+use judging::exam::Item;
 use protocol::Sample;
 
 use super::{MIDDLE, camera, direction_question, item, middle_row};

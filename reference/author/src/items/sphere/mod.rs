@@ -3,7 +3,7 @@
 mod roots;
 mod surface;
 
-use grader::exam::{ExamQuestion, HitCheck, Item, Task};
+use judging::exam::{ExamQuestion, HitCheck, Item, Task};
 use protocol::{Ray, Shape};
 
 use crate::oracle::sphere::Sphere;

@@ -1,6 +1,6 @@
 //! Items about which of the two roots counts, if any.
 
-use grader::exam::{ExamQuestion, HitCheck, Item};
+use judging::exam::{ExamQuestion, HitCheck, Item};
 use protocol::Ray;
 
 use super::{

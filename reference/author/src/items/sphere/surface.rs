@@ -1,7 +1,7 @@
 //! Items about the quantities of a hit, and the item with a picture of spheres.
 
 use glam::{DVec3, Vec3, dvec3};
-use grader::exam::{HitCheck, Item};
+use judging::exam::{HitCheck, Item};
 use protocol::{Ray, Shape};
 
 use super::{

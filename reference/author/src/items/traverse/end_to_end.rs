@@ -1,7 +1,7 @@
 //! Items that combine traversal with the other tasks.
 
 use glam::{DVec3, UVec2};
-use grader::exam::{ExamQuestion, HitCheck, Item, Key};
+use judging::exam::{ExamQuestion, HitCheck, Item, Key};
 use protocol::{Question, Rays};
 
 use super::{

@@ -13,7 +13,7 @@ mod unusual_trees;
 mod with_decoys;
 mod without_decoys;
 
-use grader::exam::{ExamQuestion, HitCheck, Item, Task};
+use judging::exam::{ExamQuestion, HitCheck, Item, Task};
 use protocol::Ray;
 
 use super::meshes;

@@ -2,7 +2,7 @@
 //! fail even if the traversal is correct. A student who fails an item and one of its dependencies
 //! is advised to fix the dependency first.
 
-use grader::exam::Item;
+use judging::exam::Item;
 
 /// Items about the distance and the misses of triangles.
 pub(super) const TRIANGLES: [&str; 6] = [

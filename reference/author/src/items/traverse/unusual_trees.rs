@@ -1,7 +1,7 @@
 //! Items about roots at unusual positions, and about empty trees.
 
 use glam::Vec3;
-use grader::exam::{ExamQuestion, Item};
+use judging::exam::{ExamQuestion, Item};
 use protocol::{Ray, Shape, TreeNode};
 
 use super::{

@@ -1,6 +1,6 @@
 //! Items whose trees contain decoys.
 
-use grader::exam::{ExamQuestion, Item};
+use judging::exam::{ExamQuestion, Item};
 use protocol::Ray;
 
 use super::{

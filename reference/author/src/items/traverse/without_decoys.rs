@@ -1,7 +1,7 @@
 //! Items whose trees contain no decoys: every primitive in a leaf is inside the leaf's box.
 
 use glam::DVec3;
-use grader::exam::Item;
+use judging::exam::Item;
 use protocol::Shape;
 
 use super::{item, needs, question_without_decoys, ray_from_around, soup_tree};

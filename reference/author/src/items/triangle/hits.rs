@@ -1,7 +1,7 @@
 //! Items about whether a ray hits, and at which distance.
 
 use glam::{Vec2, Vec3, vec3};
-use grader::exam::{ExamQuestion, HitCheck, Item};
+use judging::exam::{ExamQuestion, HitCheck, Item};
 use protocol::{Ray, Shape, Vertex};
 
 use super::aim::{

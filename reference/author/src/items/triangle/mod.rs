@@ -6,7 +6,7 @@ mod scene;
 mod surface;
 
 use aim::{Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond_edge};
-use grader::exam::{ExamQuestion, HitCheck, Item, Task};
+use judging::exam::{ExamQuestion, HitCheck, Item, Task};
 use protocol::Ray;
 
 use crate::seed::Seed;

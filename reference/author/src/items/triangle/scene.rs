@@ -1,7 +1,7 @@
 //! The item with a picture of triangles.
 
 use glam::{Vec3, dvec3, vec2, vec3};
-use grader::exam::Item;
+use judging::exam::Item;
 use protocol::{Shape, Vertex};
 
 use super::aim::{random_triangle, shape};

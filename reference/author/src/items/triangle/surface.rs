@@ -1,6 +1,6 @@
 //! Items about the quantities of a hit.
 
-use grader::exam::{HitCheck, Item};
+use judging::exam::{HitCheck, Item};
 use protocol::Ray;
 
 use super::aim::{

@@ -1,8 +1,8 @@
 //! The deviations of one solution's answers to one item.
 
-use grader::exam::Item;
-use grader::judge::{Deviation, Measurement, Threshold, measure};
 use grader::probe::Fault;
+use judging::exam::Item;
+use judging::judge::{Deviation, Measurement, Threshold, measure};
 use protocol::Answer;
 
 /// The answers to the questions of an item, or the reason that there are none.
@@ -48,9 +48,9 @@ fn measure_all(item: &Item, answers: &Answers) -> Vec<Measurement> {
 #[cfg(test)]
 mod tests {
     use glam::Vec3;
-    use grader::exam::{ExamQuestion, Key, Task};
     use grader::probe::Crash;
-    use grader::signatures::MistakeSignatures;
+    use judging::exam::{ExamQuestion, Key, Task};
+    use judging::signatures::MistakeSignatures;
     use protocol::{ElementOutcome, Interval, Question, Ray};
 
     use super::*;

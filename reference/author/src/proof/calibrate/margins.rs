@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use grader::judge::{Deviation, Threshold};
+use judging::judge::{Deviation, Threshold};
 
 /// The minimum margin. It must be possible to make every threshold stricter or more lenient by this
 /// factor without a wrong result.

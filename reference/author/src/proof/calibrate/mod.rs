@@ -10,8 +10,8 @@ pub mod table;
 
 use std::ops::Range;
 
-use grader::judge::Threshold;
 use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
+use judging::judge::Threshold;
 use rayon::prelude::*;
 
 use crate::exams;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::ops::Range;
 use std::path::Path;
 
-use grader::judge::Threshold;
+use judging::judge::Threshold;
 
 use crate::generated_file::GeneratedFile;
 use crate::proof::calibrate::Calibration;
@@ -132,7 +132,7 @@ fn format_number(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use grader::judge::Deviation;
+    use judging::judge::Deviation;
 
     use super::*;
     use crate::proof::calibrate::margins::Margins;

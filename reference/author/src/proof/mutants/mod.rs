@@ -12,9 +12,9 @@ pub mod span;
 
 use std::path::Path;
 
-use grader::exam::Exam;
-use grader::exam_file::ExamError;
 use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
+use judging::exam::Exam;
+use judging::exam_file::ExamError;
 use rayon::prelude::*;
 
 use crate::exams;

@@ -67,9 +67,10 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         anstream::print!("{diagnosis}");
         return Ok(ExitCode::from(diagnosis.exit_code()));
     }
-    let hints = match arguments.hints {
-        true => HintDetail::Full,
-        false => HintDetail::Nudge,
+    let hints = if arguments.hints {
+        HintDetail::Full
+    } else {
+        HintDetail::Nudge
     };
     if arguments.watch {
         let never = watch(arguments, hints)?;
@@ -109,18 +110,20 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
 
 /// Returns the exit code for these points: 1 if they are below `--require`.
 fn exit_code(points: u32, arguments: &Arguments) -> ExitCode {
-    match points < arguments.require.unwrap_or(0) {
-        true => ExitCode::from(1),
-        false => ExitCode::SUCCESS,
+    if points < arguments.require.unwrap_or(0) {
+        ExitCode::from(1)
+    } else {
+        ExitCode::SUCCESS
     }
 }
 
 /// Returns the report for the terminal. With `--format`, it appears in a log that students read, so
 /// it contains only what they may see.
 fn terminal_report(graded: &GradedSubmission, arguments: &Arguments, hints: HintDetail) -> String {
-    let score = match arguments.format.is_empty() {
-        true => &graded.score,
-        false => &graded.student_view.visible,
+    let score = if arguments.format.is_empty() {
+        &graded.score
+    } else {
+        &graded.student_view.visible
     };
     let mut text = report(score, arguments.task, hints);
     if arguments.policy.is_some() && arguments.task.is_none() {

@@ -42,9 +42,10 @@ impl RerunCommand {
 fn shell_word(path: &Path) -> String {
     let text = path.to_string_lossy().into_owned();
     let is_plain = |c: char| c.is_alphanumeric() || "_-./:\\+,@%".contains(c);
-    match !text.is_empty() && text.chars().all(is_plain) {
-        true => text,
-        false => format!("'{}'", text.replace('\'', r"'\''")),
+    if !text.is_empty() && text.chars().all(is_plain) {
+        text
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
     }
 }
 

@@ -111,13 +111,12 @@ impl EntryGrader<'_> {
             .grader
             .run_exam(exam, &built, &mut score, |score, answers| {
                 done += 1;
-                match score.complete {
-                    true => files.write(score, exam, answers),
-                    false => {
-                        let status = format!("{done} of {count}");
-                        self.progress.set_status(slot, &entry.id, &status);
-                        Ok(())
-                    }
+                if score.complete {
+                    files.write(score, exam, answers)
+                } else {
+                    let status = format!("{done} of {count}");
+                    self.progress.set_status(slot, &entry.id, &status);
+                    Ok(())
                 }
             });
         run.map_err(message)?;

@@ -58,13 +58,14 @@ impl Input {
                 name,
                 why: "its name begins with a dot, so it is hidden".to_owned(),
             }));
-        match class.entries.is_empty() {
-            true => Err(ClassInputError::NoSubmissions(path.to_owned())),
-            false => Ok(Input {
+        if class.entries.is_empty() {
+            Err(ClassInputError::NoSubmissions(path.to_owned()))
+        } else {
+            Ok(Input {
                 class,
                 root,
                 _unpacked: unpacked,
-            }),
+            })
         }
     }
 }
@@ -76,9 +77,10 @@ pub fn collect_submission(entry: &Entry) -> Result<Submission, String> {
         Source::Path(path) => collect_path(path)?,
         Source::Files(files) => {
             let submission = Submission::from_files(&entry.id, files);
-            match submission.files.iter().any(|(_, text)| text.is_ok()) {
-                true => submission,
-                false => return Err(no_task_file_message(files)),
+            if submission.files.iter().any(|(_, text)| text.is_ok()) {
+                submission
+            } else {
+                return Err(no_task_file_message(files));
             }
         }
         Source::Missing(why) => return Err(why.clone()),

@@ -16,12 +16,13 @@ pub fn apply_policy(policy: &Policy, info: &EntryInfo, score: &ScoreSummary) -> 
 fn lateness(policy: &Policy, info: &EntryInfo) -> Lateness {
     let time = info.submitted.as_deref().and_then(parse_timestamp);
     let exact = time.and_then(|time| policy.lateness(time));
-    exact.unwrap_or(match info.late {
+    exact.unwrap_or(if info.late {
         // The time is unknown, so the submission counts as just past the grace period.
-        true => Lateness {
+        Lateness {
             seconds: u64::from(policy.late.grace_minutes) * 60 + 1,
-        },
-        false => Lateness::NONE,
+        }
+    } else {
+        Lateness::NONE
     })
 }
 

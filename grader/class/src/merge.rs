@@ -104,9 +104,10 @@ fn choose_policy(arguments: &MergeArguments, shards: &[(&PathBuf, Run)]) -> Resu
 fn read_finished_run(path: &Path) -> Result<Run, Error> {
     let run = Store::new(path).read_run()?;
     let run = run.ok_or_else(|| Error::NotAShard(path.to_owned()))?;
-    match run.finished {
-        true => Ok(run),
-        false => Err(Error::UnfinishedShard(path.to_owned())),
+    if run.finished {
+        Ok(run)
+    } else {
+        Err(Error::UnfinishedShard(path.to_owned()))
     }
 }
 
@@ -119,13 +120,14 @@ fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<()
     ];
     let mut what = one.1.settings.differences(&other.1.settings);
     what.retain(|what| !local.contains(what));
-    match what.is_empty() {
-        true => Ok(()),
-        false => Err(Error::IncompatibleShards {
+    if what.is_empty() {
+        Ok(())
+    } else {
+        Err(Error::IncompatibleShards {
             one: one.0.clone(),
             other: other.0.clone(),
             differences: what,
-        }),
+        })
     }
 }
 

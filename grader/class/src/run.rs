@@ -68,9 +68,10 @@ impl Run {
     /// Returns the next round, with nothing graded yet. It will be compared with the last round
     /// that was finished.
     pub fn next_round(&self, settings: Settings) -> Self {
-        let before = match self.is_unfinished_regrade() {
-            true => self.before.clone(),
-            false => Some(self.settings.clone()),
+        let before = if self.is_unfinished_regrade() {
+            self.before.clone()
+        } else {
+            Some(self.settings.clone())
         };
         Run {
             schema: SCHEMA,

@@ -46,9 +46,10 @@ impl FromStr for Shard {
         let (part, of) = text.split_once('/').ok_or(EXPECTED)?;
         let number = |text: &str| text.parse::<usize>().map_err(|_| EXPECTED);
         let (part, of) = (number(part)?, number(of)?);
-        match (1..=of).contains(&part) {
-            true => Ok(Shard { part, of }),
-            false => Err(EXPECTED),
+        if (1..=of).contains(&part) {
+            Ok(Shard { part, of })
+        } else {
+            Err(EXPECTED)
         }
     }
 }

@@ -71,9 +71,10 @@ impl Table {
             .next()
             .unwrap_or_default();
         let count = |sign: u8| first.iter().filter(|byte| **byte == sign).count();
-        let delimiter = match count(b';') > count(b',') {
-            true => b';',
-            false => b',',
+        let delimiter = if count(b';') > count(b',') {
+            b';'
+        } else {
+            b','
         };
         let mut reader = csv::ReaderBuilder::new()
             .delimiter(delimiter)
@@ -142,9 +143,10 @@ impl Table {
         }
         let bytes = writer.into_inner().expect("writing to memory succeeds");
         let text = String::from_utf8(bytes).expect("cells are UTF-8");
-        match self.has_byte_order_mark {
-            true => format!("\u{feff}{text}"),
-            false => text,
+        if self.has_byte_order_mark {
+            format!("\u{feff}{text}")
+        } else {
+            text
         }
     }
 }

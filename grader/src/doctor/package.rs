@@ -10,8 +10,9 @@ pub use crate::doctor::package_contents::PackageError;
 
 /// Returns a message for each problem, which says what to do. Empty if the package will work.
 pub fn problems(path: &Path) -> Result<Vec<String>, PackageError> {
-    match path.is_dir() {
-        true => Ok(folder::problems(path)),
-        false => Ok(read_package(path)?.problems()),
+    if path.is_dir() {
+        Ok(folder::problems(path))
+    } else {
+        Ok(read_package(path)?.problems())
     }
 }

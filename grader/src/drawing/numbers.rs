@@ -16,9 +16,10 @@ pub(super) fn short(value: f64) -> String {
     }
     let decimals = (3.0 - magnitude).clamp(0.0, 6.0) as usize;
     let text = format!("{value:.decimals$}");
-    let text = match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.'),
-        false => &text,
+    let text = if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &text
     };
     if text == "-0" { "0" } else { text }.to_owned()
 }

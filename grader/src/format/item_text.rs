@@ -45,9 +45,12 @@ pub fn item_message(item: &ItemScore) -> String {
 }
 
 fn hint_text(hints: &[Hint], context: &FormatContext) -> Option<String> {
-    let text = |hint: &Hint| match context.full_hints {
-        true => hint.hint.clone(),
-        false => hint.nudge.clone(),
+    let text = |hint: &Hint| {
+        if context.full_hints {
+            hint.hint.clone()
+        } else {
+            hint.nudge.clone()
+        }
     };
     let all: Vec<String> = hints.iter().map(text).collect();
     (!all.is_empty()).then(|| all.join(" Or: "))
@@ -77,8 +80,9 @@ pub fn headline(view: &StudentView) -> String {
         "{} of {} points, {} exam",
         score.points, score.max_points, score.exam.id
     );
-    match (counted.points, counted.max_points) == (score.points, score.max_points) {
-        true => points,
-        false => format!("{points}; counts for {counted}{}", lateness_text(counted)),
+    if (counted.points, counted.max_points) == (score.points, score.max_points) {
+        points
+    } else {
+        format!("{points}; counts for {counted}{}", lateness_text(counted))
     }
 }

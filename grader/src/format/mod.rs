@@ -125,9 +125,10 @@ impl Format {
 
 /// Renders the terminal report without colours.
 fn terminal_report(view: &StudentView, context: &FormatContext) -> String {
-    let hints = match context.full_hints {
-        true => HintDetail::Full,
-        false => HintDetail::Nudge,
+    let hints = if context.full_hints {
+        HintDetail::Full
+    } else {
+        HintDetail::Nudge
     };
     let report = report(&view.visible, None, hints);
     let mut text = anstream::adapter::strip_str(&report).to_string();

@@ -188,9 +188,10 @@ fn items_shown_now(task: &TaskScore, entries: &[ItemView]) -> Vec<ItemScore> {
         },
         points,
         max_points,
-        verdict: match is_pending {
-            true => Verdict::Pending,
-            false => verdict_from_points(points, max_points),
+        verdict: if is_pending {
+            Verdict::Pending
+        } else {
+            verdict_from_points(points, max_points)
         },
         ..redact_to_points((*first).clone())
     });

@@ -100,18 +100,15 @@ impl<'a> Grader<'a> {
             let builder = with_requested_level(builder(arguments, &workspace)?, arguments)?;
             // In the first run, preparing the builder takes longer than reading the exam. Then an
             // invalid exam is reported before the submission is compiled.
-            let (built, file) = match reading.is_finished() {
-                true => {
-                    let file = read(reading)?;
-                    (
-                        BuiltSubmission::new(&builder, &submission, report_errors)?,
-                        file,
-                    )
-                }
-                false => {
-                    let built = BuiltSubmission::new(&builder, &submission, report_errors)?;
-                    (built, read(reading)?)
-                }
+            let (built, file) = if reading.is_finished() {
+                let file = read(reading)?;
+                (
+                    BuiltSubmission::new(&builder, &submission, report_errors)?,
+                    file,
+                )
+            } else {
+                let built = BuiltSubmission::new(&builder, &submission, report_errors)?;
+                (built, read(reading)?)
             };
             Ok::<_, Error>((builder, built, file))
         })?;
@@ -241,9 +238,10 @@ impl<'a> Grader<'a> {
             Some(folder) => folder.clone(),
             None => default_folder(&self.workspace, submission),
         };
-        let reload = match self.arguments.watch {
-            true => Reload::WhileUnfocused,
-            false => Reload::Never,
+        let reload = if self.arguments.watch {
+            Reload::WhileUnfocused
+        } else {
+            Reload::Never
         };
         match self.arguments.task {
             Some(_) => None,

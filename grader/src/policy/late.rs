@@ -52,11 +52,11 @@ impl Policy {
         let out_of = self.points.out_of.unwrap_or(max_points);
         let late_days = self.late.late_days(lateness);
         let is_closed = self.late.closed_after_days.is_some_and(|n| late_days > n);
-        let fraction = match is_closed {
-            true => Fraction::NONE,
-            false => self
-                .late
-                .fraction(points.min(max_points), max_points, late_days),
+        let fraction = if is_closed {
+            Fraction::NONE
+        } else {
+            self.late
+                .fraction(points.min(max_points), max_points, late_days)
         };
         CountedPoints {
             points: fraction.apply(out_of, self.points.rounding),
@@ -79,9 +79,10 @@ impl Policy {
 impl LatePolicy {
     /// Returns the number of started days since the due time, or 0 within the grace period.
     fn late_days(&self, lateness: Lateness) -> u32 {
-        match lateness.seconds <= u64::from(self.grace_minutes) * 60 {
-            true => 0,
-            false => u32::try_from(lateness.seconds.div_ceil(DAY)).unwrap_or(u32::MAX),
+        if lateness.seconds <= u64::from(self.grace_minutes) * 60 {
+            0
+        } else {
+            u32::try_from(lateness.seconds.div_ceil(DAY)).unwrap_or(u32::MAX)
         }
     }
 

@@ -208,9 +208,10 @@ impl Probe {
             }
         };
         if ended.is_some_and(ExitReason::is_external_kill) {
-            return match self.memory > Launcher::LARGE_MEMORY {
-                true => Fault::OutOfMemory,
-                false => Fault::Crashed(Crash::Killed),
+            return if self.memory > Launcher::LARGE_MEMORY {
+                Fault::OutOfMemory
+            } else {
+                Fault::Crashed(Crash::Killed)
             };
         }
         let exit_reason = self.process.kill();

@@ -56,9 +56,12 @@ fn grade_version(
         screen.show(last, Phase::Compiling)?;
     }
     let built = grader.build(submission)?;
-    let stop_if_saved = || match watcher.has_changed_since(submission) {
-        true => Err(Interruption::Saved),
-        false => Ok(()),
+    let stop_if_saved = || {
+        if watcher.has_changed_since(submission) {
+            Err(Interruption::Saved)
+        } else {
+            Ok(())
+        }
     };
 
     let failed = last.map(|last| failed_items(grader.exam(), last));

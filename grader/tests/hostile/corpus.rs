@@ -41,9 +41,10 @@ impl Selection {
     }
 
     fn includes(&self, entry: &Entry) -> bool {
-        match self.names.is_empty() {
-            true => self.all || !entry.expect.slow,
-            false => self.names.iter().any(|name| entry.name.contains(name)),
+        if self.names.is_empty() {
+            self.all || !entry.expect.slow
+        } else {
+            self.names.iter().any(|name| entry.name.contains(name))
         }
     }
 }
@@ -78,9 +79,10 @@ pub fn main() -> ExitCode {
         .map(|level| run_at_level(&entries, *level));
     // The results are collected first, so that every level is run even if an earlier one does not
     // hold.
-    match held.collect::<Vec<bool>>().contains(&false) {
-        false => ExitCode::SUCCESS,
-        true => ExitCode::FAILURE,
+    if !held.collect::<Vec<bool>>().contains(&false) {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
     }
 }
 
@@ -184,8 +186,9 @@ fn grade_and_check(
     let run = run::grade(entry, &canaries, level);
     let after = SystemState::snapshot(&canaries);
     let violations = violations(entry, &run, baseline, &canaries, before.differences(&after));
-    match violations.is_empty() {
-        true => Ok(run),
-        false => Err(violations),
+    if violations.is_empty() {
+        Ok(run)
+    } else {
+        Err(violations)
     }
 }

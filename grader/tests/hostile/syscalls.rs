@@ -56,9 +56,10 @@ pub fn allowed_calls(level: Isolation) -> Vec<String> {
         .lines()
         .filter(|line| *line != END_LINE)
         .map(str::to_owned);
-    match output.ends_with("end\n") {
-        true => allowed.collect(),
-        false => vec![format!("did not run to its end: {output:?}")],
+    if output.ends_with("end\n") {
+        allowed.collect()
+    } else {
+        vec![format!("did not run to its end: {output:?}")]
     }
 }
 

@@ -134,9 +134,10 @@ fn list_files(folder: &Path, found: &mut Vec<String>) {
             list_files(&path, found);
         }
         // A folder's modification time changes whenever the folder is used.
-        let detail = match metadata.is_dir() {
-            true => String::new(),
-            false => format!(" {} {:?}", metadata.len(), metadata.modified().ok()),
+        let detail = if metadata.is_dir() {
+            String::new()
+        } else {
+            format!(" {} {:?}", metadata.len(), metadata.modified().ok())
         };
         found.push(format!("cache {}{detail}", path.display()));
     }

@@ -184,33 +184,36 @@ fn write_package(
             std::fs::write(out, archive::zip_with_prefix(package, "")?)?;
             let (count, size) = (package.files.len(), package.size() / 1_000_000);
             println!("{count} files, {size} MB unpacked: {}", out.display());
-            match check {
-                true => report(
+            if check {
+                report(
                     &trial::gradescope::check(root, out)?,
                     "the package grades correctly when run as on Gradescope",
-                ),
-                false => Ok(()),
+                )
+            } else {
+                Ok(())
             }
         }
         Platform::Classroom50 => {
             archive::write_folder(package, out)?;
             println!("{} files: {}", package.files.len(), out.display());
-            match check {
-                true => report(
+            if check {
+                report(
                     &trial::classroom50::check(root, out)?,
                     "the package grades a checkout correctly when run as on classroom50",
-                ),
-                false => Ok(()),
+                )
+            } else {
+                Ok(())
             }
         }
         Platform::Github => {
             write_bundle(root, package, Some(out), false)?;
-            match check {
-                true => report(
+            if check {
+                report(
                     &trial::github::check(root, package)?,
                     "the template's workflow grades a checkout correctly",
-                ),
-                false => Ok(()),
+                )
+            } else {
+                Ok(())
             }
         }
     }

@@ -133,9 +133,10 @@ fn assignment_number(title: &str) -> &str {
         .strip_suffix(')')
         .and_then(|title| title.rsplit_once('('));
     let number = inner.map_or("", |(_, number)| number);
-    match number.bytes().all(|byte| byte.is_ascii_digit()) {
-        true => number,
-        false => "",
+    if number.bytes().all(|byte| byte.is_ascii_digit()) {
+        number
+    } else {
+        ""
     }
 }
 

@@ -96,9 +96,10 @@ pub(super) fn read(root: &Node) -> LayoutContents {
     }
     let mut of_texts: BTreeMap<&str, (CanvasName, &Node)> = BTreeMap::new();
     for (name, node) in texts {
-        match users.contains_key(name.user) {
-            true => others.push(unmatched_path(node, TEXT_BESIDE_FILES)),
-            false => _ = of_texts.insert(name.user, (name, node)),
+        if users.contains_key(name.user) {
+            others.push(unmatched_path(node, TEXT_BESIDE_FILES))
+        } else {
+            _ = of_texts.insert(name.user, (name, node))
         }
     }
     let of_texts = of_texts.into_values();

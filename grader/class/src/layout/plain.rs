@@ -8,9 +8,10 @@ pub(super) fn read(root: &Node) -> LayoutContents {
     let (mut entries, mut others) = (Vec::new(), Vec::new());
     for node in root.children() {
         if node.is_folder() || node.is_archive() {
-            let name = match node.is_folder() {
-                true => node.name.as_str(),
-                false => strip_archive_extension(&node.name),
+            let name = if node.is_folder() {
+                node.name.as_str()
+            } else {
+                strip_archive_extension(&node.name)
             };
             entries.push(Entry {
                 id: name.to_owned(),

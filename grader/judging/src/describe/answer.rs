@@ -65,9 +65,10 @@ fn outcome<T>(outcome: Option<&ElementOutcome<T>>, show: impl Fn(&T) -> String) 
 fn tree(tree: &Tree) -> String {
     let nodes = tree.nodes.iter().enumerate().map(|(index, node)| {
         let (min, max) = (point(node.min), point(node.max));
-        let below = match node.is_leaf() {
-            true => format!("leaf of {} from {}", node.size, node.start),
-            false => format!("children {} and {}", node.l, node.r),
+        let below = if node.is_leaf() {
+            format!("leaf of {} from {}", node.size, node.start)
+        } else {
+            format!("children {} and {}", node.l, node.r)
         };
         format!("\n  {index}: {min} to {max}, {below}")
     });

@@ -227,9 +227,10 @@ fn srgb(light: Vec3) -> Vec3 {
 }
 
 fn valid_colour(colour: Vec3) -> Vec3 {
-    match colour.is_finite() {
-        true => colour.clamp(Vec3::ZERO, Vec3::ONE),
-        false => INVALID_COLOUR,
+    if colour.is_finite() {
+        colour.clamp(Vec3::ZERO, Vec3::ONE)
+    } else {
+        INVALID_COLOUR
     }
 }
 

@@ -155,9 +155,10 @@ fn caption(sensor: &Sensor, wanted: DVec2, got: Option<Ray>) -> String {
                 part(off.y, ["too low", "too high"]),
             ];
             let parts: Vec<String> = parts.into_iter().flatten().collect();
-            match parts.is_empty() {
-                true => "Your ray is off by less than 1/100 of a pixel.".to_owned(),
-                false => format!("Your ray is off (in pixels): {}.", parts.join(", ")),
+            if parts.is_empty() {
+                "Your ray is off by less than 1/100 of a pixel.".to_owned()
+            } else {
+                format!("Your ray is off (in pixels): {}.", parts.join(", "))
             }
         }
     }

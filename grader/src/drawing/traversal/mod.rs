@@ -118,12 +118,13 @@ fn caption(comparison: &HitComparison, layout: &Layout) -> String {
             short(hit.distance)
         ),
         (HitAnswer::Hit(_), Some(leaf), Some((row, NodeStatus::Missed))) => {
-            match row.node == leaf {
-                true => format!("Your hit is in leaf {leaf}, whose box the ray misses."),
-                false => format!(
+            if row.node == leaf {
+                format!("Your hit is in leaf {leaf}, whose box the ray misses.")
+            } else {
+                format!(
                     "Your hit is in leaf {leaf}, below node {}, whose box the ray misses.",
                     row.node
-                ),
+                )
             }
         }
         (HitAnswer::Hit(hit), Some(leaf), Some((_, NodeStatus::Beyond)))
@@ -139,9 +140,10 @@ fn caption(comparison: &HitComparison, layout: &Layout) -> String {
                 .span
                 .map_or(String::new(), |span| short(span.min.into()));
             let closest = comparison.wanted.map_or(f64::NAN, |hit| hit.distance);
-            let node = match row.node == leaf {
-                true => "which".to_owned(),
-                false => format!("below node {}, which", row.node),
+            let node = if row.node == leaf {
+                "which".to_owned()
+            } else {
+                format!("below node {}, which", row.node)
             };
             format!(
                 "Your hit is in leaf {leaf}, {node} begins at {begin}, beyond the closest hit at {}.",

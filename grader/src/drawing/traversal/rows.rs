@@ -119,9 +119,10 @@ fn draw_span(canvas: &mut Canvas, axis: &Axis, y: f64, row: &NodeRow) {
     let (low, high) = (dvec2(from, y + 3.0), dvec2(to, y + ROW_HEIGHT - 3.0));
     canvas.rectangle(low, high, LineStyle::Grid, fill);
     // The label goes beside the bar, on the side with more space.
-    let (x, anchor) = match from - LEFT > WIDTH - to {
-        true => (from - 4.0, Anchor::End),
-        false => (to + 4.0, Anchor::Start),
+    let (x, anchor) = if from - LEFT > WIDTH - to {
+        (from - 4.0, Anchor::End)
+    } else {
+        (to + 4.0, Anchor::Start)
     };
     canvas.text(dvec2(x, foot), anchor, Ink::Faint, text);
 }

@@ -76,9 +76,10 @@ fn add_rule(
     access: BitFlags<AccessFs>,
 ) -> Result<RulesetCreated, Box<dyn std::error::Error>> {
     // Rights for folders do not apply to a file, and Landlock would report them.
-    let access = match path.is_dir() {
-        true => access,
-        false => access & AccessFs::from_file(LANDLOCK_ABI),
+    let access = if path.is_dir() {
+        access
+    } else {
+        access & AccessFs::from_file(LANDLOCK_ABI)
     };
     Ok(rules.add_rule(PathBeneath::new(PathFd::new(path)?, access))?)
 }

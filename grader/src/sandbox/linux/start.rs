@@ -115,9 +115,10 @@ impl Program {
         if let Some(signal) = status.signal().and_then(Signal::from_named_raw) {
             // The first process of a namespace does not get the soft limit's SIGXCPU. The hard
             // limit kills it with SIGKILL, which would look as if memory had run out.
-            let signal = match signal == Signal::KILL && children_cpu_time()? >= cpu {
-                true => Signal::XCPU,
-                false => signal,
+            let signal = if signal == Signal::KILL && children_cpu_time()? >= cpu {
+                Signal::XCPU
+            } else {
+                signal
             };
             // Ends this process by the same signal, together with everything that the program left
             // running.

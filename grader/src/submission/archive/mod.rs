@@ -209,9 +209,10 @@ pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
         match task_file_name(name) {
             Some(name) => {
                 let is_too_long = bytes.len() as u64 > MAX_FILE_BYTES;
-                let bytes = match is_too_long {
-                    true => Err(TaskFileError::TooLong(name)),
-                    false => Ok(bytes),
+                let bytes = if is_too_long {
+                    Err(TaskFileError::TooLong(name))
+                } else {
+                    Ok(bytes)
                 };
                 contents.task_files.insert(name, bytes);
             }
@@ -285,9 +286,10 @@ fn folded_path(path: &str) -> String {
 /// Rejects a link or device, except in `target/`: Cargo makes hard links there, and nothing in it
 /// is read.
 fn check_special(path: &str) -> Result<(), ArchiveError> {
-    match path.split('/').any(|part| part == "target") {
-        true => Ok(()),
-        false => Err(ArchiveError::NotRegular(display_name(path))),
+    if path.split('/').any(|part| part == "target") {
+        Ok(())
+    } else {
+        Err(ArchiveError::NotRegular(display_name(path)))
     }
 }
 

@@ -105,9 +105,12 @@ impl Tarball {
         mut each: impl FnMut(usize, EntryType, &str, &mut dyn Read) -> Result<(), ArchiveError>,
     ) -> Result<(), ArchiveError> {
         let (reader, budget) = self.reader()?;
-        let damaged = |error: io::Error| match budget.is_exhausted() {
-            true => ArchiveError::TooLarge(MAX_BYTES),
-            false => ArchiveError::Damaged(display_name(&error.to_string())),
+        let damaged = |error: io::Error| {
+            if budget.is_exhausted() {
+                ArchiveError::TooLarge(MAX_BYTES)
+            } else {
+                ArchiveError::Damaged(display_name(&error.to_string()))
+            }
         };
         let mut archive = Archive::new(reader);
         for (index, entry) in archive.entries().map_err(damaged)?.enumerate() {

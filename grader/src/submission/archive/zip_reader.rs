@@ -32,9 +32,10 @@ impl ZipReader {
         let length = file.metadata().map_err(io_error)?.len();
         let (reader, budget) = LimitedReader::new(FileReader::from(file), MAX_DIRECTORY_BYTES);
         let zip = Zip::open(reader, length, MAX_MEMBERS).map_err(|error| {
-            match budget.is_exhausted() {
-                true => ArchiveError::TooManyFiles,
-                false => archive_error(&error, ""),
+            if budget.is_exhausted() {
+                ArchiveError::TooManyFiles
+            } else {
+                archive_error(&error, "")
             }
         })?;
         Ok(ZipReader { zip, budget })

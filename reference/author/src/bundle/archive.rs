@@ -100,9 +100,10 @@ pub fn zip_with_prefix(bundle: &Bundle, top: &str) -> Result<Vec<u8>, ZipError> 
 
 /// Returns the permissions of a file: scripts are executable.
 fn unix_mode(contents: &[u8]) -> u32 {
-    match contents.starts_with(b"#!") {
-        true => 0o755,
-        false => 0o644,
+    if contents.starts_with(b"#!") {
+        0o755
+    } else {
+        0o644
     }
 }
 

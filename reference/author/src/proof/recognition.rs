@@ -127,9 +127,10 @@ impl Recognition {
 impl fmt::Display for Recognition {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         for (id, hints) in &self.misrecognised {
-            let hints = match hints.is_empty() {
-                true => "none".to_owned(),
-                false => hints.join(" or "),
+            let hints = if hints.is_empty() {
+                "none".to_owned()
+            } else {
+                hints.join(" or ")
             };
             writeln!(f, "{id} gets the hint {hints}")?;
         }

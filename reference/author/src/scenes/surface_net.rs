@@ -70,9 +70,10 @@ impl Net {
     /// Adds two triangles that share the shorter diagonal of the quadrilateral.
     fn quadrilateral(&mut self, [a, b, c, d]: [usize; 4]) {
         let length = |from: usize, to: usize| self.positions[from].distance(self.positions[to]);
-        let halves = match length(a, c) <= length(b, d) {
-            true => [[a, b, c], [a, c, d]],
-            false => [[a, b, d], [b, c, d]],
+        let halves = if length(a, c) <= length(b, d) {
+            [[a, b, c], [a, c, d]]
+        } else {
+            [[a, b, d], [b, c, d]]
         };
         self.triangles.extend(halves);
     }

@@ -200,14 +200,17 @@ impl Tree {
     pub fn with_roots_at_both_ends(&self, rng: &mut Rng) -> Tree {
         let mut tree = self.with_nodes_shuffled(rng, RootPosition::First);
         let count = tree.nodes.len() as u32;
-        let copied = |node: &TreeNode| match node.is_leaf() {
-            true => *node,
-            // Node 1 is copied to the index after the last node, and so on.
-            false => TreeNode {
-                l: node.l + count - 1,
-                r: node.r + count - 1,
-                ..*node
-            },
+        let copied = |node: &TreeNode| {
+            if node.is_leaf() {
+                *node
+            } else {
+                // Node 1 is copied to the index after the last node, and so on.
+                TreeNode {
+                    l: node.l + count - 1,
+                    r: node.r + count - 1,
+                    ..*node
+                }
+            }
         };
         let mut copy: Vec<TreeNode> = tree.nodes.iter().map(copied).collect();
         copy.rotate_left(1);

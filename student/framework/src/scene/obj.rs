@@ -42,9 +42,10 @@ fn parse(text: &str) -> Result<Mesh, SceneError> {
         let (uvs, _) = model.mesh.texcoords.as_chunks::<2>();
         let face = |i: usize| Face {
             corners: three(&model.mesh.indices, i).map(|corner| first + corner),
-            uv: match model.mesh.texcoord_indices.is_empty() {
-                true => [Vec2::ZERO, Vec2::X, Vec2::Y],
-                false => three(&model.mesh.texcoord_indices, i).map(|k| Vec2::from(uvs[k])),
+            uv: if model.mesh.texcoord_indices.is_empty() {
+                [Vec2::ZERO, Vec2::X, Vec2::Y]
+            } else {
+                three(&model.mesh.texcoord_indices, i).map(|k| Vec2::from(uvs[k]))
             },
             normals: (!model.mesh.normal_indices.is_empty())
                 .then(|| three(&model.mesh.normal_indices, i).map(|k| normals[k])),
@@ -52,9 +53,10 @@ fn parse(text: &str) -> Result<Mesh, SceneError> {
         mesh.faces
             .extend((0..model.mesh.indices.len() / 3).map(face));
     }
-    match mesh.faces.is_empty() {
-        true => Err(SceneError::new(None, no_faces())),
-        false => Ok(mesh),
+    if mesh.faces.is_empty() {
+        Err(SceneError::new(None, no_faces()))
+    } else {
+        Ok(mesh)
     }
 }
 

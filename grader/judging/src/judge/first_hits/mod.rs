@@ -56,9 +56,12 @@ impl Comparison for FirstHits<'_> {
             return Judgement::protocol("the number of answers differs from the number of rays");
         }
         let tallies = self.tallies();
-        let credits = tallies.map(|tally| match self.has_enough_judged(tally.judged) {
-            true => Credit::by_count(tally.wrong, tally.judged),
-            false => Credit::NONE,
+        let credits = tallies.map(|tally| {
+            if self.has_enough_judged(tally.judged) {
+                Credit::by_count(tally.wrong, tally.judged)
+            } else {
+                Credit::NONE
+            }
         });
         let weighted = QUANTITIES.iter().zip(credits);
         let credit = Credit::weighted(weighted.map(|((_, weight), credit)| (*weight, credit)));

@@ -28,17 +28,19 @@ pub fn render_formulas(chapter: &str, markdown: &str) -> Result<String, FormulaE
     let mut text = markdown.to_owned();
     // From the end, so that the ranges of earlier formulas stay valid.
     for (range, latex, is_display) in formulas(markdown).into_iter().rev() {
-        let display = match is_display {
-            true => MathDisplay::Block,
-            false => MathDisplay::Inline,
+        let display = if is_display {
+            MathDisplay::Block
+        } else {
+            MathDisplay::Inline
         };
         let mathml = converter
             .convert_with_local_state(latex.trim(), display)
             .map_err(|problem| formula_error(&latex, problem.to_string()))?;
         let mathml = escape_markdown(&mathml.mathml);
-        let html = match is_display {
-            true => format!("<div class=\"formula\">{mathml}</div>\n"),
-            false => mathml,
+        let html = if is_display {
+            format!("<div class=\"formula\">{mathml}</div>\n")
+        } else {
+            mathml
         };
         text.replace_range(range, &html);
     }

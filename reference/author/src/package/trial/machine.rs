@@ -129,16 +129,15 @@ impl Machine {
     pub fn run(&self, job: Job) -> Result<JobResult, TrialError> {
         let usage_file = &self.root.with_extension("used");
         let is_limited = self.is_limited && job.limits == Limits::Platform;
-        let mut command = match is_limited {
-            true => {
-                let mut command = self.root_command("sh");
-                command
-                    .args(["-c", LIMIT_SCRIPT, "sh"])
-                    .arg(usage_file)
-                    .arg("unshare");
-                command
-            }
-            false => self.root_command("unshare"),
+        let mut command = if is_limited {
+            let mut command = self.root_command("sh");
+            command
+                .args(["-c", LIMIT_SCRIPT, "sh"])
+                .arg(usage_file)
+                .arg("unshare");
+            command
+        } else {
+            self.root_command("unshare")
         };
         let user = match job.user {
             User::Container => "container",

@@ -217,9 +217,10 @@ mod tests {
         for (mutant, sources) in list.solutions(&reference).expect("the list is up to date") {
             for TaskFile { name, .. } in TASK_FILES {
                 let text = reference.text(name).unwrap_or_default();
-                let expected = match mutant.name.starts_with(name) {
-                    true => format!("#{}", &text[1..]),
-                    false => text.to_owned(),
+                let expected = if mutant.name.starts_with(name) {
+                    format!("#{}", &text[1..])
+                } else {
+                    text.to_owned()
                 };
                 assert_eq!(sources.text(name), Some(expected.as_str()));
             }

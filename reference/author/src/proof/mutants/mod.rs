@@ -141,9 +141,10 @@ pub fn run(list: &MutantList, selection: MutantSelection) -> Result<Findings, Mu
         .progress_with(bar)
         .map(|(number, (mutant, sources))| {
             let name = &mutant.name;
-            let outcome = match selection.includes(number) {
-                true => outcome(&workbench, &sources, name, &exam)?,
-                false => MutantOutcome::Skipped,
+            let outcome = if selection.includes(number) {
+                outcome(&workbench, &sources, name, &exam)?
+            } else {
+                MutantOutcome::Skipped
             };
             Ok((name.clone(), outcome))
         })

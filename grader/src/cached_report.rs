@@ -13,10 +13,12 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::build::{ContentHash, file_fingerprint};
-use crate::cli::Arguments;
+use crate::exam_source::ExamSource;
+use crate::options::GradeOptions;
 use crate::report::atomic_write;
 use crate::report_files::ReportFiles;
 use crate::score::{Score, Verdict};
+use crate::select_isolation::IsolationRequest;
 use crate::submission::Submission;
 
 /// Name of the file that stores the cached report, in the folder of the score.
@@ -78,41 +80,21 @@ pub fn store(key: &CacheKey, score: &Score, report: &str, files: &ReportFiles) {
 impl CacheKey {
     /// Returns whether these options allow caching: a student's own work, the whole exam, the
     /// default folder and no additional outputs.
-    pub fn is_cacheable(arguments: &Arguments) -> bool {
-        let exam = arguments.exam.as_deref();
-        !arguments.untrusted
-            && arguments.isolation.is_none()
-            && arguments.task.is_none()
-            && arguments.out.is_none()
-            && arguments.format.is_empty()
-            && arguments.policy.is_none()
-            && arguments.gradescope_metadata.is_none()
-            && !arguments.watch
-            && !arguments.timings
-            // Standard input can be read only once.
-            && exam != Some(Path::new("-"))
+    pub fn is_cacheable(options: &GradeOptions) -> bool {
+        cacheable_options(options).is_some()
     }
 
     /// Hashes the inputs of a score. `None` if these options do not allow caching.
     pub fn new(
-        arguments: &Arguments,
+        options: &GradeOptions,
         submission: &Submission,
         exam: &str,
         builder_identity: &str,
     ) -> Option<Self> {
-        if !CacheKey::is_cacheable(arguments) {
-            return None;
-        }
+        let options = cacheable_options(options)?;
         let grader = env::current_exe().ok()?;
-        let options = (
-            &arguments.submission,
-            &arguments.exam,
-            arguments.no_reference,
-            arguments.hints,
-            arguments.cpu_limit,
-        );
         let environment = ContentHash::default()
-            .with(format!("{options:?}").as_bytes())
+            .with(options.as_bytes())
             .with(format!("{} {}", grader.display(), file_fingerprint(&grader)).as_bytes())
             .with(exam.as_bytes())
             .with(builder_identity.as_bytes());
@@ -121,6 +103,36 @@ impl CacheKey {
             environment: environment.hex(),
         })
     }
+}
+
+/// Returns the options that the report depends on as text, or `None` if a report with these options
+/// is not cached.
+fn cacheable_options(options: &GradeOptions) -> Option<String> {
+    // Without `..`, so that it does not compile before a new option is considered here.
+    let GradeOptions {
+        submission,
+        exam,
+        task,
+        policy,
+        gradescope_metadata,
+        dependents,
+        isolation,
+        budget,
+        hints,
+        out,
+        formats,
+    } = options;
+    let is_whole_exam = task.is_none();
+    let is_default_policy = policy.is_none() && gradescope_metadata.is_none();
+    let is_default_output = out.is_none() && formats.is_empty();
+    // Standard input can be read only once.
+    let is_repeatable = *exam != ExamSource::StandardInput;
+    (*isolation == IsolationRequest::OwnWork
+        && is_whole_exam
+        && is_default_policy
+        && is_default_output
+        && is_repeatable)
+        .then(|| format!("{:?}", (submission, exam, dependents, budget, hints)))
 }
 
 fn submission_hash(submission: &Submission) -> String {

@@ -1,13 +1,46 @@
-//! The command line.
+//! The command line of `cargo grade`.
 
 use std::path::PathBuf;
 
-use clap::Parser;
-
-use crate::format::OutputSpec;
-use crate::question_ref::QuestionRef;
-use crate::sandbox::Isolation;
+use clap::{Parser, value_parser};
 use judging::exam::Task;
+
+use crate::exam_source::ExamSource;
+use crate::format::OutputSpec;
+use crate::options::{Dependents, GradeOptions};
+use crate::probe::Budget;
+use crate::question_ref::QuestionRef;
+use crate::report::text::HintDetail;
+use crate::sandbox::Isolation;
+use crate::select_isolation::IsolationRequest;
+use crate::terminal::PrintOptions;
+
+/// The heading of the options that students do not need.
+const STAFF_OPTIONS: &str = "Options for course staff and CI";
+
+/// A command with all of its options.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// Grade a submission.
+    Grade(GradeOptions, PrintOptions),
+    /// Grade a submission again whenever a file is saved.
+    Watch {
+        /// The options for grading.
+        options: GradeOptions,
+        /// Whether to open the report's page in a browser.
+        open: bool,
+    },
+    /// Run one question again.
+    Replay(GradeOptions, QuestionRef),
+    /// Show what this machine offers and lacks.
+    Diagnose,
+    /// Check a package for a learning platform.
+    CheckPackage(PathBuf),
+    /// Print the JSON schema of the score file.
+    PrintSchema,
+    /// Print the default policy.
+    PrintDefaultPolicy,
+}
 
 /// Grades a path-tracing submission: builds it, runs the exam and writes a score
 ///
@@ -20,18 +53,6 @@ pub struct Arguments {
     /// student/src/); default: student
     pub submission: Option<PathBuf>,
 
-    /// The exam file, or - for standard input; default: the practice exam
-    #[arg(long, value_name = "FILE")]
-    pub exam: Option<PathBuf>,
-
-    /// The folder for score.json and report.html; default: target/grade/NAME
-    #[arg(long, value_name = "FOLDER")]
-    pub out: Option<PathBuf>,
-
-    /// Exit with code 1 if the score is below POINTS
-    #[arg(long, value_name = "POINTS")]
-    pub require: Option<u32>,
-
     /// Grade one task only, and write no score
     #[arg(long, value_name = "TASK", value_parser = parse_task)]
     pub task: Option<Task>,
@@ -40,77 +61,140 @@ pub struct Arguments {
     #[arg(long, value_name = "ITEM#N", conflicts_with_all = ["task", "require", "out"])]
     pub replay: Option<QuestionRef>,
 
+    /// If a known mistake is recognised, show its full hint instead of a nudge
+    #[arg(long)]
+    pub hints: bool,
+
     /// Grade again whenever a file is saved, starting with what failed; stop with Ctrl-C
     #[arg(long, conflicts_with_all = ["replay", "require"])]
     pub watch: bool,
 
-    /// Block items that depend on a failed task, as on a student's machine, instead of grading them
-    /// with the reference's parts
-    #[arg(long)]
-    pub no_reference: bool,
-
-    /// Treat the code as untrusted: run it in a sandbox, or refuse to grade it
-    #[arg(long)]
-    pub untrusted: bool,
-
-    /// Require this isolation level; --untrusted takes the better of full and no-namespaces
-    #[arg(long, value_name = "LEVEL")]
-    pub isolation: Option<Isolation>,
-
-    /// Show the compiler, the available isolation levels, and what is missing on this machine
-    #[arg(long)]
-    pub doctor: bool,
-
-    /// With --doctor: check a package for Gradescope, classroom50 or GitHub instead, as the
-    /// platform will see it
-    #[arg(long, value_name = "FILE", requires = "doctor")]
-    pub package: Option<PathBuf>,
-
-    /// If a known mistake is recognised, show its full hint instead of a nudge
-    #[arg(long)]
-    pub hints: bool,
+    /// Open the HTML report when it is written
+    #[arg(long, conflicts_with_all = ["task", "replay"])]
+    pub open: bool,
 
     /// Grade again, even if nothing has changed since the last time
     #[arg(long)]
     pub fresh: bool,
 
-    /// Open the HTML report when it is written
-    #[arg(long, conflicts_with_all = ["task", "replay"])]
-    pub open: bool,
+    /// Print at the end how long each step took
+    #[arg(long, conflicts_with_all = ["replay", "watch"])]
+    pub timings: bool,
+
+    /// Show the compiler, the available isolation levels, and what is missing on this machine
+    #[arg(long)]
+    pub doctor: bool,
+
+    /// The exam file, or - for standard input; default: the practice exam
+    #[arg(long, value_name = "FILE", help_heading = STAFF_OPTIONS)]
+    pub exam: Option<PathBuf>,
+
+    /// The folder for score.json and report.html; default: target/grade/NAME
+    #[arg(long, value_name = "FOLDER", help_heading = STAFF_OPTIONS)]
+    pub out: Option<PathBuf>,
+
+    /// Exit with code 1 if the score is below POINTS
+    #[arg(long, value_name = "POINTS", help_heading = STAFF_OPTIONS)]
+    pub require: Option<u32>,
+
+    /// Treat the code as untrusted: run it in a sandbox, or refuse to grade it
+    #[arg(long, help_heading = STAFF_OPTIONS)]
+    pub untrusted: bool,
+
+    /// Require this isolation level; --untrusted takes the better of full and no-namespaces
+    #[arg(long, value_name = "LEVEL", help_heading = STAFF_OPTIONS)]
+    pub isolation: Option<Isolation>,
+
+    /// Block items that depend on a failed task, as on a student's machine, instead of grading them
+    /// with the reference's parts
+    #[arg(long, help_heading = STAFF_OPTIONS)]
+    pub no_reference: bool,
+
+    /// CPU time limit of an item, in seconds
+    #[arg(long, value_name = "SECONDS", help_heading = STAFF_OPTIONS)]
+    #[arg(default_value_t = Budget::DEFAULT_SECONDS, value_parser = value_parser!(u64).range(1..=Budget::MAX_SECONDS))]
+    pub cpu_limit: u64,
+
+    /// The course's policy: how points count and what students see; --policy-default prints the
+    /// default
+    #[arg(long, value_name = "FILE", help_heading = STAFF_OPTIONS)]
+    pub policy: Option<PathBuf>,
+
+    /// Print the default policy, with comments on every key, and exit
+    #[arg(long, help_heading = STAFF_OPTIONS)]
+    pub policy_default: bool,
+
+    /// Gradescope's submission_metadata.json, which has the submission time and the due date for
+    /// the policy's late days
+    #[arg(long, value_name = "FILE", help_heading = STAFF_OPTIONS)]
+    pub gradescope_metadata: Option<PathBuf>,
 
     /// Also write these formats: json, text, html, gradescope, classroom50, junit, github,
     /// github-classroom, check50, prairielearn. They contain what the policy lets students see.
     /// Each is written to =PATH if given, else where the platform expects it, else to the --out
     /// folder
     #[arg(long, value_name = "FORMAT", num_args = 1.., value_delimiter = ',')]
-    #[arg(conflicts_with_all = ["task", "replay", "watch"])]
+    #[arg(conflicts_with_all = ["task", "replay", "watch"], help_heading = STAFF_OPTIONS)]
     pub format: Vec<OutputSpec>,
 
-    /// The course's policy: how points count and what students see; --policy-default prints the
-    /// default
-    #[arg(long, value_name = "FILE")]
-    pub policy: Option<PathBuf>,
-
-    /// Gradescope's submission_metadata.json, which has the submission time and the due date for
-    /// the policy's late days
-    #[arg(long, value_name = "FILE")]
-    pub gradescope_metadata: Option<PathBuf>,
-
-    /// Print the default policy, with comments on every key, and exit
-    #[arg(long)]
-    pub policy_default: bool,
-
-    /// Print at the end how long each step took
-    #[arg(long, conflicts_with_all = ["replay", "watch"])]
-    pub timings: bool,
-
-    /// CPU time limit of an item, in seconds
-    #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=600))]
-    pub cpu_limit: u64,
-
     /// Print the JSON schema of score.json and exit
-    #[arg(long)]
+    #[arg(long, help_heading = STAFF_OPTIONS)]
     pub schema: bool,
+
+    /// With --doctor: check a package for Gradescope, classroom50 or GitHub instead, as the
+    /// platform will see it
+    #[arg(long, value_name = "FILE", requires = "doctor", help_heading = STAFF_OPTIONS)]
+    pub package: Option<PathBuf>,
+}
+
+impl Arguments {
+    /// Returns the command that these arguments select.
+    pub fn resolve(self) -> Command {
+        let isolation = match (self.isolation, self.untrusted) {
+            (Some(level), _) => IsolationRequest::Level(level),
+            (None, true) => IsolationRequest::Untrusted,
+            (None, false) => IsolationRequest::OwnWork,
+        };
+        let options = GradeOptions {
+            submission: self.submission,
+            exam: ExamSource::from_option(self.exam),
+            task: self.task,
+            policy: self.policy,
+            gradescope_metadata: self.gradescope_metadata,
+            dependents: if self.no_reference {
+                Dependents::Block
+            } else {
+                Dependents::SubstituteReference
+            },
+            isolation,
+            budget: Budget::from_seconds(self.cpu_limit),
+            hints: if self.hints {
+                HintDetail::Full
+            } else {
+                HintDetail::Nudge
+            },
+            out: self.out,
+            formats: self.format,
+        };
+        let print = PrintOptions {
+            fresh: self.fresh,
+            open: self.open,
+            timings: self.timings,
+            require: self.require.unwrap_or(0),
+        };
+        match (self.replay, self.package) {
+            _ if self.schema => Command::PrintSchema,
+            _ if self.policy_default => Command::PrintDefaultPolicy,
+            (Some(question), _) => Command::Replay(options, question),
+            (None, Some(package)) => Command::CheckPackage(package),
+            (None, None) if self.doctor => Command::Diagnose,
+            (None, None) if self.watch => Command::Watch {
+                options,
+                open: print.open,
+            },
+            (None, None) => Command::Grade(options, print),
+        }
+    }
 }
 
 fn parse_task(text: &str) -> Result<Task, String> {

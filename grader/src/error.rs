@@ -5,12 +5,12 @@ use std::path::PathBuf;
 
 use crate::build::BuildError;
 use crate::doctor::package::PackageError;
+use crate::exam_source::ExamSourceError;
 use crate::format::outputs::OutputError;
 use crate::policy::{PolicyError, SubmissionTimeError};
 use crate::select_isolation::IsolationError;
 use crate::submission::SubmissionError;
 use crate::workspace::WorkspaceError;
-use judging::exam_file::ExamError;
 
 /// An error that prevents grading.
 #[derive(Debug, thiserror::Error)]
@@ -20,7 +20,7 @@ pub enum Error {
     Submission(#[from] SubmissionError),
     /// The exam cannot be used.
     #[error(transparent)]
-    Exam(#[from] ExamError),
+    Exam(#[from] ExamSourceError),
     /// The policy cannot be used.
     #[error(transparent)]
     Policy(#[from] PolicyError),

@@ -8,12 +8,13 @@
 //!
 //! | layer | modules |
 //! |---|---|
-//! | the job | [`grade`], [`replay`], [`cache_lookup`], [`watch`], [`doctor`] |
+//! | commands | [`cli`], [`terminal`], [`replay`], [`watch`], [`doctor`] |
+//! | the job | [`grade`], [`cache_lookup`]; its [`options`] |
 //! | files of the job | [`cached_report`], [`report_files`] |
 //! | one exam | [`run_exam`], [`verdict`], [`report_answers`], [`report`], [`mod@format`] |
 //! | its steps | [`select_isolation`], [`build`], [`probe`]; [`drawing`] of judged answers |
 //! | results | [`score`], [`rerun_command`], [`stage_times`] |
-//! | inputs | [`policy`], [`submission`], [`given_files`], [`question_ref`] |
+//! | inputs | [`policy`], [`submission`], [`given_files`], [`exam_source`], [`question_ref`] |
 //! | a separate package | [`judging`]: exams, keys and their comparison |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`], [`zipfile`] |
 
@@ -26,9 +27,11 @@ pub mod desktop;
 pub mod doctor;
 pub mod drawing;
 pub mod error;
+pub mod exam_source;
 pub mod format;
 pub mod given_files;
 pub mod grade;
+pub mod options;
 pub mod policy;
 pub mod probe;
 pub mod question_ref;
@@ -44,6 +47,7 @@ pub mod select_isolation;
 pub mod stage_times;
 pub mod submission;
 pub mod system;
+pub mod terminal;
 pub mod verdict;
 pub mod watch;
 pub mod workspace;

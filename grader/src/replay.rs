@@ -2,33 +2,32 @@
 
 use std::fmt::Write;
 
+use judging::describe;
+use judging::exam::{Exam, ExamQuestion};
+use judging::sanitize::sanitize;
 use protocol::{Answer, ElementOutcome, Question};
 
 use crate::build::Builder;
-use crate::cli::Arguments;
 use crate::error::Error;
-use crate::grade::{budget, collect};
+use crate::grade::collect;
+use crate::options::GradeOptions;
 use crate::probe::{Fault, subset};
 use crate::question_ref::QuestionRef;
 use crate::select_isolation::with_requested_level;
 use crate::verdict::file_message;
 use crate::workspace::Workspace;
-use judging::describe;
-use judging::exam::{Exam, ExamQuestion};
-use judging::exam_file;
-use judging::sanitize::sanitize;
 
 /// Maximum length of the printed text that is shown, in characters.
 const MAX_PRINTED_CHARS: usize = 20_000;
 
 /// Runs the question and returns the text for the terminal.
-pub fn replay(arguments: &Arguments, reference: &QuestionRef) -> Result<String, Error> {
+pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String, Error> {
     let workspace = Workspace::find()?;
-    let exam = exam_file::load(arguments.exam.as_deref())?.exam;
+    let exam = options.exam.load()?.exam;
     let (question, wanted) = find_question(&exam, reference)?;
-    let submission = collect(arguments, &workspace)?;
-    let build =
-        with_requested_level(Builder::prepare(&workspace)?, arguments)?.build(&submission)?;
+    let submission = collect(options, &workspace)?;
+    let build = with_requested_level(Builder::prepare(&workspace)?, options.isolation)?
+        .build(&submission)?;
 
     let mut text = String::new();
     for (file, why) in &build.not_compiled {
@@ -37,7 +36,7 @@ pub fn replay(arguments: &Arguments, reference: &QuestionRef) -> Result<String, 
     let Some(program) = &build.probe else {
         return Ok(text);
     };
-    let budget = budget(arguments);
+    let budget = options.budget;
     let mut probe = build.launcher(program).start(budget)?;
     let answered = probe.ask([&question], budget);
     let got = answer_text(answered);

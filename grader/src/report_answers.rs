@@ -3,11 +3,11 @@
 
 use std::collections::BTreeMap;
 
+use judging::exam::Item;
+use judging::picture;
 use protocol::Answer;
 
 use crate::score::{ItemScore, Verdict};
-use judging::exam::Item;
-use judging::picture;
 
 /// The answers to items, by item id.
 #[derive(Clone, Debug, Default)]

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use judging::exam::Exam;
+
 use crate::error::Error;
 use crate::format::outputs::Outputs;
 use crate::report::html::{self, Reload};
 use crate::report::{atomic_write, json};
 use crate::report_answers::ReportAnswers;
 use crate::score::Score;
-use judging::exam::Exam;
 
 /// Minimum time between two writes of the score file during an exam. Most items take a millisecond,
 /// and so does writing a score. A grader that is killed loses no more than this.

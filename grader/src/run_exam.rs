@@ -4,6 +4,10 @@ use std::io;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use judging::exam::{Exam, Item, Task};
+use judging::judge::judge;
+use judging::recognise::Observations;
+use judging::sanitize::sanitize;
 use protocol::Answer;
 
 use crate::build::{Build, SubstitutedProgram};
@@ -13,10 +17,6 @@ use crate::score::{ItemScore, Score, Verdict};
 use crate::verdict::{
     ItemOutcome, add_hints, blocked_score, blocking_item, item_score, substituted_score,
 };
-use judging::exam::{Exam, Item, Task};
-use judging::judge::judge;
-use judging::recognise::Observations;
-use judging::sanitize::sanitize;
 
 /// Maximum number of time-outs in a task. After that, the task's remaining items are skipped.
 const MAX_TIMEOUTS: usize = 2;

@@ -4,15 +4,15 @@
 //! The same submission, exam and toolchain give the same bytes, except for `timings` and
 //! `isolation`.
 
+use judging::exam::Task;
+use judging::exam_file::ExamName;
+use judging::section::Section;
 use serde::Serialize;
 
 use crate::given_files::TASK_FILES;
 use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
 use crate::stage_times::StageTimes;
-use judging::exam::Task;
-use judging::exam_file::ExamName;
-use judging::section::Section;
 
 /// Version of the format.
 pub const SCHEMA_VERSION: u32 = 1;

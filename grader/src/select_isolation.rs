@@ -4,7 +4,6 @@
 use std::fmt::Write;
 
 use crate::build::{Builder, SelfTestError};
-use crate::cli::Arguments;
 use crate::sandbox::{Isolation, Sandbox};
 
 /// The minimum level for other people's code, unless another level is requested.
@@ -31,19 +30,31 @@ pub enum IsolationError {
     },
 }
 
+/// The requested isolation of a submission's code.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum IsolationRequest {
+    /// None, for one's own work.
+    #[default]
+    OwnWork,
+    /// The best available level that is good enough for other people's code.
+    Untrusted,
+    /// This level.
+    Level(Isolation),
+}
+
 const ADVICE: &str = "see `cargo grade --doctor`; to grade your own work, leave out --untrusted";
 
-/// Returns the builder with the isolation that the command line requests, after testing it. If it
-/// requests none, as for your own work, the builder is returned unchanged.
+/// Returns the builder with the requested isolation, after testing it. Without a request, as for
+/// your own work, the builder is returned unchanged.
 pub fn with_requested_level(
     builder: Builder,
-    arguments: &Arguments,
+    request: IsolationRequest,
 ) -> Result<Builder, IsolationError> {
-    match (arguments.isolation, arguments.untrusted) {
-        (Some(level), _) => with_level(&builder, level)
+    match request {
+        IsolationRequest::OwnWork => Ok(builder),
+        IsolationRequest::Untrusted => with_best_level(&builder),
+        IsolationRequest::Level(level) => with_level(&builder, level)
             .map_err(|why| IsolationError::LevelUnavailable { level, why }),
-        (None, true) => with_best_level(&builder),
-        (None, false) => Ok(builder),
     }
 }
 

@@ -1,5 +1,13 @@
 //! Turns the outcome of an item into its score. This module is pure.
 
+use judging::describe;
+use judging::exam::{Exam, Item, Task};
+use judging::exam_file::ExamName;
+use judging::judge::{Credit, Failure, FailureKind, Judgement};
+use judging::sanitize::sanitize;
+use judging::section::Section;
+use judging::signatures::KnownMistake;
+
 use crate::build::NotCompiled;
 use crate::probe::Fault;
 use crate::rerun_command::RerunCommand;
@@ -8,13 +16,6 @@ use crate::score::{
     BuildReport, CodeLocation, Evidence, Hint, ItemScore, SCHEMA_VERSION, Score, TaskScore,
     Timings, Verdict,
 };
-use judging::describe;
-use judging::exam::{Exam, Item, Task};
-use judging::exam_file::ExamName;
-use judging::judge::{Credit, Failure, FailureKind, Judgement};
-use judging::sanitize::sanitize;
-use judging::section::Section;
-use judging::signatures::KnownMistake;
 
 /// Maximum length of a student's or the compiler's text in a message, in characters.
 const MAX_TEXT_CHARS: usize = 2_000;

@@ -1,10 +1,13 @@
 //! The command line of `cargo class`.
 
-use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, value_parser};
+use grader::exam_source::ExamSource;
+use grader::options::{Dependents, GradeOptions};
+use grader::probe::Budget;
 use grader::sandbox::Isolation;
+use grader::select_isolation::IsolationRequest;
 
 use crate::shard::Shard;
 
@@ -62,12 +65,12 @@ pub struct ClassArguments {
     pub shard: Option<Shard>,
 
     /// Number of submissions to grade at a time; default: one per core
-    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=512))]
+    #[arg(long, value_name = "COUNT", value_parser = value_parser!(u16).range(1..=512))]
     pub jobs: Option<u16>,
 
     /// The options for grading each submission.
     #[command(flatten)]
-    pub grading: GradingOptions,
+    pub grading: GradingArguments,
 
     /// The roster and the gradebooks.
     #[command(flatten)]
@@ -76,7 +79,7 @@ pub struct ClassArguments {
 
 /// Options for grading each submission, with the meaning that they have in `cargo grade`.
 #[derive(Clone, Debug, Args)]
-pub struct GradingOptions {
+pub struct GradingArguments {
     /// Exam file; default: the practice exam
     #[arg(long, value_name = "FILE")]
     pub exam: Option<PathBuf>,
@@ -86,7 +89,7 @@ pub struct GradingOptions {
     pub policy: Option<PathBuf>,
 
     /// CPU time limit per item, in seconds
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = value_parser!(u64).range(1..=Budget::MAX_SECONDS))]
     pub cpu_limit: Option<u64>,
 
     /// Level of isolation of submissions from this machine; default: full if the machine supports
@@ -144,27 +147,25 @@ pub struct MergeArguments {
     pub lists: Lists,
 }
 
-impl GradingOptions {
-    /// Returns the equivalent command line of `cargo grade`, so that its defaults apply here too.
-    pub fn to_arguments(&self) -> Vec<OsString> {
-        let mut arguments: Vec<OsString> = vec!["cargo grade".into()];
-        let files = [("--exam", &self.exam), ("--policy", &self.policy)];
-        for (option, file) in files {
-            if let Some(file) = file {
-                arguments.extend([option.into(), file.into()]);
-            }
+impl GradingArguments {
+    /// Returns the options for grading each submission.
+    pub fn resolve(&self) -> GradeOptions {
+        GradeOptions {
+            exam: ExamSource::from_option(self.exam.clone()),
+            policy: self.policy.clone(),
+            dependents: if self.no_reference {
+                Dependents::Block
+            } else {
+                Dependents::SubstituteReference
+            },
+            isolation: self
+                .isolation
+                .map_or(IsolationRequest::Untrusted, IsolationRequest::Level),
+            budget: self
+                .cpu_limit
+                .map_or(Budget::default(), Budget::from_seconds),
+            ..GradeOptions::default()
         }
-        if let Some(limit) = self.cpu_limit {
-            arguments.extend(["--cpu-limit".into(), limit.to_string().into()]);
-        }
-        match self.isolation {
-            Some(level) => arguments.extend(["--isolation".into(), level.name().into()]),
-            None => arguments.push("--untrusted".into()),
-        }
-        if self.no_reference {
-            arguments.push("--no-reference".into());
-        }
-        arguments
     }
 }
 

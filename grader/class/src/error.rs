@@ -32,9 +32,6 @@ pub enum Error {
     /// The policy cannot be used.
     #[error(transparent)]
     Policy(#[from] PolicyError),
-    /// The options for `cargo grade` are invalid.
-    #[error("{0}")]
-    Arguments(clap::Error),
     /// The output folder has scores that depend on other settings.
     #[error(
         "{} has scores that cannot be compared with new ones: {} changed; use --regrade to grade \
@@ -107,7 +104,6 @@ impl Error {
             Error::Input(_)
             | Error::List(_)
             | Error::Policy(_)
-            | Error::Arguments(_)
             | Error::SettingsChanged { .. }
             | Error::NothingToRegrade(_)
             | Error::NotAShard(_)

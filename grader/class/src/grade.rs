@@ -3,17 +3,16 @@
 use std::env;
 use std::fs;
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::thread;
 
-use clap::Parser;
-use grader::cli::Arguments;
 use grader::error::Error as GraderError;
 use grader::grade::Grader;
+use grader::options::GradeOptions;
 use grader::policy::PolicyError;
 use grader::workspace::Workspace;
 
-use crate::cli::{ClassArguments, GradingOptions, Lists};
+use crate::cli::{ClassArguments, Lists};
 use crate::drift::{Drift, compare_scores};
 use crate::entry::{Entry, EntryInfo, Person};
 use crate::entry_grader::EntryGrader;
@@ -61,12 +60,11 @@ pub fn grade_class(arguments: &ClassArguments) -> Result<Completion, Error> {
         return Ok(Completion::Complete);
     };
 
-    let grade_arguments = arguments.grading.to_arguments();
-    let grade_arguments = Arguments::try_parse_from(grade_arguments).map_err(Error::Arguments)?;
-    let grader = Grader::for_many(&grade_arguments)?;
+    let options = arguments.grading.resolve();
+    let grader = Grader::for_many(&options)?;
     let store = Store::new(out);
-    let settings = settings(&grader, &arguments.grading)?;
-    let policy = policy_text(&arguments.grading)?;
+    let settings = settings(&grader, &options)?;
+    let policy = policy_text(options.policy.as_deref())?;
     if store.read_run()?.is_some_and(|run| run.policy != policy) {
         anstream::eprintln!("the policy differs from the last run's, so final points may change");
     }
@@ -124,7 +122,7 @@ fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
 }
 
 /// Returns everything that scores depend on, apart from the submissions.
-fn settings(grader: &Grader, grading: &GradingOptions) -> Result<Settings, Error> {
+fn settings(grader: &Grader, options: &GradeOptions) -> Result<Settings, Error> {
     let exam = grader.exam_name();
     // The executable itself is hashed: any change to it, such as a build with another compiler, may
     // change a score.
@@ -136,22 +134,42 @@ fn settings(grader: &Grader, grading: &GradingOptions) -> Result<Settings, Error
         grader: blake2b_simd::blake2b(&program).to_hex()[..32].to_owned(),
         built_with: grader.builder_identity(),
         isolation: grader.isolation().to_string(),
-        options: format!(
-            "cpu_limit={:?} no_reference={}",
-            grading.cpu_limit, grading.no_reference
-        ),
+        options: options_of_scores(options),
     })
 }
 
+/// Returns the options that scores depend on, as text. Those with a setting of their own, and those
+/// that `cargo class` does not have, are left out.
+fn options_of_scores(options: &GradeOptions) -> String {
+    // Without `..`, so that it does not compile before a new option is considered here.
+    let GradeOptions {
+        dependents,
+        budget,
+        // settings of their own
+        exam: _,
+        isolation: _,
+        // applied to finished scores, apart from what students may see, which the cache key has
+        policy: _,
+        // options of a single submission
+        submission: _,
+        task: _,
+        gradescope_metadata: _,
+        hints: _,
+        out: _,
+        formats: _,
+    } = options;
+    format!("{dependents:?} {budget:?}")
+}
+
 /// Returns the text of the policy file, which has already been parsed successfully.
-fn policy_text(grading: &GradingOptions) -> Result<Option<String>, PolicyError> {
-    let read = |path: &PathBuf| {
+fn policy_text(path: Option<&Path>) -> Result<Option<String>, PolicyError> {
+    let read = |path: &Path| {
         fs::read_to_string(path).map_err(|source| PolicyError::Io {
-            path: path.clone(),
+            path: path.to_owned(),
             source,
         })
     };
-    grading.policy.as_ref().map(read).transpose()
+    path.map(read).transpose()
 }
 
 /// Returns the run to resume or to start. Scores that depend on other settings are never mixed with

@@ -1,9 +1,6 @@
-//! Reads exam files from disk or standard input, or the practice exam that is embedded in this
-//! program. An invalid exam is rejected before any question is sent.
+//! Parses and validates exam files. An invalid exam is rejected before any question is sent.
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use glam::UVec2;
@@ -16,10 +13,6 @@ use crate::exam::{Exam, Item, Key};
 const SCHEMA_VERSION: u32 = 1;
 /// Maximum number of pixels along one side of a picture. The committed exams use 64.
 const MAX_PICTURE_SIDE: u32 = 4096;
-/// Maximum size of an exam file, in bytes. The committed exams have about 3,000,000.
-const MAX_FILE_BYTES: u64 = 64 << 20;
-
-const PRACTICE: &str = include_str!("../../exams/practice.json");
 
 /// An exam and the hash of its file.
 #[derive(Clone, Debug)]
@@ -53,17 +46,6 @@ impl ExamFile {
 /// Reasons why an exam cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum ExamError {
-    /// The file cannot be read.
-    #[error("cannot read the exam {path}: {source}")]
-    Io {
-        /// Path of the exam.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
-    /// The file is larger than the limit.
-    #[error("the exam {0} is larger than 64 MiB")]
-    TooLong(PathBuf),
     /// The file is not JSON, or not an exam.
     #[error(
         "the exam {path} is not valid: {source}; `cargo author exam --seed S` writes a valid one"
@@ -86,43 +68,9 @@ pub enum ExamError {
     },
 }
 
-/// Reads the exam at `path`, or from standard input if `path` is `-`. Without a path, returns the
-/// practice exam.
-pub fn load(path: Option<&Path>) -> Result<ExamFile, ExamError> {
-    match path {
-        None => parse(Path::new("practice.json"), PRACTICE.as_bytes()),
-        Some(path) => parse(path, &read(path)?),
-    }
-}
-
-/// Returns the hash of the exam at `path`, which need not be valid. Without a path, returns the
-/// hash of the practice exam.
-pub fn hash(path: Option<&Path>) -> Result<String, ExamError> {
-    Ok(match path {
-        None => hash_of(PRACTICE.as_bytes()),
-        Some(path) => hash_of(&read(path)?),
-    })
-}
-
-fn hash_of(bytes: &[u8]) -> String {
+/// Returns the hash of an exam file's bytes, which need not be a valid exam.
+pub fn hash(bytes: &[u8]) -> String {
     blake2b_simd::blake2b(bytes).to_hex()[..32].to_owned()
-}
-
-fn read(path: &Path) -> Result<Vec<u8>, ExamError> {
-    let mut bytes = Vec::new();
-    let read = match path.to_str() {
-        Some("-") => io::stdin().take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes),
-        Some(_) | None => fs::File::open(path)
-            .and_then(|file| file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)),
-    };
-    read.map_err(|source| ExamError::Io {
-        path: path.to_owned(),
-        source,
-    })?;
-    if bytes.len() as u64 > MAX_FILE_BYTES {
-        return Err(ExamError::TooLong(path.to_owned()));
-    }
-    Ok(bytes)
 }
 
 /// Parses and validates the bytes of an exam file. `path` is used in error messages only.
@@ -139,7 +87,7 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, ExamError> {
     }
     Ok(ExamFile {
         exam,
-        hash: hash_of(bytes),
+        hash: hash(bytes),
     })
 }
 
@@ -300,6 +248,8 @@ fn match_key(question: &Question, key: &Key) -> (bool, usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const PRACTICE: &str = include_str!("../../exams/practice.json");
 
     /// Keys of exam files, and the former name of each key, which existing final exams still use.
     const FORMER_KEYS: [(&str, &str); 12] = [

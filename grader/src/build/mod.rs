@@ -22,6 +22,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use judging::exam::Task;
+
 use crate::build::blame::{blame, blame_all, unusable_files};
 use crate::build::build_dir::{BuildDir, remove_abandoned};
 use crate::build::compile::compile;
@@ -34,7 +36,6 @@ use crate::given_files::{TASK_FILES, TaskFile};
 use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, TaskFileError};
 use crate::workspace::Workspace;
-use judging::exam::Task;
 
 pub use crate::build::blame::NotCompiled;
 pub use crate::build::program_cache::ContentHash;

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use crate::doctor::package_contents::{POLICY, PackageContents, policy_problem, read_package};
+use crate::exam_source::ExamSource;
 use crate::given_files::TASK_FILES;
-use judging::exam_file;
 
 /// The script that classroom50 runs, and the zip that the script unpacks.
 const CLASSROOM50: [&str; 2] = ["autograder.py", "pathtracing.zip"];
@@ -74,7 +74,7 @@ fn classroom50_problems(path: &Path) -> Vec<String> {
 fn grader_zip_problems(contents: &PackageContents) -> Vec<String> {
     let mut problems = contents.damage_problems();
     problems.extend(contents.empty_folder_problems(&REQUIRED_FOLDERS, "classroom50"));
-    match (contents.bytes_of(POLICY), exam_file::load(None)) {
+    match (contents.bytes_of(POLICY), ExamSource::Practice.load()) {
         (Some(policy), Ok(practice)) => problems.extend(policy_problem(policy, &practice.exam)),
         (_, Err(error)) => problems.push(error.to_string()),
         (None, _) => problems.push(format!(

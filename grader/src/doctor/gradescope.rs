@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use judging::exam_file::{self, ExamFile};
+
 use crate::doctor::package_contents::{
     EXAM, GRADE, POLICY, PackageContents, SCRIPTS, policy_problem,
 };
-use judging::exam_file::{self, ExamFile};
 
 /// The folders from which the grader and the solution are built.
 const REQUIRED_FOLDERS: [&str; 4] = [

@@ -5,11 +5,11 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use judging::exam::Exam;
 use rawzip::FileReader;
 
 use crate::policy::Policy;
 use crate::zipfile::{Zip, ZipError};
-use judging::exam::Exam;
 
 /// The scripts that Gradescope runs, at the root of the zip.
 pub(super) const SCRIPTS: [&str; 2] = ["setup.sh", "run_autograder"];

@@ -1,6 +1,7 @@
 //! A ray through many primitives. They would hide each other, so only distances along the ray are
 //! drawn.
 
+use judging::describe;
 use protocol::Interval;
 
 use super::Drawing;
@@ -8,7 +9,6 @@ use super::bars::{self, BarRow, BarStyle};
 use super::hit_comparison::{HitAnswer, HitComparison};
 use super::ink::LineStyle;
 use super::sheet::{Sheet, Symbol};
-use judging::describe;
 
 /// Draws the range of the ray, and the part of the ray before the expected and the submitted hit.
 pub(super) fn draw(comparison: &HitComparison) -> Drawing {

@@ -3,6 +3,8 @@
 //! stores these intervals.
 
 use glam::{DVec2, DVec3, Vec3, dvec2};
+use judging::describe;
+use judging::drawing_data::DrawingData;
 use protocol::{Answer, ElementOutcome, Interval, Ray};
 
 use super::Drawing;
@@ -12,8 +14,6 @@ use super::ink::{Fill, Ink, LineStyle};
 use super::sheet::{Sheet, Symbol};
 use super::sphere;
 use super::window::Window;
-use judging::describe;
-use judging::drawing_data::DrawingData;
 
 /// A question about one ray and one box.
 #[derive(Clone, Copy, Debug)]

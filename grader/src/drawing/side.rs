@@ -1,6 +1,7 @@
 //! A ray from the side: it points to the right, and distances along it are to scale.
 
 use glam::{DVec2, DVec3, dvec2};
+use judging::describe;
 
 use super::canvas::{Canvas, Mark};
 use super::hit_comparison::{Focus, HitAnswer, HitComparison};
@@ -8,7 +9,6 @@ use super::ink::{Ink, LineStyle};
 use super::numbers::{point, short};
 use super::sheet::{Sheet, Symbol};
 use super::window::{Window, extent};
-use judging::describe;
 
 /// A plane through a ray. The ray points to the right.
 #[derive(Clone, Copy, Debug)]

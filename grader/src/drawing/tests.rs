@@ -3,20 +3,21 @@
 use std::sync::LazyLock;
 
 use glam::{Vec2, Vec3};
+use judging::exam::ExamQuestion;
 use proptest::prelude::*;
 use protocol::{Answer, ElementOutcome, Interval, Panic, Question, Ray, Trace, Tree, TreeNode};
 use roxmltree::Document;
 
 use super::{Drawing, draw};
-use judging::exam::ExamQuestion;
-use judging::exam_file;
+use crate::exam_source::ExamSource;
 
 /// A size that no drawing reaches.
 const MAX_BYTES: usize = 130_000;
 
 /// The first question of each item of the practice exam.
 static QUESTIONS: LazyLock<Vec<ExamQuestion>> = LazyLock::new(|| {
-    let exam = exam_file::load(None)
+    let exam = ExamSource::Practice
+        .load()
         .expect("the practice exam is embedded")
         .exam;
     let items = exam.items.into_iter();

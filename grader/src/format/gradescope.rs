@@ -4,6 +4,7 @@
 //! Gradescope applies a test's `visibility` itself, and hides the total while a test is hidden. So
 //! hidden items are listed one by one here.
 
+use judging::exam::Task;
 use serde_json::{Map, Value, json};
 
 use crate::format::item_text::{build_report, headline, item_text};
@@ -11,7 +12,6 @@ use crate::format::size::{fit, truncate};
 use crate::format::{FormatContext, ItemView, StudentView};
 use crate::policy::Visibility;
 use crate::score::Verdict;
-use judging::exam::Task;
 
 /// The maximum size in bytes. Gradescope documents no limit; similar platforms truncate at half
 /// this size.

@@ -1,9 +1,11 @@
 //! Plain text about an item, for platforms that show only text.
 
+use judging::section::Section;
+
 use crate::format::{FormatContext, StudentView};
 use crate::policy::CountedPoints;
+use crate::report::text::HintDetail;
 use crate::score::{Hint, ItemScore, Verdict};
-use judging::section::Section;
 
 /// The id of the exam that students can run themselves.
 const PRACTICE: &str = "practice";
@@ -46,7 +48,7 @@ pub fn item_message(item: &ItemScore) -> String {
 
 fn hint_text(hints: &[Hint], context: &FormatContext) -> Option<String> {
     let text = |hint: &Hint| {
-        if context.full_hints {
+        if context.hints == HintDetail::Full {
             hint.hint.clone()
         } else {
             hint.nudge.clone()

@@ -18,10 +18,10 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::ValueEnum;
+use judging::exam::Task;
 
 use crate::report::html;
 use crate::report::text::{HintDetail, report};
-use judging::exam::Task;
 
 pub use student_view::{ItemView, StudentView};
 
@@ -69,8 +69,8 @@ pub struct FormatContext {
     pub method_lines: BTreeMap<Task, u32>,
     /// The environment variables with which the platform describes the submission.
     pub variables: BTreeMap<&'static str, String>,
-    /// Whether to print full hints instead of nudges.
-    pub full_hints: bool,
+    /// The level of detail of hints.
+    pub hints: HintDetail,
 }
 
 impl Format {
@@ -125,12 +125,7 @@ impl Format {
 
 /// Renders the terminal report without colours.
 fn terminal_report(view: &StudentView, context: &FormatContext) -> String {
-    let hints = if context.full_hints {
-        HintDetail::Full
-    } else {
-        HintDetail::Nudge
-    };
-    let report = report(&view.visible, None, hints);
+    let report = report(&view.visible, None, context.hints);
     let mut text = anstream::adapter::strip_str(&report).to_string();
     if let Some(unfinished) = view.unfinished_notice() {
         text.push_str(&format!("  {unfinished}\n"));

@@ -7,12 +7,14 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use judging::exam::Task;
+
 use crate::format::github::annotations;
 use crate::format::{Format, FormatContext, OutputSpec, StudentView};
 use crate::given_files::TASK_FILES;
 use crate::report::atomic_write;
+use crate::report::text::HintDetail;
 use crate::submission::Submission;
-use judging::exam::Task;
 
 /// The folders of a checkout that may contain the task files, in the order of the search.
 const TASK_FILE_FOLDERS: [&str; 3] = ["", "src", "student/src"];
@@ -67,7 +69,7 @@ impl Outputs {
         folder: &Path,
         submitted: &Path,
         submission: &Submission,
-        full_hints: bool,
+        hints: HintDetail,
     ) -> Result<Self, OutputError> {
         let mut outputs = Outputs {
             files: Vec::new(),
@@ -75,7 +77,7 @@ impl Outputs {
                 folder: folder_in_checkout(submitted),
                 method_lines: find_method_lines(submission),
                 variables: BTreeMap::new(),
-                full_hints,
+                hints,
             },
         };
         for spec in specs {

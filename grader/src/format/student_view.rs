@@ -1,9 +1,10 @@
 //! The part of a score that students may see. All formats are rendered from it.
 
+use judging::exam::Task;
+
 use crate::policy::{CountedPoints, Lateness, Policy, Visibility};
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
-use judging::exam::Task;
 
 /// A score without what the policy hides, and without notes for staff.
 #[derive(Clone, Debug)]

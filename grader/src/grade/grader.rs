@@ -6,13 +6,16 @@ use std::path::Path;
 use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
+use judging::exam::Exam;
+use judging::exam_file::{ExamFile, ExamName};
+
 use super::build_report::build_report;
-use super::resolve::{budget, builder, collect, default_folder, lateness, policy, submission_path};
+use super::resolve::{builder, collect, default_folder, lateness, policy, submission_path};
 use crate::build::{Build, BuildError, Builder, NotCompiled};
-use crate::cli::Arguments;
 use crate::error::Error;
 use crate::format::StudentView;
 use crate::format::outputs::{OutputError, Outputs};
+use crate::options::GradeOptions;
 use crate::policy::{Lateness, Policy};
 use crate::report::html::Reload;
 use crate::report_answers::ReportAnswers;
@@ -25,12 +28,10 @@ use crate::select_isolation::with_requested_level;
 use crate::submission::Submission;
 use crate::verdict::pending_score;
 use crate::workspace::Workspace;
-use judging::exam::Exam;
-use judging::exam_file::{self, ExamFile, ExamName};
 
 /// Everything that grading needs and that stays the same between versions of a submission.
 pub struct Grader<'a> {
-    arguments: &'a Arguments,
+    options: &'a GradeOptions,
     workspace: Workspace,
     exam: Exam,
     exam_name: ExamName,
@@ -75,29 +76,29 @@ impl BuiltSubmission {
 
 impl<'a> Grader<'a> {
     /// Loads the exam, and prepares the builder.
-    pub fn prepare(arguments: &'a Arguments) -> Result<Self, Error> {
+    pub fn prepare(options: &'a GradeOptions) -> Result<Self, Error> {
         let workspace = Workspace::find()?;
-        let file = exam_file::load(arguments.exam.as_deref())?;
+        let file = options.exam.load()?;
         // A missing submission is reported before anything is compiled.
-        collect(arguments, &workspace)?;
-        let builder = with_requested_level(builder(arguments, &workspace)?, arguments)?;
-        Grader::new(arguments, workspace, builder, file)
+        collect(options, &workspace)?;
+        let builder = with_requested_level(builder(options, &workspace)?, options.isolation)?;
+        Grader::new(options, workspace, builder, file)
     }
 
     /// Loads the exam, prepares the builder and builds one submission. Reading the exam takes a
     /// tenth of the time of compiling, so the two run in parallel.
     pub(super) fn prepare_and_build(
-        arguments: &'a Arguments,
+        options: &'a GradeOptions,
         report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
     ) -> Result<(Self, Submission, BuiltSubmission), Error> {
         let workspace = Workspace::find()?;
-        let submission = collect(arguments, &workspace)?;
+        let submission = collect(options, &workspace)?;
         let (builder, built, file) = thread::scope(|scope| {
-            let reading = scope.spawn(|| exam_file::load(arguments.exam.as_deref()));
+            let reading = scope.spawn(|| options.exam.load());
             let read = |reading: ScopedJoinHandle<'_, _>| {
                 reading.join().expect("reading the exam does not panic")
             };
-            let builder = with_requested_level(builder(arguments, &workspace)?, arguments)?;
+            let builder = with_requested_level(builder(options, &workspace)?, options.isolation)?;
             // In the first run, preparing the builder takes longer than reading the exam. Then an
             // invalid exam is reported before the submission is compiled.
             let (built, file) = if reading.is_finished() {
@@ -112,31 +113,31 @@ impl<'a> Grader<'a> {
             };
             Ok::<_, Error>((builder, built, file))
         })?;
-        let grader = Grader::new(arguments, workspace, builder, file)?;
+        let grader = Grader::new(options, workspace, builder, file)?;
         Ok((grader, submission, built))
     }
 
     /// Prepares a grader without a submission of its own, for callers that grade several
     /// submissions.
-    pub fn for_many(arguments: &'a Arguments) -> Result<Self, Error> {
-        let file = exam_file::load(arguments.exam.as_deref())?;
+    pub fn for_many(options: &'a GradeOptions) -> Result<Self, Error> {
+        let file = options.exam.load()?;
         let workspace = Workspace::find()?;
-        let builder = with_requested_level(builder(arguments, &workspace)?, arguments)?;
-        Grader::new(arguments, workspace, builder, file)
+        let builder = with_requested_level(builder(options, &workspace)?, options.isolation)?;
+        Grader::new(options, workspace, builder, file)
     }
 
     fn new(
-        arguments: &'a Arguments,
+        options: &'a GradeOptions,
         workspace: Workspace,
         builder: Builder,
         file: ExamFile,
     ) -> Result<Self, Error> {
-        let policy = policy(arguments, &file.exam)?;
+        let policy = policy(options, &file.exam)?;
         Ok(Grader {
-            arguments,
-            lateness: lateness(arguments, &policy)?,
+            options,
+            lateness: lateness(options, &policy)?,
             exam_name: file.name(),
-            exam: match arguments.task {
+            exam: match options.task {
                 Some(task) => file.exam.with_needed_items(|item| item.task == task),
                 None => file.exam,
             },
@@ -158,8 +159,8 @@ impl<'a> Grader<'a> {
         submission: &Submission,
         folder: &Path,
     ) -> Result<Outputs, OutputError> {
-        let submitted = submission_path(self.arguments, &self.workspace);
-        let (formats, hints) = (&self.arguments.format, self.arguments.hints);
+        let submitted = submission_path(self.options, &self.workspace);
+        let (formats, hints) = (&self.options.formats, self.options.hints);
         Outputs::new(formats, folder, &submitted, submission, hints)
     }
 
@@ -184,15 +185,15 @@ impl<'a> Grader<'a> {
         &self.policy
     }
 
-    /// Returns the exam. With `--task`, it contains only the items of one task and those that they
-    /// need.
+    /// Returns the exam. If only one task is graded, it contains the items of that task and those that
+    /// they need.
     pub fn exam(&self) -> &Exam {
         &self.exam
     }
 
     /// Reads the submission's files as they are now.
     pub fn collect(&self) -> Result<Submission, Error> {
-        collect(self.arguments, &self.workspace)
+        collect(self.options, &self.workspace)
     }
 
     /// Builds a submission. Files that do not compile are replaced by the starter's.
@@ -204,8 +205,8 @@ impl<'a> Grader<'a> {
     pub fn pending_score(&self, submission: &Submission, built: &BuiltSubmission) -> Score {
         let mut score = pending_score(&self.exam, self.exam_name.clone(), &submission.name);
         score.rerun_command = RerunCommand {
-            submission: self.arguments.submission.clone(),
-            exam: self.arguments.exam.clone(),
+            submission: self.options.submission.clone(),
+            exam: self.options.exam.option().map(Path::to_owned),
         };
         score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
@@ -224,26 +225,21 @@ impl<'a> Grader<'a> {
         mut progress: impl FnMut(&Score, &ReportAnswers) -> Result<(), E>,
     ) -> Result<(), E> {
         let started_at = Instant::now();
-        let budget = budget(self.arguments);
+        let budget = self.options.budget;
         run_exam(exam, &built.build, budget, score, |score, answers| {
             score.timings.exam_ms = millis(started_at.elapsed());
             progress(score, answers)
         })
     }
 
-    /// Returns the report's files, or `None` with `--task`, since one task's points are not a
-    /// score.
-    pub fn files(&self, submission: &Submission) -> Option<ReportFiles> {
-        let folder = match &self.arguments.out {
+    /// Returns the report's files, or `None` if only one task is graded, since one task's points are
+    /// not a score.
+    pub fn files(&self, submission: &Submission, reload: Reload) -> Option<ReportFiles> {
+        let folder = match &self.options.out {
             Some(folder) => folder.clone(),
             None => default_folder(&self.workspace, submission),
         };
-        let reload = if self.arguments.watch {
-            Reload::WhileUnfocused
-        } else {
-            Reload::Never
-        };
-        match self.arguments.task {
+        match self.options.task {
             Some(_) => None,
             None => Some(ReportFiles::new(&folder, reload)),
         }

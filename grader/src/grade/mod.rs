@@ -1,4 +1,4 @@
-//! Grades a submission, from the command line to the score.
+//! Grades a submission, from options to the score.
 
 mod build_report;
 mod grader;
@@ -9,15 +9,16 @@ use std::time::{Duration, Instant};
 
 use crate::build::NotCompiled;
 use crate::cached_report::CacheKey;
-use crate::cli::Arguments;
 use crate::error::Error;
 use crate::format::StudentView;
+use crate::options::GradeOptions;
+use crate::report::html::Reload;
 use crate::report_files::ReportFiles;
 use crate::score::Score;
 use crate::verdict::file_message;
 
 pub use grader::{BuiltSubmission, Grader};
-pub use resolve::{budget, builder, collect, default_folder};
+pub use resolve::{builder, collect, default_folder};
 
 /// The score of a submission, and the files to which it was written.
 #[derive(Debug)]
@@ -42,20 +43,20 @@ impl GradedSubmission {
     }
 }
 
-/// Grades the submission that the command line names, and writes its reports.
-pub fn grade(arguments: &Arguments) -> Result<GradedSubmission, Error> {
+/// Grades the submission that the options name, and writes its reports.
+pub fn grade(options: &GradeOptions) -> Result<GradedSubmission, Error> {
     let started_at = Instant::now();
     let print_errors = print_compile_errors();
-    let (grader, submission, built) = Grader::prepare_and_build(arguments, print_errors)?;
+    let (grader, submission, built) = Grader::prepare_and_build(options, print_errors)?;
     let prepared = started_at.elapsed().saturating_sub(built.took());
     let exam = grader.exam();
-    let mut files = grader.files(&submission);
+    let mut files = grader.files(&submission, Reload::Never);
     if let Some(files) = &mut files {
         files.outputs = grader.outputs(&submission, &files.folder)?;
     }
     let mut score = grader.pending_score(&submission, &built);
     let key = CacheKey::new(
-        arguments,
+        options,
         &submission,
         &score.exam.hash,
         &grader.builder_identity(),

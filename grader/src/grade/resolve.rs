@@ -1,21 +1,20 @@
-//! Finds the files and settings that the command line refers to.
+//! Finds the files and settings that the options refer to.
 
 use std::path::PathBuf;
-use std::time::Duration;
 
-use crate::build::{BuildError, Builder};
-use crate::cli::Arguments;
-use crate::error::Error;
-use crate::policy::{Lateness, Policy, PolicyError, SubmissionTime, SubmissionTimeError};
-use crate::probe::Budget;
-use crate::submission::Submission;
-use crate::workspace::Workspace;
 use judging::exam::Exam;
 use judging::sanitize::safe_folder_name;
 
-/// Returns the policy that the command line names, or the default.
-pub(super) fn policy(arguments: &Arguments, exam: &Exam) -> Result<Policy, PolicyError> {
-    let Some(path) = &arguments.policy else {
+use crate::build::{BuildError, Builder};
+use crate::error::Error;
+use crate::options::{Dependents, GradeOptions};
+use crate::policy::{Lateness, Policy, PolicyError, SubmissionTime, SubmissionTimeError};
+use crate::submission::Submission;
+use crate::workspace::Workspace;
+
+/// Returns the policy that the options name, or the default.
+pub(super) fn policy(options: &GradeOptions, exam: &Exam) -> Result<Policy, PolicyError> {
+    let Some(path) = &options.policy else {
         return Ok(Policy::default());
     };
     let policy = Policy::read(path)?;
@@ -23,12 +22,12 @@ pub(super) fn policy(arguments: &Arguments, exam: &Exam) -> Result<Policy, Polic
     Ok(policy)
 }
 
-/// Returns how late the submission is, if the command line names the platform's metadata.
+/// Returns how late the submission is, if the options name the platform's metadata.
 pub(super) fn lateness(
-    arguments: &Arguments,
+    options: &GradeOptions,
     policy: &Policy,
 ) -> Result<Lateness, SubmissionTimeError> {
-    let submission_time = arguments
+    let submission_time = options
         .gradescope_metadata
         .as_deref()
         .map(SubmissionTime::read);
@@ -44,33 +43,27 @@ pub fn default_folder(workspace: &Workspace, submission: &Submission) -> PathBuf
         .join(safe_folder_name(&submission.name))
 }
 
-/// Returns the builder. It uses the reference's parts if they exist, unless `--no-reference` is
-/// set.
-pub fn builder(arguments: &Arguments, workspace: &Workspace) -> Result<Builder, BuildError> {
+/// Returns the builder. It uses the reference's parts if they exist and are wanted.
+pub fn builder(options: &GradeOptions, workspace: &Workspace) -> Result<Builder, BuildError> {
     let builder = Builder::prepare(workspace)?;
     match workspace.reference() {
-        Some(reference) if !arguments.no_reference => builder.with_reference(&reference, workspace),
+        Some(reference) if options.dependents == Dependents::SubstituteReference => {
+            builder.with_reference(&reference, workspace)
+        }
         Some(_) | None => Ok(builder),
     }
 }
 
-/// Reads the submission that the command line names.
-pub fn collect(arguments: &Arguments, workspace: &Workspace) -> Result<Submission, Error> {
-    Ok(Submission::collect(&submission_path(arguments, workspace))?)
+/// Reads the submission that the options name.
+pub fn collect(options: &GradeOptions, workspace: &Workspace) -> Result<Submission, Error> {
+    Ok(Submission::collect(&submission_path(options, workspace))?)
 }
 
-/// Returns the path of the submission that the command line names.
-pub(super) fn submission_path(arguments: &Arguments, workspace: &Workspace) -> PathBuf {
-    match &arguments.submission {
+/// Returns the path of the submission that the options name.
+pub(super) fn submission_path(options: &GradeOptions, workspace: &Workspace) -> PathBuf {
+    match &options.submission {
         Some(path) => workspace.resolve(path),
         None => workspace.student(),
-    }
-}
-
-/// Returns the time budget of an item.
-pub fn budget(arguments: &Arguments) -> Budget {
-    Budget {
-        cpu: Duration::from_secs(arguments.cpu_limit),
     }
 }
 

@@ -5,9 +5,10 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use judging::exam::Exam;
+
 use crate::policy::Policy;
 use crate::policy::late::unix_seconds;
-use judging::exam::Exam;
 
 /// Reasons why a policy cannot be used.
 #[derive(Debug, thiserror::Error)]

@@ -1,9 +1,9 @@
 //! The visibility of an item's results to students.
 
+use judging::exam_file::ExamName;
 use serde::Deserialize;
 
 use crate::policy::Policy;
-use judging::exam_file::ExamName;
 
 /// Id of the exam that students have, including its answer keys.
 const PRACTICE_EXAM: &str = "practice";

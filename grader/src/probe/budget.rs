@@ -5,13 +5,31 @@ use std::time::{Duration, Instant};
 use super::fault::TimeLimit;
 
 /// The time budget of an item.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// Limit of CPU time. This is the limit that matters.
     pub cpu: Duration,
 }
 
+impl Default for Budget {
+    fn default() -> Self {
+        Budget::from_seconds(Budget::DEFAULT_SECONDS)
+    }
+}
+
 impl Budget {
+    /// The default limit of CPU time, in seconds.
+    pub const DEFAULT_SECONDS: u64 = 10;
+    /// The largest limit of CPU time that can be chosen, in seconds.
+    pub const MAX_SECONDS: u64 = 600;
+
+    /// Returns a budget with a limit of CPU time in seconds.
+    pub fn from_seconds(seconds: u64) -> Self {
+        Budget {
+            cpu: Duration::from_secs(seconds),
+        }
+    }
+
     /// Returns the limit of wall time. It is generous, because on a busy machine wall time says
     /// nothing about the code.
     pub fn wall(self) -> Duration {

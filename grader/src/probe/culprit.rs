@@ -7,11 +7,11 @@ use std::io;
 use std::ops::Range;
 use std::time::Duration;
 
+use judging::exam::Item;
 use protocol::Question;
 
 use super::subset::subset;
 use super::{Budget, Launcher};
-use judging::exam::Item;
 
 /// Budget of each question that is sent. Most correct items take less than this in total, so a
 /// question that takes longer is considered to hang.

@@ -3,12 +3,12 @@
 use std::fmt::{self, Write};
 
 use anstyle::{AnsiColor, Style};
-
-use crate::sandbox::Isolation;
-use crate::score::{Hint, ItemScore, Score, TaskScore, Verdict};
 use judging::exam::Task;
 use judging::sanitize::sanitize;
 use judging::section::Section;
+
+use crate::sandbox::Isolation;
+use crate::score::{Hint, ItemScore, Score, TaskScore, Verdict};
 
 const WIDTH: usize = 80;
 const BAR_WIDTH: usize = 20;
@@ -22,9 +22,10 @@ const PART: Style = AnsiColor::Yellow.on_default();
 const BAD: Style = AnsiColor::Red.on_default();
 
 /// The level of detail of a hint about a recognised mistake.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum HintDetail {
     /// A question that points toward the mistake.
+    #[default]
     Nudge,
     /// A description of the mistake.
     Full,

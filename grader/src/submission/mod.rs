@@ -9,8 +9,9 @@ mod source_folder;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::given_files::{GIVEN_FILES, MAIN_FILE, TASK_FILES, TaskFile};
 use judging::sanitize::sanitize;
+
+use crate::given_files::{GIVEN_FILES, MAIN_FILE, TASK_FILES, TaskFile};
 
 pub use archive::{Archive, ArchiveError, Listing, Member};
 

@@ -7,25 +7,28 @@ mod screen;
 use std::convert::Infallible;
 use std::io;
 
-use crate::cli::Arguments;
+use judging::exam::Exam;
+
 use crate::desktop;
 use crate::error::Error;
 use crate::grade::Grader;
-use crate::report::text::HintDetail;
+use crate::options::GradeOptions;
+use crate::report::html::Reload;
+use crate::report_files::ReportFiles;
 use crate::score::Score;
 use crate::submission::Submission;
 use crate::watch::save_watcher::SaveWatcher;
 use crate::watch::screen::{Phase, Screen};
-use judging::exam::Exam;
 
-/// Grades until the process is stopped or an error occurs.
-pub fn watch(arguments: &Arguments, hints: HintDetail) -> Result<Infallible, Error> {
-    let grader = Grader::prepare(arguments)?;
+/// Grades until the process is stopped or an error occurs. With `open`, opens the report's page in a
+/// browser once.
+pub fn watch(options: &GradeOptions, open: bool) -> Result<Infallible, Error> {
+    let grader = Grader::prepare(options)?;
     let watcher = SaveWatcher::new(|| grader.collect().ok());
-    let mut screen = Screen::open(arguments.task, hints);
+    let mut screen = Screen::open(options.task, options.hints);
     let mut submission = grader.collect()?;
     let mut last: Option<Score> = None;
-    let mut page = arguments.open.then(|| grader.files(&submission)).flatten();
+    let mut page = open.then(|| files(&grader, &submission)).flatten();
     loop {
         match grade_version(&grader, &submission, &watcher, last.as_ref(), &mut screen) {
             Ok(score) => {
@@ -81,7 +84,7 @@ fn grade_version(
 
     let mut score = grader.pending_score(submission, &built);
     let exam = grader.exam();
-    let mut files = grader.files(submission);
+    let mut files = files(grader, submission);
     let mut done = 0;
     grader.run_exam(exam, &built, &mut score, |score, answers| {
         done += 1;
@@ -101,6 +104,11 @@ fn grade_version(
         stop_if_saved()
     })?;
     Ok(score)
+}
+
+/// Returns the report's files. Their page reloads itself when the user returns to it.
+fn files(grader: &Grader, submission: &Submission) -> Option<ReportFiles> {
+    grader.files(submission, Reload::WhileUnfocused)
 }
 
 /// Returns an exam of the items that lost points and the items that these need.

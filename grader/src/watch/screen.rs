@@ -4,10 +4,10 @@
 use std::io;
 
 use console::{Term, truncate_str};
+use judging::exam::Task;
 
 use crate::report::text::{HintDetail, report};
 use crate::score::Score;
-use judging::exam::Task;
 
 /// The current phase of grading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

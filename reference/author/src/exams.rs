@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use grader::exam_source::{ExamSource, ExamSourceError};
 use judging::exam::{Exam, Item};
-use judging::exam_file::{self, ExamError};
 
 use crate::drawing_data::with_drawing_data;
 use crate::generated_file::GeneratedFile;
@@ -41,8 +41,8 @@ pub fn generated_files() -> Result<Vec<GeneratedFile>, ExamGenerationError> {
 }
 
 /// Reads the practice exam that is committed in the workspace at `root`.
-pub fn load_practice(root: &Path) -> Result<Exam, ExamError> {
-    Ok(exam_file::load(Some(&root.join(PRACTICE_FILE)))?.exam)
+pub fn load_practice(root: &Path) -> Result<Exam, ExamSourceError> {
+    Ok(ExamSource::File(root.join(PRACTICE_FILE)).load()?.exam)
 }
 
 /// Generates the text of a final exam: other questions about the same ideas as in the practice

@@ -1,9 +1,10 @@
 //! Finds the first thing that is wrong with a tree, in the order in which the judge checks.
 
-use super::{BuildCase, NodePosition};
-use crate::drawing::numbers::pluralize;
 use judging::exam::TreeCheck;
 use judging::judge::tree::{self, FULL_MARKS_RATIO};
+
+use super::{BuildCase, NodePosition};
+use crate::drawing::numbers::pluralize;
 
 /// The first thing that is wrong with a tree.
 #[derive(Clone)]

@@ -1,6 +1,8 @@
 //! The primitives and boxes that a flaw concerns, projected to the plane of two axes.
 
 use glam::{DVec2, DVec3, dvec2};
+use judging::drawing_data::Sweep;
+use judging::judge::tree::bounds::Bounds;
 use protocol::Shape;
 
 use super::flaw::Flaw;
@@ -11,8 +13,6 @@ use crate::drawing::numbers::point;
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::sphere;
 use crate::drawing::window::Window;
-use judging::drawing_data::Sweep;
-use judging::judge::tree::bounds::Bounds;
 
 /// The maximum number of primitives that are drawn one by one.
 const MAX_PRIMITIVES: usize = 250;

@@ -1,12 +1,12 @@
 //! A tree as rows of bars, one row per level. The width of a node is its share of the primitives.
 
 use glam::{DVec2, dvec2};
+use judging::drawing_data::{LevelNode, Sweep};
 
 use super::MarkedNode;
 use crate::drawing::canvas::{Anchor, Canvas, Mark, WIDTH};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
 use crate::drawing::sheet::{Sheet, Symbol};
-use judging::drawing_data::{LevelNode, Sweep};
 
 /// The height of a level.
 const ROW_HEIGHT: f64 = 19.0;

@@ -12,12 +12,12 @@ use super::Drawing;
 use super::ink::{Fill, Ink};
 use super::numbers::short;
 use super::sheet::{Sheet, Symbol};
+
+use flaw::Flaw;
 use judging::drawing_data::{DrawingData, LevelNode, Sweep};
 use judging::exam::TreeCheck;
 use judging::judge::tree;
 use judging::judge::tree::reached_nodes::reached_nodes;
-
-use flaw::Flaw;
 use node_positions::NodePosition;
 
 /// A question about building a tree, and what is judged.

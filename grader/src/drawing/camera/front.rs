@@ -1,6 +1,7 @@
 //! The sensor from the front.
 
 use glam::{DVec2, DVec3, UVec2, dvec2};
+use judging::describe;
 use protocol::Ray;
 
 use super::sensor::{Sensor, draw_grid, draw_grid_in};
@@ -11,7 +12,6 @@ use crate::drawing::ink::{Fill, Ink, LineStyle};
 use crate::drawing::numbers::short;
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
-use judging::describe;
 
 /// Draws the sensor, the point where the ray should cross it, and the point where the ray does
 /// cross it.

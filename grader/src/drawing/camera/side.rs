@@ -1,6 +1,7 @@
 //! The camera from the side.
 
 use glam::{DVec2, DVec3, dvec2};
+use judging::describe;
 use protocol::{Interval, Ray};
 
 use super::CameraQuery;
@@ -11,7 +12,6 @@ use crate::drawing::canvas::{Anchor, Canvas, Mark};
 use crate::drawing::ink::{Ink, LineStyle};
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
-use judging::describe;
 
 /// Draws the plane that contains the -z axis and the expected ray.
 pub(super) fn draw(query: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {

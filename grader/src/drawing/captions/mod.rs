@@ -4,10 +4,10 @@ mod rays;
 mod trees;
 
 use glam::{Vec3, vec2, vec3};
+use judging::exam::{ExamQuestion, ExpectedHit};
 use protocol::{Answer, ElementOutcome, Ray, Shape, Trace};
 
 use super::draw;
-use judging::exam::{ExamQuestion, ExpectedHit};
 
 fn caption(question: &ExamQuestion, answer: Answer) -> String {
     let drawing = draw(question, 0, Some(&answer));

@@ -2,13 +2,13 @@
 
 use glam::{UVec2, Vec2, Vec3, vec2, vec3};
 use insta::assert_snapshot;
+use judging::drawing_data::DrawingData;
+use judging::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, RayCheck};
 use protocol::{
     Answer, ElementOutcome, Interval, PinholeCamera, Question, Ray, Rays, Sample, Samples, Trace,
 };
 
 use super::{ahead, ball, caption, captions, hit, hits, trace};
-use judging::drawing_data::DrawingData;
-use judging::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, RayCheck};
 
 fn sphere(ray: Ray, check: HitCheck, hit: Option<ExpectedHit>) -> ExamQuestion {
     let question = Question::Shapes {

@@ -2,11 +2,11 @@
 
 use glam::vec3;
 use insta::assert_snapshot;
+use judging::drawing_data::{DrawingData, TraversalStep};
+use judging::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, TreeCheck};
 use protocol::{Answer, ElementOutcome, Interval, Question, Rays, Trace, Tree, TreeNode};
 
 use super::{ahead, ball, caption, captions, hit, hits, trace};
-use judging::drawing_data::{DrawingData, TraversalStep};
-use judging::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, TreeCheck};
 
 fn node(x: [f32; 2], leaf: Option<[u32; 2]>, [l, r]: [u32; 2]) -> TreeNode {
     let [start, size] = leaf.unwrap_or_default();

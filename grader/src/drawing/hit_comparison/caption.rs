@@ -1,10 +1,10 @@
 //! Captions that say what is wrong with a hit.
 
 use glam::DVec3;
+use judging::describe;
 
 use super::{DrawnHit, Focus, HitAnswer, HitComparison};
 use crate::drawing::numbers::short;
-use judging::describe;
 
 impl HitComparison {
     /// Returns a sentence that says what is wrong with the submitted hit.

@@ -14,9 +14,9 @@ use super::hit_comparison::{HitAnswer, HitComparison};
 use super::ink::{Fill, Ink, LineStyle};
 use super::numbers::short;
 use super::sheet::{Sheet, Symbol};
+
 use judging::describe;
 use judging::drawing_data::TraversalStep;
-
 use layout::{Layout, NodeRow, NodeStatus};
 
 /// The exam's tree, and one correct traversal of it.

@@ -1,5 +1,7 @@
 //! One item of a task.
 
+use judging::describe;
+use judging::exam::Item;
 use maud::{Markup, PreEscaped, html};
 
 use super::elements::{command, evidence_table, plain_text};
@@ -9,8 +11,6 @@ use crate::drawing;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Verdict};
-use judging::describe;
-use judging::exam::Item;
 
 /// Renders an item that lost points: what happened, where to look, and how to run the item again.
 pub(super) fn failing(

@@ -3,10 +3,10 @@
 //! "Color universal design".
 
 use glam::UVec2;
-
-use super::png::data_uri;
 use judging::judge::Aspect;
 use judging::picture::{Colour, MaskPixel, Picture};
+
+use super::png::data_uri;
 
 /// The width of a mask in screen pixels.
 const WIDTH: u32 = 256;

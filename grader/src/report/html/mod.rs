@@ -19,9 +19,9 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::Score;
-use judging::exam::Exam;
 
 use elements::plain_text;
+use judging::exam::Exam;
 
 /// The id of the exam that students have.
 const PRACTICE: &str = "practice";

@@ -3,6 +3,9 @@
 //! Without a script, they are shown side by side. `page.js` adds the slider and the flicker.
 
 use glam::UVec2;
+use judging::describe;
+use judging::exam::Item;
+use judging::picture::{self, LayerComparison, Picture, WorstPixel};
 use maud::{Markup, html};
 
 use super::elements::{command, evidence_table, plain_text};
@@ -10,9 +13,6 @@ use super::mask;
 use super::png::data_uri;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
-use judging::describe;
-use judging::exam::Item;
-use judging::picture::{self, LayerComparison, Picture, WorstPixel};
 
 /// The width of the SVG that contains the marks, in its own units. It does not depend on the size
 /// of the film.

@@ -1,5 +1,7 @@
 //! The section of a task, and the section about the submitted files.
 
+use judging::exam::{Exam, Item};
+use judging::picture;
 use maud::{Markup, html};
 
 use super::elements::plain_text;
@@ -7,8 +9,6 @@ use super::item;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore};
-use judging::exam::{Exam, Item};
-use judging::picture;
 
 /// The maximum number of failing items per task that are open when the page loads. Items with
 /// pictures are not subject to this limit.

@@ -1,21 +1,22 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use judging::exam::Exam;
+use judging::exam_file::ExamName;
 use protocol::{Answer, ElementOutcome, Panic};
 use sha2::{Digest, Sha256};
 
 use super::Reload;
+use crate::exam_source::ExamSource;
 use crate::report_answers::ReportAnswers;
 use crate::score::{Evidence, FileReport, Hint, Score, Verdict};
 use crate::verdict::pending_score;
-use judging::exam::Exam;
-use judging::exam_file::{self, ExamName};
 
 /// Text that attacks the page. The tests use it for every text that a submission can write.
 const HOSTILE: &str =
     "</title></script><script>alert(1)</script>\"><img src=x>&amp;\u{202e}\u{1b}[2J";
 
 fn exam() -> Exam {
-    exam_file::load(None).expect("the practice exam").exam
+    ExamSource::Practice.load().expect("the practice exam").exam
 }
 
 fn sample_pending_score(exam: &Exam, submission: &str) -> Score {

@@ -1,18 +1,18 @@
 //! Jobs that were killed, and formats that are requested on the wrong platform.
 
 use clap::ValueEnum;
+use grader::exam_source::ExamSource;
 use grader::format::{Format, FormatContext, StudentView};
 use grader::policy::{Lateness, Policy};
 use grader::score::Verdict;
 use grader::verdict::pending_score;
-use judging::exam_file;
 
 use crate::formats::models::{check, readable};
 use crate::harness::{Submission, grader};
 
 #[test]
 fn a_killed_job_says_that_it_is_unfinished() {
-    let file = exam_file::load(None).unwrap();
+    let file = ExamSource::Practice.load().unwrap();
     let mut around = FormatContext::default();
     for name in Format::Classroom50.variables() {
         around.variables.insert(name, "submit/x".to_owned());

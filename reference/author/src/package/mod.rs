@@ -11,8 +11,8 @@ pub mod trial;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
+use grader::exam_source::{ExamSource, ExamSourceError};
 use grader::policy::{self, Policy, PolicyError};
-use judging::exam_file::ExamError;
 
 use crate::bundle::crates::CratesError;
 use crate::bundle::folders::FoldersError;
@@ -60,7 +60,7 @@ pub enum PackageError {
     Exam(#[from] ExamGenerationError),
     /// The exam file is invalid.
     #[error(transparent)]
-    ExamFile(#[from] ExamError),
+    ExamFile(#[from] ExamSourceError),
     /// The policy file is invalid.
     #[error(transparent)]
     Policy(#[from] PolicyError),
@@ -94,7 +94,7 @@ impl Course {
         let exam = match (seed, exam) {
             (Some(seed), _) => Some(crate::exams::final_exam_text(seed)?),
             (None, Some(path)) => {
-                judging::exam_file::load(Some(path))?;
+                ExamSource::File(path.to_owned()).load()?;
                 Some(read(path)?)
             }
             (None, None) => None,

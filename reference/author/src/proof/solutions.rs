@@ -3,8 +3,8 @@
 use std::io;
 use std::path::PathBuf;
 
+use grader::exam_source::ExamSourceError;
 use judging::exam::{Exam, Item, Task};
-use judging::exam_file::ExamError;
 use rayon::prelude::*;
 
 use crate::proof::catalogue::{CatalogueError, Mistake, mistakes};
@@ -31,7 +31,7 @@ pub enum ProofError {
     Workbench(#[from] WorkbenchError),
     /// The practice exam cannot be used.
     #[error(transparent)]
-    Exam(#[from] ExamError),
+    Exam(#[from] ExamSourceError),
     /// The exam's picture cannot be recorded.
     #[error(transparent)]
     Recording(#[from] RecordingError),

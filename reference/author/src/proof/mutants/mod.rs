@@ -12,9 +12,9 @@ pub mod span;
 
 use std::path::Path;
 
+use grader::exam_source::ExamSourceError;
 use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
 use judging::exam::Exam;
-use judging::exam_file::ExamError;
 use rayon::prelude::*;
 
 use crate::exams;
@@ -53,7 +53,7 @@ pub enum MutantsError {
     Equivalents(#[from] EquivalentsError),
     /// The practice exam cannot be used.
     #[error(transparent)]
-    Exam(#[from] ExamError),
+    Exam(#[from] ExamSourceError),
     /// A mutant cannot be built or run.
     #[error(transparent)]
     Workbench(#[from] WorkbenchError),

@@ -1,0 +1,108 @@
+//! Reads exams: the practice exam, which is embedded in this program, a file, or standard input.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use judging::exam_file::{self, ExamError, ExamFile};
+
+/// Maximum size of an exam file, in bytes. The committed exams have about 3,000,000.
+const MAX_FILE_BYTES: u64 = 64 << 20;
+
+const PRACTICE: &str = include_str!("../exams/practice.json");
+/// The name of the practice exam's file, for error messages.
+const PRACTICE_FILE: &str = "practice.json";
+
+/// The origin of an exam.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum ExamSource {
+    /// The practice exam.
+    #[default]
+    Practice,
+    /// Standard input, which can be read only once.
+    StandardInput,
+    /// A file.
+    File(PathBuf),
+}
+
+/// Reasons why an exam cannot be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum ExamSourceError {
+    /// The file cannot be read.
+    #[error("cannot read the exam {}: {source}", path.display())]
+    Io {
+        /// Path of the exam.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// The file is larger than the limit.
+    #[error("the exam {} is larger than 64 MiB", .0.display())]
+    TooLong(PathBuf),
+    /// The file is not a valid exam.
+    #[error(transparent)]
+    Invalid(#[from] ExamError),
+}
+
+impl ExamSource {
+    /// Returns the source that the value of `--exam` names: standard input if it is `-`, the
+    /// practice exam if it is missing.
+    pub fn from_option(path: Option<PathBuf>) -> Self {
+        match path {
+            None => ExamSource::Practice,
+            Some(path) if path.as_os_str() == "-" => ExamSource::StandardInput,
+            Some(path) => ExamSource::File(path),
+        }
+    }
+
+    /// Returns the value of `--exam` for this source, or `None` for the practice exam.
+    pub fn option(&self) -> Option<&Path> {
+        match self {
+            ExamSource::Practice => None,
+            ExamSource::StandardInput => Some(Path::new("-")),
+            ExamSource::File(path) => Some(path),
+        }
+    }
+
+    /// Reads and validates the exam.
+    pub fn load(&self) -> Result<ExamFile, ExamSourceError> {
+        let name = self.option().unwrap_or(Path::new(PRACTICE_FILE));
+        Ok(match self {
+            ExamSource::Practice => exam_file::parse(name, PRACTICE.as_bytes())?,
+            ExamSource::StandardInput => exam_file::parse(name, &read(name, io::stdin())?)?,
+            ExamSource::File(path) => exam_file::parse(name, &open(path)?)?,
+        })
+    }
+
+    /// Returns the hash of the exam's bytes, which need not be a valid exam.
+    pub fn hash(&self) -> Result<String, ExamSourceError> {
+        Ok(match self {
+            ExamSource::Practice => exam_file::hash(PRACTICE.as_bytes()),
+            ExamSource::StandardInput => exam_file::hash(&read(Path::new("-"), io::stdin())?),
+            ExamSource::File(path) => exam_file::hash(&open(path)?),
+        })
+    }
+}
+
+fn open(path: &Path) -> Result<Vec<u8>, ExamSourceError> {
+    let file = fs::File::open(path).map_err(|source| ExamSourceError::Io {
+        path: path.to_owned(),
+        source,
+    })?;
+    read(path, file)
+}
+
+fn read(path: &Path, input: impl Read) -> Result<Vec<u8>, ExamSourceError> {
+    let mut bytes = Vec::new();
+    let limited = &mut input.take(MAX_FILE_BYTES + 1);
+    limited
+        .read_to_end(&mut bytes)
+        .map_err(|source| ExamSourceError::Io {
+            path: path.to_owned(),
+            source,
+        })?;
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        return Err(ExamSourceError::TooLong(path.to_owned()));
+    }
+    Ok(bytes)
+}

@@ -1,0 +1,51 @@
+//! Options for grading, independent of the command line that they may come from.
+
+use std::path::PathBuf;
+
+use judging::exam::Task;
+
+use crate::exam_source::ExamSource;
+use crate::format::OutputSpec;
+use crate::probe::Budget;
+use crate::report::text::HintDetail;
+use crate::select_isolation::IsolationRequest;
+
+/// Options for grading a submission. The default is a student's own work on the practice exam.
+///
+/// Code that depends on all options, such as a cache key, destructures this type without `..`, so
+/// that an option that is added later cannot be forgotten there.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct GradeOptions {
+    /// The submission's folder or archive; `None` is the workspace's `student/`.
+    pub submission: Option<PathBuf>,
+    /// The exam.
+    pub exam: ExamSource,
+    /// The only task to grade, or `None` for all of them.
+    pub task: Option<Task>,
+    /// The course's policy file; `None` is the default policy.
+    pub policy: Option<PathBuf>,
+    /// Gradescope's `submission_metadata.json`, which has the submission time.
+    pub gradescope_metadata: Option<PathBuf>,
+    /// What to do with items that depend on a failed task.
+    pub dependents: Dependents,
+    /// The requested isolation of the submission's code.
+    pub isolation: IsolationRequest,
+    /// The time budget of an item.
+    pub budget: Budget,
+    /// The level of detail of hints.
+    pub hints: HintDetail,
+    /// The folder for the report; `None` is `target/grade/NAME`.
+    pub out: Option<PathBuf>,
+    /// The requested output formats.
+    pub formats: Vec<OutputSpec>,
+}
+
+/// What to do with items that depend on a failed task.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Dependents {
+    /// Grade them with the reference's parts, if the reference is in the workspace.
+    #[default]
+    SubstituteReference,
+    /// Block them, as on a student's machine.
+    Block,
+}

@@ -1,0 +1,145 @@
+//! Grades a submission on behalf of a user at a terminal or in a CI job, and prints the report.
+
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+
+use crate::cache_lookup::find_cached_report;
+use crate::cached_report;
+use crate::desktop;
+use crate::doctor::{diagnose, package};
+use crate::error::Error;
+use crate::format::github;
+use crate::grade::{GradedSubmission, grade};
+use crate::options::GradeOptions;
+use crate::report::text::report;
+use crate::report_files::ReportFiles;
+
+/// Notice that is printed below a cached report.
+const UNCHANGED_NOTICE: &str =
+    "  Nothing has changed since this was graded; use `--fresh` to grade it again.\n\n";
+
+/// What to print besides the report, and what to do after printing it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PrintOptions {
+    /// Whether to grade again even if nothing has changed.
+    pub fresh: bool,
+    /// Whether to open the report's page in a browser.
+    pub open: bool,
+    /// Whether to print how long each step took.
+    pub timings: bool,
+    /// The points below which the exit code is 1.
+    pub require: u32,
+}
+
+/// Prints the report of a submission, cached or new. Returns exit code 1 if the points are below
+/// the required ones.
+pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<ExitCode, Error> {
+    // A cached report has no timings.
+    let may_reuse = !print.fresh && !print.timings;
+    let cached = may_reuse.then(|| find_cached_report(options)).transpose()?;
+    let (points, files) = match cached.flatten() {
+        Some((cached, files)) => {
+            print_text(&format!(
+                "{}{UNCHANGED_NOTICE}{}",
+                cached.report,
+                file_list(&files)
+            ))?;
+            (cached.points, Some(files))
+        }
+        None => grade_and_store(options, print)?,
+    };
+    if let Some(files) = files.filter(|_| print.open) {
+        desktop::show(&files.page);
+    }
+    Ok(if points < print.require {
+        ExitCode::from(1)
+    } else {
+        ExitCode::SUCCESS
+    })
+}
+
+/// Grades a submission, prints its report, and stores the report for the next run.
+fn grade_and_store(
+    options: &GradeOptions,
+    print: PrintOptions,
+) -> Result<(u32, Option<ReportFiles>), Error> {
+    let graded = grade(options)?;
+    let text = terminal_report(&graded, options);
+    print_text(&format!(
+        "{text}{}",
+        graded.files.as_ref().map_or(String::new(), file_list)
+    ))?;
+    if let (Some(key), Some(files)) = (&graded.cache_key, &graded.files) {
+        cached_report::store(key, &graded.score, &text, files);
+    }
+    if let Some(commands) = graded.commands() {
+        anstream::print!("{commands}");
+    }
+    if print.timings {
+        anstream::println!("{}", graded.score.timings.stages.table());
+    }
+    Ok((graded.score.points, graded.files))
+}
+
+/// Checks a platform's package and prints the problems found. Returns exit code 2 if there are any.
+pub fn check_and_print_package(path: &Path) -> Result<ExitCode, Error> {
+    let problems = package::problems(path)?;
+    if problems.is_empty() {
+        anstream::println!("{}: no problems found", path.display());
+        return Ok(ExitCode::SUCCESS);
+    }
+    for problem in &problems {
+        anstream::println!("{}: {problem}", path.display());
+    }
+    Ok(ExitCode::from(2))
+}
+
+/// Prints what this machine offers and lacks, with the exit code of the diagnosis.
+pub fn diagnose_and_print() -> Result<ExitCode, Error> {
+    let diagnosis = diagnose()?;
+    anstream::print!("{diagnosis}");
+    Ok(ExitCode::from(diagnosis.exit_code()))
+}
+
+/// Returns the report for the terminal. If formats are requested, it appears in a log that students
+/// read, so it contains only what they may see.
+fn terminal_report(graded: &GradedSubmission, options: &GradeOptions) -> String {
+    let score = if options.formats.is_empty() {
+        &graded.score
+    } else {
+        &graded.student_view.visible
+    };
+    let mut text = report(score, options.task, options.hints);
+    if options.policy.is_some() && options.task.is_none() {
+        text.push_str(&format!("  counts for {}\n\n", graded.student_view.counted));
+    }
+    text
+}
+
+/// Returns the paths of the report's files, one per line.
+fn file_list(files: &ReportFiles) -> String {
+    let lines = files.paths().map(relative_to_current_folder);
+    lines
+        .map(|file| format!("  {}\n", file.display()))
+        .collect()
+}
+
+/// Prints the text. On GitHub Actions, where printed text can contain commands to the runner, these
+/// are disabled.
+fn print_text(text: &str) -> Result<(), Error> {
+    match std::env::var_os("GITHUB_ACTIONS") {
+        Some(_) => {
+            let token = github::random_token().map_err(io::Error::other)?;
+            anstream::println!("{}", github::with_commands_stopped(text, &token));
+        }
+        None => anstream::println!("{text}"),
+    }
+    Ok(())
+}
+
+/// Returns the path relative to the current folder, if it is inside that folder.
+fn relative_to_current_folder(path: &Path) -> &Path {
+    let here = std::env::current_dir().unwrap_or_default();
+    path.strip_prefix(here).unwrap_or(path)
+}

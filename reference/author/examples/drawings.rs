@@ -1,7 +1,8 @@
 //! Writes a page with the drawings that the report shows for every known mistake, for inspection.
 //!
-//! `cargo run --release -p author --example drawings -- target/drawings.html [WORD]` draws all
-//! mistakes, or only those whose mistake or item id contains the word.
+//! `cargo run --release -p author --example drawings -- target/drawings.html [WORD]` draws the
+//! first wrong answer of every mistake. With a `WORD`, it draws the first wrong answer to every
+//! item whose id, or whose mistake's id, contains the word.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -43,7 +44,7 @@ fn main() -> ExitCode {
 fn run() -> Result<(), Box<dyn error::Error>> {
     let file = env::args()
         .nth(1)
-        .ok_or("the name of the page to write is missing: target/drawings.html")?;
+        .ok_or("name the page to write, such as target/drawings.html")?;
     let word = env::args().nth(2).unwrap_or_default();
     let solutions = Solutions::load(Workbench::open()?)?;
     let exam = exams::load_practice(Path::new(ROOT))?;
@@ -80,7 +81,8 @@ fn run() -> Result<(), Box<dyn error::Error>> {
     Ok(fs::write(file, page)?)
 }
 
-/// Describes the first wrong question and element of an item, and returns its drawing.
+/// Returns the location of the first wrong element in the answers to an item, and the drawing of
+/// this element.
 fn first_failure(item: &Item, answers: &[Answer]) -> Option<(String, Option<Drawing>)> {
     let numbered = item.questions.iter().zip(answers).enumerate();
     let mut failures = numbered.filter_map(|(number, (question, answer))| {

@@ -20,7 +20,9 @@ use grader::workspace::Workspace;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = env::args().skip(1);
     let (Some(folder), Some(count)) = (arguments.next(), arguments.next()) else {
-        return Err("expected a folder and a number of submissions: target/class 200".into());
+        return Err(
+            "expected a folder and a number of submissions, such as `target/class 200`".into(),
+        );
     };
     let (folder, count) = (PathBuf::from(folder), count.parse()?);
     let workspace = Workspace::find()?;

@@ -11,7 +11,7 @@ use crate::package::Platform;
 /// The default folder of the built book.
 const DEFAULT_BOOK: &str = "target/handout";
 
-/// Writes every generated file of this repository
+/// Writes every generated file of this repository, and tests the exam
 #[derive(Debug, Parser)]
 #[command(name = "cargo author", bin_name = "cargo author", version)]
 pub struct Cli {
@@ -59,7 +59,7 @@ pub enum Command {
     },
     /// Write the autograder package that instructors upload to a platform
     Package {
-        /// The platform that grades
+        /// The platform that the package is for
         platform: Platform,
         /// A file name that ends with .zip, or a new folder
         #[arg(long, value_name = "PATH")]
@@ -80,11 +80,11 @@ pub enum Command {
         #[arg(long)]
         check: bool,
     },
-    /// Write the table of which known mistake fails which item of the practice exam
+    /// Write the table that shows which items of the practice exam each known mistake fails
     Mistakes(CheckArgs),
     /// Measure how well the practice exam's hints recognise known and unknown mistakes
     Hints,
-    /// List the mutants that cargo-mutants makes of the reference, and grade each of them
+    /// List the mutants that cargo-mutants generates from the reference, and grade each of them
     Mutants {
         /// Grade only a fixed sample of the mutants
         #[arg(long)]
@@ -93,16 +93,16 @@ pub enum Command {
         #[command(flatten)]
         check: CheckArgs,
     },
-    /// Grade every variant with the exams of all seeds, and every mistake with those of the first
-    /// few
+    /// Grade every variant with the exams of all seeds, and every mistake with the exams of the
+    /// first few seeds
     Prove {
         /// The seeds, such as 0..1000
         #[arg(long, value_parser = parse_seeds)]
         seeds: Range<u64>,
-        /// Grade the mistakes with only this many of the seeds, from the first
+        /// The number of seeds to grade the mistakes with, counting from the first
         #[arg(long, default_value_t = 10)]
         mistakes: u64,
-        /// Grade this variant alone, such as bvh.wide, and no mistakes
+        /// Grade only this variant, such as bvh.wide, and no mistakes
         #[arg(long, value_name = "ID", conflicts_with_all = ["mistakes", "write"])]
         variant: Option<String>,
         /// Record the result, with the date and the commit
@@ -115,7 +115,7 @@ pub enum Command {
         /// `--check`
         #[arg(long, value_parser = parse_seeds)]
         seeds: Option<Range<u64>>,
-        /// Grade the mistakes with only this many of the seeds, from the first
+        /// The number of seeds to grade the mistakes with, counting from the first
         #[arg(long, default_value_t = 3)]
         mistakes: u64,
         /// Change nothing and use only a few seeds; fail if a margin is too small

@@ -1,5 +1,5 @@
 //! Data for a report's drawings: the intermediate results of a correct solution, which are drawn
-//! beside a wrong answer. They are added to an exam after its questions have been generated.
+//! beside a wrong answer. The data is added to an exam after its questions have been generated.
 
 use judging::drawing_data::{DrawingData, TraversalStep};
 use judging::exam::{Exam, ExamQuestion};
@@ -10,7 +10,7 @@ use crate::oracle::{Ray64, scan, sweep};
 use crate::tree::Tree;
 use crate::tree::traversal::{Traversal, TraversalRule};
 
-/// The choices of the traversal that is drawn: among all correct ones, the one that a student would
+/// The rule of the traversal that is drawn: of all correct traversals, the one that a student would
 /// most likely write.
 const RULE: TraversalRule = TraversalRule {
     left_first: true,

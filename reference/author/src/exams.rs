@@ -17,7 +17,8 @@ use crate::seed::Seed;
 /// The version of the exam file's format.
 const SCHEMA: u32 = 1;
 
-/// The seed of the practice exam. It is not secret, because that exam is handed out with its keys.
+/// The seed of the practice exam. It is not secret, because the practice exam is handed out with
+/// its keys.
 const PRACTICE_SEED: Seed = Seed(2025);
 
 /// The path of the practice exam, relative to the workspace root.
@@ -26,11 +27,11 @@ const PRACTICE_FILE: &str = "grader/exams/practice.json";
 /// The reason why an exam could not be generated.
 #[derive(Debug, thiserror::Error)]
 pub enum ExamGenerationError {
-    /// The reference or a known mistake could not be built, or did not answer as it must.
+    /// The reference or a known mistake could not be built, or did not give the expected answers.
     #[error(transparent)]
     Solutions(#[from] ProofError),
     /// The exam could not be serialized.
-    #[error("cannot write the exam: {0}")]
+    #[error("cannot serialize the exam: {0}")]
     Text(#[from] serde_json::Error),
 }
 
@@ -45,8 +46,8 @@ pub fn load_practice(root: &Path) -> Result<Exam, ExamSourceError> {
     Ok(ExamSource::File(root.join(PRACTICE_FILE)).load()?.exam)
 }
 
-/// Generates the text of a final exam: other questions about the same ideas as in the practice
-/// exam.
+/// Generates the text of a final exam. Its questions are about the same ideas as those of the
+/// practice exam, with other numbers.
 pub fn final_exam_text(seed: u64) -> Result<String, ExamGenerationError> {
     exam_text("final", Seed(seed))
 }
@@ -57,7 +58,7 @@ fn exam_text(id: &str, seed: Seed) -> Result<String, ExamGenerationError> {
     Ok(to_text(&with_drawing_data(with_hints(exam, &solutions)?))?)
 }
 
-/// Generates an exam without hints; the reference draws the picture of the radiance item.
+/// Generates an exam without hints. The reference renders the picture of the radiance item.
 pub fn generate(id: &str, seed: Seed, recorder: &Recorder) -> Result<Exam, RecordingError> {
     let recorded = recorder.record_cornell_box(|scene| traverse::radiance_question(seed, scene))?;
     Ok(assemble(id, seed, recorded))

@@ -1,4 +1,4 @@
-//! Generated files. Only this module writes them, or checks that they are up to date.
+//! Writes generated files, or checks that they are up to date.
 
 use std::fs;
 use std::io;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// A generated file and its contents.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeneratedFile {
-    /// The path relative to the workspace's root, with `/`.
+    /// The path relative to the workspace's root, with `/` as the separator.
     pub path: String,
     /// The whole text.
     pub contents: String,
@@ -46,7 +46,7 @@ pub enum GeneratedFileError {
     /// A file cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Unwritable {
-        /// The file, or its folder.
+        /// The file.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
@@ -54,7 +54,7 @@ pub enum GeneratedFileError {
 }
 
 /// Writes the files below `root`, or compares them with the files there. `command` is the command
-/// that writes them; an error message names it.
+/// that writes the files, for the error message.
 pub fn write_or_check(
     files: &[GeneratedFile],
     root: &Path,

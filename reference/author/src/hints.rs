@@ -1,5 +1,5 @@
-//! Adds the signatures of known mistakes to an exam, which the grader's hints are based on. Every
-//! mistake is built and asked the exam's questions, like any submission.
+//! Adds the signatures of known mistakes, on which the grader's hints are based, to an exam. To get
+//! these signatures, every mistake is built and asked the exam's questions, like any submission.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ use crate::proof::workbench::WorkbenchError;
 /// The maximum number of an item's elements that a signature records.
 const MAX_ELEMENTS: usize = 24;
 /// The minimum number of recorded elements, even if fewer distinguish all known mistakes. The
-/// additional ones show that an unknown mistake is none of the known ones.
+/// additional elements help to recognise that a mistake is none of the known ones.
 const MIN_ELEMENTS: usize = 12;
 
 /// Returns the exam with every known mistake's answers to some of its questions.
@@ -129,7 +129,7 @@ fn same_answers(a: &[(u32, ObservedAnswer)], b: &[(u32, ObservedAnswer)]) -> boo
 }
 
 /// Returns the elements that best distinguish the mistakes from each other and from correct
-/// answers. The choice is greedy: each next element is the one that distinguishes the largest
+/// answers. The choice is greedy: each further element is the one that distinguishes the largest
 /// number of the remaining pairs.
 fn choose_elements(
     correct: &[ObservedAnswer],
@@ -156,8 +156,8 @@ fn choose_elements(
         else {
             break;
         };
-        // An element without a gain only helps against unknown mistakes, so such elements are added
-        // only up to the minimum.
+        // An element without a gain only helps to tell unknown mistakes from known ones, so such
+        // elements are added only up to the minimum.
         if gain == 0 && chosen.len() >= MIN_ELEMENTS {
             break;
         }

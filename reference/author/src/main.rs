@@ -1,4 +1,5 @@
-//! The `cargo author` program, which writes every generated file: see `cargo author --help`.
+//! The program `cargo author`: writes every generated file, and tests the exam. Its option `--help`
+//! lists all commands.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -163,7 +164,7 @@ fn write_bundle(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -
     Ok(())
 }
 
-/// Writes a platform's package. One that students can read is searched for secrets first.
+/// Writes a platform's package. A template repository is searched for secrets first.
 fn write_package(
     root: &Path,
     platform: Platform,

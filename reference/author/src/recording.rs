@@ -1,5 +1,5 @@
-//! Records the keys that only the reference can provide. The reference runs in a probe like any
-//! submission, and answers over the same pipe.
+//! Records the keys that only the reference can provide. The reference runs in a probe and answers
+//! over a pipe, like any submission.
 
 use std::io;
 use std::time::Duration;
@@ -14,12 +14,12 @@ use crate::proof::workbench::{BuiltSolution, Workbench, WorkbenchError};
 /// The path of the radiance item's scene, relative to the workspace root.
 const SCENE: &str = "scenes/cornell-box.json";
 
-/// The time limit for drawing a picture.
+/// The time limit for rendering a picture.
 const BUDGET: Budget = Budget {
     cpu: Duration::from_secs(60),
 };
 
-/// A question and the picture that the reference draws for it.
+/// A question and the picture that the reference renders for it.
 #[derive(Clone, Debug)]
 pub struct RecordedPicture {
     /// The question.
@@ -44,11 +44,11 @@ pub enum RecordingError {
     #[error("the reference did not answer: {0:?}")]
     Fault(Fault),
     /// The answer is not a picture.
-    #[error("the reference did not draw the picture: {0}")]
+    #[error("the reference did not render the picture: {0}")]
     UnexpectedAnswer(String),
 }
 
-/// The reference, ready to draw pictures of the Cornell box.
+/// The reference, ready to render pictures of the Cornell box.
 #[derive(Debug)]
 pub struct Recorder {
     scene: String,

@@ -1,4 +1,4 @@
-//! Random numbers from a seed and an item's name: the same on every machine.
+//! Random numbers from a seed and an item's name. They are the same on every machine.
 
 use glam::{DVec3, dvec3};
 use rand::{RngExt, SeedableRng};

@@ -1,6 +1,6 @@
 //! Generates the starter: the reference's files without the solutions.
 //!
-//! Solutions are marked with comments. The files are read line by line; nothing is parsed:
+//! Solutions are marked with comments. The files are read line by line, without parsing any Rust:
 //!
 //! ```text
 //! // solution          starts a region whose code is dropped
@@ -65,7 +65,7 @@ pub enum MarkError {
     /// A region starts inside another.
     #[error("`// solution` inside a solution: end the previous one with `// end solution` first")]
     Nested,
-    /// An end mark has no region that it could end.
+    /// An end mark is not in a region.
     #[error("`// end solution` without a `// solution` above it")]
     NotStarted,
     /// A region is never ended.

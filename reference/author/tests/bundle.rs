@@ -1,7 +1,7 @@
 //! The students' bundle is complete, reproducible, and free of secrets.
 //!
-//! `cargo author bundle --check`, which takes minutes, also checks that it builds and grades with an
-//! empty home directory.
+//! `cargo author bundle --check`, which takes minutes, also checks that the bundle builds and
+//! grades with an empty home directory.
 
 mod workflow;
 
@@ -252,8 +252,8 @@ fn its_documents_name_the_rust_version_of_the_manifest() {
     }
 }
 
-/// Checks that the profiles name no missing package: cargo would print a warning for each one
-/// whenever a student runs a command.
+/// Checks that the profiles name no missing package: otherwise, cargo would print a warning for
+/// each one whenever a student runs a command.
 #[test]
 fn its_profiles_name_only_packages_that_it_has() {
     let manifest: toml::Table = BUNDLE.text("Cargo.toml").unwrap().parse().unwrap();

@@ -92,8 +92,8 @@ fn rays_have_unit_length_and_exams_stay_within_the_budget() {
     }
 }
 
-/// Returns whether the keys of an item contain opposite answers: hits and misses, or directions
-/// that differ.
+/// Returns whether the keys of an item rule out a constant answer: they contain both hits and
+/// misses, directions that differ, or a tree.
 fn has_opposites(item: &Item) -> bool {
     let mut hits = 0;
     let mut misses = 0;
@@ -184,7 +184,7 @@ fn exams_are_determined_by_their_seed() {
         .items
         .iter()
         .partition(|item| differs(item));
-    // Some items have fixed questions: round numbers, whole films.
+    // Some items have the same questions with every seed, such as round numbers or whole films.
     assert!(
         drawn.len() >= 70,
         "{} items differ, {} do not",

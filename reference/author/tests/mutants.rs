@@ -1,5 +1,5 @@
 //! Test of `cargo author mutants` with a fixed sample of the mutants. Without `--fast`, the command
-//! grades all of them.
+//! grades all mutants.
 
 use std::process::Command;
 

@@ -1,5 +1,5 @@
-//! The exam catches every known mistake and gives full marks to every known correct solution. These
-//! checks are themselves tested, too.
+//! The exam catches every known mistake and gives full marks to every known correct solution. The
+//! checks themselves are also tested.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -45,7 +45,7 @@ fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
     let recognition = recognise(&SOLUTIONS, &practice_exam()).unwrap();
     println!("{recognition}");
     assert!(recognition.recognised_share() >= 0.95, "{recognition}");
-    // Many of these hints fit both mistakes, which differ only in degree.
+    // Many of these hints fit both mistakes, because the mistakes differ only in degree.
     assert!(
         recognition.confused_when_unknown.len() * 10 <= SOLUTIONS.mistakes.len(),
         "{recognition}"

@@ -19,8 +19,8 @@ pub const TOP_FOLDER: &str = "pathtracing";
 pub enum WriteError {
     /// The folder already contains files, which are not overwritten.
     #[error(
-        "{} is not empty: choose a new folder, empty this one except for .git, or choose a name \
-         that ends with .zip",
+        "{} is not empty: choose a new folder or a name that ends with .zip, or remove everything \
+         but .git from this folder",
         .0.display()
     )]
     NotEmpty(PathBuf),

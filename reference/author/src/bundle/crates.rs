@@ -1,5 +1,5 @@
-//! Copies of the crates in a lock file, taken from cargo's registry folder on this machine. With
-//! them cargo can build without a network.
+//! Copies of the crates in a lock file, taken from cargo's registry folder on this machine, so that
+//! cargo can build without a network.
 
 use std::env;
 use std::fs;
@@ -15,7 +15,7 @@ pub enum CratesError {
     #[error("cannot find cargo's home folder: set CARGO_HOME")]
     NoCargoHome,
     /// The lock file is invalid.
-    #[error("the bundle's lock file: {0}")]
+    #[error("cannot read the bundle's lock file: {0}")]
     Lock(#[from] toml::de::Error),
     /// A file operation failed.
     #[error("cannot read {}: {source}", path.display())]
@@ -38,9 +38,9 @@ struct Package {
     version: String,
 }
 
-/// Returns the files of cargo's registry folder that a lock file needs, with their paths in that
-/// folder: each crate's index entry and archive. Crates for other systems are skipped: cargo has
-/// not fetched them, and does not need them here.
+/// Returns the files of cargo's registry folder that are needed to build the crates of a lock file,
+/// with their paths in that folder: each crate's index entry and archive. Crates for other systems
+/// are skipped: cargo has not fetched them, and does not need them here.
 pub fn registry_files(lock: &str) -> Result<Vec<(String, Vec<u8>)>, CratesError> {
     let lock: LockFile = toml::from_str(lock)?;
     let registry = cargo_home()?.join("registry");
@@ -67,8 +67,8 @@ fn io_error(path: &Path) -> impl FnOnce(io::Error) -> CratesError {
     move |source| CratesError::Io { path, source }
 }
 
-/// Returns the paths, relative to the registry folder and with `/`, of all files that could belong
-/// to these crates. Some of them may not exist.
+/// Returns the paths, relative to the registry folder and separated by `/`, of all files that could
+/// belong to these crates. Some of them may not exist.
 fn registry_paths(lock: &LockFile, folder: &Path) -> Result<Vec<String>, CratesError> {
     let mut paths = Vec::new();
     for registry in entry_names(&folder.join("index"))? {

@@ -16,9 +16,10 @@ const COPIED: [&str; 7] = [
     "student/framework",
     "student/protocol",
 ];
-/// Names of folders that only staff need. They are not copied, wherever they occur.
+/// Names of folders that only staff need. Folders with these names are never copied, wherever they
+/// are.
 const EXCLUDED_NAMES: [&str; 4] = ["tests", "benches", "fuzz", "target"];
-/// Files and folders for staff: they are about grading a class or running untrusted code.
+/// Files and folders for staff, about grading a class or running untrusted code.
 const STAFF_PATHS: [&str; 6] = [
     "grader/class",
     "grader/SECURITY.md",
@@ -38,7 +39,7 @@ const EXAMS: &str = "grader/exams";
 /// The exam that is handed out.
 const PRACTICE: &str = "grader/exams/practice.json";
 
-/// The reason why a file or folder of the repository cannot be used.
+/// The reason why a file or folder of the repository cannot be copied.
 #[derive(Debug, thiserror::Error)]
 pub enum FoldersError {
     /// A file operation failed.
@@ -49,9 +50,10 @@ pub enum FoldersError {
         /// The system's error.
         source: io::Error,
     },
-    /// A path is a symbolic link or a device, or its name is not UTF-8.
+    /// A path leads to a symbolic link or a device, or its name is not UTF-8.
     #[error(
-        "{} is not a plain file with a UTF-8 name, so students could not unpack it: remove it",
+        "{} is not a regular file or folder with a UTF-8 name, so students could not unpack it: \
+         remove it",
         .0.display()
     )]
     NotAPlainFile(PathBuf),
@@ -100,7 +102,7 @@ pub(crate) fn copy_tree(
     Ok(())
 }
 
-/// Returns the offset of the first occurrence of `text`, or the end if there is none.
+/// Returns the offset of the first occurrence of `text`, or the length of `bytes` if there is none.
 fn offset_or_end(bytes: &[u8], text: &str) -> usize {
     let mut windows = bytes.windows(text.len());
     windows

@@ -1,7 +1,7 @@
 //! The bundle's lock file: the workspace's, without the packages that only staff crates need.
 //!
 //! Cargo itself removes the packages that are no longer needed. It runs offline, so that it cannot
-//! update any of the others.
+//! update the remaining packages.
 
 use std::env;
 use std::fs;

@@ -12,7 +12,7 @@ use crate::bundle::Bundle;
 
 /// The cargo aliases that work without the `reference` and `author` crates.
 const ALIASES: [&str; 3] = ["grade", "render", "examples"];
-/// The manifest keys that refer to folders that are not in the bundle.
+/// The manifest keys that are only for tests and benches, which are not in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
 /// The reason why a manifest cannot be used.
@@ -21,15 +21,15 @@ pub enum ManifestError {
     /// A file cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// The file or folder.
+        /// The file.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
     },
     /// A file is not valid TOML.
-    #[error("{path}: {source}")]
+    #[error("{path} is not valid TOML: {source}")]
     Toml {
-        /// The file or folder.
+        /// The file.
         path: String,
         /// The parse error, with its line and column.
         source: TomlError,
@@ -44,8 +44,8 @@ pub enum ManifestError {
     },
 }
 
-/// Adds the trimmed manifests of the root and of `student`, and the aliases, and trims the
-/// manifests that are in the bundle already.
+/// Adds the cargo aliases and the manifests of the root and of `student`, without the entries for
+/// staff. Also trims the manifests that are already in the bundle.
 pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), ManifestError> {
     bundle.insert("student/Cargo.toml", read(root, "student/Cargo.toml")?);
     let paths: Vec<String> = bundle.files.keys().cloned().collect();

@@ -3,7 +3,7 @@
 //!
 //! A bundle is always generated. The starter comes from the reference, the manifests and the lock
 //! file are the workspace's with staff entries removed, and the few files that only students see
-//! are in `templates/`. Before a bundle is written it is searched for [`secrets`].
+//! are in `templates/`. Before a bundle is written, it is searched for [`secrets`].
 
 pub mod archive;
 pub mod check;
@@ -22,7 +22,7 @@ use crate::bundle::lock::LockError;
 use crate::bundle::manifests::ManifestError;
 use crate::starter::{self, StarterError};
 
-/// The files that only students see: path in the bundle, and contents.
+/// The paths in the bundle and the contents of the files that only students see.
 const STUDENT_ONLY: [(&str, &str); 4] = [
     ("README.md", include_str!("templates/README.md")),
     (".gitignore", include_str!("templates/gitignore")),
@@ -36,8 +36,8 @@ const STUDENT_ONLY: [(&str, &str); 4] = [
 /// The files of a bundle or package.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bundle {
-    /// The contents of each file, by its path with `/`. Sorted, so that the same workspace gives
-    /// the same archive.
+    /// The contents of each file, by its path, with `/` as the separator. Sorted, so that the same
+    /// workspace gives the same archive.
     pub files: BTreeMap<String, Vec<u8>>,
 }
 
@@ -80,7 +80,7 @@ impl Bundle {
         Ok(bundle)
     }
 
-    /// Inserts a file, and replaces an existing one with the same path.
+    /// Inserts a file, replacing any existing file with the same path.
     pub fn insert(&mut self, path: impl Into<String>, contents: impl Into<Vec<u8>>) {
         self.files.insert(path.into(), contents.into());
     }

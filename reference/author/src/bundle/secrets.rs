@@ -29,7 +29,8 @@ const SECRET_PATHS: [&str; 4] = [
 const ORACLE_FOLDER: &str = "reference/author/src/oracle";
 /// The folders of given code, whose lines solutions may repeat.
 const GIVEN_FOLDERS: [&str; 2] = ["student/src/", "student/protocol/"];
-/// The minimum length of a secret line, without white space. Shorter lines occur by coincidence.
+/// The minimum length of a secret line, not counting white space. Shorter lines occur by
+/// coincidence.
 const MIN_LENGTH: usize = 21;
 /// The id of the only exam that students may have.
 const PRACTICE_ID: &str = "practice";
@@ -78,7 +79,8 @@ pub enum SecretsError {
 }
 
 impl Secrets {
-    /// Collects the secrets of the workspace at `root`, except lines of the bundle's given files.
+    /// Collects the secrets of the workspace at `root`, except lines that also occur in the
+    /// bundle's given files.
     pub fn gather(root: &Path, bundle: &Bundle) -> Result<Self, SecretsError> {
         let mut secrets = Secrets {
             lines: HashMap::new(),
@@ -176,7 +178,7 @@ impl fmt::Display for Secrets {
 impl fmt::Display for Leak {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Leak::Line { found, source } => write!(f, "{found} is a line of {source}"),
+            Leak::Line { found, source } => write!(f, "{found} is the same line as {source}"),
             Leak::Exam { found } => write!(f, "{found} is not the practice exam"),
         }
     }

@@ -10,11 +10,12 @@ use super::pages::{Page, Snippet};
 use super::source_file::SourceFile;
 use crate::cli::Cli;
 
-/// The file with the options of `cargo render`, whose crate is not linked here.
+/// The file that defines the options of `cargo render`. It is read as text, because the crate is
+/// not linked here.
 const RENDER_OPTIONS: &str = "student/framework/src/cli/options.rs";
 /// The flags of Rust's test harness that the handout uses.
 const HARNESS_FLAGS: [&str; 1] = ["--nocapture"];
-/// Commands that are not part of this repository.
+/// Commands of other programs that the handout uses.
 pub(super) const OTHER_COMMANDS: [&str; 7] = [
     "rustc",
     "rustup",
@@ -50,7 +51,7 @@ fn unknown_command(
     sources: &[SourceFile],
     aliases: &BTreeSet<String>,
 ) -> Option<String> {
-    // A redirection with `>` is for the shell.
+    // A redirection with `>` is not part of the command.
     let words = text.split_whitespace().take_while(|word| *word != ">");
     let words: Vec<&str> = words.collect();
     let (cargo, rest) = words.split_first()?;
@@ -63,7 +64,7 @@ fn unknown_command(
     if !own {
         return Some(format!("cargo has no command {command}"));
     }
-    // Replaces placeholders by valid values.
+    // Replace placeholders with valid values.
     let arguments = arguments.iter().map(|word| match *word {
         "ITEM#N" | "ITEM#NUMBER" => "sphere.from_inside#7",
         "N" => "60",
@@ -102,8 +103,8 @@ fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     unknown_option(&[flag], sources).map(|_| format!("no command has the flag {flag}"))
 }
 
-/// Returns a problem for the first flag that `cargo render` does not have. Its flags are the fields
-/// of its options.
+/// Returns the problem with the first flag that `cargo render` does not have. Each of its flags is
+/// a field in [`RENDER_OPTIONS`].
 fn unknown_option(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let options = sources.iter().find(|source| source.path == RENDER_OPTIONS);
     let options = options.map_or("", |source| source.text.as_str());
@@ -115,7 +116,8 @@ fn unknown_option(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     Some(format!("cargo render has no flag --{unknown}"))
 }
 
-/// Returns a problem for the first argument of `cargo examples` that is not the name of a file.
+/// Returns the problem with the first argument of `cargo examples` that is neither the name of a
+/// file nor a flag of the test harness.
 fn unknown_example(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let unknown = words.iter().find(|word| {
         let file = format!("student/src/{word}.rs");

@@ -24,7 +24,8 @@ use crate::handout::pages::{Page, pages};
 use crate::handout::source_file::SourceFile;
 use crate::proof::sources::{ReadError, read};
 
-/// The code that students see, and the code that writes files that students see.
+/// The folders in which the handout's names are looked up: the code that students see, and the code
+/// that writes files that students see.
 const SOURCES: [&str; 8] = [
     "student/src",
     "student/protocol/src",
@@ -36,7 +37,7 @@ const SOURCES: [&str; 8] = [
     "scenes",
 ];
 
-/// Folders that are not searched.
+/// Folders that are not searched for files.
 const IGNORED_FOLDERS: [&str; 2] = [".git", "target"];
 
 /// Draws the handout's figures.
@@ -98,7 +99,7 @@ fn files(root: &Path) -> Result<BTreeSet<String>, ReadError> {
     Ok(files_below(root, root)?.into_iter().collect())
 }
 
-/// Returns the paths of all files below a folder, relative to the root, with `/`.
+/// Returns the paths of all files below a folder, relative to the root, with `/` as the separator.
 fn files_below(root: &Path, folder: &Path) -> Result<Vec<String>, ReadError> {
     let read_error = |source: io::Error| ReadError {
         path: folder.to_owned(),

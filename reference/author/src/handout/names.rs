@@ -1,7 +1,7 @@
 //! Checks that every name that the handout mentions exists.
 //!
 //! Every identifier in inline code must occur in the sources that students see. For `Type::member`,
-//! some file must declare the type and contain the member. Item ids must be the exam's, and files
+//! some file must declare the type and contain the member. Item ids must be in the exam, and files
 //! must exist.
 
 use std::collections::BTreeSet;
@@ -23,7 +23,7 @@ const RUST_NAMES: [&str; 12] = [
 pub struct KnownNames<'a> {
     /// The code that students see, and the code that writes files that students see.
     pub sources: &'a [SourceFile],
-    /// All files of the repository, relative to its root.
+    /// The paths of all files of the repository, relative to its root.
     pub files: &'a BTreeSet<String>,
     /// The exam, for the ids of its items.
     pub exam: &'a Exam,
@@ -67,7 +67,7 @@ pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
         }
         let is_known = |word: &str| {
             let named = words.contains(word) || own.contains(word) || RUST_NAMES.contains(&word);
-            // Files contain the names of enum variants in snake case.
+            // JSON files contain the names of enum variants in snake case.
             named || words.contains(pascal_case(word).as_str())
         };
         let mut unknown = identifiers(text).filter(|word| word.len() > 1 && !is_known(word));

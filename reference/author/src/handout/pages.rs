@@ -8,7 +8,7 @@ use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 
 use crate::proof::sources::{ReadError, read};
 
-/// A text of a chapter, and its line.
+/// A piece of text from a chapter, and its line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Snippet {
     /// The text.
@@ -65,7 +65,7 @@ impl Page {
     }
 }
 
-/// The heading and code block that are open while a chapter is parsed.
+/// The state of parsing a chapter: the heading and the code block that are open, if any.
 #[derive(Default)]
 struct Reader {
     heading: Option<Snippet>,
@@ -75,7 +75,7 @@ struct Reader {
 impl Reader {
     #[expect(
         clippy::wildcard_enum_match_arm,
-        reason = "the enum is the parser's, and other events are ignored"
+        reason = "the enum belongs to the parser, and all other events are ignored"
     )]
     fn handle(&mut self, event: Event, line: usize, page: &mut Page) {
         let snippet = |text: &str| Snippet {
@@ -170,10 +170,11 @@ pub fn pages(folder: &Path) -> Result<Vec<Page>, ReadError> {
     Ok(pages)
 }
 
-/// Returns the formulas of a chapter: byte range, LaTeX, and whether it is a display formula.
+/// Returns the formulas of a chapter, each with its byte range, its LaTeX source, and whether it is
+/// a display formula.
 #[expect(
     clippy::wildcard_enum_match_arm,
-    reason = "the parser's own: what else is in a chapter is not looked at"
+    reason = "the enum belongs to the parser, and all other events are ignored"
 )]
 pub fn formulas(markdown: &str) -> Vec<(Range<usize>, String, bool)> {
     let mut formulas = Vec::new();

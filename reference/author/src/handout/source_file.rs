@@ -3,7 +3,7 @@
 /// A source file.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
-    /// The path relative to the workspace's root, with `/`.
+    /// The path relative to the workspace's root, with `/` as the separator.
     pub path: String,
     /// The whole text.
     pub text: String,

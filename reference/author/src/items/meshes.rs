@@ -33,7 +33,8 @@ pub fn number_shapes(shapes: impl IntoIterator<Item = Shape>) -> Vec<Shape> {
     (0..).zip(shapes).map(number).collect()
 }
 
-/// Returns a flat triangle around a point. It is not thin, and is inside a ball of radius `size`.
+/// Returns a flat triangle around `center` in a random orientation. It has no sharp angles, and
+/// fits in a ball of radius `size` around `center`.
 pub fn random_flat_triangle(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
     let across = rng.direction();
     let up = rng.perpendicular_to(across);
@@ -52,8 +53,8 @@ pub fn soup(rng: &mut Rng, count: usize, half: f64, size: f64) -> Vec<Shape> {
 }
 
 /// Returns long, thin triangles: along x in one region, along y in another, and along z in a third.
-/// Partitions along the strands are of little use, but the strands' direction is the longest axis
-/// of a node.
+/// Splitting along the strands' direction gains little, but it is the longest axis of a node in one
+/// region, so a builder that only splits the longest axis builds a poor tree.
 pub fn strands(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let strands = (0..count).map(|i| {
         let axis = i % 3;
@@ -72,8 +73,8 @@ fn strand(rng: &mut Rng, center: DVec3, axis: usize, length: f64) -> Shape {
     flat_triangle([center - along, center + along, center + along + across], 0)
 }
 
-/// Returns stacked sheets of long strips, where a sheet is longer than the stack is high. Only
-/// partitions between sheets, or between strips, are good.
+/// Returns a stack of sheets that consist of long strips. The sheets are longer than the stack is
+/// high, but only partitions between sheets or between strips are good.
 pub fn sheets(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let sheets = (0..count).map(|i| {
         let level = (i % 12) as f64;

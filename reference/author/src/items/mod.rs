@@ -1,7 +1,7 @@
 //! The exam's items: one module per task, and one idea per item.
 //!
-//! An item's keys judge only the quantities that its idea is about. Every item has questions with
-//! opposite answers (hits and misses, or both sides), so that no constant answer passes it.
+//! An item's keys test only the quantities that its idea is about. Every item has questions with
+//! opposite answers (such as hits and misses), so that no constant answer passes it.
 
 pub mod bbox;
 pub mod build;
@@ -20,7 +20,7 @@ use protocol::{Question, Ray, Rays, Shape};
 
 use crate::oracle::{Intersection, Ray64, scan};
 
-/// Creates an item. `text` is its title and a hint on where to look for the mistake.
+/// Creates an item. `text` contains its title, and advice on where to look for the mistake.
 fn item(
     task: Task,
     name: &str,
@@ -48,15 +48,15 @@ fn ray(from: DVec3, toward: DVec3) -> Ray {
     Ray::new(from.as_vec3(), (toward - from).as_vec3())
 }
 
-/// Creates a question that asks for the closest hit of each ray, computed with the shapes' own
-/// `hit`.
+/// Creates a question that asks for the closest hit of each ray. It calls the `hit` of every shape,
+/// without a tree.
 fn shapes_question(checks: &[HitCheck], shapes: Vec<Shape>, rays: Vec<Ray>) -> ExamQuestion {
     let key = hits_key(checks, &rays, |ray64| scan::closest_hit(ray64, &shapes));
     let rays = Rays::List(rays);
     ExamQuestion::new(Question::Shapes { shapes, rays }, key)
 }
 
-/// Returns the key of a list of rays, given the correct answer to each.
+/// Returns the key for a list of rays, where `answer` computes the correct answer for each ray.
 fn hits_key(
     checks: &[HitCheck],
     rays: &[Ray],

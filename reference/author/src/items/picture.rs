@@ -1,10 +1,10 @@
 //! Pictures of first hits.
 //!
-//! At an edge, correct answers that differ in the last bit see different surfaces. The key of a
-//! position is therefore a set of surfaces: those seen at the position itself, at four neighbours
-//! that are closer to it than any mistake would move an edge, and in between. The positions in
-//! between are needed because the depth near a sphere's silhouette changes so steeply that a
-//! correct answer may be between those of two neighbours.
+//! At an edge, correct submissions whose rays differ only in the last bit see different surfaces.
+//! The key of a position is therefore a set of surfaces: those seen at the position itself, at four
+//! neighbours that are closer to it than any mistake would move an edge, and at positions in
+//! between. The latter are needed because the depth near a sphere's silhouette changes so steeply
+//! that a correct depth may be between those at two neighbours.
 
 use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
 use judging::exam::{ExamQuestion, Key, Surface};
@@ -13,21 +13,21 @@ use protocol::{ExamCamera, Question, Rays, Sample, Shape, every_pixel};
 use crate::oracle::scan::Scan;
 use crate::oracle::{Intersection, Ray64};
 
-/// The distance of the neighbours along each axis, in pixels.
+/// The distance of the neighbours from a position, along each axis and in pixels.
 const NEIGHBOUR_DISTANCE: f32 = 5e-4;
-/// The maximum depth of bisection between a position and a neighbour that sees another surface.
+/// The maximum depth of bisection between a position and a neighbour with another surface.
 const HALVINGS: u32 = 12;
 
 /// Returns a camera at the origin that looks down −z with a field of view of 90 degrees.
 ///
-/// Its numbers are exact in single precision, so rays through the middles of pixels hit the points
-/// behind them exactly.
+/// Its numbers are exact in single precision, so shapes can be placed exactly behind the middles of
+/// pixels.
 pub fn camera_at_origin(pixels: u32) -> ExamCamera {
     camera_along(Vec3::ZERO, DVec3::NEG_Z, 1.0, pixels)
 }
 
 /// Returns a camera at `eye` that looks along `forward`, which must have length one and not be
-/// parallel to y. At distance one, half of the square film is `half` wide.
+/// parallel to y. At distance one, the square film is 2 · `half` wide.
 pub fn camera_along(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> ExamCamera {
     let right = forward.cross(DVec3::Y).normalize();
     let up = right.cross(forward);
@@ -40,7 +40,8 @@ pub fn camera_along(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> ExamCa
     }
 }
 
-/// Creates a question that asks for a picture of these shapes, computed with the shapes' own `hit`.
+/// Creates a question that asks for a picture of these shapes. It calls the `hit` of every shape,
+/// without a tree.
 pub fn picture_question(camera: ExamCamera, shapes: Vec<Shape>) -> ExamQuestion {
     let scan = Scan::new(&shapes);
     let key = first_hits_key(&camera, |ray64| scan.closest_hit(ray64));
@@ -79,8 +80,8 @@ pub fn first_hits_key(camera: &ExamCamera, sees: impl Fn(&Ray64) -> Option<Inter
 }
 
 /// Returns the surfaces seen between `start` and `end`, including the one at `end`. Bisects until
-/// neighbouring surfaces are equal within the tolerances. At an edge they never are, so it stops
-/// after `halvings` bisections.
+/// neighbouring surfaces are equal within the tolerances. At an edge this never happens, so the
+/// depth of bisection is limited to `halvings`.
 fn surfaces_between(
     toward: &impl Fn(f32) -> Option<Surface>,
     start: (f32, Option<Surface>),

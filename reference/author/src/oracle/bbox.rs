@@ -1,4 +1,4 @@
-//! Intersections of rays and boxes, by clipping the ray to one pair of planes after the other.
+//! Intersections of rays and boxes, by clipping the ray to each pair of planes in turn.
 
 use glam::DVec3;
 
@@ -63,7 +63,8 @@ impl Bounds {
         }
     }
 
-    /// Returns the part of the ray's range in which the ray is in the box, or `None` if it misses.
+    /// Returns the part of the ray's range in which the ray is in the box, or `None` if there is
+    /// none.
     pub fn span(&self, ray: &Ray64) -> Option<(f64, f64)> {
         let mut inside = (ray.min, ray.max);
         for axis in 0..3 {

@@ -31,7 +31,7 @@ pub struct BucketedBuilder {
 }
 
 impl BucketedBuilder {
-    /// Creates a correct builder, which compares the two whole sides of each plane.
+    /// Creates a correct builder, which counts all buckets on each side of a plane.
     pub fn correct(count: usize, extent: BucketExtent) -> Self {
         let sides = SideRule::AllBuckets;
         BucketedBuilder {
@@ -53,8 +53,8 @@ impl BucketedBuilder {
 }
 
 /// Returns the cost of the tree that this builder builds, with C_trav = C_isect = 1 and areas
-/// relative to the root's. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
-/// 2007, section 3.
+/// relative to the root's. The builder follows Wald, "On fast Construction of SAH-based Bounding
+/// Volume Hierarchies", 2007, section 3.
 pub fn cost(boxes: &[Bounds], max_leaf_size: usize, builder: BucketedBuilder) -> f64 {
     let mut boxes = boxes.to_vec();
     let root = bounds_of(&boxes).area();
@@ -143,8 +143,8 @@ impl BucketContents {
     }
 }
 
-/// Returns the axis and the number of buckets on the first side, or `None` if no plane separates
-/// the boxes.
+/// Returns the axis of the cheapest split and the number of buckets on its left side, or `None` if
+/// no plane separates the boxes.
 fn cheapest_split(
     boxes: &[Bounds],
     over: &Bounds,

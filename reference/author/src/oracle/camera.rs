@@ -1,4 +1,4 @@
-//! Ray directions of a camera, by interpolating between the four corners of the sensor.
+//! Directions of camera rays, by interpolating between the four corners of the sensor.
 
 use std::f64::consts::PI;
 

@@ -1,5 +1,5 @@
-//! Correct answers in double precision, computed from the definitions. No formula is the one that
-//! students are taught, so that the same mistake cannot be in a solution and in its key.
+//! Correct answers in double precision, computed from the definitions. The formulas differ from
+//! those that students are taught, so that a solution and its key do not contain the same mistake.
 
 pub mod bbox;
 pub mod buckets;

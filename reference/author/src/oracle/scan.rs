@@ -1,4 +1,4 @@
-//! Linear scans: the closest hit of a ray in a list of shapes, by testing all of them.
+//! Linear scans: finds the closest hit of a ray by testing every shape in a list.
 
 use protocol::Shape;
 
@@ -95,8 +95,8 @@ pub fn bounds(shape: &Shape) -> Bounds {
     }
 }
 
-/// Returns whether every correct formula in single precision agrees on whether and where the ray
-/// hits this shape: the hit or miss is not close to an edge, a tangent or an end of the range.
+/// Returns whether all correct formulas in single precision agree on whether and where the ray hits
+/// this shape, because the hit or miss is not close to an edge, a tangent or an end of the range.
 pub fn is_unambiguous(ray: &Ray64, shape: &Shape) -> bool {
     /// The minimum difference between a distance and the ends of the range.
     const END_MARGIN: f64 = 2e-2;

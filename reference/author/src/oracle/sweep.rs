@@ -5,7 +5,8 @@ use judging::drawing_data::{LevelNode, Sweep};
 use super::bbox::Bounds;
 
 /// Returns the cost of the tree that the greedy sweep builds, with C_trav = C_isect = 1: the sum of
-/// S/S_root over interior nodes, and of S/S_root times the number of primitives over leaves.
+/// S/S_root over all interior nodes, plus the sum of S/S_root times the number of primitives over
+/// all leaves.
 ///
 /// At each node with more than `max_leaf_size` primitives, the sweep takes the cheapest partition
 /// between two consecutive centres along any axis (MacDonald and Booth, "Heuristics for ray tracing
@@ -155,7 +156,7 @@ fn partitions(boxes: &[Bounds], indices: &[usize], axis: usize) -> Vec<Partition
 }
 
 fn sort_by_center(boxes: &[Bounds], indices: &mut [usize], axis: usize) {
-    // Ties are in a fixed order, so that the result does not depend on the order of the input.
+    // Ties are broken by index, so that the result does not depend on the order of `indices`.
     indices.sort_by(|&a, &b| {
         let (left, right) = (boxes[a].center()[axis], boxes[b].center()[axis]);
         left.total_cmp(&right).then(a.cmp(&b))

@@ -1,4 +1,5 @@
-//! Intersections of rays and triangles: by intersecting the triangle's plane, then comparing areas.
+//! Intersections of rays and triangles, by intersecting the triangle's plane and then comparing
+//! areas.
 
 use glam::{DVec2, DVec3};
 use protocol::Vertex;
@@ -74,7 +75,7 @@ pub fn intersection_at(
     }
 }
 
-/// Returns the intersection in the ray's range.
+/// Returns the intersection with the triangle, if it is in the ray's range.
 pub fn intersect(ray: &Ray64, vertices: &[Vertex; 3], material: u32) -> Option<Intersection> {
     let intersection = intersect_inside(ray, corners(vertices))?;
     Some(intersection_at(ray, &intersection, vertices, material))

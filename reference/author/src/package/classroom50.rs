@@ -1,12 +1,12 @@
-//! The package for classroom50: a folder with an entry point, and the grader in an archive beside
-//! it. Students can read all of it, so it uses the practice exam.
+//! The package for classroom50: a folder with two files, the entry-point script and an archive of
+//! the grader. Students can read all of it, so it uses the practice exam.
 
 use std::path::Path;
 
 use crate::bundle::{Bundle, archive};
 use crate::package::{PackageError, grader_files};
 
-/// The script that the runner starts: file name and contents.
+/// The file name and the contents of the script that the runner starts.
 const ENTRY_POINT: (&str, &str) = (
     "autograder.py",
     include_str!("templates/classroom50/autograder.py"),

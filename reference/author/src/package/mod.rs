@@ -33,8 +33,7 @@ pub enum Platform {
 /// The choices of a course: its final exam and its policy.
 #[derive(Clone, Debug)]
 pub struct Course {
-    /// The text of the final exam, or `None` if there is none because the platform cannot hide it
-    /// from students.
+    /// The text of the final exam. `None` for a platform that cannot hide it from students.
     pub exam: Option<String>,
     /// The text of the policy file.
     pub policy: String,
@@ -85,7 +84,8 @@ pub enum PackageError {
 }
 
 impl Course {
-    /// Reads the exam and the policy that the command line names.
+    /// Generates the exam from a seed or reads its file, if either is given. Reads the policy file,
+    /// or uses the default policy.
     pub fn new(
         seed: Option<u64>,
         exam: Option<&Path>,

@@ -18,7 +18,7 @@ pub struct Mistake {
     pub id: String,
     /// A description of what the wrong code does.
     pub title: String,
-    /// The sources in which the mistake was seen, as numbers in the list of
+    /// The sources in which the mistake was seen, by their numbers in
     /// `reference/mistakes/README.md`.
     #[serde(default)]
     pub seen: Vec<String>,
@@ -32,7 +32,7 @@ pub struct Mistake {
     pub section: Option<Section>,
     /// The items that fail with every seed.
     pub fails: Vec<String>,
-    /// The changes to the reference; nearly always one.
+    /// The changes to the reference. Nearly always, there is only one.
     #[serde(rename = "change")]
     pub changes: Vec<Change>,
 }
@@ -63,9 +63,10 @@ pub enum CatalogueError {
         /// The parse error, with its line and column.
         source: toml::de::Error,
     },
-    /// An id does not begin with its task, or is used twice.
+    /// An id does not begin with the id of its task, or is used twice.
     #[error(
-        "{}: the id `{id}` does not begin with its task and a dot, or is used twice",
+        "{}: the id `{id}` must be unique and begin with the id of its task and a dot, such as \
+         `camera.`",
         path.display()
     )]
     Id {
@@ -74,7 +75,7 @@ pub enum CatalogueError {
         /// The id.
         id: String,
     },
-    /// The text that a mistake changes is no longer in the reference exactly once.
+    /// The text that a mistake changes no longer occurs exactly once in the reference.
     #[error(
         "{id} no longer applies: its `was` occurs {count} times in reference/src/{file} instead of \
          once; adapt it in reference/mistakes"
@@ -89,7 +90,7 @@ pub enum CatalogueError {
     },
 }
 
-/// Reads all known mistakes of the workspace at `root`, by task and then in the order of the files.
+/// Reads all known mistakes of the workspace at `root`, ordered by task and then by file.
 pub fn mistakes(root: &Path) -> Result<Vec<Mistake>, CatalogueError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -141,7 +142,8 @@ impl Mistake {
     }
 
     /// Returns the tasks that may lose points: the mistake's own, and the tasks of the items that
-    /// must fail. The latter differ for two combined mistakes that hide each other.
+    /// must fail. The latter can be other tasks if an entry combines two mistakes that hide each
+    /// other.
     pub fn tasks(&self) -> Vec<Task> {
         let failed = |task: &Task| {
             let of_task = |id: &String| id.split('.').next() == Some(task.id());

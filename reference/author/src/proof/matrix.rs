@@ -15,8 +15,8 @@ use crate::proof::workbench::Workbench;
 /// The path of the table, relative to the workspace's root.
 const PATH: &str = "reference/mistakes/matrix.md";
 
-/// Builds the table for the committed practice exam. It is an error if a mistake does not lose the
-/// points that it must lose.
+/// Builds the table for the committed practice exam. Returns an error if a mistake does not lose
+/// the points that it must lose.
 pub fn generated_file() -> Result<GeneratedFile, ProofError> {
     let solutions = Solutions::load(Workbench::open()?)?;
     let exam = exams::load_practice(solutions.workbench.root())?;
@@ -33,9 +33,10 @@ fn table(exam: &Exam, graded: &[GradedMistake]) -> GeneratedFile {
     let mut text = format!(
         "# Which mistake fails which item\n\n\
          Written by `cargo author mistakes` for {} known mistakes, each a change to the reference, \
-         and the {} exam. ● means that all of the item's points are lost, ◐ that some are. If an \
-         item of another task would fail because of a mistake, it is graded with the reference's \
-         part (see `handout/src/grading.md`), so that a mistake costs points in its own task only.\n",
+         and the {} exam. ● means that all of the item's points are lost, ◐ that some are lost. If \
+         an item of another task would fail because of a mistake, it is graded with the \
+         reference's part (see `handout/src/grading.md`), so that a mistake costs points in its \
+         own task only.\n",
         graded.len(),
         exam.id
     );
@@ -60,7 +61,7 @@ fn task_table<'a>(
     let numbers: String = (1..=items.len())
         .map(|number| format!(" {number} |"))
         .collect();
-    writeln!(out, "\n| mistake | what such code does | lost |{numbers}")?;
+    writeln!(out, "\n| mistake | what the code does | lost |{numbers}")?;
     writeln!(out, "|---|---|--:|{}", ":-:|".repeat(items.len()))?;
     for GradedMistake { mistake, score } in graded {
         let lines: Vec<&ItemScore> = score

@@ -1,9 +1,9 @@
-//! Proves that the exam catches every known mistake and gives full marks to correct code, by
-//! grading many solutions.
+//! Tests that the exam catches every known mistake and gives full marks to correct code, by grading
+//! many solutions.
 //!
 //! `reference/mistakes` contains known mistakes, which are small changes to the reference,
-//! `reference/variants` other correct solutions, and `reference/mutants` mechanical changes. Each
-//! is built and graded like any submission.
+//! `reference/variants` contains other correct solutions, and `reference/mutants` lists mechanical
+//! changes to the reference. Each solution is built and graded like any submission.
 
 pub mod calibrate;
 pub mod catalogue;

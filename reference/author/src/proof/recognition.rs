@@ -21,15 +21,15 @@ pub struct Recognition {
     /// Mistakes whose own hint is not given, each with the hints that are given instead, if any.
     pub misrecognised: Vec<(String, Vec<String>)>,
     /// Mistakes without a signature: only pictures show them, they give no answers, or too many
-    /// other mistakes give the same ones.
+    /// other mistakes give the same answers.
     pub without_signature: Vec<String>,
-    /// Mistakes that get hints for other mistakes when they are removed from the catalogue, each
+    /// Mistakes that would get hints for other mistakes if they were not in the catalogue, each
     /// with these hints.
     pub confused_when_unknown: Vec<(String, Vec<String>)>,
 }
 
-/// Runs every mistake and determines its hints, with the exam as it is and without the mistake's
-/// signature.
+/// Runs every mistake and determines its hints, once with the exam as it is and once without the
+/// mistake's signature.
 pub fn recognise(solutions: &Solutions, exam: &Exam) -> Result<Recognition, ProofError> {
     let indices: Vec<usize> = (0..solutions.mistakes.len()).collect();
     let all: Result<Vec<_>, ProofError> = indices
@@ -128,18 +128,18 @@ impl fmt::Display for Recognition {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         for (id, hints) in &self.misrecognised {
             let hints = if hints.is_empty() {
-                "none".to_owned()
+                "no hint".to_owned()
             } else {
-                hints.join(" or ")
+                format!("the hint {}", hints.join(" or "))
             };
-            writeln!(f, "{id} gets the hint {hints}")?;
+            writeln!(f, "{id} gets {hints}")?;
         }
         for (id, hints) in &self.confused_when_unknown {
             writeln!(f, "{id}, if unknown, gets the hint {}", hints.join(" or "))?;
         }
         writeln!(
             f,
-            "shown by pictures only: {}",
+            "without a signature: {}",
             self.without_signature.join(", ")
         )?;
         let with_signature = self.recognised.len() + self.misrecognised.len();

@@ -35,7 +35,7 @@ pub enum ProofError {
     /// The exam's picture cannot be recorded.
     #[error(transparent)]
     Recording(#[from] RecordingError),
-    /// Mistakes do not lose the points that they must lose.
+    /// Some mistakes do not lose the points that they must lose.
     #[error(
         "the practice exam and reference/mistakes do not agree; fix the items or the mistakes:\n{}",
         .0.join("\n")
@@ -54,12 +54,12 @@ pub enum ProofError {
     },
 }
 
-/// The known mistakes and variants with their sources, and the means to build and grade them.
+/// The known mistakes and variants with their sources, and the tools to build and grade them.
 #[derive(Debug)]
 pub struct Solutions {
     /// Known wrong solutions, in the order of the catalogue.
     pub mistakes: Vec<(Mistake, Sources)>,
-    /// Known correct solutions, in the order of the list.
+    /// Known correct solutions, in the order of `variants.toml`.
     pub variants: Vec<(Variant, Sources)>,
     /// The workbench that builds the solutions.
     pub workbench: Workbench,
@@ -94,7 +94,7 @@ impl Solutions {
         })
     }
 
-    /// Keeps one variant, and drops all others and the mistakes.
+    /// Keeps only this variant, and drops all other variants and all mistakes.
     pub fn only_variant(mut self, id: &str) -> Result<Self, ProofError> {
         self.mistakes.clear();
         self.variants.retain(|(variant, _)| variant.id == id);

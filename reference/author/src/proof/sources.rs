@@ -1,4 +1,4 @@
-//! The task files of a solution: those of the reference, with some of them changed.
+//! The task files of a solution: those of the reference, some of them changed.
 
 use std::fs;
 use std::io;

@@ -1,4 +1,5 @@
-//! Builds and runs solutions. Built programs are cached, since proofs use the same ones repeatedly.
+//! Builds and runs solutions. Built programs are cached, because a proof runs each of them many
+//! times.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -55,7 +56,7 @@ pub enum WorkbenchError {
 
 impl Workbench {
     /// Opens the workspace. Solutions are built as on an instructor's machine: if there is a
-    /// reference, its parts are used as substitutes.
+    /// reference, its parts substitute for wrong ones.
     pub fn open() -> Result<Self, WorkbenchError> {
         let workspace = Workspace::find()?;
         let builder =
@@ -72,12 +73,12 @@ impl Workbench {
         self.workspace.root()
     }
 
-    /// Returns the folder for results that can be computed again.
+    /// Returns the folder for cached results, which can be computed again.
     pub fn scratch(&self) -> PathBuf {
         self.workspace.output_folder()
     }
 
-    /// Builds a solution. It is an error if any of its files does not compile.
+    /// Builds a solution. Returns an error if any of its files does not compile.
     pub fn build(&self, sources: &Sources, id: &str) -> Result<BuiltSolution, WorkbenchError> {
         let builder = match sources.crates() {
             [] => Cow::Borrowed(&self.builder),

@@ -38,7 +38,8 @@ pub(super) fn obj() -> String {
 fn solid(p: DVec3) -> f64 {
     let DVec3 { x, y, z } = p * (TAU / PERIOD);
     let gyroid = sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x);
-    // Scaled to be roughly a distance, like that of the ball: the gyroid's gradient is about 1.5.
+    // Scaled to be roughly a distance, like the value for the ball: the gyroid's gradient is about
+    // 1.5.
     let distance = gyroid / 1.5 * (PERIOD / TAU);
     smooth_max(distance, p.length() - 1.0)
 }

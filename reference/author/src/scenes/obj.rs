@@ -19,7 +19,7 @@ struct Lines {
 }
 
 impl Obj {
-    /// Creates a file without a mesh, with `about` as a comment at the top.
+    /// Starts an OBJ file that has no geometry yet, with `about` as a comment at the top.
     pub(super) fn new(about: &str) -> Self {
         let lines = |keyword| Lines {
             keyword,

@@ -1,4 +1,4 @@
-//! Extraction of the surface where a function is zero, as a mesh.
+//! Extracts the surface where a function is zero, as a mesh.
 //!
 //! The method is Gibson's, "Constrained Elastic Surface Nets", 1998, without the relaxation: one
 //! vertex in each cell that the surface passes through, and one quadrilateral around each grid edge

@@ -92,8 +92,8 @@ impl Tree {
     }
 }
 
-/// Rounds a corner of a box to single precision, outward where it is not exact. The corners of flat
-/// triangles are exact, so flat boxes stay flat. The extents of a sphere may not be.
+/// Rounds a corner of a box to single precision, outward if it is not exact. The corners of flat
+/// triangles are exact, so flat boxes stay flat. The extents of a sphere may be inexact.
 fn round_outward(exact: DVec3, outward: fn(f32) -> f32) -> Vec3 {
     let component = |axis: usize| {
         let nearest = exact[axis] as f32;

@@ -1,5 +1,5 @@
 //! Decoys: primitives outside the box of the leaf that holds them, which a correct traversal never
-//! tests. A traversal that tests one returns a wrong hit.
+//! tests. A traversal that tests a decoy returns a wrong hit.
 
 use glam::DVec3;
 use protocol::{Ray, Shape};
@@ -43,8 +43,8 @@ pub fn skip_reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<SkipReason
         return Some(SkipReason::SubtreePruned);
     }
     // A traversal that opens several levels at once, or always takes the nearest open node, may
-    // enter this side before it has finished the other. It still enters the leaf of the hit first,
-    // if that leaf begins first.
+    // enter the side of `leaf` before it has finished the side of the hit. It still enters the leaf
+    // of the hit first, if that leaf begins first.
     (entry(fork.hit_leaf)? + margin <= entry(fork.toward_leaf)? && is_beyond(leaf))
         .then_some(SkipReason::LeafPruned)
 }
@@ -103,7 +103,7 @@ fn entry_distance(tree: &Tree, index: usize, ray64: &Ray64) -> Option<f64> {
 
 /// Returns whether, on the path from the fork down to the leaf, the ray misses the sibling of every
 /// node that begins beyond the closest hit. Such a node is the only child to enter, so the slides'
-/// literal pseudo-code enters it without comparing distances.
+/// pseudo-code, taken literally, enters it without comparing distances.
 pub fn siblings_beyond_are_missed(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     let Some(fork) = find_fork(tree, leaf, ray64) else {
         return false;
@@ -122,8 +122,8 @@ pub fn siblings_beyond_are_missed(tree: &Tree, leaf: usize, ray64: &Ray64) -> bo
     })
 }
 
-/// Returns whether every correct traversal answers every ray correctly: decoys are out of reach, a
-/// traversal by every [`TraversalRule`] is correct, and no answer depends on rounding.
+/// Returns whether every correct traversal gives the correct answer for every ray: decoys are out
+/// of reach, a traversal by every [`TraversalRule`] is correct, and no answer depends on rounding.
 pub fn is_fair(tree: &Tree, rays: &[Ray]) -> bool {
     rays.iter().all(|ray| {
         let ray64 = Ray64::from(ray);
@@ -133,7 +133,7 @@ pub fn is_fair(tree: &Tree, rays: &[Ray]) -> bool {
     })
 }
 
-/// Returns whether every decoy that would change this ray's answer is out of reach.
+/// Returns whether every decoy that would change the answer for this ray is out of reach.
 fn decoys_are_out_of_reach(tree: &Tree, ray64: &Ray64) -> bool {
     let expected = tree
         .expected_hit(ray64)
@@ -191,8 +191,9 @@ pub fn triangle_across(rng: &mut Rng, ray: &Ray, distance: f64, size: f64, mater
     }
 }
 
-/// Returns the tree with a decoy added before a ray's closest hit, in a random leaf that `fits`
-/// accepts. Returns `None` if no leaf fits, or if the decoy would make the tree unfair.
+/// Returns the tree with a decoy added in front of a ray's closest hit, in a random leaf that
+/// `fits` accepts. Returns `None` if no leaf fits, if the ray would enter the leaf's box before the
+/// decoy, or if the decoy would make the tree unfair.
 pub fn add_decoy(
     rng: &mut Rng,
     tree: &Tree,

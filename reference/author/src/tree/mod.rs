@@ -102,8 +102,8 @@ impl Tree {
         Some(if l == index { r } else { l })
     }
 
-    /// Returns for each primitive whether it is ordinary: in a reachable leaf, and inside that
-    /// leaf's box. All other primitives are decoys or unreferenced.
+    /// Returns for each primitive whether it is ordinary, that is, in a reachable leaf and inside
+    /// that leaf's box. All other primitives are decoys or unreferenced.
     pub fn ordinary_primitives(&self) -> Vec<bool> {
         let leaves = self.leaves();
         let indices = 0..self.shapes.len();
@@ -114,8 +114,7 @@ impl Tree {
 
     /// Returns whether a primitive is in one of these leaves and inside that leaf's box.
     fn is_ordinary(&self, index: usize, leaves: &[usize]) -> bool {
-        // A small tolerance is needed, because boxes are rounded to single precision, and not
-        // always outward.
+        // The tolerance allows for the rounding of boxes to single precision.
         let enlarged = |leaf: usize| self.bounds(leaf).grown(1e-5);
         let bounds = scan::bounds(&self.shapes[index]);
         let mut holders = leaves

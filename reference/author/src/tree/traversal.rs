@@ -161,8 +161,8 @@ impl Traversal {
     }
 
     /// Traverses the tree by the slides' pseudo-code, taken literally: it enters `first` even if
-    /// both boxes are missed, and compares `hit2.t` even where child 2 is `first`. The `t` of a
-    /// miss is ∞.
+    /// both boxes are missed, and compares `hit2.t` even if child 2 is `first`. The `t` of a miss
+    /// is ∞.
     pub fn by_the_slides(tree: &Tree, ray64: &Ray64) -> Traversal {
         let mut traversal = Traversal::default();
         if !tree.nodes.is_empty() {

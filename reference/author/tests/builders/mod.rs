@@ -1,4 +1,4 @@
-//! Bad builders, as people write them by mistake.
+//! Builders with mistakes that people make.
 
 use author::oracle::bbox::Bounds;
 use author::oracle::scan;

@@ -1,5 +1,5 @@
-//! Tests of the workflow that grades every push, which is parsed with a strict model of GitHub's
-//! format.
+//! Tests of the workflow that grades every push. The workflow is parsed with a strict model of
+//! GitHub's format.
 
 use std::collections::BTreeMap;
 

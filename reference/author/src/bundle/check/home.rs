@@ -9,11 +9,11 @@ use std::process::Command;
 
 use crate::bundle::crates::{self, CratesError};
 
-/// A home directory that contains only crates, and the programs of a Rust toolchain.
+/// A home directory that contains only crates, and the toolchain that is used with it.
 #[derive(Debug)]
 pub(super) struct Home {
     folder: PathBuf,
-    /// The toolchain's own folder of programs. Rustup's proxies would not work, since they look for
+    /// The toolchain's `bin` folder. Rustup's proxies would not work, since they look for
     /// toolchains in the home directory.
     programs: PathBuf,
 }

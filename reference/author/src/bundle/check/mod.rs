@@ -36,9 +36,9 @@ pub enum CheckError {
     #[error(transparent)]
     Home(#[from] HomeError),
     /// A file operation failed.
-    #[error("cannot use {}: {source}", path.display())]
+    #[error("cannot read, write or run {}: {source}", path.display())]
     Io {
-        /// The file or folder.
+        /// The file, folder or program.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
@@ -59,7 +59,7 @@ struct CommandRun {
     stderr: String,
 }
 
-/// Checks the bundle's archive in the workspace at `root`, and returns the problems found.
+/// Checks the archive of a bundle of the workspace at `root`, and returns the problems found.
 pub fn check(root: &Path, bundle: &Bundle) -> Result<Vec<String>, CheckError> {
     let unpacked = archive::unzip(&archive::zip(bundle)?)?;
     if unpacked != *bundle {
@@ -78,8 +78,7 @@ pub fn check(root: &Path, bundle: &Bundle) -> Result<Vec<String>, CheckError> {
         shell_commands::commands(DOCUMENTS.into_iter().filter_map(|path| unpacked.text(path)));
     let mut problems = Vec::new();
     for run in run_commands(&commands, &home, &folder)? {
-        // Because of the stubs, `cargo examples` exits with code 101 and `cargo render` with code
-        // 1.
+        // The stubs make `cargo examples` exit with code 101, and `cargo render` with code 1.
         let is_expected = matches!(run.code, Some(0 | 1 | 101));
         if !is_expected || run.stderr.contains("could not compile") {
             problems.push(run.problem("the starter"));
@@ -156,12 +155,14 @@ fn check_points(points: u32, solution: &str, folder: &Path, problems: &mut Vec<S
 
 impl CommandRun {
     fn problem(&self, solution: &str) -> String {
-        let code = self
+        let end = self
             .code
-            .map_or("a signal".to_owned(), |code| code.to_string());
+            .map_or("was killed by a signal".to_owned(), |code| {
+                format!("exited with code {code}")
+            });
         let CommandRun {
             command, stderr, ..
         } = self;
-        format!("with {solution}, `{command}` ended with {code}:\n{stderr}")
+        format!("with {solution}, `{command}` {end}:\n{stderr}")
     }
 }

@@ -1,6 +1,7 @@
 //! Extracts the commands that Markdown documents show.
 
-/// Returns each distinct line of the documents' `sh` blocks, split into words, without its comment.
+/// Returns the distinct commands in the documents' `sh` blocks, one per line, split into words and
+/// without comments.
 pub(super) fn commands<'a>(texts: impl Iterator<Item = &'a str>) -> Vec<Vec<String>> {
     let mut commands = Vec::new();
     for text in texts {

@@ -47,8 +47,8 @@ pub fn render_formulas(chapter: &str, markdown: &str) -> Result<String, FormulaE
     Ok(text)
 }
 
-/// Writes characters that are special in Markdown as numeric entities: Markdown is parsed between
-/// the tags of MathML, too.
+/// Escapes characters that are special in Markdown as numeric character references, because text
+/// between MathML tags is also parsed as Markdown.
 fn escape_markdown(mathml: &str) -> String {
     let mut inside = false;
     let mut escaped = String::with_capacity(mathml.len());

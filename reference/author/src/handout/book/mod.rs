@@ -45,7 +45,7 @@ pub fn build(root: &Path, to: &Path) -> Result<(), BookError> {
     }
 }
 
-/// Replaces formulas by MathML, and figures by inline SVG.
+/// Replaces formulas with MathML, and figures with inline SVG.
 fn render_chapters(book: &mut Book) -> Result<(), BookError> {
     let mut result = Ok(());
     book.for_each_mut(|item| {

@@ -30,7 +30,12 @@ fn page_problems(chapter: &Page, html: &str) -> Vec<String> {
         .into_iter()
         .chain(["rel=\"stylesheet\" href=\"http", "mathjax"])
         .filter(|fetch| html.contains(fetch))
-        .map(|fetch| format!("{}: the page loads something: {fetch}", chapter.name));
+        .map(|fetch| {
+            format!(
+                "{}: the page loads something from the network: {fetch}",
+                chapter.name
+            )
+        });
     missing.chain(fetched).collect()
 }
 
@@ -48,7 +53,7 @@ mod tests {
             page_problems(&chapter, bad),
             [
                 "a.md: the page has no #two",
-                "a.md: the page loads something: src=\"http"
+                "a.md: the page loads something from the network: src=\"http"
             ]
         );
     }

@@ -89,7 +89,8 @@ pub fn slabs() -> String {
     )
 }
 
-/// Draws the same ray as intervals of time, with a third slab and the argument `times`.
+/// Draws the intervals of time in which the same ray is in each slab, with a third slab and the
+/// argument `times`.
 pub fn times() -> String {
     let mut drawing = Drawing::new(480.0, 290.0);
     let point = |t: f64, row: f64| dvec2(110.0 + 38.0 * t, 40.0 + 40.0 * row);

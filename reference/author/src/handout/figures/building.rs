@@ -20,7 +20,7 @@ fn bucket(center_at: f64) -> u32 {
     index.min(BUCKETS - 1)
 }
 
-/// Returns the number of spheres left of each plane between two buckets.
+/// Returns the number of spheres to the left of each plane between adjacent buckets.
 fn left_of_planes() -> Vec<u32> {
     let left_of = |plane: u32| {
         (0..SPHERES)
@@ -30,7 +30,8 @@ fn left_of_planes() -> Vec<u32> {
     (1..BUCKETS).map(|plane| left_of(plane) as u32).collect()
 }
 
-/// Returns the surface area of the box around `n` neighbours: 2n − 1 long, 1 high, 1 deep.
+/// Returns the surface area of the box around `n` neighbouring spheres, which is 2n − 1 long, 1
+/// high and 1 deep.
 fn surface_area(n: u32) -> f64 {
     8.0 * f64::from(n) - 2.0
 }

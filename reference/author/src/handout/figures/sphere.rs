@@ -4,7 +4,8 @@ use glam::{DVec2, dvec2};
 
 use super::drawing::{Drawing, Hue, Side};
 
-/// Draws rays from outside and inside a sphere and one that misses it, and the root that counts.
+/// Draws a ray from outside a sphere, a ray from inside, and a ray that misses, with the roots that
+/// count.
 pub fn roots() -> String {
     let mut drawing = Drawing::new(480.0, 330.0);
     let (center, radius) = (dvec2(270.0, 180.0), 110.0);

@@ -25,7 +25,8 @@ pub(super) fn circle(center: DVec2, radius: f64) -> String {
     format!("cx=\"{x}\" cy=\"{y}\" r=\"{r}\"")
 }
 
-/// Formats a number with at most one decimal: finer than a pixel, and the same on every machine.
+/// Formats a number with at most one decimal place. This is finer than a pixel, and coarse enough
+/// to be the same on every machine.
 pub(super) fn format_number(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;
     let (whole, tenth) = (tenths.abs() / 10, tenths.abs() % 10);

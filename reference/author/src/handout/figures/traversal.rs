@@ -39,7 +39,8 @@ fn mark(drawing: &mut Drawing, hue: Hue, side: Side, t: f64, text: &str) {
         .small_label(hue, side, foot + dvec2(0.0, 18.0), text);
 }
 
-/// Draws the case in which the second box begins beyond the hit in the first, so it is not entered.
+/// Draws the case in which the second box is not entered, because it begins beyond the hit in the
+/// first.
 pub fn pruned() -> String {
     let mut drawing = Drawing::new(480.0, 270.0);
     drawing.open_box(
@@ -109,14 +110,15 @@ pub fn overlapping() -> String {
     drawing.finish(
         "A box that begins before the hit",
         "The boxes overlap. A ray enters box A at 2 and has a hit near the far end of A, at 8. It \
-         enters box B at 4, before 8, so B must be searched, too: its hit at 5 is closer.",
+         enters box B at 4, before 8, so B must also be searched: its hit at 5 is closer.",
     )
 }
 
 /// Draws the traversal of the chapter's example: the nodes that are entered and those that are not.
 pub fn example() -> String {
     let mut drawing = Drawing::new(480.0, 375.0);
-    // The ray starts at x = 25. Returns where it enters the box whose last sphere is `last`.
+    // The distance at which the ray, which starts at x = 25, enters the box whose last sphere is
+    // `last`.
     let entry = |last: u32| 25.0 - (f64::from(2 * last) + 0.5);
     let hit = entry(9);
     let root = dvec2(150.0, 36.0);

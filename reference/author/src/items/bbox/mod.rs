@@ -67,8 +67,8 @@ fn random_box(rng: &mut Rng) -> Bounds {
     }
 }
 
-/// Returns whether a query hits, or `None` if the outcome changes when the box and the times are a
-/// little larger or smaller.
+/// Returns whether a query hits, or `None` if the outcome would change with a slightly larger or
+/// smaller box and interval of times.
 fn clear_outcome(bounds: &Bounds, (ray, times): &Query) -> Option<bool> {
     const MARGIN: f64 = 0.03;
     let ray64 = Ray64::from(ray).within(*times);
@@ -108,7 +108,7 @@ fn hits_and_misses(
     queries
 }
 
-/// Returns a ray from a point around the box toward a point in or near it.
+/// Returns a ray from a point outside the box toward a point in or near the box.
 fn ray_from_around(rng: &mut Rng, bounds: &Bounds) -> Ray {
     let target = bounds.center() + rng.point(1.0) * (bounds.max - bounds.min);
     let origin = bounds.center() + rng.direction() * rng.uniform(6.0, 10.0);

@@ -1,4 +1,4 @@
-//! Items about which times count.
+//! Items about the times that count.
 
 use glam::DVec3;
 use judging::exam::Item;
@@ -95,8 +95,8 @@ pub(super) fn wholly_inside(seed: Seed) -> Item {
         rng.retry(|rng| {
             let (min, size) = (rng.uniform(0.0, 12.0), rng.uniform(0.1, 0.6));
             let times = Interval::new(min as f32, (min + size) as f32);
-            // The ray is either inside the box at both ends of `times`, or outside during all of
-            // it.
+            // The ray is either inside the box at both ends of `times`, or outside the box
+            // throughout `times`.
             let ray64 = Ray64::from(&ray);
             let inside = |t: f32| {
                 let point = Bounds::around([ray64.at(t.into())]);

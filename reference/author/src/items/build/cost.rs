@@ -10,7 +10,7 @@ use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder};
 use crate::oracle::{scan, sweep};
 use crate::seed::{Rng, Seed};
 
-/// Creates a question that is judged by the cost only.
+/// Creates a question about a tree whose cost is the only thing that is judged.
 pub(super) fn cost_question(shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let sweep_cost = Some(sweep::cost(&boxes, max_leaf_size as usize));
@@ -25,12 +25,13 @@ pub(super) fn cost_question(shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuest
     ExamQuestion::new(question, key)
 }
 
-/// The upper limit of the cost of a correct builder's tree, relative to the exact sweep's. The
-/// judge gives full marks up to 1.12.
+/// The maximum cost of a correct builder's tree, relative to the exact sweep's tree. The judge
+/// gives full marks up to 1.12.
 pub const MAX_CORRECT_COST: f64 = 1.06;
 
-/// The lower limit of the cost of a tree whose builder compares only the two buckets next to a
-/// plane, relative to the exact sweep's. It makes sure that luck does not hide this common mistake.
+/// The minimum cost of a tree whose builder compares only the two buckets next to a plane, relative
+/// to the exact sweep's tree. Meshes with a lower cost are not used, because they would hide this
+/// common mistake.
 pub const MIN_ADJACENT_COST: f64 = 1.2;
 
 /// Creates an item with one question about a random mesh, for which correct builders come close to
@@ -46,8 +47,8 @@ fn cost_item(name: &str, points: u32, text: [&str; 2], mut rng: Rng, mesh: MeshF
     item(name, points, text, vec![question])
 }
 
-/// Returns the highest relative cost among correct bucketed builders. Occasionally, all planes of a
-/// builder just miss the best position to split a mesh.
+/// Returns the highest relative cost among correct bucketed builders. For some meshes, all planes
+/// of a builder narrowly miss the best split, so that its tree is expensive.
 fn highest_correct_cost(question: &ExamQuestion) -> f64 {
     let costs = [8, 12, 16, 17, 24, 32].into_iter().flat_map(|count| {
         [BucketExtent::Centers, BucketExtent::Bounds]
@@ -57,7 +58,7 @@ fn highest_correct_cost(question: &ExamQuestion) -> f64 {
 }
 
 /// Returns the lowest relative cost among builders that mistake the two buckets next to a plane for
-/// its two sides. Occasionally, they find planes that are good enough by luck.
+/// its two sides. For some meshes, such builders find good planes by luck.
 fn lowest_adjacent_cost(question: &ExamQuestion) -> f64 {
     let costs = [8, 12, 16, 24, 32].map(|count| {
         relative_cost(

@@ -39,8 +39,8 @@ pub fn items(seed: Seed) -> Vec<Item> {
 }
 
 /// Creates an item, and adds a control question, whose answer is wrong if there is no tree or if
-/// half of the primitives are in one leaf. The exact leaf size is the idea of another item, so the
-/// control's primitives are far apart: no heuristic prefers to keep them together.
+/// half of the primitives are in one leaf. The control's primitives are far apart, so that no
+/// heuristic prefers to keep them together: the maximum leaf size is tested by another item.
 fn item(name: &str, points: u32, text: [&str; 2], mut questions: Vec<ExamQuestion>) -> Item {
     let mut rng = Seed(0).rng("build.control");
     let soup = meshes::soup(&mut rng, 24, 2.0, 0.1);

@@ -16,7 +16,8 @@ use crate::seed::{Rng, Seed};
 /// together do not.
 const MAX_LEAF_SIZE: u32 = 8;
 
-/// Clumps of primitives along a row of length one: the start, the end and the number of each clump.
+/// Clumps of primitives along a row of length one: the start and end of each clump, and its number
+/// of primitives.
 type Layout = &'static [(f64, f64, usize)];
 
 /// Three clumps, two of them near each other. A builder that forgets the outermost bucket ignores
@@ -83,8 +84,9 @@ fn row(rng: &mut Rng, layout: Layout, axis: usize, is_mirrored: bool) -> Vec<Sha
     meshes::number_shapes(rng.shuffled(triangles))
 }
 
-/// Returns whether every builder with 8 or more buckets finds the best partition: it is the best by
-/// far, and it splits at a gap along this axis that contains a plane of each builder.
+/// Returns whether every builder with 8 to 64 buckets finds the best partition. For this, the
+/// partition must be the best by a clear margin, and must split at a gap along this axis that
+/// contains a plane of every such builder.
 fn is_unambiguous(shapes: &[Shape], axis: usize) -> bool {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let Some(gap) = sweep::clear_gap(&boxes, axis) else {
@@ -97,7 +99,7 @@ fn is_unambiguous(shapes: &[Shape], axis: usize) -> bool {
         [node_box, center_box].iter().all(|over| {
             let size = (over.max - over.min)[axis];
             let part = |position: f64| (position - over.min[axis]) / size * count as f64;
-            // Some plane is between the two ends of the gap, and not close to either.
+            // Some plane is between the two ends of the gap, and not close to either end.
             (part(gap.1) - 0.05).floor() > (part(gap.0) + 0.05).floor()
         })
     })

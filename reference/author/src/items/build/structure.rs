@@ -7,7 +7,8 @@ use super::{build_question, item};
 use crate::items::meshes;
 use crate::seed::Seed;
 
-/// Creates a question about random small triangles for each (number of triangles, leaf size).
+/// Creates a question about small random triangles for each pair of a number of triangles and a
+/// maximum leaf size.
 fn soup_questions(
     name: &str,
     seed: Seed,
@@ -88,9 +89,10 @@ pub(super) fn leaf_size(seed: Seed) -> Item {
             "Split a node until it has at most max_leaf_size primitives, even if a leaf would be \
              cheaper by the heuristic.",
         ],
-        // The triangles are so large that the heuristic alone would leave some of them unsplit. In
-        // the first question there are so many that some node is split at its very last plane; in
-        // the last one they are so close that buckets over the node's box do not separate them.
+        // The triangles are so large that the heuristic alone would make some leaves too large. In
+        // the first question, there are so many triangles that some node is split at its very last
+        // plane. In the last question, they are so close together that buckets over the node's box
+        // do not separate them.
         soup_questions_of_size(
             2.5,
             "build.leaf_size",

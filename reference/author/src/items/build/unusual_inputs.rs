@@ -34,8 +34,8 @@ pub(super) fn coincident(seed: Seed) -> Item {
     let center = rng.point(2.0);
     let same = meshes::random_flat_triangle(&mut rng, center, 0.5);
     let all = meshes::number_shapes(vec![same; 20]);
-    // More than half of the primitives are the same, so a leaf that holds all of these was clearly
-    // not split.
+    // More than half of the primitives coincide, so a leaf that holds all of these counts as not
+    // split.
     let mut some = meshes::soup(&mut rng, 17, 3.0, 0.4);
     some.extend(vec![same; 30]);
     item(
@@ -146,7 +146,8 @@ pub(super) fn outlier(seed: Seed) -> Item {
         build_question(&checks, crowd(100.0), 2),
         build_question(&checks, crowd(1000.0), 2),
     ];
-    // Each triangle is a quarter larger than the one before: a factor of over 1000 in total.
+    // Each triangle is a quarter larger than the one before, so the last is over 1000 times as
+    // large as the first.
     let growing = (0..32).map(|i| {
         let size = 1e-3 * 1.25f64.powi(i);
         meshes::random_flat_triangle(&mut rng, 4.0 * size * DVec3::ONE, size)

@@ -1,7 +1,7 @@
 //! Items of task 1: cameras.
 //!
-//! A mistake in one quantity should not fail the items about the others. Most items therefore use
-//! the middle row of the film, where only x matters, and the middles of pixels. Film and sensor
+//! A mistake in one quantity should not fail the items about other quantities. Most items therefore
+//! use the middle row of the film, where only x matters, and the middles of pixels. Film and sensor
 //! have the same aspect ratio, except in the items about the aspect ratio.
 
 mod ray;
@@ -65,7 +65,8 @@ fn camera(vertical_fov: f64, aspect_ratio: f64, film: UVec2) -> PinholeCamera {
     }
 }
 
-/// Returns the middles of all pixels in the middle row of a film with an odd number of rows.
+/// Returns a sample at the middle of each pixel in the middle row of a film with an odd number of
+/// rows.
 fn middle_row(film: UVec2) -> Vec<Sample> {
     let pixels = (0..film.x).map(|x| uvec2(x, film.y / 2));
     pixels

@@ -1,4 +1,4 @@
-//! Items about the offset in the pixel and the ray itself.
+//! Items about the offset within the pixel, and about the ray itself.
 
 use glam::{UVec2, uvec2, vec2};
 use judging::exam::{ExamQuestion, Item, RayCheck};

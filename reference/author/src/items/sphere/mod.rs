@@ -50,7 +50,7 @@ fn shape(sphere: &Sphere, material: u32) -> Shape {
     }
 }
 
-/// Returns a ray from outside whose closest approach to the centre is this many radii.
+/// Returns a ray from outside that passes the centre at a distance of `approach` radii.
 fn ray_passing_at(rng: &mut Rng, sphere: &Sphere, approach: f64) -> Ray {
     let dir = rng.direction();
     let offset = rng.perpendicular_to(dir) * approach * sphere.radius;

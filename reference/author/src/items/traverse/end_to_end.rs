@@ -13,7 +13,7 @@ use crate::oracle::scan::{self, Scan};
 use crate::recording::RecordedPicture;
 use crate::seed::{Rng, Seed};
 
-/// Creates a small question that a linear scan gets wrong and every traversal of a tree gets right.
+/// Creates a small question that a linear scan gets wrong and every correct traversal gets right.
 fn linear_scan_control(rng: &mut Rng) -> ExamQuestion {
     let tree = soup_tree(rng, 12, 0.9, 1);
     question_without_decoys(rng, tree, [8, 4], ray_from_around)
@@ -83,8 +83,8 @@ pub(super) fn picture(seed: Seed) -> Item {
     needs::add(item, &needs::SURFACES)
 }
 
-/// Returns the question of the radiance item. The reference answers the same question to record the
-/// key.
+/// Returns the question of the radiance item. Its key is the reference's answer to the same
+/// question.
 pub fn radiance_question(seed: Seed, scene: String) -> Question {
     let mut rng = seed.rng("traverse.radiance.seed");
     Question::Radiance {
@@ -98,8 +98,8 @@ pub fn radiance_question(seed: Seed, scene: String) -> Question {
 
 /// Returns the item that compares a path-traced picture with the reference's.
 pub fn radiance_item(seed: Seed, recorded: RecordedPicture) -> Item {
-    /// The maximum number of the 1024 pixels that may differ. Measured: with other correct
-    /// formulas, none differ; cracks of 1e-4 between triangles change 13.
+    /// The maximum number of the 1024 pixels that may differ. In measurements, other correct
+    /// formulas changed none, and cracks of 1e-4 between triangles changed 13.
     const MAX_WRONG_PIXELS: u32 = 7;
     let key = Key::Radiance {
         pixels: recorded.pixels,

@@ -1,11 +1,11 @@
 //! Items of task 3, step 2: traversal of the exam's own trees, so that the result does not depend
 //! on a submission's `build`.
 //!
-//! Some rays have an unreferenced primitive in front of them, which is in no leaf. A linear scan
-//! over all primitives, without the tree, hits it and is wrong. [`crate::tree::decoy`] describes
-//! the decoys that reveal nodes that should not have been entered. The position of the root is the
-//! idea of one item; in all others, starting at the first or the last node also gives correct
-//! answers.
+//! For some rays, there is an unreferenced primitive (one that is in no leaf) in front of the
+//! correct hit. A linear scan over all primitives, without the tree, returns this primitive, which
+//! is wrong. [`crate::tree::decoy`] describes the decoys, which reveal that a node was entered that
+//! should have been skipped. The position of the root is the idea of one item. In all other items,
+//! starting at the first or the last node also gives correct answers.
 
 mod end_to_end;
 mod needs;
@@ -91,7 +91,7 @@ fn unambiguous_rays(
     rng.shuffled(rays)
 }
 
-/// Adds an unreferenced primitive in front of every third ray.
+/// Adds an unreferenced primitive in front of the correct hit of every third ray.
 fn add_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: &[Ray]) {
     for (number, ray) in (FIRST_UNREFERENCED..).zip(rays.iter().step_by(3)) {
         let end = tree
@@ -116,8 +116,8 @@ fn question_without_decoys(
     traversal_question(&tree.with_roots_at_both_ends(rng), rays)
 }
 
-/// Returns a tree over random triangles. Items use leaves of one primitive, unless larger leaves
-/// are their idea.
+/// Returns a tree over random triangles. Most items use leaves of one primitive, because larger
+/// leaves are the idea of a separate item.
 fn soup_tree(rng: &mut Rng, count: usize, size: f64, max_leaf_size: usize) -> Tree {
     construction::median_split(meshes::soup(rng, count, 2.0, size), max_leaf_size)
 }

@@ -1,10 +1,10 @@
-//! Dependencies of the traversal items. An item depends only on items whose mistakes could make it
-//! fail even if the traversal is correct. A student who fails an item and one of its dependencies
-//! is advised to fix the dependency first.
+//! Dependencies of the traversal items. An item depends only on items about mistakes that could
+//! make it fail even if the traversal is correct. A student who fails an item and one of its
+//! dependencies is advised to fix the dependency first.
 
 use judging::exam::Item;
 
-/// Items about the distance and the misses of triangles.
+/// Items about whether a ray hits a triangle, and at which distance.
 pub(super) const TRIANGLES: [&str; 6] = [
     "triangle.inside",
     "triangle.outside",
@@ -14,7 +14,7 @@ pub(super) const TRIANGLES: [&str; 6] = [
     "triangle.behind_the_ray",
 ];
 
-/// Items about the other quantities of a hit.
+/// Items about the other quantities of a hit on a triangle.
 pub(super) const SURFACES: [&str; 6] = [
     "triangle.position",
     "triangle.normal",
@@ -24,7 +24,7 @@ pub(super) const SURFACES: [&str; 6] = [
     "triangle.origin_and_material",
 ];
 
-/// Items about the distance and the misses of spheres.
+/// Items about whether a ray hits a sphere, and at which distance.
 pub(super) const SPHERES: [&str; 8] = [
     "sphere.near_side",
     "sphere.beside",

@@ -51,8 +51,8 @@ pub(super) fn root(seed: Seed) -> Item {
     )
 }
 
-/// Creates a question about a tree whose first node is a leaf that one of the rays hits. Index 0 is
-/// valid for a child, too.
+/// Creates a question about a tree whose first node is a leaf that one of the rays hits, to check
+/// that 0 is accepted as the index of a child.
 fn question_with_a_leaf_in_front(rng: &mut Rng) -> ExamQuestion {
     let tree = soup_tree(rng, 20, 0.9, 1);
     let rays = unambiguous_rays(rng, &tree, [10, 4], ray_from_around);

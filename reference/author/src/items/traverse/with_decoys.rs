@@ -12,27 +12,27 @@ use crate::tree::Tree;
 use crate::tree::decoy::{self, SkipReason};
 use crate::tree::traversal::Traversal;
 
-/// Returns whether the slides' pseudo-code, taken literally, answers this ray correctly.
+/// Returns whether the slides' pseudo-code, taken literally, gives the correct answer for this ray.
 fn slides_are_correct(tree: &Tree, ray: &Ray) -> bool {
     let ray64 = Ray64::from(ray);
     Traversal::by_the_slides(tree, &ray64).closest == tree.expected_hit(&ray64)
 }
 
-/// The material of the first decoy. Materials of unreferenced primitives are below it.
+/// The material of the first decoy. Materials of unreferenced primitives are smaller.
 const FIRST_DECOY: u32 = 20_000;
 
 /// A filter for the leaves that may hold a decoy for a ray.
 type LeafFilter<'a> = &'a dyn Fn(&Tree, usize, &Ray64) -> bool;
 
-/// The maximum number of rays of a question that get a decoy. The other rays come after them.
+/// The number of rays in a question that may get a decoy. All other rays come after them.
 const RAYS_WITH_DECOYS: usize = 10;
 const OTHER_RAYS: [usize; 2] = [4, 4];
-/// The minimum number of decoys of a question. A question with fewer decoys is drawn again.
+/// The minimum number of decoys in a question. A question with fewer decoys is drawn again.
 const MIN_DECOYS: usize = 4;
 
-/// Creates a question with decoys in front of at least `MIN_DECOYS` rays, each in a leaf that
-/// `fits` accepts. The slides' literal pseudo-code answers rays with decoys as `slides` says, and
-/// all other rays correctly.
+/// Creates a question in which at least `MIN_DECOYS` rays have a decoy, each in a leaf that `fits`
+/// accepts. The slides' pseudo-code, taken literally, gives the answer `slides` for rays with a
+/// decoy, and the correct answer for all others.
 fn question_with_decoys(rng: &mut Rng, fits: LeafFilter, slides: SlidesAnswer) -> ExamQuestion {
     rng.retry(|rng| {
         let tree = soup_tree(rng, 48, 0.7, 1);
@@ -60,8 +60,8 @@ fn rays_with_candidate_leaves(rng: &mut Rng, tree: &Tree, fits: LeafFilter) -> V
     chosen
 }
 
-/// Adds a decoy for each of the first rays for which this is possible. Returns the tree and the
-/// number of decoys.
+/// Adds a decoy for each of the first `RAYS_WITH_DECOYS` rays, where this is possible. Returns the
+/// tree and the number of decoys.
 fn add_decoys(
     rng: &mut Rng,
     mut tree: Tree,
@@ -82,8 +82,8 @@ fn add_decoys(
             });
             is_as_required.then_some(with_decoy)
         });
-        // There may be no decoy for this ray: every leaf that `fits` accepts may be on a side where
-        // the slides' answer is not as required.
+        // Some rays get no decoy, because a decoy in any of the leaves that `fits` accepts would
+        // not give the answer that `slides` requires.
         if let Some(with_decoy) = added {
             tree = with_decoy;
             done.push(index);
@@ -92,7 +92,7 @@ fn add_decoys(
     (tree, done.len())
 }
 
-/// The answer of the slides' literal pseudo-code to a ray with a decoy.
+/// The result of following the slides' pseudo-code literally for a ray with a decoy.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum SlidesAnswer {
     /// The correct answer: the decoy is not tested.
@@ -136,7 +136,7 @@ pub(super) fn prunes(seed: Seed) -> Item {
     let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::SubtreePruned)
     };
-    // The leaf itself is the second child, so no further comparison happens on the way to it.
+    // The leaf is itself a child of the fork, so no further comparison happens on the way to it.
     let second = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         let fork = decoy::find_fork(tree, leaf, ray64);
         fork.is_some_and(|fork| fork.toward_leaf == leaf) && fits(tree, leaf, ray64)

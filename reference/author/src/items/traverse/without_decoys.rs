@@ -89,8 +89,8 @@ pub(super) fn range(seed: Seed) -> Item {
 pub(super) fn leaf_of_several(seed: Seed) -> Item {
     let mut rng = seed.rng("traverse.leaf_of_several");
     let tree = soup_tree(&mut rng, 48, 1.0, 8);
-    // The closest of several hits in a leaf is in turn that of the first primitive, of the last
-    // one, and of one in between.
+    // The closest of several hits in a leaf belongs in turn to the first primitive, to the last
+    // one, and to one in between.
     let mut count = 0;
     let kind = |rng: &mut Rng, tree: &Tree| {
         rng.retry(|rng| {

@@ -37,8 +37,8 @@ fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<ExamQuestion>) 
     super::item(Task::Triangle, name, points, text, questions)
 }
 
-/// Creates one question for each of four triangles, with rays that hit it from this side and some
-/// rays that miss.
+/// Creates one question for each of four triangles, with rays that hit the triangle from this side
+/// and some rays that miss.
 fn table_questions(name: &str, seed: Seed, checks: &[HitCheck], side: Side) -> Vec<ExamQuestion> {
     let mut rng = seed.rng(name);
     let mut table = || {

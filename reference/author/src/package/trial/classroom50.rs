@@ -19,8 +19,8 @@ const TRIAL_FOLDER: &str = "target/package/classroom50";
 const TIME_LIMIT: Duration = Duration::from_secs(15 * 60);
 /// The package's folder on the runner.
 const AUTOGRADER_FOLDER: &str = "/home/runner/autograder";
-/// The runner's environment variables. `CARGO_TARGET_DIR` is added, so that the next submission
-/// reuses compiled files, which saves time.
+/// The runner's environment variables, and `CARGO_TARGET_DIR`, with which the next submission
+/// reuses compiled files.
 const VARIABLES: [&str; 10] = [
     "CLASSROOM=gfx-f26",
     "ASSIGNMENT=pathtracer",
@@ -87,9 +87,9 @@ fn autograder_files(folder: &Path) -> Result<Bundle, TrialError> {
     Ok(bundle)
 }
 
-/// Returns whether the files that the runner reads are correct. The runner itself shows the text of
-/// the release on the run's page. For an empty submission there is no result file, which the runner
-/// reports as an error.
+/// Returns whether the files that the runner reads are correct. The script must not write a step
+/// summary, because the runner itself shows the text of the release on the run's page. For an empty
+/// submission, there is no result file, which the runner reports as an error.
 fn is_correct(submission: TrialSubmission, checkout: &Path, step: &StepResult) -> bool {
     let result = fs::read(checkout.join("result.json")).ok();
     let result: Option<Value> = result.and_then(|text| serde_json::from_slice(&text).ok());

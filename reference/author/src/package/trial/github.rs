@@ -61,7 +61,7 @@ pub fn check(workspace: &Path, template: &Bundle) -> Result<Vec<String>, TrialEr
     Ok(problems)
 }
 
-/// Replaces the template's task files by those of the submission.
+/// Replaces the template's task files with those of the submission.
 fn replace_task_files(
     submission: TrialSubmission,
     workspace: &Path,

@@ -1,4 +1,4 @@
-//! Simulates a platform's machine: an empty root directory with this system's programs, no network,
+//! Simulates a platform's machine: a root directory with only this system's programs, no network,
 //! the platform's user and capabilities, half a core and 768 MiB.
 //!
 //! This needs root, directly or with `sudo`.
@@ -88,7 +88,7 @@ pub struct Machine {
 
 impl Machine {
     /// Creates an empty machine in the folder `root`. Prints the reason and returns `None` if this
-    /// system does not support it.
+    /// system cannot simulate a machine.
     pub fn create(root: &Path) -> Result<Option<Self>, TrialError> {
         let cargo = env::var_os("CARGO").ok_or(TrialError::NoCargo)?;
         let toolchain = Path::new(&cargo).parent().and_then(Path::parent);
@@ -206,8 +206,8 @@ impl ResourceUsage {
     }
 }
 
-/// Prints that the trial, or part of it, is skipped for this reason. Returns an error instead if
-/// `CI` is set.
+/// Prints that the trial, or a part of it, is skipped for this reason, or returns an error if `CI`
+/// is set.
 fn skip_or_fail(reason: &str) -> Result<(), TrialError> {
     match env::var_os("CI") {
         Some(_) => Err(TrialError::Unsupported(reason.to_owned())),

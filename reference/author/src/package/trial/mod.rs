@@ -1,4 +1,4 @@
-//! Trials of packages: each package is set up and run as its platform would do it.
+//! Trials of packages: each package is set up and run as on its platform.
 
 pub mod classroom50;
 pub mod github;
@@ -29,8 +29,9 @@ pub enum TrialError {
     /// The machine cannot run a trial, and `CI` is set.
     #[error("{0}; trials are not skipped while CI is set")]
     Unsupported(String),
-    /// The starter no longer has a method that an attack is inserted into.
-    #[error("{file} has no line `{signature}` to insert an attack after: adapt trial/thief.rs")]
+    /// The starter no longer has a method that an attack is inserted into, or has it more than
+    /// once.
+    #[error("{file} must contain `{signature}` exactly once: adapt trial/thief.rs")]
     MissingAttackPoint {
         /// The file.
         file: &'static str,
@@ -53,9 +54,9 @@ pub enum TrialError {
     #[error("cannot unpack the package: {0}")]
     Zip(#[from] ZipError),
     /// A file operation failed.
-    #[error("cannot use {}: {source}", path.display())]
+    #[error("cannot read, write or run {}: {source}", path.display())]
     Io {
-        /// The file or folder.
+        /// The file, folder or program.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
@@ -68,8 +69,8 @@ fn io_error(path: &Path) -> impl FnOnce(io::Error) -> TrialError {
 }
 
 /// Prints the time that a submission took, and adds a problem if it is more than half of the
-/// platform's limit. The time is the CPU time at half a core, which does not depend on other load
-/// of this machine.
+/// platform's limit. The time is computed from the CPU time, as if at half a core, so it does not
+/// depend on the load of this machine.
 fn check_time(name: &str, job: &JobResult, limit: Duration, problems: &mut Vec<String>) {
     let Some(usage) = job.usage else {
         return println!("{:6.1} s  {name}", job.wall_time.as_secs_f64());

@@ -1,5 +1,5 @@
-//! An attacking submission, which knows the paths of the package's files, and includes, opens and
-//! overwrites these files. All of its output is searched for solutions and keys.
+//! An attacking submission, which knows the paths of the package's files, and tries to include,
+//! open and overwrite them. All of its output is searched for solutions and keys.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -65,7 +65,7 @@ const ATTACKS: [(&str, &str, &str); 5] = [
         }"#,
     ),
 ];
-/// The length of the compared part of a key: too long to occur by coincidence.
+/// The number of characters of a key that are compared: too many to occur by coincidence.
 const KEY_PREFIX_LENGTH: usize = 30;
 
 /// Returns the submission's files: those of the starter, each with an attack.

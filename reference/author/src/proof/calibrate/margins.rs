@@ -71,7 +71,7 @@ type SolutionAndItem = (String, String);
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Margins {
     by_threshold: BTreeMap<Threshold, Margin>,
-    /// Correct solutions that count as wrong for a reason without a threshold, with one sample per
+    /// Correct solutions that fail an item for a reason that has no threshold, with one sample per
     /// solution and item.
     failed_variants: BTreeMap<SolutionAndItem, DeviationSample>,
     /// Mistakes that are caught with too small a margin, or not at all, by an item that they must
@@ -158,8 +158,8 @@ impl Margins {
     }
 }
 
-/// Replaces the known sample with the new one if there is none, or if `nearer` accepts the new
-/// value and the old one.
+/// Replaces `known` with `new` if there is no known sample, or if `nearer` returns true for the new
+/// value and the known one.
 fn replace_if(
     known: &mut Option<DeviationSample>,
     new: DeviationSample,

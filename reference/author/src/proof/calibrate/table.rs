@@ -47,7 +47,7 @@ pub fn check(root: &Path) -> Result<(), TableError> {
     }
 }
 
-/// Returns the thresholds that the table does not contain with their current values.
+/// Returns the thresholds whose current values are not in the table.
 fn outdated_thresholds(table: &str) -> Vec<&'static str> {
     let is_current = |threshold: &Threshold| {
         let start = row_start(*threshold);
@@ -64,18 +64,19 @@ fn header(calibration: &Calibration) -> String {
          graded with the exams of {}, and {} known mistakes (`reference/mistakes`) with those of \
          {}.\n\n\
          Values are multiples of the threshold, as computed by the judge: a value up to 1 is \
-         correct. A margin is the factor by which a threshold could be changed: made stricter \
-         before the first correct answer counts as wrong, or more lenient before an item stops \
-         catching a mistake that must fail it. `cargo author calibrate --check` fails if a margin \
-         is below {MIN_MARGIN}.\n\n\
-         - If positions or pixels are counted, as many of the worst ones as may be wrong are \
-         ignored. A mistake must exceed two thresholds, the deviation and the number of positions; \
-         the table has the smaller of the two values.\n\
-         - For the cost of a tree, only the excess over the tree of the exact sweep is measured: a \
-         tree with the same cost has the value 0. Correct builders that do not use the surface \
-         area heuristic are not included.\n\
-         - There is no threshold for hit or miss, for panics and for the structure of trees. The \
-         limits of partial credit are not measured, since they only separate wrong answers.\n\n\
+         correct. A margin is the factor by which a threshold could be made stricter before \
+         the first correct answer counts as wrong, or more lenient before an item stops catching a \
+         mistake that must fail it. `cargo author calibrate --check` fails if a margin is below \
+         {MIN_MARGIN}.\n\n\
+         - Where an item tolerates a number of wrong positions or pixels, that many of the worst \
+         ones are ignored. To be caught there, a mistake must exceed two thresholds: the \
+         deviation, and the number of wrong positions. The table shows the smaller of the two \
+         values.\n\
+         - For the cost of a tree, only the excess over the exact sweep's tree is measured: a tree \
+         with the same cost has the value 0. Correct builders that do not use the surface area \
+         heuristic are left out.\n\
+         - Hits and misses, panics, and the structure of trees have no threshold. The limits of \
+         partial credit are not measured, since they only distinguish between wrong answers.\n\n\
          | threshold | value | defined in | worst correct answer | margin | mildest mistake | margin |\n\
          |---|---|---|---|--:|---|--:|\n",
         calibration.variants,

@@ -13,7 +13,7 @@ use crate::proof::mutants::list::{self, FileMutants, MutantList, UnnamedMutant};
 use crate::proof::mutants::span::{SourcePosition, SourceSpan};
 use crate::proof::sources::Sources;
 
-/// The reason why the list of cargo-mutants cannot be used although it is installed.
+/// The reason why the list of an installed cargo-mutants cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum CargoMutantsError {
     /// Cargo cannot be started.
@@ -24,7 +24,7 @@ pub enum CargoMutantsError {
     Failed(String),
     /// The list is not in the format of version 27.1.
     #[error(
-        "cannot read the list of {made_by} ({reason}): install the version that {path} names",
+        "cannot read the list of {made_by} ({reason}): install the version named in {path}",
         path = list::PATH
     )]
     UnknownFormat {

@@ -1,5 +1,5 @@
-//! Mutants that are equivalent to the reference, each with the reason:
-//! `reference/mutants/equivalent.toml`, which is written by hand.
+//! The list of mutants that are equivalent to the reference, each with the reason. It is written by
+//! hand: `reference/mutants/equivalent.toml`.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ pub const PATH: &str = "reference/mutants/equivalent.toml";
 pub struct EquivalentMutant {
     /// The mutant's name in the list of all mutants.
     pub name: String,
-    /// The reason that no answer differs, or that the contract allows the answers that differ.
+    /// The reason why no answer differs, or why the contract allows the answers that differ.
     pub why: String,
 }
 
@@ -35,7 +35,7 @@ pub enum EquivalentsError {
         source: toml::de::Error,
     },
     /// An entry has no reason, or a name occurs twice.
-    #[error("{PATH}: `{0}` has no reason, or occurs twice")]
+    #[error("{PATH}: `{0}` must have a reason and occur only once")]
     Entry(String),
 }
 

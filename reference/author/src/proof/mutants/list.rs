@@ -1,5 +1,5 @@
-//! The list of all mutants, `reference/mutants/list.json`. It is committed, so that cargo-mutants
-//! need not be installed to grade the mutants.
+//! The list of all mutants, `reference/mutants/list.json`. It is committed, so that the mutants can
+//! be graded without installing cargo-mutants.
 
 use grader::given_files::{TASK_FILES, TaskFile};
 use serde::{Deserialize, Serialize};
@@ -71,7 +71,7 @@ pub struct UnnamedMutant {
 }
 
 impl FileMutants {
-    /// Sorts and names the mutants of a file with this text.
+    /// Sorts and names the mutants of the file `file`, whose contents are `text`.
     pub fn new(file: &str, text: &str, mut unnamed: Vec<UnnamedMutant>) -> Self {
         unnamed.sort_by(|a, b| (a.span, &a.what).cmp(&(b.span, &b.what)));
         let count = |others: &[UnnamedMutant], what: &str| {

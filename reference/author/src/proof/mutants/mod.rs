@@ -1,5 +1,5 @@
-//! Checks that the exam catches the mutants that cargo-mutants makes of the reference's task files:
-//! every mutant must lose points, except those that are equivalent to the reference.
+//! Checks that the exam catches the mutants that cargo-mutants generates from the reference's task
+//! files: every mutant must lose points, except those that are equivalent to the reference.
 //!
 //! Mutants complement the catalogue of mistakes. The catalogue lists mistakes that people make;
 //! mutants are generated without any knowledge of the exam.
@@ -26,7 +26,7 @@ use crate::proof::mutants::list::{MutantList, OutdatedListError};
 use crate::proof::sources::{ReadError, Sources, read};
 use crate::proof::workbench::{Workbench, WorkbenchError};
 
-/// The step between the mutants of a sample: it contains one in this many, in the order of their
+/// The step between the mutants of a sample, which contains one in this many, in the order of their
 /// names.
 const SAMPLE_STEP: usize = 8;
 
@@ -101,8 +101,8 @@ impl MutantSelection {
 }
 
 /// Lists all mutants of the reference in the workspace at `root`: runs cargo-mutants if it is
-/// installed, and otherwise reads the committed list. Checking the committed list needs the version
-/// of cargo-mutants that generated it.
+/// installed, and otherwise reads the committed list. In check mode, also reads the committed list
+/// if another version of cargo-mutants generated it.
 pub fn list(root: &Path, mode: Mode) -> Result<MutantList, MutantsError> {
     match (cargo_mutants::version(), mode) {
         (None, _) => committed_list(root),

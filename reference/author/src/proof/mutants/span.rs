@@ -29,8 +29,7 @@ pub struct SourceSpan {
 pub struct SpanError(String);
 
 impl SourceSpan {
-    /// Returns `text` with the span replaced by `now`, or `None` if the text does not have the
-    /// span.
+    /// Returns `text` with the span replaced by `now`, or `None` if the span is not in the text.
     pub fn replace(self, text: &str, now: &str) -> Option<String> {
         let (start, end) = (byte_offset(text, self.start)?, byte_offset(text, self.end)?);
         (start <= end).then(|| format!("{}{now}{}", &text[..start], &text[end..]))

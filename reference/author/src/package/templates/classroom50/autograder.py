@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Grades the checkout in the current folder, and writes result.json and release-body.md there.
 
-classroom50 runs this script for each submission. It also shows release-body.md on the page of the
-run. The grader comes from the archive beside this file, never from the checkout, which students
-can change. Exit code 0 means graded, whatever the score.
+classroom50 runs this script for each submission, and shows release-body.md on the page of the run.
+The grader comes from the archive beside this file, never from the checkout, which students can
+change. Exit code 0 means that the submission was graded, whatever its score.
 """
 
 import os
@@ -35,7 +35,7 @@ def main():
 
 
 def commit_date(checkout):
-    """Returns the date of the graded commit, which does not change when it is graded again."""
+    """Returns the date of the graded commit, which stays the same if the commit is graded again."""
     command = ["git", "-C", str(checkout), "log", "-1", "--format=%cd"]
     command += ["--date=format-local:%Y-%m-%dT%H:%M:%SZ"]
     environment = dict(os.environ, TZ="UTC")

@@ -17,7 +17,7 @@ fi
 
 mkdir -p "$home"
 cp -R /autograder/source/pathtracing/. "$home"
-# Submissions could read it there.
+# Submissions could read the files there.
 rm -rf /autograder/source/pathtracing
 chown -R root:root "$home"
 chmod 600 "$home/exam.json" "$home/policy.toml"
@@ -25,5 +25,5 @@ chmod -R go= "$home/reference"
 
 cd "$home"
 CARGO_HOME="$home/crates" cargo build --release --locked --offline --package grader
-# Compiles everything that submissions are built with. The solution must get all points.
+# Compiles everything that submissions are built with. The reference must get all points.
 ./grade "$home/reference" --require 100 --out "$home/target/setup"

@@ -1,5 +1,5 @@
-# Runs a command and its child processes with half a core and 768 MiB. Arguments: a file to write
-# the resource usage to, and the command. Exits with 125 if control groups cannot be used.
+# Runs a command and its child processes with half a core and 768 MiB of memory. Arguments: a file
+# to write the resource usage to, and the command. Exits with 125 if control groups cannot be used.
 set -eu
 used=$1
 shift
@@ -52,7 +52,8 @@ GROUPS_OF_TRIAL=$all sh -c '
     unset GROUPS_OF_TRIAL
     exec "$@"' sh "$@" || code=$?
 
-# Only one version's files exist: CPU time in microseconds or nanoseconds, peak memory in bytes.
+# Only the files of one version of control groups exist. They contain the CPU time, in microseconds
+# or nanoseconds, and the peak memory in bytes.
 {
     for name in cpu.stat cpuacct.usage memory.peak memory.max_usage_in_bytes; do
         file=$(file "$name")

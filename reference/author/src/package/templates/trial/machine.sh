@@ -1,6 +1,6 @@
-# Runs a command on a simulated machine, in separate namespaces: it has this system's programs and
-# the toolchain, no network, and is empty otherwise. Arguments: the machine's root, the toolchain,
-# the user, the working directory, the environment variables, and the command.
+# Runs a command on a simulated machine, in separate namespaces. The machine has this system's
+# programs and the toolchain, but no network and no other files. Arguments: the machine's root, the
+# toolchain, the user, the working directory, the environment variables, and the command.
 set -eu
 root=$1 toolchain=$2 user=$3 folder=$4
 shift 4

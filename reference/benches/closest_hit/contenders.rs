@@ -23,7 +23,7 @@ use crate::wide_bvh;
 /// The maximum number of primitives in a leaf of the reference and the variant.
 pub const MAX_LEAF_SIZE: usize = 4;
 
-/// A tree over the triangles.
+/// A tree over the triangles, which finds closest hits.
 pub trait Contender {
     /// Returns the distance to the closest hit of each ray, or infinity if there is none.
     fn distances(&self, rays: &[Ray]) -> Vec<f32>;
@@ -91,8 +91,8 @@ impl Contender for Obvhs {
     }
 }
 
-/// A tree of the crate `bvh`. The crate has two ways to traverse it, and it depends on the rays
-/// which one is faster.
+/// A tree of the crate `bvh`. The crate can traverse it in two ways, and which way is faster
+/// depends on the rays.
 pub struct CrateBvhTree {
     bvh: CrateBvh<f32, 3>,
     triangles: Vec<Corners>,

@@ -2,7 +2,7 @@
 //! not part of this project; the Python package `embreex` contains one.
 //!
 //! This is the only `unsafe` code outside the sandbox: functions of a C library cannot be called in
-//! any other way. The declarations are those of `rtcore.h`, version 4.
+//! any other way. The declarations follow Embree 4's `rtcore.h`.
 #![allow(
     unsafe_code,
     reason = "a C library that is loaded at run time, for comparison only"
@@ -60,7 +60,7 @@ pub struct Embree {
     commit_scene: unsafe extern "C" fn(Handle),
     release_scene: unsafe extern "C" fn(Handle),
     intersect: unsafe extern "C" fn(Handle, *mut RayHit, *mut c_void),
-    // Dropped last, since it unloads the functions.
+    // Dropped last, since dropping it unloads the functions.
     _library: Library,
 }
 

@@ -1,7 +1,7 @@
-//! Closest hits per second and build times of the reference, the eight-wide variant, the crates
-//! `obvhs` and `bvh`, and Embree, if its library is available. They run on one thread and take
-//! turns, their CPU time is measured, and all must find the same hits. ../README.md describes how
-//! to run this benchmark, and lists the results.
+//! Measures closest hits per second and build times of the reference, the eight-wide variant, the
+//! crates `obvhs` and `bvh`, and Embree, if its library is available. These contenders take turns
+//! on one thread, and must find the same hits. Only CPU time counts. ../README.md describes how to
+//! run this benchmark, and lists the results.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -36,9 +36,9 @@ mod wide_bvh;
 /// rays; the variable `ROUNDS` overrides it.
 const ROUNDS: usize = 5;
 
-/// The number of rays that a contender traces before it is the next contender's turn: few enough
-/// (some milliseconds) that a slow moment of the machine affects all of them, and enough that the
-/// caches fill with the contender's own data.
+/// The number of rays that a contender traces before it is the next contender's turn. The number is
+/// small enough (some milliseconds) that a slow moment of the machine affects all contenders, and
+/// large enough that the caches fill with the contender's own data.
 const RAYS_PER_TURN: usize = 1 << 15;
 
 fn main() {
@@ -172,7 +172,7 @@ fn check_agreement(
     let differing = expected.len() - expected.iter().zip(other).filter(same).count();
     assert!(
         differing * 1000 <= expected.len(),
-        "{name}, {kind}: {differing} of {} rays have another hit than with the reference",
+        "{name}, {kind}: {differing} of {} rays have a different hit than in the reference",
         expected.len()
     );
     report.record_mismatches(name, differing as f64 / expected.len() as f64);

@@ -1,5 +1,5 @@
-//! The meshes: well-known ones if the variable `MESHES` names a folder with their files, otherwise
-//! one from this project's scenes.
+//! The meshes: well-known meshes if the variable `MESHES` names a folder with their files,
+//! otherwise a mesh from this project's scenes.
 
 use std::fs::{self, File};
 use std::io::{BufReader, Read};
@@ -41,9 +41,7 @@ pub fn meshes() -> Vec<Mesh> {
             })
             .collect(),
         None => {
-            println!(
-                "MESHES does not name a folder with bunny69k.obj.gz, ...: using scenes/gyroid.obj"
-            );
+            println!("MESHES is not set: using scenes/gyroid.obj");
             vec![Mesh::new("gyroid", gyroid(), false)]
         }
     }
@@ -102,8 +100,8 @@ fn parse_obj(text: &str, path: &Path) -> Vec<[Vec3; 3]> {
     triangles
 }
 
-/// Returns the largest of this project's meshes. As in its scene, each triangle is divided into
-/// four, twice.
+/// Returns the largest of this project's meshes. As in the scene that uses it, each triangle is
+/// split into four, twice.
 fn gyroid() -> Vec<[Vec3; 3]> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/gyroid.obj");
     let quarters = |[a, b, c]: [Vec3; 3]| {

@@ -43,7 +43,7 @@ fn primary(mesh: &Mesh) -> Vec<Ray> {
 }
 
 /// Returns rays that start at the hits of the primary rays, in random directions of the hemisphere,
-/// then rays that start at the hits of those, and so on.
+/// then rays that start at the hits of those rays, and so on.
 fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
     let gap = 1e-4 * (mesh.bbox.max - mesh.bbox.min).length();
     let mut numbers = SplitMix64(1);

@@ -12,7 +12,7 @@ pub struct Report {
     /// For each name and column, one value per round.
     cells: Vec<(&'static str, &'static str, Vec<f64>)>,
     /// The fraction of rays for which a contender and the reference found different hits: the
-    /// largest of all contenders and rounds.
+    /// maximum over all contenders and rounds.
     differing: f64,
     most_differing: &'static str,
 }

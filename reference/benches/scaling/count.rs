@@ -1,4 +1,5 @@
-//! Counters of intersection tests. They are per thread, and this benchmark has only one.
+//! Counters of intersection tests. Each thread has its own counters, but this benchmark has only
+//! one thread.
 
 use std::cell::Cell;
 

@@ -1,7 +1,7 @@
-//! Counts the work that a tree saves: the number of boxes and primitives that a ray is tested with,
-//! and the number of build calls that a primitive is part of, against the number of triangles.
-//! Nothing is timed, so the plot is the same on every machine. It is written to
-//! `reference/benches/scaling.svg`, or compared with that file if the argument is `--check`.
+//! Shows how the work grows with the number of triangles: plots how many boxes and triangles a ray
+//! is tested with, and how many build calls a triangle is part of. The work is counted, not timed,
+//! so the plot is the same on every machine. It is written to `reference/benches/scaling.svg`, or
+//! compared with that file if the argument is `--check`.
 
 use std::fs;
 use std::path::Path;

@@ -4,7 +4,8 @@ use glam::{Vec3, vec3};
 use protocol::{Ray, Shape};
 
 /// Returns a ball with bumps, made from a cube of 12 · pieces² triangles. It is computed only with
-/// the four basic operations and square roots, whose results are the same on every machine.
+/// the four basic arithmetic operations and square roots, whose results are the same on every
+/// machine.
 pub fn bumpy_ball(pieces: u32) -> Vec<Shape> {
     let coordinate = |i: u32| 2.0 * i as f32 / pieces as f32 - 1.0;
     let mut shapes = Vec::new();

@@ -1,6 +1,6 @@
-//! The plot. The left panel compares the tests per ray with brute force. The right panel has a
-//! linear vertical axis, so that counts that grow with the logarithm of the number of triangles are
-//! straight lines.
+//! Draws the plot. The left panel compares the tests per ray with brute force. The right panel has
+//! a linear vertical axis, so that counts that grow with the logarithm of the number of triangles
+//! are straight lines.
 
 use std::fmt::Write as _;
 
@@ -62,8 +62,8 @@ fn power(decade: i32) -> String {
     format!("10{}", digits[decade as usize])
 }
 
-/// Draws a panel with its axes. Each mark of the vertical axis consists of a height, from 0 to 1,
-/// and a text.
+/// Draws a panel with its axes. Each mark on the vertical axis consists of a height, from 0 to 1,
+/// and a label.
 fn frame(svg: &mut String, left: f64, title: &str, marks: impl Iterator<Item = (f64, String)>) {
     let (right, bottom) = (left + WIDTH, TOP + HEIGHT);
     _ = writeln!(
@@ -99,7 +99,7 @@ fn frame(svg: &mut String, left: f64, title: &str, marks: impl Iterator<Item = (
     );
 }
 
-/// Returns the position of a number of triangles on the horizontal axis, from 0 to 1.
+/// Returns where a triangle count is on the logarithmic x axis, from 0 (left) to 1 (right).
 fn x_fraction(triangles: f64) -> f64 {
     let (first, last) = (f64::from(*DECADES.start()), f64::from(*DECADES.end()));
     (triangles.log10() - first) / (last - first)

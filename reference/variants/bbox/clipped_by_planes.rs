@@ -1,5 +1,6 @@
-//! Clips the ray by six planes, each with a normal and a point, as for any convex polyhedron: Cyrus
-//! and Beck, "Generalized two- and three-dimensional clipping", Computers and Graphics 3(1), 1978.
+//! Clips the ray against six planes, each given by a normal and a point. This works for any convex
+//! polyhedron: Cyrus and Beck, "Generalized two- and three-dimensional clipping", Computers and
+//! Graphics 3(1), 1978.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};
@@ -74,7 +75,7 @@ impl BBox {
         (!inside.is_empty()).then_some(inside)
     }
 
-    /// Returns the outward normal of each face, and a point on it.
+    /// Returns the outward normal of each face, and a point on the face.
     fn planes(&self) -> [(Vec3, Vec3); 6] {
         [
             (Vec3::NEG_X, self.min),

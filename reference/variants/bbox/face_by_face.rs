@@ -1,6 +1,5 @@
-//! Intersects the six faces, each a rectangle. To the times of these hits it adds the ends of
-//! `times`, if the ray is inside the box then. The result is the interval from the earliest to the
-//! latest of them.
+//! Intersects the six faces, each a rectangle. The result is the interval from the earliest to the
+//! latest of these hits and of those ends of `times` at which the ray is inside the box.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};
@@ -77,7 +76,7 @@ impl BBox {
         [self.min, self.max].map(|corner| {
             let time = (corner[axis] - ray.origin[axis]) / ray.dir[axis];
             let mut point = ray.at(time);
-            // Puts the point exactly on the plane, despite rounding.
+            // Rounding may have moved the point off the plane.
             point[axis] = corner[axis];
             self.around(point).then_some(time)
         })

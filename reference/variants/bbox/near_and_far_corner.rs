@@ -1,5 +1,5 @@
-//! Selects the corners at which the ray enters and leaves the slabs by the sign of the direction,
-//! for all axes at once.
+//! Selects the corners at which the ray enters and leaves the slabs by the signs of the inverse
+//! direction, for all axes at once.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};

@@ -1,5 +1,5 @@
-//! Computes an interval of times for each slab, and intersects them with `times`, in small
-//! functions that return early with `?`.
+//! Computes an interval of times for each slab, and intersects `times` with these intervals,
+//! returning early with `?` if nothing is left.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};

@@ -1,5 +1,5 @@
 //! Sixteen buckets over the node's own box. Traversal: the children that the ray hits are put in a
-//! sorted list; the ray itself never changes.
+//! sorted list; the ray itself is never shortened.
 
 use protocol::{Ray, Trace};
 

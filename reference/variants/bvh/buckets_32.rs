@@ -123,8 +123,8 @@ impl Bvh {
     }
 }
 
-/// Returns up to four descendants of a node: while there are fewer, the child with the largest box
-/// is replaced by its own children.
+/// Returns up to four descendants of a node: as long as there are fewer, the interior node with the
+/// largest box is replaced with its children.
 fn up_to_four(nodes: &[Node], node: &Node) -> Vec<usize> {
     if node.is_leaf() {
         return Vec::new();

@@ -1,5 +1,5 @@
-//! Forty buckets over the node's own box. Traversal: without a stack, using an index from each node
-//! to its parent (Hapala et al., "Efficient Stack-less BVH Traversal for Ray Tracing", 2011).
+//! Forty buckets over the node's own box. Traversal: without a stack, using the index of each
+//! node's parent (Hapala et al., "Efficient Stack-less BVH Traversal for Ray Tracing", 2011).
 
 use protocol::{Ray, Trace};
 

@@ -1,6 +1,6 @@
 //! Computes the full formula, C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect,
 //! although parts of the formula are the same for all partitions of a node. Traversal: a parent
-//! tests both boxes and passes the entry distances down.
+//! tests the boxes of both children and passes the entry distances down.
 
 use protocol::{Ray, Trace};
 
@@ -92,7 +92,8 @@ impl Bvh {
         closest
     }
 
-    /// Looks for a closer hit below `node`. `entry` is `None` if the ray misses its box.
+    /// Looks for a closer hit below `node`. `entry` is the distance at which the ray enters the
+    /// node's box, or `None` if the ray misses it.
     fn traverse(&self, node: &Node, entry: Option<f32>, ray: &Ray, closest: &mut Option<Trace>) {
         let limit = closest.map_or(f32::INFINITY, |closest| closest.distance);
         if entry.is_none_or(|entry| entry >= limit) {
@@ -144,8 +145,9 @@ fn build_node(
     index
 }
 
-/// The costs of traversing a node and of testing a primitive.
+/// The cost of traversing a node.
 const C_TRAV: f32 = 1.0;
+/// The cost of testing a primitive.
 const C_ISECT: f32 = 2.0;
 
 /// The number of buckets along each axis.

@@ -1,6 +1,6 @@
 //! Pushes the left subtree of a node, then the node, then the right subtree, so that the root is in
-//! the middle; the buckets divide the node's own box. Traversal: best first, with a heap: of all
-//! nodes that are still to be visited, the one whose box the ray enters first is visited next.
+//! the middle; the buckets divide the node's own box. Traversal: best first. A heap of the nodes
+//! still to be visited returns the node whose box the ray enters first.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -94,7 +94,7 @@ impl Bvh {
         let mut closest = None;
         let mut open = BinaryHeap::from_iter(OpenNode::new(root, &ray));
         while let Some(OpenNode { node, entry }) = open.pop() {
-            // The ray enters the boxes of all other open nodes even farther away.
+            // The ray enters the boxes of all other open nodes at this distance or farther away.
             if entry > ray.range.max {
                 break;
             }
@@ -123,8 +123,8 @@ impl Bvh {
     }
 }
 
-/// A node that is still to be visited. The node whose box the ray enters first is the greatest,
-/// because a `BinaryHeap` returns the greatest element first.
+/// A node that is still to be visited. In comparisons, the node whose box the ray enters first is
+/// the greatest, because a `BinaryHeap` returns the greatest element first.
 struct OpenNode<'a> {
     node: &'a Node,
     entry: f32,

@@ -1,7 +1,7 @@
 //! Inserts one primitive after the other, each where it increases the areas of the boxes the least:
 //! Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE Computer
-//! Graphics and Applications 7(5), 1987. Traversal: best first, with a heap: of all nodes that are
-//! still to be visited, the one whose box the ray enters first is visited next.
+//! Graphics and Applications 7(5), 1987. Traversal: best first. A heap of the nodes still to be
+//! visited returns the node whose box the ray enters first.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -94,7 +94,7 @@ impl Bvh {
         let mut closest = None;
         let mut open = BinaryHeap::from_iter(OpenNode::new(root, &ray));
         while let Some(OpenNode { node, entry }) = open.pop() {
-            // The ray enters the boxes of all other open nodes even farther away.
+            // The ray enters the boxes of all other open nodes at this distance or farther away.
             if entry > ray.range.max {
                 break;
             }
@@ -123,8 +123,8 @@ impl Bvh {
     }
 }
 
-/// A node that is still to be visited. The node whose box the ray enters first is the greatest,
-/// because a `BinaryHeap` returns the greatest element first.
+/// A node that is still to be visited. In comparisons, the node whose box the ray enters first is
+/// the greatest, because a `BinaryHeap` returns the greatest element first.
 struct OpenNode<'a> {
     node: &'a Node,
     entry: f32,
@@ -204,7 +204,7 @@ impl Cluster {
     /// Returns the cluster after inserting one more primitive.
     fn with(self, new: Cluster) -> Cluster {
         // The costs of making `new` a sibling of this node, or of inserting it below a child: the
-        // area of the new common box, plus the growth of the boxes above that.
+        // area of the new common box, plus the growth of the boxes above it.
         let beside = self.distance(&new);
         let growth = beside - self.bbox.surface_area();
         let Parts::Two(a, b) = self.parts else {
@@ -224,7 +224,7 @@ impl Cluster {
         }
     }
 
-    /// Appends the primitives of the cluster.
+    /// Appends the cluster's primitives to `primitives`.
     fn unpack(self, primitives: &mut Vec<Primitive>) {
         match self.parts {
             Parts::One(primitive) => primitives.push(primitive),

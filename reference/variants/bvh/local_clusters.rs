@@ -146,8 +146,9 @@ fn merge_all(mut primitives: Vec<Primitive>) -> Option<Cluster> {
     clusters.pop()
 }
 
-/// Returns the index of the cluster within the radius that is nearest to the one at `i`. Ties go to
-/// the first pair in the list, so that there are always two clusters that choose each other.
+/// Returns the index of the nearest cluster to the cluster at `i`, among those within the radius.
+/// Ties go to the first pair in the list, so that there are always two clusters that choose each
+/// other.
 fn nearest(clusters: &[Cluster], i: usize) -> usize {
     let window = i.saturating_sub(RADIUS)..clusters.len().min(i + RADIUS + 1);
     let others = window.filter(|&other| other != i);
@@ -156,7 +157,7 @@ fn nearest(clusters: &[Cluster], i: usize) -> usize {
         let by_distance = distance(a).total_cmp(&distance(b));
         by_distance.then((a.min(i), a.max(i)).cmp(&(b.min(i), b.max(i))))
     });
-    nearest.expect("there are two clusters at least, and RADIUS is not 0")
+    nearest.expect("there are at least two clusters, and RADIUS is not 0")
 }
 
 /// A subtree, before its nodes are created.
@@ -197,7 +198,7 @@ impl Cluster {
         both.surface_area()
     }
 
-    /// Appends the primitives of the cluster.
+    /// Appends the cluster's primitives to `primitives`.
     fn unpack(self, primitives: &mut Vec<Primitive>) {
         match self.parts {
             Parts::One(primitive) => primitives.push(primitive),
@@ -234,7 +235,7 @@ impl Cluster {
     }
 }
 
-/// Returns the position of a point in the box along the Z-order curve: three times 16 bits,
+/// Returns the position of a point in the box along the Z-order curve: 16 bits for each axis,
 /// interleaved.
 fn morton_code(point: Vec3, bbox: &BBox) -> u64 {
     let size = (bbox.max - bbox.min).max(Vec3::splat(f32::MIN_POSITIVE));

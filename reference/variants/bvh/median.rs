@@ -1,6 +1,6 @@
-//! Splits the primitives into two halves of equal count, in the order of their centres along the
-//! longest axis. Areas are not considered. Traversal: without a stack, restarting from the root
-//! along a trail of bits (Laine, "Restart Trail for Stackless BVH Traversal", 2010).
+//! Splits at the median of the primitives' centres along the longest axis, so that each side gets
+//! half of the primitives. Areas are not considered. Traversal: without a stack, restarting from
+//! the root along a trail of bits (Laine, "Restart Trail for Stackless BVH Traversal", 2010).
 
 use protocol::{Ray, Trace};
 
@@ -89,8 +89,8 @@ impl Bvh {
         let mut closest = None;
         let mut rest = *ray;
 
-        // One bit for each level, with the root's bit at the top. A bit is 1 if the last child on
-        // that level is being traversed.
+        // One bit for each level, with the root's bit at the top. A bit is 1 if the child being
+        // traversed on that level is the last to be visited.
         let mut trail = 0_u64;
         while trail < DONE {
             let mut node = root;
@@ -165,7 +165,8 @@ fn build_node(
     index
 }
 
-/// Moves the half of the primitives whose centres come first along the longest axis to the front.
+/// Partitions the primitives in place at the median of their centres along the longest axis;
+/// returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
     let centers = bounds_of_centers(primitives);
     let axis = (centers.max - centers.min).max_position();

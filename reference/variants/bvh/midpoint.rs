@@ -1,5 +1,6 @@
-//! Splits at the middle of the longest axis, however the primitives are distributed. Areas are not
-//! considered. Traversal: a parent tests both boxes and passes the entry distances down.
+//! Splits at the midpoint of the longest axis, however the primitives are distributed. Areas are
+//! not considered. Traversal: a parent tests the boxes of both children and passes the entry
+//! distances down.
 
 use protocol::{Ray, Trace};
 
@@ -71,7 +72,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree by splitting at the middle.
+    /// Builds the tree by splitting at midpoints.
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         if !primitives.is_empty() {
@@ -91,7 +92,8 @@ impl Bvh {
         closest
     }
 
-    /// Looks for a closer hit below `node`. `entry` is `None` if the ray misses its box.
+    /// Looks for a closer hit below `node`. `entry` is the distance at which the ray enters the
+    /// node's box, or `None` if the ray misses it.
     fn traverse(&self, node: &Node, entry: Option<f32>, ray: &Ray, closest: &mut Option<Trace>) {
         let limit = closest.map_or(f32::INFINITY, |closest| closest.distance);
         if entry.is_none_or(|entry| entry >= limit) {
@@ -143,8 +145,8 @@ fn build_node(
     index
 }
 
-/// Moves the primitives before the middle to the front. The axis is the one along which the centres
-/// extend farthest.
+/// Partitions the primitives in place at the midpoint of the axis along which their centres extend
+/// farthest; returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
     let centers = bounds_of_centers(primitives);
     let axis = (centers.max - centers.min).max_position();

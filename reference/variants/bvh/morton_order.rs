@@ -131,8 +131,8 @@ impl Bvh {
     }
 }
 
-/// Returns up to four descendants of a node: while there are fewer, the child with the largest box
-/// is replaced by its own children.
+/// Returns up to four descendants of a node: as long as there are fewer, the interior node with the
+/// largest box is replaced with its children.
 fn up_to_four(nodes: &[Node], node: &Node) -> Vec<usize> {
     if node.is_leaf() {
         return Vec::new();
@@ -187,7 +187,7 @@ fn split(codes: &[u64]) -> usize {
     }
 }
 
-/// Returns the position of a point in the box along the Z-order curve: three times 16 bits,
+/// Returns the position of a point in the box along the Z-order curve: 16 bits for each axis,
 /// interleaved.
 fn morton_code(point: Vec3, bbox: &BBox) -> u64 {
     let size = (bbox.max - bbox.min).max(Vec3::splat(f32::MIN_POSITIVE));

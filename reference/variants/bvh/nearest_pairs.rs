@@ -126,7 +126,7 @@ impl Bvh {
 
 fn merge_all(primitives: Vec<Primitive>) -> Option<Cluster> {
     let mut unmerged: Vec<Cluster> = primitives.into_iter().map(Cluster::one).collect();
-    // Each cluster is nearer to its predecessor than its predecessor is to the one before that.
+    // A chain of clusters in which the distance from one cluster to the next decreases.
     let mut chain: Vec<Cluster> = Vec::new();
     while chain.len() + unmerged.len() > 1 {
         let Some(last) = chain.last() else {
@@ -140,8 +140,8 @@ fn merge_all(primitives: Vec<Primitive>) -> Option<Cluster> {
             .nth_back(1)
             .map(|previous| last.distance(previous));
         match nearest {
-            // Extends the chain. If no cluster is nearer than the predecessor, the last two of the
-            // chain are a pair instead.
+            // Extends the chain. If no cluster is nearer than the predecessor, merges the last two
+            // clusters of the chain instead.
             Some((index, distance)) if back.is_none_or(|back| distance < back) => {
                 chain.push(unmerged.swap_remove(index));
             }
@@ -192,7 +192,7 @@ impl Cluster {
         both.surface_area()
     }
 
-    /// Appends the primitives of the cluster.
+    /// Appends the cluster's primitives to `primitives`.
     fn unpack(self, primitives: &mut Vec<Primitive>) {
         match self.parts {
             Parts::One(primitive) => primitives.push(primitive),

@@ -1,6 +1,6 @@
 //! No buckets: for each of sixteen planes perpendicular to each axis of the node's box, the
-//! primitives are partitioned and both boxes are computed. Traversal: a parent tests both boxes and
-//! passes the entry distances down.
+//! primitives are partitioned and both boxes are computed. Traversal: a parent tests the boxes of
+//! both children and passes the entry distances down.
 
 use protocol::{Ray, Trace};
 
@@ -92,7 +92,8 @@ impl Bvh {
         closest
     }
 
-    /// Looks for a closer hit below `node`. `entry` is `None` if the ray misses its box.
+    /// Looks for a closer hit below `node`. `entry` is the distance at which the ray enters the
+    /// node's box, or `None` if the ray misses it.
     fn traverse(&self, node: &Node, entry: Option<f32>, ray: &Ray, closest: &mut Option<Trace>) {
         let limit = closest.map_or(f32::INFINITY, |closest| closest.distance);
         if entry.is_none_or(|entry| entry >= limit) {
@@ -175,8 +176,8 @@ fn split(primitives: &mut [Primitive]) -> usize {
     })
 }
 
-/// Moves the primitives before the plane to the front, as `std::partition` does, and returns their
-/// number.
+/// Moves the primitives before the plane to the front, as C++'s `std::partition` does, and returns
+/// their number.
 fn partition(primitives: &mut [Primitive], axis: usize, plane: f32) -> usize {
     let mut first = 0;
     for i in 0..primitives.len() {

@@ -168,8 +168,8 @@ fn split(primitives: &mut [Primitive]) -> usize {
     })
 }
 
-/// Moves the primitives before the plane to the front, as `std::partition` does, and returns their
-/// number.
+/// Moves the primitives before the plane to the front, as C++'s `std::partition` does, and returns
+/// their number.
 fn partition(primitives: &mut [Primitive], axis: usize, plane: f32) -> usize {
     let mut first = 0;
     for i in 0..primitives.len() {

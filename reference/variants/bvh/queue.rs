@@ -1,6 +1,6 @@
 //! Builds the tree with a queue, level by level, so that the children of a node are always next to
 //! each other; the buckets divide the box of the centres. Traversal: the children that the ray hits
-//! are put in a sorted list; the ray itself never changes.
+//! are put in a sorted list; the ray itself is never shortened.
 
 use std::collections::VecDeque;
 
@@ -77,7 +77,7 @@ impl Bvh {
     /// Builds the tree with the surface area heuristic (SAH).
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
-        // The indices of the nodes that are still to be split.
+        // The indices of the nodes that may still have to be split.
         let mut queue = VecDeque::new();
         if !primitives.is_empty() {
             nodes.push(Node::leaf(bounds_of(&primitives), 0, primitives.len()));

@@ -1,6 +1,6 @@
 //! The surface area heuristic along only one axis per level: x, y and z in turn. If all centres
 //! coincide along that axis, the next axis is used. Traversal: the children that the ray hits are
-//! put in a sorted list; the ray itself never changes.
+//! put in a sorted list; the ray itself is never shortened.
 
 use protocol::{Ray, Trace};
 

@@ -1,21 +1,21 @@
 //! A wide BVH that tests eight boxes or eight triangles at a time. The binary tree, built here or
 //! given by the caller, is collapsed into nodes with eight children, and the triangles of each leaf
-//! are stored together in a pack. After Wald, Benthin and Boulos, "Getting Rid of Packets", 2008,
-//! and Embree's `BVH8<Triangle4>`.
+//! are stored together in a pack. This follows Wald, Benthin and Boulos, "Getting Rid of Packets",
+//! 2008, and Embree's `BVH8<Triangle4>`.
 //!
 //! Traversal is limited by cache misses and branch mispredictions, not by arithmetic:
 //!
 //! - Nodes and packs are in one array, with the packs of a node right behind it. All children that
 //!   the ray hits are prefetched at once, together with the memory behind them.
-//! - A pack is small, because neighbouring triangles share their corners.
+//! - A pack is small, because each corner that neighbouring triangles share is stored once.
 //! - A stack entry is one integer, with the entry distance in the bits above the child, so that the
 //!   nearer of two children is found without a branch.
-//! - The sign of the ray's direction tells which plane of a box the ray reaches first, so only that
-//!   plane is used to compute the entry distance.
+//! - For each axis, the sign of the ray's direction tells which plane of a box the ray reaches
+//!   first, so only that plane is used to compute the entry distance.
 //! - The shading data of a triangle is in one cache line. For a flat triangle, it is computed from
-//!   the corners, so nothing more is read.
-//! - Traversal does not use the tree in `nodes`, but another one, in which a large triangle may be
-//!   split into pieces.
+//!   the corners, so nothing else is read.
+//! - For a tree built here, traversal does not use `nodes` but another tree, in which a large
+//!   triangle may be split into pieces.
 
 use glam::{Vec2, Vec3};
 use protocol::{Interval, Ray, Shape, Trace};
@@ -103,7 +103,7 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree with the surface area heuristic (SAH), and another one with split triangles
+    /// Builds the tree with the surface area heuristic (SAH), and another tree with split triangles
     /// for traversal.
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let max_leaf_size = max_leaf_size.max(1);
@@ -203,9 +203,9 @@ impl Bvh {
         }
     }
 
-    /// Prefetches a child, which will be visited but perhaps not immediately, and the memory behind
-    /// it, which is likely to be visited soon: the first packs of a node, or the neighbours of a
-    /// pack.
+    /// Prefetches a child, which is likely to be visited, though perhaps not immediately, and the
+    /// memory behind the child, which is likely to be visited next: the first packs of a node, or
+    /// the neighbours of a pack.
     fn prefetch(&self, child: u32) {
         const LINES: usize = WideNode::LINES + 2 * Pack::LINES;
         let start = (child & !LEAF) as usize;
@@ -233,7 +233,7 @@ impl Bvh {
                 v: hit.v,
             };
             if let Some(index) = pack.surface_index(hit.lane) {
-                // The surface will be read, unless a closer hit is found.
+                // The surface will be read unless a closer hit is found.
                 prefetch(&self.surfaces[index as usize]);
             }
         }
@@ -257,11 +257,12 @@ struct ClosestHit {
 /// The primitive of the closest hit.
 enum HitPrimitive {
     None,
-    /// The primitive with this index.
+    /// A sphere, given by its index in [`Bvh::primitives`].
     Sphere {
         index: u32,
     },
-    /// A triangle, by the first line of its pack and its lane, with the weights of two corners.
+    /// A triangle, given by the first line of its pack and its lane in the pack, with the weights
+    /// of two corners.
     Triangle {
         pack: u32,
         lane: usize,
@@ -325,7 +326,8 @@ impl StackEntry {
 struct Stack {
     entries: [StackEntry; Stack::SIZE],
     len: usize,
-    /// Older entries, which did not fit into the array. Few trees are that deep.
+    /// Older entries, moved here when the array was almost full. Few trees are deep enough to need
+    /// it.
     overflow: Vec<StackEntry>,
 }
 
@@ -342,7 +344,7 @@ impl Stack {
         }
     }
 
-    /// Makes room for the children of one more node, and returns the index for the first of them.
+    /// Makes room for the children of one more node, and returns the index of the first of them.
     fn reserve_eight(&mut self) -> usize {
         if self.len > Stack::SIZE - 8 {
             self.overflow.extend_from_slice(&self.entries[..self.len]);
@@ -351,7 +353,7 @@ impl Stack {
         self.len
     }
 
-    /// Inserts an entry in order among those from `base` on.
+    /// Inserts an entry into the entries from `base` on, which are sorted.
     fn insert(&mut self, base: usize, entry: StackEntry) {
         let mut index = self.len;
         while index > base && self.entries[(index - 1) % Stack::SIZE] < entry {
@@ -387,11 +389,11 @@ struct WideRay {
 
 impl WideRay {
     /// The minimum absolute value of a direction component. The inverse of 0 would be infinite, and
-    /// its product with 0 NaN; the inverse of this number is large enough to serve as infinity.
+    /// infinity times 0 is NaN. The inverse of this number is large enough to serve as infinity.
     const MIN_COMPONENT: f32 = 1e-30;
 
-    /// A factor that exceeds the rounding error of exit distances, so that no box is missed. Pharr,
-    /// Jakob and Humphreys, "Physically Based Rendering" (4th edition), section 6.1.2.
+    /// A factor that makes up for the rounding error of exit distances, so that no box is missed.
+    /// Pharr, Jakob and Humphreys, "Physically Based Rendering" (4th edition), section 6.1.2.
     const EXIT_PADDING: f32 = 1.000_000_4;
 
     fn new(ray: &Ray) -> Self {
@@ -413,7 +415,7 @@ impl WideRay {
 #[repr(align(64))]
 struct CacheLine([f32x8; 2]);
 
-/// The bit of a child's first line number that marks a pack.
+/// The bit that marks a child as a pack, in the number of the child's first line.
 const LEAF: u32 = 1 << 31;
 
 /// A node with up to eight children: for each axis, a line with the lower and upper planes of all
@@ -443,7 +445,8 @@ impl<'a> WideNode<'a> {
             [0, 1, 2].map(|axis| from(axis, wide_ray.is_negative[axis]) * wide_ray.inverse[axis]);
         let leave = [0, 1, 2]
             .map(|axis| from(axis, !wide_ray.is_negative[axis]) * wide_ray.padded_inverse[axis]);
-        // The maximum is computed in pairs, which do not depend on each other.
+        // Maxima and minima are computed in pairs that do not depend on each other, which shortens
+        // the dependency chain.
         let enter = (enter[0].fast_max(enter[1])).fast_max(enter[2].fast_max(wide_ray.min));
         let leave = (leave[0].fast_min(leave[1])).fast_min(leave[2].fast_min(f32x8::splat(max)));
         (enter, enter.simd_le(leave).to_bitmask())
@@ -582,7 +585,7 @@ impl<'a> Pack<'a> {
 
         let p = cross(&wide_ray.dir, &e2);
         let q = cross(&s, &e1);
-        // No division before there is a hit: u, v and t are compared with multiples of the
+        // There is no division unless there is a hit: u, v and t are compared with multiples of the
         // determinant, after both sides have been multiplied by its sign.
         let determinant = dot(&p, &e1);
         let sign = determinant & f32x8::splat(-0.0);
@@ -642,7 +645,7 @@ fn lines_at<const N: usize>(lines: &[CacheLine], start: u32) -> &[CacheLine; N] 
         .expect("the slice has N lines")
 }
 
-/// A converter of a binary tree to a wide tree.
+/// A converter from a binary tree to a wide tree.
 struct Collapser<'a> {
     primitives: &'a [Primitive],
     nodes: Vec<Node>,
@@ -660,10 +663,10 @@ struct Collapser<'a> {
 /// to cost as much as testing a pack.
 #[derive(Clone, Copy, Default)]
 struct Plan {
-    /// For each n, the cost of the subtree if it becomes at most n children of a node above.
+    /// For each n, the cost of the subtree if it becomes at most n children of a wide ancestor.
     costs: [f32; 8],
-    /// For each n, the numbers of children that come from the left and the right side. Both are 0
-    /// if the whole subtree is one child.
+    /// For each n, the numbers of children that come from the left and from the right subtree. Both
+    /// are 0 if the whole subtree is one child.
     sides: [(u8, u8); 9],
 }
 
@@ -699,7 +702,8 @@ impl<'a> Collapser<'a> {
         self.plan(node.l);
         self.plan(node.r);
         let (l, r) = (&self.plans[node.l], &self.plans[node.r]);
-        // Returns the cheapest way to get this many children from both sides, and its cost.
+        // Returns the cost of the cheapest way to get this many children from both subtrees, and
+        // the number of children from each.
         let cheapest_way = |children: usize| {
             let ways = (1..children).filter(|&from_l| from_l < 8 && children - from_l < 8);
             let cost = |from_l: usize| l.costs[from_l] + r.costs[children - from_l];
@@ -723,9 +727,9 @@ impl<'a> Collapser<'a> {
         self.plans[index] = plan;
     }
 
-    /// Splits a leaf that does not fit in a pack into two leaves, and returns whether it did. Both
-    /// keep the box of the leaf, because in a tree from the caller it need not be the box of the
-    /// primitives.
+    /// Splits a leaf into two if it does not fit in a pack, and returns whether it was split. Both
+    /// new leaves keep the box of the old leaf, which need not be the tightest box in a tree from
+    /// the caller.
     fn split_leaf(&mut self, index: usize) -> bool {
         let Node {
             bbox, start, size, ..
@@ -755,8 +759,9 @@ impl<'a> Collapser<'a> {
         }
     }
 
-    /// Writes the wide node for a subtree and everything below it, and returns its first line.
-    /// Leaves come first, the largest before the others: see [`Bvh::prefetch`].
+    /// Writes the wide node for a subtree and everything below it, and returns the node's first
+    /// line. Leaves come before other children, and large boxes before small ones: see
+    /// [`Bvh::prefetch`].
     fn write_node(&mut self, root: usize) -> u32 {
         let mut children = Vec::with_capacity(8);
         self.children(root, 8, &mut children);
@@ -1075,8 +1080,8 @@ impl Builder {
 }
 
 /// Partitions the items in place by the cheapest split, and returns the size of the left side.
-/// Large nodes compare many splits: comparing them takes little time compared with counting the
-/// items, and the choice of the split matters most in large nodes.
+/// Larger nodes are divided into more slices: there, evaluating the splits takes little time
+/// relative to counting the items, and the choice of the split matters most.
 fn partition(items: &mut [Item], centers: Bounds) -> usize {
     match items.len() {
         0..512 => partition_in::<16>(items, centers),
@@ -1143,10 +1148,10 @@ fn cheapest_split<const SLICES: usize>(buckets: &[Bucket; SLICES]) -> (usize, f3
     best
 }
 
-/// A builder of the tree for traversal. If the boxes of two halves would overlap, a node can be
-/// split by a plane instead, if this is cheaper. A triangle that crosses the plane then has a piece
-/// on each side: Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies",
-/// 2009.
+/// A builder of the tree for traversal. If the boxes of a node's two sides would overlap, the node
+/// is split by a plane instead if that is cheaper. A triangle that crosses the plane then has a
+/// piece on each side: Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume
+/// Hierarchies", 2009.
 struct SpatialBuilder<'a> {
     primitives: &'a [Primitive],
     nodes: Vec<Node>,
@@ -1251,7 +1256,8 @@ impl<'a> SpatialBuilder<'a> {
         Some((l, r))
     }
 
-    /// Returns the cheapest spatial split between slices of equal width, over all axes.
+    /// Returns the cheapest spatial split over all axes. The candidates are the planes between
+    /// slices of equal width.
     fn cheapest_spatial_split(&self, items: &[Item], bounds: Bounds) -> Option<SpatialSplit> {
         let lower = bounds.lower.to_array();
         let width = ((bounds.upper - bounds.lower)

@@ -1,5 +1,5 @@
-//! Scales device coordinates, which are from −1 to 1 across the film, by half the width and half
-//! the height of the sensor.
+//! Scales normalised device coordinates, which run from −1 to 1 across the film, by half the width
+//! and half the height of the sensor.
 
 use framework::math::tan;
 use glam::{UVec2, Vec2, Vec3};

@@ -46,7 +46,8 @@ impl Sphere {
 
     /// Returns the ray's first hit on the sphere, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        // The power of a point is the product near · far, which is equal for all lines through it.
+        // The power of a point is the product near · far, which is the same for all lines through
+        // the point.
         let from_center = ray.origin.distance(self.center);
         let product = (from_center - self.radius) * (from_center + self.radius);
         let middle = (self.center - ray.origin)

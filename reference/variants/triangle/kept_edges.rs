@@ -1,4 +1,4 @@
-//! Computes the edges and the face normal once, in `new`, and stores them in private fields.
+//! Computes two edges and the face normal once, in `new`, and stores them in private fields.
 
 use glam::Vec3;
 use protocol::{Ray, Trace, Vertex};

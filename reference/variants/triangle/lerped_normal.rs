@@ -1,5 +1,5 @@
-//! Interpolates normal and uv by adding two differences to the value at p0: u times that from p0 to
-//! p1, and v times that from p0 to p2. The interpolated normal is not normalised.
+//! Interpolates an attribute a (the normal or the uv) as a0 + u · (a1 − a0) + v · (a2 − a0). The
+//! interpolated normal is not normalised.
 
 use protocol::{Ray, Trace, Vertex};
 

@@ -1,6 +1,6 @@
-//! Determines with Plücker coordinates on which side of each edge the ray passes: for two lines (d,
-//! m), it is the sign of d1·m2 + d2·m1. Shoemake, "Plücker Coordinate Tutorial", Ray Tracing News
-//! 11(1), 1998.
+//! Determines with Plücker coordinates on which side of each edge the ray passes: for two lines
+//! (d1, m1) and (d2, m2), the sign of d1·m2 + d2·m1 tells the side. Shoemake, "Plücker Coordinate
+//! Tutorial", Ray Tracing News 11(1), 1998.
 
 use glam::Vec3;
 use protocol::{Ray, Trace, Vertex};
@@ -43,8 +43,8 @@ impl Triangle {
 
     /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        // Relative to p0, since the moments of a small, distant triangle would otherwise have large
-        // rounding errors.
+        // Positions are relative to p0, since the moments of a small, distant triangle would
+        // otherwise have large rounding errors.
         let line = Line::through(ray.origin - self.p0.position, ray.dir);
         let b = self.p1.position - self.p0.position;
         let c = self.p2.position - self.p0.position;
@@ -93,8 +93,8 @@ impl Line {
         }
     }
 
-    /// Returns zero if the lines intersect; otherwise the sign says on which side they pass each
-    /// other.
+    /// Returns a number whose sign tells on which side the lines pass each other. It is zero if
+    /// they intersect or are parallel.
     fn side(self, other: Line) -> f32 {
         self.dir.dot(other.moment) + other.dir.dot(self.moment)
     }

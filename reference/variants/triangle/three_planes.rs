@@ -1,5 +1,5 @@
 //! Computes three planes once: the triangle's own plane, and two planes perpendicular to it. The
-//! scaled distances from these two are u and v. Havel and Herout, "Yet Faster Ray-Triangle
+//! scaled distances from the latter are u and v. Havel and Herout, "Yet Faster Ray-Triangle
 //! Intersection (Using SSE4)", IEEE TVCG 16(3), 2010; here relative to p0, so that no plane needs
 //! an offset.
 

@@ -1,4 +1,4 @@
-//! The reference's box, with every test counted. It has only the methods that the reference's other
+//! The reference's box, which counts every test. It has only the methods that the reference's other
 //! files use.
 
 use glam::Vec3;

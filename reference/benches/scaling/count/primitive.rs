@@ -1,4 +1,4 @@
-//! The reference's primitive, with every test counted.
+//! The reference's primitive, which counts every test.
 
 use protocol::{Ray, Shape, Trace};
 

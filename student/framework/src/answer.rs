@@ -49,8 +49,8 @@ fn answer(submission: &dyn Submission, question: &Question) -> Answer {
             max_leaf_size,
             rays,
         } => {
-            // Builds the tree at the first ray, so that a panic in `build` is reported like any
-            // other panic.
+            // Builds the tree when the first ray is answered, so that a panic in `build` is
+            // reported like any other panic.
             let build = || submission.build(shapes, *max_leaf_size as usize);
             let mut bvh = None;
             hits(rays, |ray| bvh.get_or_insert_with(build).closest_hit(ray))

@@ -31,8 +31,8 @@ pub fn keep_panics_quiet() {
 
 /// Runs `code` and returns its value, or the panic if it panics.
 pub fn attempt<T>(code: impl FnOnce() -> T) -> ElementOutcome<T> {
-    // Unwind safe: values that a panic leaves half changed are not used again, because each
-    // question has its own values.
+    // This is unwind safe: values that a panic leaves half modified are not used again, because
+    // each question has its own values.
     let before = ATTEMPTING.replace(true);
     let result = catch_unwind(AssertUnwindSafe(code));
     ATTEMPTING.set(before);

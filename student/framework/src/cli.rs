@@ -127,7 +127,8 @@ fn first_hit(scene: &Scene, world: &World, pixel: UVec2, stats: &mut RenderStats
     world.hit(&scene.camera.placement.to_world(&ray))
 }
 
-/// Prints the hit and the radiance of one pixel, and renders nothing else. Useful in a debugger.
+/// Prints the hit and the radiance of one pixel, and renders nothing else. This is useful in a
+/// debugger.
 fn print_pixel(
     pixel: UVec2,
     options: &Options,

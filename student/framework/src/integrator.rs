@@ -1,9 +1,9 @@
 //! The path tracer, which renders a scene.
 //!
 //! Kajiya, "The Rendering Equation", SIGGRAPH 1986, with light sampling at each matte surface.
-//! Everything is computed in `f32` and in a fixed order, and each random number depends only on
-//! what it is used for (see [`sampler`](crate::sampler)). So a picture has the same bytes on every
-//! machine and with any number of threads.
+//! Everything is computed in `f32` and in a fixed order, and each random number depends only on its
+//! use (see [`sampler`](crate::sampler)). So a picture has the same bytes on every machine and with
+//! any number of threads.
 
 mod optics;
 mod path;
@@ -64,9 +64,10 @@ impl<'a> Integrator<'a> {
     /// the size `settings.film`.
     ///
     /// A ray that leaves a surface must not hit the surface again at its start. An `f32` has 24
-    /// significant bits, so a position is known to 6e-8 of the scene's largest coordinate. At
-    /// grazing angles, the formulas for triangles and spheres lose about a hundred times as much.
-    /// So rays start 1e-4 of that coordinate away, which is too little to be visible in a picture.
+    /// significant bits, so a position is known to within 6e-8 of the scene's largest coordinate.
+    /// At grazing angles, the formulas for triangles and spheres lose about a hundred times as
+    /// much. So rays start 1e-4 of that coordinate away, which is too little to be visible in a
+    /// picture.
     pub fn new(scene: &'a Scene, world: &'a World, settings: RenderSettings) -> Self {
         Integrator {
             scene,

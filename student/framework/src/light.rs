@@ -18,7 +18,8 @@ pub struct Lights {
     cumulative_power: Vec<f32>,
 }
 
-/// A direction toward a light, from a given point. Other shapes can block it.
+/// A sampled direction toward a light, as seen from a given point. Other shapes can block the
+/// light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSample {
     /// The direction to the light, of length one.
@@ -41,7 +42,8 @@ impl Lights {
             let material = scene.materials.get(shape.material() as usize)?;
             let radiance = material.emitted()?;
             let shape = LightShape::of(shape);
-            // A light without power would never be picked, and its probability would be 0 / 0.
+            // A light without power must not be picked. If all lights had no power, their
+            // probabilities would be 0 / 0.
             let has_power = radiance != Vec3::ZERO && shape.area() > 0.0;
             has_power.then_some(AreaLight { radiance, shape })
         };

@@ -1,6 +1,5 @@
-//! Trigonometry and powers with the same results on every machine. With the functions of the
-//! standard library, the last bit of a result can differ between systems, and then pictures would
-//! differ too.
+//! Trigonometry and powers with the same results on every machine. With the standard library's
+//! functions, the last bit of a result can differ between systems, so pictures would differ.
 
 /// Returns the angle in `[0, π]` whose cosine is `x`, in radians.
 pub fn acos(x: f32) -> f32 {

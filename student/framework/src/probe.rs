@@ -52,7 +52,7 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
 }
 
 /// Answers each question in turn. Answers are flushed only when no more questions are buffered, so
-/// that a batch of questions costs one switch between the processes.
+/// that a batch of questions costs only one context switch.
 fn serve(
     submission: &dyn Submission,
     questions: impl Read,

@@ -1,4 +1,4 @@
-//! Random numbers that depend on what they are used for, and not on earlier numbers.
+//! Random numbers that depend only on their use, and not on earlier numbers.
 //!
 //! With a stream of random numbers, one wrong hit would shift all later numbers of its path, and
 //! the picture of an almost correct submission would look nothing like the reference's. Here, each
@@ -53,8 +53,9 @@ impl Sampler {
 /// Computes one step of SplitMix64: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
 /// Generators", OOPSLA 2014, with Stafford's constants ("mix13").
 ///
-/// This is a bijection in which each bit of the input flips about half of the output bits. Nested
-/// calls hash one word after the other, with a few multiplications and shifts each and no tables.
+/// This is a bijection. Flipping any bit of the input flips about half of the output bits. Nested
+/// calls hash one word after another; each call takes only a few multiplications and shifts, and no
+/// tables.
 fn mix(word: u64) -> u64 {
     let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

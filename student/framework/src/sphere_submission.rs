@@ -89,7 +89,7 @@ impl Hierarchy for SphereList {
 }
 
 /// Intersects a ray with a sphere geometrically: finds the point of the ray that is closest to the
-/// centre, then goes half a chord to either side.
+/// centre, then moves half a chord in either direction.
 fn intersect(shape: &Shape, ray: &Ray) -> Option<Trace> {
     let Shape::Sphere {
         center,

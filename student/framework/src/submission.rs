@@ -11,7 +11,8 @@ use protocol::{Interval, PinholeCamera, Ray, Shape, Trace, Tree, TreeNode};
 use crate::scene::Scene;
 
 /// A submission's five files, called through the given file `world.rs`, which implements this
-/// trait. The methods convert what a scene or a question describes to the submission's own types.
+/// trait. The methods convert the cameras, shapes and nodes in a scene or a question to the
+/// submission's own types.
 pub trait Submission: Sync {
     /// Calls `Camera::new`.
     fn camera(&self, pinhole: &PinholeCamera) -> Box<dyn CameraRays>;
@@ -87,7 +88,7 @@ pub struct World {
 }
 
 impl World {
-    /// Converts a scene to the submission's types, which includes building its tree.
+    /// Converts a scene to the submission's types, which includes building a tree over the shapes.
     pub fn new(submission: &dyn Submission, scene: &Scene) -> Self {
         World {
             camera: submission.camera(&scene.camera.pinhole),

@@ -21,7 +21,7 @@ pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
 }
 
 /// Moves the pipes in the same way on Windows. The standard library looks up its streams at each
-/// use, so it uses the redirected ones.
+/// use, so it uses the redirected streams.
 #[cfg(windows)]
 pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
     use filedescriptor::{FileDescriptor, Pipe, StdioDescriptor};
@@ -46,7 +46,8 @@ pub(crate) fn end_with_the_grader() {
     set_parent_process_death_signal(Some(Signal::KILL)).ok();
 }
 
-/// Does nothing, because there is no portable call for this on other systems. A probe that computes
-/// runs on until its time limit, and one that waits ends when the stream of questions ends.
+/// Does nothing, because there is no portable call for this on other systems. A probe that is
+/// computing runs on until its time limit; a probe that is waiting for a question ends when the
+/// stream of questions ends.
 #[cfg(not(target_os = "linux"))]
 pub(crate) fn end_with_the_grader() {}

@@ -65,12 +65,12 @@ pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, epsilon: f32
     }
 }
 
-/// The boxes of a tree around a point.
+/// The boxes of a tree that contain a point.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
 struct TreeLocation {
     /// The number of nodes whose boxes contain the point.
     boxes: u32,
-    /// The index of one of the leaves among them.
+    /// The index of a leaf whose box contains the point, or 0 if there is none.
     leaf: u32,
 }
 
@@ -113,8 +113,8 @@ fn heat_colour(count: u32, max: u32) -> Vec3 {
     STOPS[stop].lerp(STOPS[stop + 1], position - stop as f32)
 }
 
-/// Returns a brightness for a leaf that distinguishes it from its neighbours. Multiples of the
-/// golden ratio, modulo 1, are well spread, so leaves with close indices get different values.
+/// Returns a brightness that distinguishes a leaf from its neighbours. Multiples of the golden
+/// ratio, modulo 1, are well spread, so leaves with close indices get different values.
 fn leaf_brightness(leaf: u32) -> f32 {
     let step = (f64::from(leaf) * 0.618_033_988_749_895).fract();
     0.55 + 0.45 * step as f32

@@ -30,7 +30,8 @@ impl Interval {
 
     /// Returns whether the interval contains no number. An interval with a NaN end is empty.
     pub fn is_empty(&self) -> bool {
-        // `min > max` would be false for NaN, so the interval would not count as empty.
+        // `min > max` is not enough: it is false for NaN, so an interval with a NaN end would not
+        // count as empty.
         !matches!(
             self.min.partial_cmp(&self.max),
             Some(std::cmp::Ordering::Less | std::cmp::Ordering::Equal)

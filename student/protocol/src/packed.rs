@@ -67,7 +67,8 @@ impl<'de, T: DeserializeOwned> Visitor<'de> for ListOrText<T> {
 pub mod text {
     use super::*;
 
-    /// Serialises a value as described in the module documentation.
+    /// Serialises a value: in text formats as the base64 form of its binary encoding, in binary
+    /// formats unchanged.
     pub fn serialize<T: Serialize, S: Serializer>(value: &T, out: S) -> Result<S::Ok, S::Error> {
         if !out.is_human_readable() {
             return value.serialize(out);
@@ -76,7 +77,7 @@ pub mod text {
         out.serialize_str(&STANDARD_NO_PAD.encode(bytes))
     }
 
-    /// Deserialises a value as described in the module documentation.
+    /// Deserialises a value that [`serialize`] wrote.
     pub fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de>>(
         from: D,
     ) -> Result<T, D::Error> {

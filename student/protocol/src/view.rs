@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use crate::packed;
 use crate::ray::Ray;
 
-/// The parameters of the camera that a submission's `Camera` is made from.
+/// The parameters from which a submission's `Camera` is created.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PinholeCamera {
@@ -16,7 +16,7 @@ pub struct PinholeCamera {
     pub film: UVec2,
 }
 
-/// A position on the film: a pixel, and the position in that pixel.
+/// A position on the film: a pixel, and the position within it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// The pixel; (0, 0) is at the bottom left.

@@ -4,9 +4,9 @@
 //!   length: u32 LE | nonce: u64 LE | body: `length` bytes, postcard
 //! ```
 //!
-//! An answer repeats the nonce of its question. The reader passes the maximum length of a body,
-//! which is checked *before* anything is allocated. Decoding fails if there are bytes after the
-//! value.
+//! An answer repeats the nonce of its question. The reader specifies the maximum length of a body.
+//! The length in the header is checked against this maximum *before* anything is allocated.
+//! Decoding fails if there are bytes after the value.
 
 use std::io::{self, Read, Write};
 
@@ -50,7 +50,7 @@ impl From<io::Error> for WireError {
     }
 }
 
-/// A frame that was received and is not decoded yet.
+/// A frame that has been received, but not decoded yet.
 #[derive(Debug)]
 pub struct Frame {
     /// A number chosen by the sender of the question; the answer repeats it.
@@ -75,12 +75,13 @@ impl Frame {
     }
 }
 
-/// Returns a frame that holds `value`.
+/// Encodes `value` as a frame.
 pub fn encode<T: Serialize>(nonce: u64, value: &T) -> Result<Vec<u8>, WireError> {
     append(Vec::new(), nonce, value)
 }
 
-/// Appends a frame that holds `value` to `bytes`, so that many frames can be sent in one write.
+/// Encodes `value` as a frame and appends it to `bytes`, so that many frames can be sent in one
+/// write.
 pub fn append<T: Serialize>(
     mut bytes: Vec<u8>,
     nonce: u64,
@@ -101,8 +102,8 @@ pub fn append<T: Serialize>(
     Ok(bytes)
 }
 
-/// Appends a frame that holds a question to `bytes`. This function is not generic, for the same
-/// reason as [`Frame::answer`].
+/// Encodes a question as a frame and appends it to `bytes`. This function is not generic, for the
+/// same reason as [`Frame::answer`].
 pub fn append_question(
     bytes: Vec<u8>,
     nonce: u64,

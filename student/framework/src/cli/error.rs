@@ -60,7 +60,7 @@ impl fmt::Display for SubmissionPanic {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Panic { message, location } = &self.panic;
         if self.panic.is_unimplemented() {
-            // Of `todo!("task 1, camera: which ray ...")`, prints the task without the question.
+            // For `todo!("task 1, camera: which ray ...")`, prints the task without the question.
             let task = message.split(": ").nth(1).unwrap_or("this part");
             return write!(f, "{task}: not written yet ({location})");
         }

@@ -45,8 +45,8 @@ fn scene_names(root: &Path) -> Vec<String> {
     names
 }
 
-/// Returns the path of the picture, after checking its format and its folder. This is called before
-/// rendering, so that an error does not waste a finished picture.
+/// Returns the path of the picture, after checking its format and its folder. Called before
+/// rendering, because an error after it would waste the finished picture.
 pub(super) fn output_path(options: &Options, scene: &Path) -> Result<PathBuf, RenderError> {
     let given = options.out.as_ref().or(options.out_option.as_ref());
     let out = match given {

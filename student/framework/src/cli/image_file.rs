@@ -1,4 +1,4 @@
-//! Writing pictures to image files.
+//! Writes pictures to image files.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use image::{ImageFormat, Rgb32FImage, RgbImage};
 use super::error::RenderError;
 use crate::film::{Film, Tone};
 
-/// Writes a picture to a file. An EXR file gets linear floats. Files in other formats get bytes,
+/// Writes a picture to a file. An EXR file stores linear floats. Other formats store bytes,
 /// converted for a screen.
 pub(super) fn write(film: &Film, tone: Tone, path: &Path) -> Result<(), RenderError> {
     let (width, height) = film.size.into();

@@ -19,8 +19,8 @@ pub(super) struct Interface {
 /// Computes reflection and refraction by the Fresnel equations for unpolarised light and Snell's
 /// law: Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th edition, section 9.3.
 ///
-/// `direction` and `normal` must have length one, and the normal points against the direction.
-/// `eta` is the index of refraction behind the interface divided by the one before it.
+/// `direction` and `normal` must have length one, and the normal must point against the direction.
+/// `eta` is the index of refraction behind the interface divided by the index in front of it.
 pub(super) fn interface(direction: Vec3, normal: Vec3, eta: f32) -> Interface {
     let cos_before = -direction.dot(normal);
     let sin_squared = (1.0 - cos_before * cos_before).max(0.0) / (eta * eta);

@@ -1,4 +1,4 @@
-//! Tracing of one path, which starts at the camera.
+//! Traces one path, starting at the camera.
 
 use glam::{UVec2, Vec2, Vec3};
 use protocol::{Interval, Ray};
@@ -29,8 +29,8 @@ struct Scattered {
     direction: Vec3,
     /// The factor for light that arrives from `direction`.
     attenuation: Vec3,
-    /// Whether light sampling has already covered direct light, so that hitting a light by chance
-    /// must not count.
+    /// Whether light sampling already accounts for direct light. If so, a light that the path hits
+    /// by chance must not count.
     direct_light_sampled: bool,
 }
 

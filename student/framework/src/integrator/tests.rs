@@ -1,5 +1,5 @@
 //! Analytic checks that any correct path tracer passes. The scenes contain only spheres, because
-//! `sphere_submission` intersects them.
+//! `sphere_submission` intersects no other shapes.
 
 use glam::{Vec3, uvec2, vec2, vec3};
 use protocol::Trace;
@@ -62,14 +62,15 @@ fn glass_is_invisible_in_a_white_furnace() {
 fn a_grey_sphere_shows_its_albedo_in_a_white_furnace() {
     let scene = scene(1.0, GREY, &sphere(-3.0, 2.0, "grey"));
     let pixels = render(&CORRECT, &scene, &settings(4, 4));
-    // The central pixel sees only the sphere, whose scattered rays hit nothing else.
+    // Through the central pixel, only the sphere is visible, and rays scattered by it hit nothing
+    // else.
     assert_eq!(pixels[8 * 4 + 4], Vec3::splat(0.5));
 }
 
 #[test]
 fn light_inside_a_grey_shell_is_a_geometric_series() {
-    // The shell catches all light, and each bounce passes half of it on. From the second bounce on,
-    // the radiance of the shell is the same everywhere, except for the small shadow of the light
+    // All light hits the shell, which scatters half of it at each bounce. From the second bounce
+    // on, the radiance of the shell is the same everywhere, except in the small shadow of the light
     // itself.
     let shapes = [sphere(0.0, 10.0, "grey"), sphere(5.0, 0.1, "light")].join(",");
     let scene = scene(0.0, &format!("{GREY}, {EMITTER}"), &shapes);

@@ -41,7 +41,8 @@ impl LightShape {
         }
     }
 
-    /// Creates a triangle that emits on the side of `outward`, whatever the order of its corners.
+    /// Creates a triangle that emits on the side of `outward`. If `outward` is zero, the order of
+    /// the corners determines the side.
     fn triangle(corners: [Vec3; 3], outward: Vec3) -> Self {
         let [p0, p1, p2] = corners;
         let cross = (p1 - p0).cross(p2 - p0);
@@ -65,8 +66,8 @@ impl LightShape {
         }
     }
 
-    /// Samples a point on the light with two random numbers in `[0, 1)`. Returns `None` if it does
-    /// not emit toward `point`.
+    /// Samples a point on the light with two random numbers in `[0, 1)`. Returns `None` if the
+    /// light does not emit from there toward `point`.
     pub(super) fn sample(&self, point: Vec3, random: Vec2) -> Option<ShapeSample> {
         match *self {
             LightShape::Triangle {
@@ -97,7 +98,7 @@ impl LightShape {
 fn sample_cone(center: Vec3, radius: f32, point: Vec3, random: Vec2) -> Option<ShapeSample> {
     let to_center = center - point;
     let squared = to_center.length_squared();
-    // A point inside gets no light, because spheres emit outward.
+    // A point inside the sphere gets no light, because spheres emit outward.
     if squared <= radius * radius {
         return None;
     }

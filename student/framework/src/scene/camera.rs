@@ -81,7 +81,7 @@ struct CameraEntry {
     up: Vec3,
 }
 
-/// An error in a camera whose numbers are valid by themselves.
+/// An error in a camera whose numbers are individually valid.
 #[derive(Debug, thiserror::Error)]
 enum CameraError {
     #[error("`film` is {0} x {1} pixels: each side must be from 1 to {MAX_FILM_SIDE}")]
@@ -108,7 +108,8 @@ impl TryFrom<CameraEntry> for Camera {
         }
         let view = (file.look_at - file.position).try_normalize();
         let forward = view.ok_or(CameraError::LooksAtItself)?;
-        // Both vectors have length one, so this length is the sine of the angle between them.
+        // Both vectors have length one, so the length of their cross product is the sine of the
+        // angle between them.
         let across = forward.cross(file.up.normalize_or_zero());
         if across.length() < 1e-4 {
             return Err(CameraError::UpAlongTheView);

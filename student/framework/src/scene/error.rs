@@ -1,4 +1,4 @@
-//! Errors in scenes. They say where the error is and how to fix it.
+//! Errors in scenes. Their messages tell the position of the error and how to fix it.
 
 use std::fmt;
 #[cfg(feature = "cli")]

@@ -25,7 +25,8 @@ pub(super) struct SceneFile {
 }
 
 /// An entry of `shapes`. The kind of shape is a key (`{ "sphere": { ... } }`) and not the value of
-/// a key `type`, because then the parser would not know the line of an error in the entry.
+/// a key `type`, because with such a key, the parser would not know the line of an error in the
+/// entry.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum ShapeEntry {

@@ -1,4 +1,4 @@
-//! Tests of scene and mesh files. Errors begin with the name of the file to fix.
+//! Tests of scene and mesh files. Error messages must begin with the name of the file to fix.
 
 use std::fs;
 use std::path::{Path, PathBuf};

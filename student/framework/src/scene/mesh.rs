@@ -66,7 +66,7 @@ impl Mesh {
     }
 }
 
-/// Returns a vector along a triangle's normal, whose length is twice the triangle's area.
+/// Returns the vector along a triangle's normal that is as long as twice the triangle's area.
 fn cross([p0, p1, p2]: [Vec3; 3]) -> Vec3 {
     (p1 - p0).cross(p2 - p0)
 }

@@ -113,7 +113,7 @@ fn number_is_finite(word: &str) -> Result<(), String> {
 }
 
 /// Checks the indices of a face corner such as `7`, `7/1`, `7//3` or `7/1/3`. A negative index
-/// counts backward from the current line.
+/// counts backward from the last element before the current line.
 fn corner_exists(corner: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<(), String> {
     for (i, index) in corner.split('/').enumerate() {
         if index.is_empty() {

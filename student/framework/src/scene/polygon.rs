@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::number;
 
 /// The maximum distance of a point from the plane of the polygon, relative to the polygon's size.
-/// It is large enough for rounded coordinates, but too small for a visible bend.
+/// It is large enough to allow rounded coordinates, but too small to allow a visible bend.
 const FLATNESS_TOLERANCE: f32 = 1e-3;
 
 /// A flat, convex polygon, counter-clockwise around its normal.

@@ -1,5 +1,6 @@
-//! The CPU time per submission in a class, at the best isolation level of the machine, compared
-//! with the baseline F: one bare `rustc` call for the same five files (`grader/benches/README.md`).
+//! Measures the CPU time per submission of a class, at the strongest isolation level that the
+//! machine supports, and compares it with the baseline F: one bare `rustc` call for the same five
+//! files (`grader/benches/README.md`).
 //!
 //! All submissions change in each round, so that nothing cached in an earlier round can be reused.
 
@@ -32,8 +33,9 @@ use median::median;
 const ROUNDS: usize = 5;
 const STUDENTS: usize = 60;
 
-/// The number of measurements of the baseline before the class is graded, and again after it. One
-/// call takes only a third of a second, during which a shared machine may be slow or fast.
+/// The number of baseline measurements before the class is graded, and again afterwards. Several
+/// are needed because a call takes only a third of a second, and the speed of a shared machine
+/// varies.
 const BASELINE_CALLS: usize = 5;
 
 fn main() {
@@ -57,7 +59,7 @@ fn main() {
 
     let cores = thread::available_parallelism().map_or(1, usize::from);
     println!("{STUDENTS} submissions on {cores} cores, {ROUNDS} rounds");
-    println!("  F, CPU ms   each, CPU ms   of F   by the clock, of cores / F");
+    println!("  F, CPU ms   each, CPU ms    / F     throughput / (cores / F)");
     let (mut of_baseline, mut of_most) = (Vec::new(), Vec::new());
     for round in 0..ROUNDS {
         for (number, student) in students.iter().enumerate() {

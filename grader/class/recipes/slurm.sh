@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
-# Grades a class on a Slurm cluster: each task of an array grades a part, then all parts are merged.
+# Grades a class on a Slurm cluster: each task of an array grades a part, and then all parts are
+# merged.
 #
 #   INPUT=export.zip OUT=/shared/graded SHARDS=16 bash slurm.sh
 #
 # INPUT and OUT must be on a disk that all nodes share. If something fails, run the command again:
-# it grades only what is missing. OPTIONS are for every `cargo class`, such as "--exam final.json
-# --policy p.toml", and LISTS for the merge, such as "--roster people.csv --canvas export.csv".
+# it grades only what is missing. OPTIONS are passed to every `cargo class`, such as "--exam
+# final.json --policy p.toml", and LISTS to the merge, such as "--roster people.csv --canvas
+# export.csv".
 set -euo pipefail
 
-: "${INPUT:?the export or folder}" "${OUT:?the folder for the results}"
+: "${INPUT:?must name the export or folder}" "${OUT:?must name the output folder}"
 : "${SHARDS:=8}" "${CLASS:=cargo class}" "${OPTIONS:=}" "${LISTS:=}"
 export INPUT OUT SHARDS CLASS OPTIONS LISTS
 

@@ -32,7 +32,7 @@ impl Distribution {
         points.sort_unstable();
         let (&least, &most) = (points.first()?, points.last()?);
         let count = points.len();
-        // The nearest-rank method: a quartile is always the points of some submission.
+        // The nearest-rank method: every quartile is a number of points that some submission got.
         let at = |quarter: usize| points[(quarter * count).div_ceil(4).max(1) - 1];
         let mut bins = [0; BINS];
         for &points in &points {

@@ -1,4 +1,4 @@
-//! The entries of a class, which are the same for every layout.
+//! The entries of a class, in a form that does not depend on the layout.
 
 use std::path::PathBuf;
 
@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 pub struct Entry {
     /// The id: unique in the class, and the name of the folder with the results.
     pub id: String,
-    /// The people, and what else is known about the submission.
+    /// Information about the submission, such as its people.
     pub info: EntryInfo,
-    /// The location of its files.
+    /// The location of the submission's files.
     pub source: Source,
 }
 
@@ -25,7 +25,7 @@ pub struct EntryInfo {
     /// The submission time, in the platform's format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submitted: Option<String>,
-    /// The file or folder that it was read from, relative to the input.
+    /// The file or folder that the submission was read from, relative to the input.
     pub from: String,
 }
 
@@ -42,7 +42,7 @@ pub struct Person {
     /// The university's student id.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub sid: String,
-    /// The account name, such as on GitHub.
+    /// The account name, for example on GitHub.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub login: String,
     /// The platform's own number for the person: the user id in Canvas, the participant number in
@@ -58,7 +58,7 @@ pub enum Source {
     Path(PathBuf),
     /// Single files: the name under which each was handed in, and its path.
     Files(Vec<(String, PathBuf)>),
-    /// No files can be graded, for this reason.
+    /// There is nothing to grade, for this reason.
     Missing(String),
 }
 
@@ -71,7 +71,7 @@ impl Person {
         }
     }
 
-    /// Returns the name, or another field if it is unknown.
+    /// Returns the name or, if it is unknown, another field that is known.
     pub fn display_name(&self) -> &str {
         let known = [&self.name, &self.login, &self.email, &self.sid];
         let name = known.into_iter().find(|text| !text.is_empty());
@@ -94,8 +94,8 @@ impl Person {
         }
     }
 
-    /// Returns whether both records are of the same person. Only unique identifiers are compared,
-    /// never names, since two people may share one.
+    /// Returns whether both records describe the same person. Only unique identifiers are compared,
+    /// never names, since two people may have the same name.
     pub fn matches(&self, other: &Person) -> bool {
         let pairs = [
             (&self.email, &other.email),
@@ -111,14 +111,14 @@ impl Person {
 }
 
 impl EntryInfo {
-    /// Returns the names of all people.
+    /// Returns the names of all people, joined with ` + `.
     pub fn display_names(&self) -> String {
         let names: Vec<&str> = self.people.iter().map(Person::display_name).collect();
         names.join(" + ")
     }
 }
 
-/// Returns the message for a submission with several archives, which is not graded.
+/// Returns the reason for not grading a submission with several archives.
 pub fn several_archives_message(count: usize) -> String {
     format!("{count} archives were handed in: keep the one that counts")
 }

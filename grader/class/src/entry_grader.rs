@@ -19,7 +19,8 @@ use crate::progress::Progress;
 use crate::run::Run;
 use crate::store::{Store, StoreError};
 
-/// The maximum number of attempts to grade an entry. If all of them fail, the fault is final.
+/// The maximum number of attempts to grade an entry. If all of them fail, the entry gets no score
+/// in this run.
 const ATTEMPTS: usize = 3;
 /// The maximum length of a fault's message, in characters.
 const MAX_FAULT_CHARS: usize = 2_000;
@@ -50,7 +51,7 @@ impl EntryGrader<'_> {
             Ok(submission) => {
                 let key = cache_key(self.run, self.grader.policy(), &submission);
                 match self.store.cached_result(entry, &key) {
-                    // The lists may have changed, and with them what is known about the people.
+                    // Saved again, because the lists may contain new information about the people.
                     Some(result) => (self.save(result, &key)?, false),
                     None => (
                         self.grade_with_retries(slot, entry, &submission, &key)?,
@@ -92,7 +93,7 @@ impl EntryGrader<'_> {
         )
     }
 
-    /// Grades an entry, and writes its score and pages when they are complete.
+    /// Grades an entry once. Its score and its pages are written when all items are graded.
     fn grade_once(
         &self,
         slot: usize,
@@ -148,9 +149,9 @@ impl EntryGrader<'_> {
     }
 }
 
-/// Returns the cache key: a hash of everything that an entry's files depend on. Of the policy, only
-/// the part about what students may see is included: the other rules change neither a score nor
-/// another file of an entry.
+/// Returns the cache key: a hash of everything that the output files of an entry depend on. Of the
+/// policy, it covers only the rules on what students may see, since no other rule affects these
+/// files.
 fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
     let mut hasher = blake2b_simd::State::new();
     let mut part = |bytes: &[u8]| {

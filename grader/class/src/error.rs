@@ -68,7 +68,8 @@ pub enum Error {
     },
     /// Some shards were not named on the command line.
     #[error(
-        "no folder has part {}, so its submissions would be missing: name the folders of all parts",
+        "results are missing for {}: name the output folders of all parts, or the merged grades \
+        would lack submissions",
         join_shards(.0)
     )]
     MissingShards(Vec<Shard>),

@@ -161,7 +161,8 @@ fn options_of_scores(options: &GradeOptions) -> String {
     format!("{dependents:?} {budget:?}")
 }
 
-/// Returns the text of the policy file, which has already been parsed successfully.
+/// Returns the text of the policy file, or `None` if no file is named. The file has already been
+/// parsed successfully.
 fn policy_text(path: Option<&Path>) -> Result<Option<String>, PolicyError> {
     let read = |path: &Path| {
         fs::read_to_string(path).map_err(|source| PolicyError::Io {
@@ -173,7 +174,7 @@ fn policy_text(path: Option<&Path>) -> Result<Option<String>, PolicyError> {
 }
 
 /// Returns the run to resume or to start. Scores that depend on other settings are never mixed with
-/// the existing ones, and existing scores are only replaced with `--regrade`.
+/// the existing ones, and existing scores are replaced only with `--regrade`.
 fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<Run, Error> {
     let run = match (store.read_run()?, regrade) {
         (None, true) => return Err(Error::NothingToRegrade(store.folder().to_owned())),
@@ -184,7 +185,7 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
             ..run
         },
         (Some(run), true) => {
-            // After an abandoned regrade, some scores are already new. The scores that were saved
+            // An abandoned regrade has already replaced some scores, so the scores that were saved
             // before it are kept for the comparison.
             if !run.is_unfinished_regrade() {
                 store.save_previous_scores()?;

@@ -1,5 +1,5 @@
-//! Groups. A platform such as Canvas exports a group's submission under one member's name; the
-//! roster's group column lists the other members.
+//! Group submissions: a platform such as Canvas exports a group's submission under the name of one
+//! member, and the roster's group column lists the other members.
 
 use std::collections::BTreeSet;
 
@@ -8,8 +8,8 @@ use crate::entry::{EntryInfo, Person};
 use crate::roster::{self, Member};
 use crate::table::TableError;
 
-/// Adds the other members of a group to the entry of the member who handed in, unless they handed
-/// in something themselves. Removes the added members from `missing`.
+/// Adds the other members of a group to the entry of the member who submitted, except those who
+/// made a submission of their own. Removes the added members from `missing`.
 pub fn add_group_members(
     lists: &Lists,
     entries: &mut [&mut EntryInfo],
@@ -68,7 +68,8 @@ mod tests {
         let mut missing: Vec<Person> = [1, 4].map(|index| members[index].person.clone()).into();
         add_group_members(&lists, &mut entries, &mut missing).unwrap();
         let names: Vec<String> = entries.iter().map(|info| info.display_names()).collect();
-        // Two members of a group handed in, so both entries have Bob; the preview reports that.
+        // Two members of Bob's group submitted, so Bob is in both entries. The preview reports
+        // that.
         assert_eq!(names, ["ann + Bob", "carl + Bob", "dora"]);
         let missing: Vec<&str> = missing.iter().map(Person::display_name).collect();
         assert_eq!(missing, ["Eve"]);

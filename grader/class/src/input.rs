@@ -13,7 +13,7 @@ use crate::layout::{self, METADATA, RecognisedClass, UnmatchedPath};
 use crate::listing::{Node, hidden_names, list_folder};
 use crate::unpack::{CLASS_FOLDER, unpack};
 
-/// The entries of a class. If their files were unpacked, dropping this deletes them.
+/// The entries of a class. If the files were unpacked, dropping this value deletes them.
 #[derive(Debug)]
 pub struct Input {
     /// The entries found in the input.
@@ -108,7 +108,7 @@ fn collect_single_archive(folder: &Path) -> Result<Submission, String> {
         .filter(|n| n.is_archive())
         .collect();
     match archives.as_slice() {
-        // It could lead to another student's archive.
+        // The link could lead to another student's archive.
         [only] if only.is_link => Err(format!(
             "{} is a link, and links are not followed",
             sanitize(&only.name, 200)
@@ -151,5 +151,5 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
 fn no_task_file_message(files: &[(String, PathBuf)]) -> String {
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     let names = sanitize(&names.join(", "), 200);
-    format!("none of the five files was handed in, but {names}")
+    format!("none of the five files was handed in, only {names}")
 }

@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use crate::entry::EntryInfo;
 use crate::outcome::ScoreSummary;
 
-/// Returns the points that a score counts for under the policy.
+/// Returns the final points of a score, after the policy has been applied.
 pub fn apply_policy(policy: &Policy, info: &EntryInfo, score: &ScoreSummary) -> CountedPoints {
     policy.counted_points(score.points, score.max_points, lateness(policy, info))
 }
@@ -17,7 +17,8 @@ fn lateness(policy: &Policy, info: &EntryInfo) -> Lateness {
     let time = info.submitted.as_deref().and_then(parse_timestamp);
     let exact = time.and_then(|time| policy.lateness(time));
     exact.unwrap_or(if info.late {
-        // The time is unknown, so the submission counts as just past the grace period.
+        // Without both times, a submission with a late flag counts as one second past the grace
+        // period.
         Lateness {
             seconds: u64::from(policy.late.grace_minutes) * 60 + 1,
         }

@@ -1,7 +1,8 @@
-//! Grades a class from a learning platform's export, in one command that can be killed at any time.
+//! Grades a class from a learning platform's export, in one command. It can be killed at any time,
+//! and resumes when it is run again.
 //!
-//! Each submission is graded in this process, as by `cargo grade`; student code runs in separate
-//! processes. A submission that fails affects only its own result.
+//! Each submission is graded in this process, as `cargo grade` would grade it; student code runs in
+//! separate processes. A submission that fails affects only its own result.
 //!
 //! Layers, from top to bottom; a module imports only from its own layer or those below:
 //!

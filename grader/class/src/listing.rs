@@ -90,8 +90,8 @@ fn list_children(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
         }
         let kind = entry.file_type()?;
         let inside = if kind.is_symlink() {
-            // Only the kind of the link's target matters: a link to a folder takes the place of a
-            // student's folder.
+            // A link to a folder is listed as an empty folder, so that it becomes an entry, which
+            // is then rejected because of the link.
             entry.path().is_dir().then(Vec::new)
         } else if kind.is_dir() {
             Some(match depth {

@@ -1,4 +1,4 @@
-//! `cargo class`: grades a class in one command that can be killed at any time.
+//! `cargo class`: grades a class in one command. A killed run can be resumed.
 
 use std::process::ExitCode;
 

@@ -21,14 +21,14 @@ pub struct GradedClass {
     pub missing: Vec<Person>,
 }
 
-/// A submission's result, and the points that it counts for.
+/// A submission's result and its final points.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClassRow {
     /// The result.
     pub result: EntryResult,
-    /// The points that it counts for; `None` if there is no score.
+    /// The final points, after the policy has been applied; `None` if there is no score.
     pub counted: Option<CountedPoints>,
-    /// Whether it counts as on time because its submission time is unknown.
+    /// Whether the submission counts as on time because its submission time is unknown.
     pub is_undated: bool,
 }
 
@@ -70,7 +70,7 @@ impl ClassRow {
         }
     }
 
-    /// Returns the reason why there is no score; empty if there is one.
+    /// Returns the reason why there is no score, or an empty string if there is a score.
     pub fn why(&self) -> &str {
         match &self.result.outcome {
             EntryOutcome::Graded(_) => "",

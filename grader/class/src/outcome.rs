@@ -10,7 +10,7 @@ use crate::entry::EntryInfo;
 pub struct EntryResult {
     /// The entry's id.
     pub id: String,
-    /// The people, and what else is known about the submission.
+    /// Information about the submission, such as its people.
     pub info: EntryInfo,
     /// The outcome.
     pub outcome: EntryOutcome,
@@ -21,7 +21,8 @@ pub struct EntryResult {
 pub enum EntryOutcome {
     /// The entry was graded.
     Graded(Box<ScoreSummary>),
-    /// There was nothing to grade, for this reason. The teacher decides what that counts for.
+    /// There was nothing to grade, for this reason. The teacher decides how many points the
+    /// submission gets.
     NothingToGrade(String),
     /// The grader or the machine failed, for this reason. The next run tries again.
     Fault(String),
@@ -86,7 +87,7 @@ pub struct Stamp {
     /// The cache key: a hash of the submission and everything else that its score depends on. Empty
     /// if there is no score.
     pub key: String,
-    /// The people, and what else is known about the submission.
+    /// Information about the submission, such as its people.
     #[serde(rename = "about")]
     pub info: EntryInfo,
     /// The outcome.
@@ -108,7 +109,8 @@ pub enum EntryState {
 }
 
 impl ScoreSummary {
-    /// Parses a score file. It may come from another machine, so impossible points are an error.
+    /// Parses a score file. The file may come from another machine, so it is an error if it has
+    /// more points than an exam can have.
     pub fn parse(text: &str) -> Result<Self, serde_json::Error> {
         /// The maximum number of points in a score file: more than any exam has, and small enough
         /// that the sum over a class does not overflow.

@@ -21,7 +21,7 @@ pub struct Progress {
 struct Bars {
     all: ProgressBar,
     slots: Vec<ProgressBar>,
-    // The drawing stops when this is dropped.
+    // Dropping this stops the drawing.
     _drawing: MultiProgress,
 }
 

@@ -6,7 +6,8 @@ use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
 use crate::table::{Table, TableError};
 
-/// Column names that platforms and people use. This and the following lists are for one field each.
+/// Column names that platforms and people use for a person's full name. The other lists are for the
+/// other fields.
 const NAME: [&str; 4] = ["name", "full name", "student", "student name"];
 const FIRST: [&str; 3] = ["first name", "first_name", "given name"];
 const LAST: [&str; 4] = ["last name", "last_name", "surname", "family name"];
@@ -29,14 +30,14 @@ const LOGIN: [&str; 7] = [
     "sis login id",
     "login_id",
 ];
-/// The column of submission times, in classroom50 and GitHub Classroom.
+/// The names of the column with the submission times, in classroom50 and in GitHub Classroom.
 const SUBMISSION_TIME: [&str; 2] = ["datetime", "submission_timestamp"];
 const GROUP: [&str; 4] = ["group", "group name", "group_name", "team"];
 
-/// Rows of Canvas's gradebook that are not people.
+/// Names in Canvas's gradebook that do not belong to people.
 const PLACEHOLDER_NAMES: [&str; 2] = ["Points Possible", "Student, Test"];
 
-/// A row of a list.
+/// A row of a roster or gradebook.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
     /// The person.
@@ -47,7 +48,7 @@ pub struct Member {
     pub submitted: String,
     /// Whether the list marks the submission as late.
     pub late: bool,
-    /// Whether the list has another person of this name, so that the name identifies neither of
+    /// Whether another person in the list has the same name. If so, the name identifies neither of
     /// them.
     has_namesake: bool,
 }
@@ -58,9 +59,10 @@ impl Member {
         person.matches(&self.person) || self.matches_by_name(person)
     }
 
-    /// Returns whether the person's name matches this row. The name counts only if nothing else is
-    /// known about the person, as for a folder that is named after its student. If both the row and
-    /// the person have a platform number, the name does not count.
+    /// Returns whether the person's name equals the name or an identifier in this row. This is
+    /// tested only if the person has no email address, student id or account name, as for a folder
+    /// that is named after its student, and if not both the row and the person have a platform
+    /// number.
     fn matches_by_name(&self, person: &Person) -> bool {
         let known = &self.person;
         let is_bare = [&person.email, &person.sid, &person.login]
@@ -80,7 +82,7 @@ impl Member {
     }
 }
 
-/// Sets the submission times that the platform's files do not have, from the roster.
+/// Sets unknown submission times to those in the roster.
 pub fn set_submission_times(
     lists: &Lists,
     entries: &mut [&mut EntryInfo],
@@ -113,7 +115,7 @@ pub fn read_members(path: &Path) -> Result<Vec<Member>, TableError> {
     parse_members(&Table::read(path)?).ok_or_else(|| TableError::MissingColumn {
         path: path.to_owned(),
         column: "that identifies people".to_owned(),
-        remedy: "its columns must be called name, email, sid or username".to_owned(),
+        remedy: "it needs at least one of the columns name, email, sid and username".to_owned(),
     })
 }
 
@@ -123,7 +125,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
     let [email, sid, login] = [column(&EMAIL), column(&SID), column(&LOGIN)];
     let group = column(&GROUP);
     let [submitted, late] = [column(&SUBMISSION_TIME), table.column("late")];
-    // A list needs one of these columns: only they can match its rows with submissions.
+    // A list needs one of these columns, since only they can match its rows with submissions.
     email.or(sid).or(login).or(name)?;
     // The platform's own numbers, if the list is recognised as Canvas's or Moodle's.
     let number = match table.column("Student") {
@@ -176,8 +178,8 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
     Some(members)
 }
 
-/// Fills in what the lists know about the people. Returns the people in the lists who match none of
-/// them.
+/// Fills in unknown fields of `people` from the lists. Returns the people in the lists who match
+/// nobody in `people`.
 pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, TableError> {
     let files = [
         &lists.roster,

@@ -1,5 +1,5 @@
-//! The settings that all scores in an output folder depend on, so that scores from different
-//! settings are never mixed.
+//! The settings that all scores in an output folder depend on. They are stored with the scores, so
+//! that scores from different settings are never mixed.
 
 use serde::{Deserialize, Serialize};
 
@@ -43,7 +43,7 @@ pub struct Settings {
     pub built_with: String,
     /// The isolation level of the submissions.
     pub isolation: String,
-    /// The options that change a score.
+    /// The command-line options that affect scores.
     pub options: String,
 }
 
@@ -85,8 +85,8 @@ impl Run {
         }
     }
 
-    /// Returns whether this is a regrade that was never finished. The scores from before the
-    /// regrade are already saved.
+    /// Returns whether this is a regrade that was never finished. If it is, the scores from before
+    /// the regrade have already been saved.
     pub fn is_unfinished_regrade(&self) -> bool {
         !self.was_finished && self.before.is_some()
     }

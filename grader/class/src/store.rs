@@ -121,8 +121,8 @@ impl Store {
         stamp.is_some_and(|stamp| stamp.state == *state)
     }
 
-    /// Writes the stamp of an entry. If the entry has a score, that must be written first.
-    /// Otherwise, the files of earlier runs are removed.
+    /// Writes the stamp of an entry. If the entry has a score, it must already have been written.
+    /// Otherwise, the entry's files from earlier runs are removed.
     pub fn save_result(&self, result: &EntryResult, key: &str) -> Result<(), StoreError> {
         let folder = self.entry_folder(&result.id);
         let state = match &result.outcome {
@@ -173,7 +173,7 @@ impl Store {
         Ok(results)
     }
 
-    /// Copies the current score of every entry to its previous score. If an entry has no current
+    /// Saves the current score of every entry as its previous score. If an entry has no current
     /// score, its previous score is removed.
     pub fn save_previous_scores(&self) -> Result<(), StoreError> {
         for id in self.ids()? {

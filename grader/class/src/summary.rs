@@ -27,7 +27,7 @@ pub struct ClassSummary {
     pub isolation: String,
     /// The number of submissions that were graded.
     pub graded: usize,
-    /// The number of submissions with nothing that could be graded.
+    /// The number of submissions with nothing to grade.
     pub nothing_to_grade: usize,
     /// The number of submissions that were not graded because of the grader or the machine.
     pub not_graded: usize,
@@ -39,8 +39,7 @@ pub struct ClassSummary {
     pub points: Option<Distribution>,
     /// The distribution of each task's points, in lecture order.
     pub tasks: Vec<TaskDistribution>,
-    /// The items that the most submissions failed, in descending order of the number of
-    /// submissions.
+    /// The items that were failed most often, in descending order of the number of submissions.
     pub failed_most: Vec<FailedItem>,
     /// The most common known mistakes, in descending order of the number of submissions.
     pub mistakes: Vec<MistakeCount>,
@@ -60,7 +59,7 @@ pub struct TaskDistribution {
     pub points: Distribution,
 }
 
-/// An item without full points in some submissions.
+/// An item that some submissions failed, which means that they did not get its full points.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FailedItem {
     /// The item's id, such as `sphere.from_inside`.

@@ -101,7 +101,7 @@ impl Table {
         })
     }
 
-    /// Returns a table without rows.
+    /// Creates a table with this header and without rows.
     pub fn new(header: &[&str]) -> Self {
         Table {
             header: header.iter().map(|name| (*name).to_owned()).collect(),
@@ -111,7 +111,7 @@ impl Table {
         }
     }
 
-    /// Returns the index of the column with this name. Case does not matter.
+    /// Returns the index of the column with this name, ignoring case.
     pub fn column(&self, name: &str) -> Option<usize> {
         let same = |column: &String| column.trim().eq_ignore_ascii_case(name);
         self.header.iter().position(same)

@@ -1,6 +1,6 @@
-//! Unpacks an export's archive into a temporary folder. Only files that are needed later are
-//! unpacked, so that other files that a student has packed do not fill the disk. A file that cannot
-//! be unpacked is reported, and does not affect the others.
+//! Unpacks an export's archive into a temporary folder. Files that are not needed later are created
+//! empty, so that they do not fill the disk. A file that cannot be unpacked is reported, and does
+//! not affect the others.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,17 +14,16 @@ use crate::input_error::ClassInputError;
 use crate::layout::{CLASSROOM50_SCORES, METADATA, UnmatchedPath};
 use crate::listing::is_archive_name;
 
-/// The maximum size of an archive, or of a list from the platform, in bytes.
+/// The maximum size of a student's archive or a platform's list, in bytes.
 const MAX_FILE_BYTES: u64 = 256 << 20;
-/// The maximum size of a source file, in bytes. Of a longer file, one more byte than this is
-/// unpacked, so that it is recognised as too long.
+/// The maximum size of a source file, in bytes. Of a longer file, one byte more is unpacked, so
+/// that the file is recognised as too long.
 const MAX_TEXT_BYTES: u64 = 1 << 20;
-/// The constant part of the maximum size of all unpacked files, in bytes. The maximum is this plus
-/// [`MAX_EXPANSION`] times the size of the archive, which is enough, since students' archives are
-/// already compressed and their texts are short.
+/// The maximum total size of the unpacked files, in bytes, before [`MAX_EXPANSION`] times the size
+/// of the archive is added. The sum is enough, since students' archives are already compressed and
+/// their source files are short.
 const MAX_TOTAL_BYTES: u64 = 1 << 30;
-/// The factor of the archive's size in the maximum size of all unpacked files: see
-/// [`MAX_TOTAL_BYTES`].
+/// The number of bytes that each byte of the archive adds to [`MAX_TOTAL_BYTES`].
 const MAX_EXPANSION: u64 = 4;
 /// The names of folders that contain nothing to grade.
 const SKIPPED: [&str; 4] = [".git", "target", "node_modules", "__MACOSX"];
@@ -80,7 +79,7 @@ pub fn unpack(
     }
     let mut total = 0;
     for (max_bytes, members) in by_max_bytes {
-        // Only a few files are read at a time, so that a big export needs little memory.
+        // Only a few files are read at a time, so that a large export needs little memory.
         for some in members.chunks(archive.batch_size()) {
             let contents = match max_bytes {
                 0 => vec![Vec::new(); some.len()],
@@ -114,8 +113,8 @@ fn is_wanted(path: &str) -> bool {
     !path.split('/').any(|part| SKIPPED.contains(&part))
 }
 
-/// Returns the number of bytes of a file that are needed later. It is 0 for most files, since only
-/// their names matter.
+/// Returns the maximum number of bytes of a file that are needed later. For most files, it is 0,
+/// since only their names matter.
 fn max_bytes(path: &str) -> u64 {
     let name = path.rsplit('/').next().unwrap_or(path);
     match name {
@@ -126,8 +125,8 @@ fn max_bytes(path: &str) -> u64 {
     }
 }
 
-/// Calls `put` with the path in `folder`. Returns a message if such a path cannot exist on this
-/// system.
+/// Calls `put` with `path` joined to `folder`. Returns a message if such a path cannot exist on
+/// this system.
 fn extract_to(
     folder: &Path,
     path: &str,
@@ -139,8 +138,8 @@ fn extract_to(
     }
     match put(&folder.join(path)) {
         Ok(()) => Ok(None),
-        // The archive is at fault if, for example, a name is too long, or a file should be a
-        // folder.
+        // The archive is at fault if, for example, a name is too long, or a path is both a file and
+        // a folder.
         Err(error) if !is_machine_fault(error.kind()) => Ok(Some(format!("{path} in it: {error}"))),
         Err(error) => Err(error),
     }

@@ -1,6 +1,6 @@
-//! Canvas's gradebook. Its importer accepts any content, creates an assignment for each unknown
-//! title, and silently ignores some columns. So the teacher's own export is the template, and only
-//! the assignment's column and those that identify people are written back.
+//! Canvas's gradebook. Canvas's importer accepts any content, creates an assignment for each
+//! unknown title, and silently ignores some columns. So the teacher's own export is the template,
+//! and only the assignment's column and those that identify people are written back.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and nam
 const SECTION: &str = "Section";
 /// The name in the row with the maximum points.
 const POINTS_POSSIBLE: &str = "Points Possible";
-/// Canvas silently ignores columns whose title contains one of these.
+/// Parts of column titles: Canvas silently ignores columns whose title contains one of them.
 const IGNORED_TITLES: [&str; 9] = [
     "Current Score",
     "Current Points",
@@ -79,7 +79,7 @@ pub fn fill_canvas(
 }
 
 /// Returns the index of the column with this title or number. If `column` is `None`, returns the
-/// index of the only assignment's column.
+/// index of the only column that belongs to an assignment.
 fn find_target(
     table: &Table,
     section: usize,
@@ -114,7 +114,7 @@ fn find_target(
         ))),
         [(index, _)] => Ok(*index),
         [] => Err(missing(
-            "with --column, give the title of one of its columns or the number at its end"
+            "with --column, name a column by its title or by the number at the end of the title"
                 .to_owned(),
         )),
         several => {
@@ -127,7 +127,7 @@ fn find_target(
     }
 }
 
-/// Returns `123456` for `Path Tracer (123456)`, and an empty text for other titles.
+/// Returns `123456` for `Path Tracer (123456)`, and an empty string for a title without a number.
 fn assignment_number(title: &str) -> &str {
     let inner = title
         .strip_suffix(')')

@@ -1,4 +1,4 @@
-//! Fills in one column in a copy of a gradebook that a platform has exported.
+//! Fills in one column of a copy of a gradebook that was exported from a platform.
 //!
 //! A person who cannot be matched for certain is reported, and the row is left unchanged: a wrong
 //! grade in a gradebook is found weeks later, if ever.
@@ -50,15 +50,15 @@ struct GradebookSpec<'a> {
     target: usize,
     /// The keys that identify people, the most reliable first.
     keys: Vec<MatchKey<'a>>,
-    /// Whether a row belongs to a person.
+    /// Returns whether a row belongs to a person.
     is_person: &'a dyn Fn(&[String]) -> bool,
-    /// Whether the platform does not allow changes to a row.
+    /// Returns whether the platform forbids changes to a row.
     is_locked: &'a dyn Fn(&[String]) -> bool,
-    /// The person's name in a row, for messages.
+    /// Returns the name of the person in a row, for messages.
     name: &'a dyn Fn(&[String]) -> String,
 }
 
-/// A key that matches rows with people: the text in the row equals one of the person's texts.
+/// A key for matching rows with people: a row matches if its text equals one of the person's texts.
 struct MatchKey<'a> {
     row_text: Box<RowText<'a>>,
     person_texts: fn(&Person) -> Vec<String>,
@@ -67,7 +67,7 @@ struct MatchKey<'a> {
 /// A function that returns a row's text for a key.
 type RowText<'a> = dyn Fn(&[String]) -> String + 'a;
 
-/// Returns a key whose text in a row is the content of a column.
+/// Returns a key that takes the text of a row from a column.
 fn column_key<'a>(column: usize, person_texts: fn(&Person) -> Vec<String>) -> MatchKey<'a> {
     MatchKey {
         row_text: Box::new(move |row| row[column].clone()),
@@ -213,7 +213,8 @@ fn maximum_warning(class: &GradedClass, listed: &str) -> Option<String> {
     let listed = listed.trim();
     (!listed.is_empty() && !cell_equals(listed, counted.max_points)).then(|| {
         format!(
-            "the list is out of {listed}, and these points are out of {}: set out_of in the policy",
+            "the gradebook's maximum is {listed}, but these points are out of {}: set out_of in \
+             the policy",
             counted.max_points
         )
     })

@@ -51,7 +51,7 @@ pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, 
     Ok(filled)
 }
 
-/// Returns `123` for `Participant 123`, whatever the language of the site.
+/// Returns `123` for `Participant 123`, in any language of the site.
 fn participant(identifier: &str) -> String {
     let number = identifier.rsplit(' ').next();
     number.unwrap_or(identifier).to_owned()

@@ -116,7 +116,7 @@ fn an_equal_grade_in_another_format_is_not_a_change() {
     let filled = fill_moodle(file.path(), &class(&[("x", person("", "", "", "5"))])).unwrap();
     assert!(filled.changes.is_empty());
     assert_eq!(filled.table.to_csv(), moodles);
-    let warning =
-        "the list is out of 50,00, and these points are out of 100: set out_of in the policy";
+    let warning = "the gradebook's maximum is 50,00, but these points are out of 100: \
+                   set out_of in the policy";
     assert_eq!(filled.warnings, [warning]);
 }

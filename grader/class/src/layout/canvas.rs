@@ -1,7 +1,7 @@
-//! Canvas's "Download submissions": files in one folder, named like
-//! `doejane_LATE_7001_9001_camera.rs`: the student's sortable name without punctuation, `LATE` if
-//! the file is late, the user id, the attachment id, and the student's file name. Canvas appends
-//! `-1`, `-2`, … to the name of a file that is handed in again.
+//! Canvas's "Download submissions": a folder of files with names such as
+//! `doejane_LATE_7001_9001_camera.rs`. A name consists of the student's sortable name without
+//! punctuation, `LATE` if the file is late, the user id, the attachment id, and the student's file
+//! name. Canvas appends `-1`, `-2`, … to the name of a file that is handed in again.
 
 use std::collections::BTreeMap;
 
@@ -9,10 +9,10 @@ use super::{LayoutContents, is_task_file, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
-/// The reason why a user without files has nothing to grade.
-const TEXT_ONLY: &str = "a text or a link was handed in, but no file";
-/// The reason why a text or link is not graded if its user also handed in files.
-const TEXT_BESIDE_FILES: &str = "a text or a link; the files handed in with it are graded";
+/// The reason for not grading a user who submitted text or a link, but no files.
+const TEXT_ONLY: &str = "text or a link was handed in, but no file";
+/// The reason for not grading text or a link from a user who also submitted files.
+const TEXT_BESIDE_FILES: &str = "text or a link; the files handed in with it are graded";
 
 /// The parts of a file name in Canvas's download.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,7 +39,7 @@ fn parse(name: &str) -> Option<CanvasName<'_>> {
     })
 }
 
-/// Returns whether a file is named as in Canvas's download.
+/// Returns whether a file name is in the format of Canvas's download.
 pub(super) fn is_name(name: &str) -> bool {
     parse(name).is_some() || parse_text(name).is_some()
 }
@@ -60,8 +60,8 @@ fn parse_text(name: &str) -> Option<CanvasName<'_>> {
     })
 }
 
-/// Returns whether a part of the name is a user id. In anonymous downloads the part before it is
-/// `anon`, and the id may contain letters.
+/// Returns whether a part of the name is a user id. In anonymous downloads, the part before the id
+/// is `anon`, and the id may contain letters.
 fn is_user(parts: &[&str], index: usize) -> bool {
     is_number(parts[index]) || parts[index - 1] == "anon"
 }

@@ -6,14 +6,16 @@ use super::{LayoutContents, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
-/// The end of the name of the folder that GitHub Classroom's tool creates.
+/// The suffix of the folder that GitHub Classroom's tool creates.
 const SUBMISSIONS_SUFFIX: &str = "-submissions";
-/// The file that classroom50's tool writes beside the repositories: a row per student and attempt.
+/// The name of the file that classroom50's tool writes beside the repositories. It has a row for
+/// each attempt of each student.
 pub const CLASSROOM50_SCORES: &str = "scores.csv";
-/// A file that is in every repository of classroom50.
+/// The name of a file that every repository of classroom50 contains.
 const CLASSROOM50_RESULT: &str = "result.json";
 
-/// Returns the prefix of all repositories' names; `None` if the folder has another layout.
+/// Returns the common prefix of the repositories' names, or `None` if the folder has another
+/// layout.
 pub(super) fn prefix(root: &Node) -> Option<String> {
     if let Some(assignment) = root.name.strip_suffix(SUBMISSIONS_SUFFIX) {
         return Some(format!("{assignment}-"));
@@ -25,8 +27,9 @@ pub(super) fn prefix(root: &Node) -> Option<String> {
     is_classroom50.then(|| common_prefix(folders().map(|node| node.name.as_str())))
 }
 
-/// Returns the common prefix of all names up to its last `-`, since accounts may contain `-`. For a
-/// single name, the prefix is empty, since nothing shows where the account's name begins.
+/// Returns the common prefix of all names, cut off after its last `-`, since the account names may
+/// begin with the same letters as well. For a single name, the prefix is empty, since nothing shows
+/// where the account name begins.
 fn common_prefix<'a>(mut names: impl Iterator<Item = &'a str>) -> String {
     let Some(first) = names.next() else {
         return String::new();

@@ -10,7 +10,7 @@ use super::{LayoutContents, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
-/// The name of the file that lists the people of each folder.
+/// The name of the file that lists the people who submitted each folder.
 pub const METADATA: &str = "submission_metadata.yml";
 
 /// An error in the metadata file.

@@ -1,5 +1,5 @@
-//! The layouts of the platforms' exports. A layout is recognised by its file names, and read into
-//! entries without opening the files.
+//! The layouts of the platforms' exports. A layout is recognised by its file names, and its entries
+//! are listed without opening the submitted files.
 //!
 //! Files that do not fit the layout are reported, never silently ignored.
 
@@ -50,7 +50,7 @@ pub enum Layout {
     Canvas,
     /// Moodle's "Download all submissions".
     Moodle,
-    /// Clones of GitHub Classroom or classroom50.
+    /// Clones of repositories from GitHub Classroom or classroom50.
     GitHub,
     /// A folder with a folder or archive for each student.
     Plain,
@@ -113,8 +113,8 @@ fn reject_links(root: &Node, entries: &mut [Entry]) {
     }
 }
 
-/// Returns the folder with the entries: folders that contain only one other folder are skipped,
-/// unless that one is a submission.
+/// Returns the folder that contains the entries. A folder that contains only another folder is
+/// skipped, unless the inner folder is a submission.
 pub fn find_class_folder(root: &Node) -> &Node {
     match root.children() {
         [only] if only.is_folder() && !only.is_link && !is_submission(only) => {
@@ -137,7 +137,7 @@ fn is_submission(node: &Node) -> bool {
     is_moodles || holds(node) || below || student.is_some_and(holds)
 }
 
-/// Returns whether `is_one` is true for more than half of the folder's contents.
+/// Returns whether `is_one` is true for more than half of the files and folders in `root`.
 fn is_majority(root: &Node, is_one: impl Fn(&Node) -> bool) -> bool {
     let count = root.children().iter().filter(|node| is_one(node)).count();
     2 * count > root.children().len()

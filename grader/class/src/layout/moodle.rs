@@ -1,6 +1,6 @@
-//! Moodle's "Download all submissions": `Jane Doe_123_assignsubmission_file_` is the name of a
-//! folder or the beginning of a file name. The number is the participant's, as in the grading
-//! worksheet.
+//! Moodle's "Download all submissions": a folder for each participant, with a name such as
+//! `Jane Doe_123_assignsubmission_file_`, or files whose names begin like that. The number
+//! identifies the participant, as in the grading worksheet.
 
 use std::collections::BTreeMap;
 
@@ -9,10 +9,10 @@ use crate::entry::{Entry, EntryInfo, Person, Source, several_archives_message};
 use crate::listing::Node;
 
 const MARK: &str = "_assignsubmission_";
-/// The reason why a participant without files has nothing to grade.
-const TEXT_ONLY: &str = "a text was handed in, but no file";
-/// The reason why a text is not graded if its participant also handed in files.
-const TEXT_BESIDE_FILES: &str = "a text; the files handed in with it are graded";
+/// The reason for not grading a participant who submitted text but no files.
+const TEXT_ONLY: &str = "text was handed in, but no file";
+/// The reason for not grading text from a participant who also submitted files.
+const TEXT_BESIDE_FILES: &str = "text; the files handed in with it are graded";
 
 /// The parts of a file or folder name in Moodle's download.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub(super) struct MoodleName<'a> {
     /// The participant's name, with the group in front if there are groups.
     who: &'a str,
     participant: &'a str,
-    /// The type of submission: `file`, or another one such as `onlinetext`.
+    /// The type of submission: `file`, or another type such as `onlinetext`.
     kind: &'a str,
     /// The file name, in downloads without folders.
     file: &'a str,

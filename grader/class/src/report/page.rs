@@ -85,7 +85,7 @@ fn distribution(summary: &ClassSummary) -> Markup {
                         th scope="col" { "Distribution" }
                         th scope="col" .number { "Mean" }
                         th scope="col" .number { "Median" }
-                        th scope="col" .number { "Of" }
+                        th scope="col" .number { "Maximum" }
                     }
                 }
                 tbody {

@@ -1,4 +1,5 @@
-//! Faulty submissions: each gets a row, and the points of the others are not affected.
+//! Tests that each faulty submission gets a row, and that the points of the others are not
+//! affected.
 
 use serde_json::Value;
 
@@ -87,8 +88,8 @@ fn late_days_cost_what_the_policy_says() {
     );
 }
 
-/// Grades a class that contains links. Anybody can put a link into a clone or a shared folder, and
-/// one that leads to another student's files must not be graded as its owner's work.
+/// Grades a class that contains links. Anyone can put a link into a clone or a shared folder, and
+/// another student's files must not be graded as the work of the person who linked to them.
 #[cfg(unix)]
 #[test]
 fn links_are_listed_with_the_reason_and_never_followed() {

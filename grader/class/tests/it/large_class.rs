@@ -66,7 +66,7 @@ fn a_large_class_killed_twenty_times_gives_the_same_results() {
     successful_stdout(&run(&input, &uninterrupted).output().unwrap());
     let (took, cpu) = (began.elapsed(), children_cpu_time() - before);
     let wanted = comparable_files(&uninterrupted);
-    println!("{count} submissions: {took:.1?} by the clock, {cpu:.1?} of CPU time");
+    println!("{count} submissions: wall time {took:.1?}, CPU time {cpu:.1?}");
 
     // The times are pseudorandom, and the same in every run of this test.
     let mut random = 88_172_645_463_325_252_u64;

@@ -126,7 +126,7 @@ fn unusual_files_of_one_student_do_not_affect_the_others() {
     write("class/long/camera.rs", &[b' '; (1 << 20) + 1]);
     write("class/outside/../../escaped.rs", b"text");
     write(&format!("class/{}/camera.rs", "n".repeat(300)), b"text");
-    // Files that are not needed are not unpacked, however large they are.
+    // Files that are not needed are created empty, however large they are in the archive.
     write("class/junk/notes.bin", &[0; 2 << 20]);
     writer.add_directory("class/empty/", plain).unwrap();
     writer

@@ -106,7 +106,7 @@ fn refuses_to_mix_incomparable_scores_and_regrade_reports_the_changes() {
         "{text}"
     );
     assert!(class.out().join("students/ann/previous.json").is_file());
-    // A run that only resumes prints the same, and grades nothing.
+    // A run without changes grades nothing, and prints the same report.
     let again = successful_stdout(&class.grade(&other, &[]));
     assert!(again.contains("regraded: 3 scores changed"), "{again}");
 

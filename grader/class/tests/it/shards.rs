@@ -11,7 +11,7 @@ use crate::harness::{
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
-/// Returns a class of three submissions, in a folder with a name like Moodle's.
+/// Creates a class of three submissions, in a folder with a name such as Moodle uses.
 fn three_submissions() -> TestClass {
     TestClass::named("CG-Path tracing (2)")
         .with_reference("ann")
@@ -61,7 +61,7 @@ fn merged_shards_equal_an_unsharded_run() {
         assert!(error.contains(why), "{error}");
     };
     refused(&[one, two, one], "were both given the same --shard?");
-    refused(&[one], "no folder has part 2/2");
+    refused(&[one], "results are missing for 2/2");
     let other = class.write_beside("other.toml", "[points]\nout_of = 8\n");
     grade_shard(&class, &exam, "2/2", &["--policy", &other]);
     refused(&[one, two], "different policies");

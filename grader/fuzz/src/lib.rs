@@ -1,5 +1,5 @@
-//! Fuzz targets for all parsers of untrusted input. Whatever the bytes are, a parser must not
-//! panic, hang, or use memory out of proportion to its input.
+//! Fuzz targets for all parsers of untrusted input. No input may make a parser panic, hang, or use
+//! memory out of proportion to the size of the input.
 //!
 //! Each target is a function of bytes. `cargo test -p fuzz` runs it on the corpus, on changes to
 //! the corpus and on noise, on any machine. `cargo fuzz run` (see README.md) runs it for as long as

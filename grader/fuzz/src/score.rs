@@ -1,4 +1,4 @@
-//! Score files that a class reads again, from other machines or from a run that was killed.
+//! Score files that `cargo class` reads back, from other machines or from a run that was killed.
 
 use class::entry::EntryInfo;
 use class::model::{ClassRow, GradedClass};

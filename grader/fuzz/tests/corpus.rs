@@ -28,7 +28,7 @@ fn corpus(target: &Target) -> Vec<Vec<u8>> {
     files.iter().map(|file| fs::read(file).unwrap()).collect()
 }
 
-/// A small change to an input, like those that tools, disks and people make.
+/// A small change to an input, such as a flipped bit, a missing part or an extreme number.
 #[derive(Clone, Debug)]
 enum Change {
     Cut(Index),

@@ -56,7 +56,7 @@ pub fn hit_at(distance: f32) -> String {
     format!("a hit at distance {}", number(distance))
 }
 
-/// Formats a ray, with its range unless that is `[0, ∞)`.
+/// Formats a ray, with its range unless the range is `[0, ∞)`.
 pub fn ray(ray: &Ray) -> String {
     let mut text = format!("ray from {} toward {}", point(ray.origin), point(ray.dir));
     if ray.range != Interval::AHEAD {

@@ -1,8 +1,8 @@
-//! Data that a report draws beside the correct answer, such as the order in which a correct
+//! Data for drawings that explain the correct answer, such as the order in which a correct
 //! traversal visits the nodes.
 //!
-//! It is stored in the exam file because the grader contains no solution to compute it from. It is
-//! neither judged nor sent to the probe.
+//! The data is stored in the exam file, because the grader contains no solution that could compute
+//! it. It is neither judged nor sent to the probe.
 
 use glam::Vec3;
 use protocol::{Interval, Question, Rays, packed};
@@ -17,8 +17,8 @@ pub enum DrawingData {
     #[serde(alias = "nothing")]
     None,
     /// Data for `BBox` questions: for each query, the interval in which the ray is between the two
-    /// planes of each axis, ignoring the ranges of query and ray. If the ray is parallel to the
-    /// planes, the interval is unbounded or empty.
+    /// planes of each axis, ignoring the query's `times` and the ray's range. If the ray is
+    /// parallel to the planes, the interval is unbounded or empty.
     Slabs(#[serde(with = "packed::text")] Vec<[Interval; 3]>),
     /// Data for `Traverse` questions with a list of rays: one correct traversal per ray.
     #[serde(alias = "walks")]

@@ -23,7 +23,7 @@ pub struct ExamFile {
     pub hash: String,
 }
 
-/// Identity of an exam.
+/// The name of an exam and the hash of its file, which together identify it.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ExamName {
@@ -34,7 +34,7 @@ pub struct ExamName {
 }
 
 impl ExamFile {
-    /// Returns the identity that is written to the score.
+    /// Returns the name and the hash, which are written to the score.
     pub fn name(&self) -> ExamName {
         ExamName {
             id: self.exam.id.clone(),

@@ -3,8 +3,8 @@
 //! A mistake *explains* an item if the submission's answers to the item's signature elements equal
 //! those of the mistake. A mistake is named only if it explains every item of the task that it
 //! affects, because a false hint is worse than none. Items that the mistake does not affect may be
-//! wrong for other reasons. Of several candidates, those that explain the most items are named. If
-//! several explain equally many, all of these are named.
+//! wrong for other reasons. Of several such mistakes, the one that explains the most items is
+//! named. In case of a tie, all of them are named.
 
 use std::collections::BTreeMap;
 
@@ -14,8 +14,8 @@ use crate::exam::{Exam, ExamQuestion, ExpectedHit, HitCheck, Item, Key, RayCheck
 use crate::judge::{FailureKind, judge};
 use crate::signatures::{KnownMistake, MistakeAnswers, NoAnswerReason, ObservedAnswer};
 
-/// Maximum number of mistakes that are named together. If there are more, none is named, because a
-/// long list would not help.
+/// Maximum number of mistakes to name for an item. If there are more, none is named, because a long
+/// list would not help.
 const MAX_MISTAKES: usize = 3;
 
 /// A submission's answers to the signature elements of each item, by item id.
@@ -254,8 +254,8 @@ fn observe_tree(question: &ExamQuestion, answer: &Answer) -> ObservedAnswer {
     match defect {
         None => ObservedAnswer::Tree(None),
         Some(FailureKind::Wrong { what, got, .. }) => {
-            // If the defect has an amount, it is the first word. Other numbers are indices, which
-            // differ between submissions.
+            // If the defect has an amount, this is the first word of `got`. Other numbers are
+            // indices, which differ between submissions.
             let amount = got.split(' ').next().and_then(|word| word.parse().ok());
             let is_word = |word: &&str| !word.contains(|c: char| c.is_ascii_digit());
             let words: Vec<&str> = got.split(' ').filter(is_word).collect();

@@ -1,7 +1,7 @@
 //! Makes text from untrusted sources safe for terminals, files and web pages.
 
-/// Escapes control characters except line breaks, and truncates the text after `longest`
-/// characters.
+/// Escapes direction marks, and control characters except line breaks and tabs. Replaces tabs with
+/// spaces, and truncates the text after `longest` characters.
 pub fn sanitize(text: &str, longest: usize) -> String {
     let mut sanitized = String::new();
     for (count, character) in text.chars().enumerate() {
@@ -12,7 +12,7 @@ pub fn sanitize(text: &str, longest: usize) -> String {
         match character {
             '\n' => sanitized.push('\n'),
             '\t' => sanitized.push_str("    "),
-            // Direction marks are escaped too: they reorder the text around them on screen.
+            // Direction marks are escaped, because they reorder the text around them on screen.
             c if c.is_control() || is_direction_mark(c) => sanitized.extend(c.escape_default()),
             c => sanitized.push(c),
         }
@@ -25,10 +25,10 @@ const MAX_FOLDER_NAME_CHARS: usize = 80;
 /// Device names that Windows reserves, even if they are followed by digits or an extension.
 const DEVICES: [&str; 6] = ["con", "prn", "aux", "nul", "com", "lpt"];
 
-/// Returns a folder name that is valid on every system and in links, for any text. The name
-/// consists of letters and digits of any language, `-`, `_` and `.`. It never refers to another
-/// folder. It begins neither with a dot, which would hide the folder, nor with a dash, which
-/// programs would take for an option.
+/// Converts any text to a folder name that is valid on every system and in links. The name consists
+/// of letters and digits of any language, `-`, `_` and `.`. It never refers to another folder. It
+/// begins neither with a dot, which would hide the folder, nor with a dash, which programs would
+/// take for an option.
 pub fn safe_folder_name(text: &str) -> String {
     let safe = |c: char| match c {
         c if c.is_alphanumeric() || "-_.".contains(c) => c,

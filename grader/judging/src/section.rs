@@ -37,8 +37,8 @@ impl Section {
     }
 
     /// Returns the heading's text, such as `Zero and minus zero`. Anchors do not preserve
-    /// punctuation and capitals, so this works only for headings of plain words with one initial
-    /// capital. A test ensures that only such headings are referenced.
+    /// punctuation and capitals, so this works only for headings that consist of plain words and
+    /// have one capital, the first letter. A test ensures that only such headings are referenced.
     pub fn heading(&self) -> String {
         let mut heading = self.anchor().replace('-', " ");
         if let Some(first) = heading.get_mut(..1) {

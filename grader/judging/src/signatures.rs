@@ -1,4 +1,4 @@
-//! Signatures of known mistakes: the answers that a mistake gives, from which it is recognised.
+//! Signatures of known mistakes: the answers that a mistake gives, by which it is recognised.
 
 use protocol::packed;
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ pub struct KnownMistake {
     pub nudge: String,
     /// An explanation of the mistake.
     pub hint: String,
-    /// The handout section to read, if it is not that of the item.
+    /// The handout section to read, if it differs from the item's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub section: Option<Section>,
 }
@@ -24,7 +24,7 @@ pub struct KnownMistake {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MistakeSignatures {
-    /// The elements, counted from 0 over all questions of the item.
+    /// The indices of the elements, counted from 0 across all questions of the item.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub elements: Vec<u32>,
     /// The correct answers to these elements.
@@ -68,7 +68,7 @@ pub enum ObservedAnswer {
     Tree(Option<(String, f32)>),
     /// The code panicked.
     Panicked,
-    /// There is no answer to the whole item.
+    /// The whole item has no answer.
     NoAnswer(NoAnswerReason),
 }
 

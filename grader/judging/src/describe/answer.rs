@@ -1,4 +1,4 @@
-//! Formats one element of an answer, and of the expected answer, in full.
+//! Formats one element of a submitted or an expected answer in full.
 
 use protocol::{Answer, ElementOutcome, Tree};
 
@@ -24,7 +24,8 @@ pub fn got(answer: &Answer, element: usize) -> String {
     }
 }
 
-/// Formats the correct answer to one element of a question, or all of them if there are several.
+/// Formats the correct answer to one element of a question, or all correct answers if there are
+/// several.
 pub fn wanted(question: &ExamQuestion, element: usize) -> Vec<String> {
     match &question.key {
         Key::Rays { directions, .. } => {

@@ -35,7 +35,7 @@ pub enum Key {
     },
     /// Key of a `Build` question: properties of the tree, and optionally its cost.
     Tree {
-        /// Properties that are checked, in addition to the nodes forming a tree.
+        /// Properties to check. That the nodes form a tree is always checked.
         #[serde(alias = "judged")]
         checks: Vec<TreeCheck>,
         /// SAH cost of the tree that an exact sweep builds by choosing the best split at every node
@@ -101,8 +101,8 @@ pub enum HitCheck {
     Material,
 }
 
-/// A check on a tree. Each one is independent of the others: where a check needs correct boxes, the
-/// judge computes them itself, so that one mistake costs points once.
+/// A check on a tree. The checks are independent of each other: where a check needs correct boxes,
+/// the judge computes them itself, so that a mistake costs points only once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TreeCheck {

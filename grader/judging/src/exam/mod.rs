@@ -180,9 +180,8 @@ impl Item {
         counts.sum()
     }
 
-    /// Returns the number by which people refer to an element. Elements are counted from 1 over all
-    /// questions of the item. A path-traced picture is one element, so all of its pixels share a
-    /// number.
+    /// Returns the number by which people refer to an element, counted from 1 across all questions
+    /// of the item. A path-traced picture is one element, so all of its pixels share a number.
     pub fn number(&self, question: usize, element: usize) -> usize {
         let before = self.questions[..question].iter();
         let before: usize = before.map(|question| question.question.count()).sum();

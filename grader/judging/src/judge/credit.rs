@@ -23,8 +23,8 @@ impl Credit {
     }
 
     /// Returns the credit if `wrong` of `of` positions are wrong. The steps distinguish rounding,
-    /// cracks, wrong edges and large wrong areas. Positions are counted, because a similarity score
-    /// could be raised by small changes that fix nothing.
+    /// cracks, wrong edges and large wrong areas. Credit depends on the number of wrong positions,
+    /// because small changes that fix nothing could raise a similarity score.
     pub fn by_count(wrong: usize, of: usize) -> Self {
         if of == 0 {
             Credit::NONE

@@ -68,7 +68,7 @@ impl Measurement {
         }
     }
 
-    /// Measures positions of which `allowed` may be wrong.
+    /// Measures the positions of a picture, of which `allowed` may be wrong.
     pub(super) fn of_positions(
         mut positions: Vec<Deviation>,
         allowed: usize,

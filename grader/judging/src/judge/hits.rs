@@ -1,4 +1,4 @@
-//! Compares tables of hits.
+//! Compares tables of hits with the key.
 
 use protocol::{ElementOutcome, Ray, Trace};
 

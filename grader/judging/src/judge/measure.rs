@@ -14,7 +14,7 @@ pub(super) const UV: f32 = 2e-3;
 
 /// Returns an error as a multiple of its limit.
 pub(super) fn in_units_of(limit: f64, error: f64) -> f64 {
-    // Zero error is accepted even if the limit is 0.
+    // An error of 0 is accepted even if the limit is 0.
     if error <= 0.0 {
         return 0.0;
     }
@@ -47,7 +47,7 @@ pub(super) fn direction_error(got: Vec3, wanted: Vec3, tolerance: f32) -> f64 {
     in_units_of(tolerance.into(), (unit - wanted.as_dvec3()).length())
 }
 
-/// Returns the error of a length that should be one.
+/// Returns the error in the length of a vector that should have length one.
 pub(super) fn unit_error(got: Vec3) -> f64 {
     in_units_of(DIRECTION.into(), (got.length() - 1.0).abs().into())
 }
@@ -55,7 +55,8 @@ pub(super) fn unit_error(got: Vec3) -> f64 {
 /// Returns the error of texture coordinates, where u wraps around.
 pub(super) fn uv_error(got: Vec2, wanted: Vec2) -> f64 {
     let u = (got.x - wanted.x).abs();
-    // A difference of one turn is no error. More is one, since `uv` returns values from 0 to 1.
+    // A difference of exactly one turn is not an error. A larger difference is, because u must be
+    // between 0 and 1.
     let u = u.min((1.0 - u).abs());
     let v = (got.y - wanted.y).abs();
     let error = |error: f32| in_units_of(UV.into(), error.into());

@@ -3,7 +3,7 @@
 /// The first error at one position of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mismatch {
-    /// The wrong aspect.
+    /// The aspect that is wrong.
     pub aspect: Aspect,
     /// The error as a multiple of its tolerance: above 1, or infinite if there is no tolerance.
     /// Never NaN.

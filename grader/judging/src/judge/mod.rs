@@ -1,4 +1,4 @@
-//! Compares answers with keys. This module is pure, and points are earned only here.
+//! Compares answers with keys. This module is pure, and the only one that awards credit.
 
 mod credit;
 mod deviation;
@@ -62,7 +62,7 @@ pub enum FailureKind {
     },
     /// The submission's code panicked.
     Panicked(Panic),
-    /// The bytes are well formed, but they are not an answer to this question.
+    /// The answer is well formed, but it is not an answer to this question.
     Protocol(String),
 }
 
@@ -97,7 +97,8 @@ trait Comparison {
     /// [`judge`](Comparison::judge) gives full credit.
     fn measure(&self) -> Vec<Measurement>;
 
-    /// For a picture, returns the error at each position, or `None` where it costs no points.
+    /// Returns the error at each position of a picture, which is `None` where the answer is
+    /// correct. Returns `None` if there is no picture.
     fn mismatches(&self) -> Option<Vec<Option<Mismatch>>> {
         None
     }
@@ -111,7 +112,8 @@ pub fn judge(question: &ExamQuestion, answer: &Answer) -> Judgement {
     }
 }
 
-/// Returns the deviations of the answer to one question. [`judge`] decides by the same numbers.
+/// Returns the deviations of the answer to one question. [`judge`] bases its decision on the same
+/// numbers.
 pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
     match comparison(question, answer) {
         Some(comparison) => comparison.measure(),
@@ -120,8 +122,8 @@ pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
 }
 
 /// Returns the error at each position of a picture, in the order of the question's elements.
-/// [`judge`] decides by the same numbers. `None` if the question does not ask for a picture, or if
-/// the answer has another size.
+/// [`judge`] bases its decision on the same numbers. Returns `None` if the question does not ask
+/// for a picture, or if the answer has the wrong size.
 pub fn mismatches(question: &ExamQuestion, answer: &Answer) -> Option<Vec<Option<Mismatch>>> {
     comparison(question, answer)?.mismatches()
 }

@@ -1,6 +1,6 @@
-//! Compares path-traced pictures with common random numbers: the framework draws every random
-//! number from the stream that was used when the key was recorded, so there is no noise to
-//! tolerate.
+//! Compares path-traced pictures with the key. Both use common random numbers: the framework draws
+//! every random number from the stream that was used when the key was recorded, so there is no
+//! noise to tolerate.
 
 use glam::Vec3;
 use protocol::ElementOutcome;

@@ -1,4 +1,4 @@
-//! Compares camera rays.
+//! Compares camera rays with the key.
 
 use glam::Vec3;
 use protocol::{ElementOutcome, Interval, Ray};

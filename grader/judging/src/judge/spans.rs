@@ -1,4 +1,4 @@
-//! Compares the intervals in which rays are inside a box.
+//! Compares submitted intervals, in which rays are inside a box, with the key.
 
 use protocol::{ElementOutcome, Interval};
 

@@ -50,17 +50,17 @@ pub enum MaskPixel {
     Empty,
     /// The pixel is correct and shows a surface.
     Right,
-    /// The most serious error at one of the pixel's positions.
+    /// The pixel is wrong. This is the most serious error at its positions.
     Wrong(Aspect),
 }
 
-/// Returns whether the question asks for a picture, and not for single rays.
+/// Returns whether the question asks for a picture rather than for single rays.
 pub fn asks_for_picture(question: &ExamQuestion) -> bool {
     grid(&question.question).is_some()
 }
 
-/// Compares a submitted picture with the expected one. `None` if the question does not ask for a
-/// picture, or if the answer has another size.
+/// Compares a submitted picture with the expected one. Returns `None` if the question does not ask
+/// for a picture, or if the answer has the wrong size.
 pub fn compare(question: &ExamQuestion, answer: &Answer) -> Option<Picture> {
     let (film, per_pixel) = grid(&question.question)?;
     let all_mismatches = mismatches(question, answer)?;

@@ -1,4 +1,4 @@
-//! Displays depths, normals, texture coordinates and directions as colours.
+//! Paints depths, normals, texture coordinates, directions and radiance as colours.
 
 use glam::{Vec2, Vec3};
 use protocol::{Answer, ElementOutcome, Ray, Trace};
@@ -16,7 +16,8 @@ const INVALID_COLOUR: Vec3 = Vec3::new(1.0, 0.0, 1.0);
 /// Factor by which differences are amplified.
 pub(super) const DIFFERENCE_GAIN: f32 = 4.0;
 
-/// One quantity of two pictures. The colour of a pixel is the mean over its positions.
+/// One quantity of the expected and the submitted picture. The colour of a pixel is the mean over
+/// its positions.
 #[derive(Clone, Debug)]
 pub struct LayerComparison {
     /// Human-readable name.
@@ -45,7 +46,7 @@ impl Layer {
     }
 }
 
-/// One quantity of two pictures, with a colour for each position.
+/// One quantity of the expected and the submitted picture, with a colour for each position.
 struct LayerSamples {
     name: &'static str,
     wanted: Vec<Vec3>,
@@ -259,7 +260,7 @@ fn pixels(positions: &[Vec3], per_pixel: usize) -> Vec<Colour> {
     means(positions, per_pixel, |colour| *colour)
 }
 
-/// Returns each pixel's mean over its positions.
+/// Returns the mean colour of each pixel over its positions.
 fn means<T>(positions: &[T], per_pixel: usize, paint: impl Fn(&T) -> Vec3) -> Vec<Colour> {
     let mean = |pixel: &[T]| pixel.iter().map(&paint).sum::<Vec3>() / per_pixel as f32;
     let bytes = |colour: Vec3| {

@@ -6,7 +6,7 @@ use glam::UVec2;
 
 use crate::judge::{Aspect, Mismatch};
 
-/// Maximum number of pixels that are picked.
+/// Maximum number of pixels to pick.
 const MAX_PIXELS: usize = 5;
 /// Minimum distance between two picked pixels, relative to the film's larger side. Neighbours
 /// rarely show different errors.
@@ -23,7 +23,8 @@ pub struct WorstPixel {
     pub aspect: Aspect,
 }
 
-/// Picks the worst pixels: first by how serious their aspect is, then by the size of the error.
+/// Picks the worst pixels: first by the severity of the wrong aspect, then by the size of the
+/// error.
 pub(super) fn pick(
     film: UVec2,
     per_pixel: usize,

@@ -29,7 +29,7 @@ const QUANTITIES: [(&str, u32); 4] = [
     ("uv", 10),
 ];
 
-/// The aspects of the same quantities, for a mask.
+/// The aspect of each quantity, for a mask.
 const ASPECTS: [Aspect; 4] = [Aspect::HitOrMiss, Aspect::Depth, Aspect::Normal, Aspect::Uv];
 
 /// The deviations of the quantities at one position, up to the first wrong one.
@@ -165,9 +165,9 @@ impl FirstHits<'_> {
         tallies
     }
 
-    /// Returns whether a quantity was judged at no fewer than half of the positions that have a hit
-    /// in the key. An answer without hits has no wrong normals, and must not earn points for them.
-    /// Hit or miss is judged everywhere.
+    /// Returns whether a quantity was judged at half or more of the positions that have a hit in
+    /// the key. Otherwise, an answer without hits would earn points for its normals, none of which
+    /// are wrong. Hit or miss is judged everywhere.
     fn has_enough_judged(&self, judged: usize) -> bool {
         let to_hit = self.hits.iter().flatten().count();
         judged * 2 >= to_hit
@@ -175,8 +175,9 @@ impl FirstHits<'_> {
 }
 
 /// Returns the deviations at one position, up to the first wrong quantity. For each quantity, this
-/// is the deviation from the closest answer in `right` that agrees in all earlier quantities. A
-/// correct miss has only the first quantity. `alike` is a buffer whose contents are overwritten.
+/// is the deviation from the closest of the answers in `right` that agree in all earlier
+/// quantities. A correct miss has only the first quantity. `alike` is a buffer whose contents are
+/// overwritten.
 fn position_deviations<'a>(
     got: Option<&Trace>,
     right: impl Iterator<Item = &'a Option<Surface>>,

@@ -1,5 +1,5 @@
-//! Judges trees by properties that every correct tree has, and by their cost: there is no single
-//! correct tree.
+//! Judges trees by properties that every correct tree has, and by their cost, because there is no
+//! single correct tree.
 
 pub mod bounds;
 pub mod reached_nodes;
@@ -47,7 +47,7 @@ impl Comparison for TreeAnswer<'_> {
                     count: None,
                 });
             }
-            ElementOutcome::Skipped => return Judgement::protocol("given up"),
+            ElementOutcome::Skipped => return Judgement::protocol("skipped"),
         };
         let nodes = match reached_nodes(self.shapes, tree) {
             Ok(nodes) => nodes,
@@ -191,7 +191,7 @@ impl TreeAnswer<'_> {
     }
 }
 
-/// Returns how far a node's primitives stick out of its box. The box of a node without primitives
+/// Returns how far a node's primitives extend beyond its box. The box of a node without primitives
 /// is ignored.
 pub fn containment_deviation(node: &ReachedNode) -> Deviation {
     let out = match node.count {

@@ -8,7 +8,8 @@ use protocol::{Shape, Tree, TreeNode};
 use super::bounds::Bounds;
 use crate::describe;
 
-/// Maximum number of leaves that may list a primitive, on average, before counting stops.
+/// Maximum number of leaves that may list a primitive, on average. If there are more, the tree is
+/// rejected.
 const MAX_LISTINGS_PER_PRIMITIVE: usize = 64;
 
 /// A defect of a tree, as text for the report.
@@ -30,7 +31,7 @@ pub struct ReachedNode<'a> {
     pub index: u32,
     /// The node in the answer.
     pub node: &'a TreeNode,
-    /// For a leaf, the indices of its primitives in the submission's order.
+    /// For a leaf, its primitives in the submission's order, as indices of the question's shapes.
     pub leaf_primitives: Option<Vec<usize>>,
     /// Number of primitives below the node.
     pub count: usize,
@@ -62,7 +63,7 @@ pub fn reached_nodes<'a>(
         .map(|material| index_of.get(material).copied())
         .collect();
 
-    // Many leaves may each list all primitives, which would need too much memory.
+    // If many leaves each list all primitives, storing the lists would need too much memory.
     let most = MAX_LISTINGS_PER_PRIMITIVE * shapes.len().max(64);
     let mut listed = 0;
     let mut reached = vec![false; tree.nodes.len()];

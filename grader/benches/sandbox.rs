@@ -78,7 +78,8 @@ fn first_answer(build: &Build) {
     probe.ask(nothing, BUDGET).expect("the probe answers");
 }
 
-/// Prints the medians in milliseconds without and with the sandbox, and their ratio.
+/// Measures `one` without (index 0) and with (index 1) the sandbox, `rounds` times each. Prints the
+/// median CPU and wall times in milliseconds, and their ratio.
 fn report(what: &str, rounds: usize, one: impl Fn(usize) -> Cost) {
     let rounds: Vec<[Cost; 2]> = (0..rounds).map(|_| [one(0), one(1)]).collect();
     let median = |index: usize, time: &dyn Fn(&Cost) -> Duration| {

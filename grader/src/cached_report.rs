@@ -1,10 +1,10 @@
 //! The last report on a submission, stored beside its score and printed again if nothing has
 //! changed.
 //!
-//! Only a student's own work in its default folder is cached, and only if its result is
-//! reproducible: time-outs, exhausted memory, crashes and compiler failures may turn out
-//! differently next time. A cached report is never used for another submission, exam, toolchain or
-//! grader, nor after one of the report's files has changed.
+//! A report is cached only if it is about a student's own work, is written to the default folder,
+//! and has a reproducible result: time-outs, exhausted memory, crashes and compiler failures may
+//! not happen again the next time. A cached report is never used for another submission, exam,
+//! toolchain or grader, nor after one of the report's files has changed.
 
 use std::env;
 use std::fs;
@@ -24,17 +24,17 @@ use crate::submission::Submission;
 /// Name of the file that stores the cached report, in the folder of the score.
 const RECORD: &str = "earlier.json";
 
-/// The inputs of a score.
+/// Hashes of all inputs of a score.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CacheKey {
-    /// Hash of the task files, and of the notes about other files. It is kept separate because
-    /// usually only this part changes.
+    /// Hash of the task files and the notes about other files. It is separate because usually only
+    /// these inputs change.
     submission: String,
     /// Hash of all other inputs.
     environment: String,
 }
 
-/// A report with the inputs that it depends on.
+/// A cached report, with hashes of the inputs and of the files that it depends on.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct CachedReport {
     key: CacheKey,
@@ -57,7 +57,7 @@ impl CachedReport {
         self.key.submission == submission_hash(submission)
     }
 
-    /// Returns whether the inputs are the same and the report's files are unchanged.
+    /// Returns whether the report has this key and its files are unchanged.
     pub fn is_current(&self, key: &CacheKey, files: &ReportFiles) -> bool {
         self.key == *key && self.file_hashes == content_hashes(files)
     }
@@ -84,7 +84,8 @@ impl CacheKey {
         cacheable_options(options).is_some()
     }
 
-    /// Hashes the inputs of a score. `None` if these options do not allow caching.
+    /// Hashes the inputs of a score. Returns `None` if these options do not allow caching, or if
+    /// the path of the grader's own executable is unknown.
     pub fn new(
         options: &GradeOptions,
         submission: &Submission,

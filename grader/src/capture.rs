@@ -1,5 +1,5 @@
-//! Captures what a process prints, without waiting for the end of the pipe: a child of the process
-//! may keep it open forever.
+//! Captures what a process prints, without waiting for the pipe to be closed: a child of the
+//! process may keep it open forever.
 
 use std::io::Read;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -15,7 +15,7 @@ pub struct Capture {
 #[derive(Debug, Default)]
 struct Shared {
     state: Mutex<State>,
-    /// Notified when the pipe ends, so that waiting for a compiler uses no CPU time.
+    /// Notified when the pipe is closed, so that waiting for a compiler uses no CPU time.
     end: Condvar,
 }
 
@@ -66,7 +66,7 @@ impl Capture {
         self.lock().total
     }
 
-    /// Waits until the pipe ends or the timeout is over, whichever comes first.
+    /// Waits until the pipe is closed or the timeout expires, whichever comes first.
     pub fn wait_for_end(&self, timeout: Duration) {
         let state = self.lock();
         let waited = self

@@ -6,16 +6,16 @@ use std::{env, io};
 /// Reasons why a file was not opened.
 #[derive(Debug, thiserror::Error)]
 enum OpenError {
-    /// The user would not see it: there is no desktop.
+    /// There is no desktop on which the user would see the file.
     #[error("there is no desktop")]
     NoDesktop,
-    /// There is no program that opens the file, or it does not start.
+    /// No program opens such files, or the program does not start.
     #[error("no program can open the page ({0})")]
     NoProgram(#[from] io::Error),
 }
 
 /// Opens a file with the desktop's default program for it, without waiting for that program. If
-/// this does not work, prints the path of the file, which is not an error.
+/// this fails, prints the path of the file instead of returning an error.
 pub fn show(file: &Path) {
     if let Err(why) = open(file) {
         anstream::eprintln!("{why}: open {} yourself", file.display());
@@ -29,8 +29,9 @@ fn open(file: &Path) -> Result<(), OpenError> {
     Ok(open::that_detached(file)?)
 }
 
-/// Returns whether there is a desktop. Windows and macOS always have one. On other systems, over a
-/// plain ssh connection, a program would start and fail without the user noticing.
+/// Returns whether there is a desktop. Windows and macOS always have one. On other systems there
+/// may be none, for example over a plain ssh connection, and the program would then start and fail
+/// without the user noticing.
 fn has_desktop() -> bool {
     let is_set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
     cfg!(any(windows, target_os = "macos"))

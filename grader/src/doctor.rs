@@ -1,5 +1,5 @@
 //! `cargo grade --doctor`: reports the compiler that submissions are built with on this machine,
-//! and the levels of isolation that work here.
+//! and the isolation levels that work here.
 
 mod folder;
 mod gradescope;
@@ -18,11 +18,11 @@ use crate::workspace::Workspace;
 #[derive(Debug)]
 pub struct Diagnosis {
     builder: Builder,
-    /// Each level, from best to worst, with the result of testing it.
+    /// The isolation levels, from best to worst, each with the result of testing it.
     levels: Vec<(Isolation, Result<(), SelfTestError>)>,
 }
 
-/// Finds the compiler and its dependencies, and tests every level.
+/// Finds the compiler and the dependencies of submissions, and tests every isolation level.
 pub fn diagnose() -> Result<Diagnosis, Error> {
     let builder = Builder::prepare(&Workspace::find()?)?;
     let levels = Isolation::ALL.map(|level| (level, with_level(&builder, level).map(drop)));
@@ -33,7 +33,7 @@ pub fn diagnose() -> Result<Diagnosis, Error> {
 }
 
 impl Diagnosis {
-    /// Returns the best level that works.
+    /// Returns the best isolation level that works.
     pub fn best_level(&self) -> Isolation {
         let mut working = self.levels.iter().filter(|(_, result)| result.is_ok());
         working.next().map_or(Isolation::None, |(level, _)| *level)
@@ -76,7 +76,7 @@ impl fmt::Display for Diagnosis {
             ),
             _ => writeln!(
                 f,
-                "\nOnly your own work can be graded here: other people's needs {MIN_FOR_UNTRUSTED} or better."
+                "\nOnly your own work can be graded here: to grade other people's, isolation level {MIN_FOR_UNTRUSTED} or better must work."
             ),
         }
     }
@@ -92,7 +92,7 @@ fn remedy(why: &SelfTestError) -> Option<&'static str> {
         SelfTestError::CompilerCanRead
         | SelfTestError::ProgramCan(_)
         | SelfTestError::Incomplete(_) => Some(
-            "do not grade other people's work at this level, and report it: grader/SECURITY.md",
+            "do not grade other people's work at this level, and report the problem as described in grader/SECURITY.md",
         ),
         SelfTestError::Setup(_) => None,
     }

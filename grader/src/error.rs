@@ -1,4 +1,4 @@
-//! Errors that are not a student's fault, and the exit code of each.
+//! Errors that prevent grading, and their exit codes.
 
 use std::io;
 use std::path::PathBuf;
@@ -59,7 +59,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Returns 2 for errors that the user can fix, and 3 for those of the grader or the machine.
+    /// Returns 2 for errors that the user can fix, and 3 for errors of the grader or the machine.
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Submission(_)

@@ -63,8 +63,8 @@ pub const GIVEN_FILES: [(&str, &str); 3] = [
 pub const MAIN_FILE: (&str, &str) = ("main.rs", include_str!("../starter/main.rs"));
 
 impl TaskFile {
-    /// Returns the names of given methods that differ from the starter in `text`. They are
-    /// mentioned in a note.
+    /// Returns the names of the given methods that `text` lacks or has changed. A note in the
+    /// report lists them.
     pub fn changed_methods(&self, text: &str) -> Vec<&'static str> {
         let text = without_whitespace(text);
         let mut changed = Vec::new();
@@ -85,8 +85,8 @@ impl TaskFile {
     }
 }
 
-/// Returns the complete methods of a starter file: name, and text from the signature to the closing
-/// brace.
+/// Returns the methods that are complete in a starter file, as pairs of name and text. The text
+/// extends from the signature to the closing brace.
 fn given_methods(starter: &'static str) -> Vec<(&'static str, &'static str)> {
     const END: &str = "\n    }\n";
     let code = starter.split("#[cfg(test)]").next().unwrap_or(starter);

@@ -9,13 +9,13 @@
 //! | layer | modules |
 //! |---|---|
 //! | commands | [`cli`], [`terminal`], [`replay`], [`watch`], [`doctor`] |
-//! | the job | [`grade`], [`cache_lookup`]; its [`options`] |
-//! | files of the job | [`cached_report`], [`report_files`] |
-//! | one exam | [`run_exam`], [`verdict`], [`report_answers`], [`report`], [`mod@format`] |
-//! | its steps | [`select_isolation`], [`build`], [`probe`]; [`drawing`] of judged answers |
+//! | grading | [`grade`], [`cache_lookup`]; [`options`] |
+//! | files of the report | [`cached_report`], [`report_files`] |
+//! | exam runs and reports | [`run_exam`], [`verdict`], [`report_answers`], [`report`], [`mod@format`] |
+//! | steps of an exam run | [`select_isolation`], [`build`], [`probe`]; [`drawing`] of judged answers |
 //! | results | [`score`], [`rerun_command`], [`stage_times`] |
 //! | inputs | [`policy`], [`submission`], [`given_files`], [`exam_source`], [`question_ref`] |
-//! | a separate package | [`judging`]: exams, keys and their comparison |
+//! | a separate package | [`judging`]: exams, their keys, and the comparison of answers with keys |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`], [`zipfile`] |
 
 pub mod build;

@@ -1,4 +1,4 @@
-//! Runs a single question again and shows the whole answer and everything that the code prints.
+//! Runs a single question again, and shows the whole answer and what the code prints.
 
 use std::fmt::Write;
 
@@ -54,7 +54,7 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     Ok(text)
 }
 
-/// Returns a question with only this element, and its expected answer as text.
+/// Returns a question that contains only the referenced element, and the expected answer as text.
 fn find_question(exam: &Exam, reference: &QuestionRef) -> Result<(Question, String), Error> {
     let item = exam.items.iter().find(|item| item.id == reference.item);
     let item = item.ok_or_else(|| {
@@ -82,7 +82,8 @@ fn find_question(exam: &Exam, reference: &QuestionRef) -> Result<(Question, Stri
     }
 }
 
-/// Returns the expected answers, one per line. A path-traced picture is not printed.
+/// Returns the expected answer as text, with alternatives on separate lines. A path-traced picture
+/// is not printed.
 fn expected_text(question: &ExamQuestion, element: usize) -> String {
     match question.question {
         Question::Radiance { .. } => "the reference's picture".to_owned(),

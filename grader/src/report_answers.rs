@@ -34,7 +34,7 @@ impl ReportAnswers {
         }
     }
 
-    /// Returns the answer to the question of an item with this index.
+    /// Returns the answer to the question with this index in the item.
     pub fn answer(&self, item: &str, question: usize) -> Option<&Answer> {
         self.0.get(item)?.get(question)
     }

@@ -12,8 +12,9 @@ use crate::report::{atomic_write, json};
 use crate::report_answers::ReportAnswers;
 use crate::score::Score;
 
-/// Minimum time between two writes of the score file during an exam. Most items take a millisecond,
-/// and so does writing a score. A grader that is killed loses no more than this.
+/// Minimum time between two writes of the score file during an exam. Writing a score takes a
+/// millisecond, and so do most items. If the grader is killed, at most the results of one interval
+/// are missing from the file.
 const SCORE_INTERVAL: Duration = Duration::from_millis(100);
 /// Minimum time between two writes of the page, which takes longer to write than most items take to
 /// test.
@@ -29,7 +30,8 @@ pub struct ReportFiles {
     score_written_at: Option<Instant>,
     /// The files for grading platforms.
     pub outputs: Outputs,
-    /// The folder of the files for grading platforms, unless a platform requires another location.
+    /// The folder of the report. The files for grading platforms are also written there, unless a
+    /// platform requires another location.
     pub folder: PathBuf,
     page_written_at: Option<Instant>,
     reload: Reload,

@@ -18,13 +18,14 @@ use crate::verdict::{
     ItemOutcome, add_hints, blocked_score, blocking_item, item_score, substituted_score,
 };
 
-/// Maximum number of time-outs in a task. After that, the task's remaining items are skipped.
+/// Maximum number of time-outs in a task. Once it is reached, the task's remaining items are
+/// skipped.
 const MAX_TIMEOUTS: usize = 2;
 /// Maximum length of the stored output of a submission, in characters.
 const MAX_PRINTED_CHARS: usize = 1_000;
 
 /// Grades every item of `exam` and records its score. After each item, `progress` is called with
-/// the score and the answers to draw. If it returns an error, grading stops.
+/// the score and the answers to draw. If `progress` returns an error, grading stops.
 pub fn run_exam<E: From<io::Error>>(
     exam: &Exam,
     build: &Build,
@@ -75,8 +76,8 @@ impl<'a> TaskSessions<'a> {
         }
     }
 
-    /// Grades one item and returns its score and answers. The items that it needs must be graded
-    /// already.
+    /// Grades one item and returns its score and answers. The items that it depends on must already
+    /// be graded.
     fn grade_item(&mut self, item: &Item, others: &Score) -> io::Result<(ItemScore, Vec<Answer>)> {
         if let Some(why) = self.build.not_compiled.get(item.task.file()) {
             return Ok((item_score(item, &ItemOutcome::NotCompiled(why)), Vec::new()));
@@ -132,7 +133,8 @@ impl<'a> TaskSessions<'a> {
     }
 }
 
-/// Returns whether a hint is possible: there is a wrong answer, or a reason why there is none.
+/// Returns whether a hint is possible: there is a wrong answer, or a known reason why there is no
+/// answer.
 fn can_have_hint(verdict: &Verdict) -> bool {
     match verdict {
         Verdict::Partial
@@ -204,8 +206,8 @@ impl Session {
         let questions = item.questions.iter().map(|question| &question.question);
         let mut answered = probe.ask(questions.clone(), self.budget);
         if was_killed(&answered) {
-            // The system killed it, which is not the submission's fault. Try once more, since the
-            // shortage may be over.
+            // The system killed the probe, which is not the submission's fault. Try once more,
+            // since there may be enough memory by now.
             probe = launcher.start(self.budget)?;
             answered = probe.ask(questions, self.budget);
         }

@@ -22,10 +22,10 @@ pub enum IsolationError {
     },
     /// No level works that is good enough for other people's code.
     #[error(
-        "other people's code cannot be graded here: isolation is weaker than {MIN_FOR_UNTRUSTED}\n{missing}{ADVICE}"
+        "other people's code cannot be graded here: neither isolation level {MIN_FOR_UNTRUSTED} nor a better one works\n{missing}{ADVICE}"
     )]
     NoSufficientLevel {
-        /// A line with the reason for each level that was tested.
+        /// One line for each tested level, with the reason why it does not work.
         missing: String,
     },
 }

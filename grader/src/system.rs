@@ -1,7 +1,7 @@
 //! Functions that differ between operating systems.
 //!
-//! Every system has the same functions. If a system does not support one, it does nothing or
-//! returns `None`, and its documentation says so.
+//! Every system has the same functions. A function that a system does not support does nothing or
+//! returns `None` there, as its documentation says.
 
 use std::ffi::OsStr;
 use std::io;
@@ -62,7 +62,7 @@ pub enum EntryKind {
     Other,
 }
 
-/// Returns `name` if it names an entry of a folder, not a path that leads further.
+/// Returns `name` if it is the name of an entry, and not a path with several components or `..`.
 #[cfg(any(unix, windows))]
 fn single_name(name: &OsStr) -> io::Result<&OsStr> {
     let mut parts = Path::new(name).components();
@@ -70,7 +70,7 @@ fn single_name(name: &OsStr) -> io::Result<&OsStr> {
         (Some(Component::Normal(part)), None) if part == name => Ok(name),
         _ => Err(io::Error::new(
             io::ErrorKind::InvalidInput,
-            "it is a path, not the name of a file",
+            "the name of an entry is required, not a path",
         )),
     }
 }

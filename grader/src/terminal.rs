@@ -125,8 +125,8 @@ fn file_list(files: &ReportFiles) -> String {
         .collect()
 }
 
-/// Prints the text. On GitHub Actions, where printed text can contain commands to the runner, these
-/// are disabled.
+/// Prints the text. On GitHub Actions, printed text can contain workflow commands; these are
+/// disabled.
 fn print_text(text: &str) -> Result<(), Error> {
     match std::env::var_os("GITHUB_ACTIONS") {
         Some(_) => {

@@ -1,4 +1,4 @@
-//! Turns the outcome of an item into its score. This module is pure.
+//! Turns the outcome of an item into its score. The functions here are pure.
 
 use judging::describe;
 use judging::exam::{Exam, Item, Task};
@@ -31,12 +31,13 @@ pub enum ItemOutcome<'a> {
     Fault {
         /// The reason.
         fault: Fault,
-        /// Index of the question and the element that cause the fault when run alone, if known.
+        /// Indices of the question and of the element that cause the fault when run alone, if
+        /// known.
         culprit: Option<(usize, usize)>,
     },
     /// Not run, because other items of the task exceeded the time limit.
     Skipped(Fault),
-    /// There is a judged answer to each question.
+    /// Every question has an answer, and these are its judgements.
     Answered(Vec<Judgement>),
 }
 
@@ -242,7 +243,8 @@ fn wrong_answer_message(what: &str, failure: &Failure) -> String {
     }
 }
 
-/// Returns the item of another task that this one needs and that earned no points, if there is one.
+/// Returns the id of the first item that this one depends on and that earned no points, if there is
+/// one.
 pub fn blocking_item<'a>(item: &'a Item, others: &Score) -> Option<&'a str> {
     let earned_nothing = |id: &&String| {
         let needed = others.items().find(|other| other.id == **id);
@@ -251,8 +253,9 @@ pub fn blocking_item<'a>(item: &'a Item, others: &Score) -> Option<&'a str> {
     item.needs.iter().find(earned_nothing).map(String::as_str)
 }
 
-/// Returns the score of an item that may have failed only because the item `by` failed. If there
-/// are no substituted parts, it is impossible to tell which task has the mistake.
+/// Returns the score of an item that depends on the failed item `by`. If the item earned nothing,
+/// it is reported as blocked: without substituted parts, it is impossible to tell which of the two
+/// tasks has the mistake.
 pub fn blocked_score(by: &str, line: ItemScore) -> ItemScore {
     if line.points > 0 || line.verdict == Verdict::Pending {
         return line;
@@ -268,7 +271,8 @@ pub fn blocked_score(by: &str, line: ItemScore) -> ItemScore {
     }
 }
 
-/// Adds the hints of the mistakes that explain the answers. Their ids are for staff.
+/// Adds the hints of the mistakes that explain the answers and, for staff, the ids of these
+/// mistakes.
 pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
     if mistakes.is_empty() {
         return;

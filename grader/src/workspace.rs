@@ -1,4 +1,4 @@
-//! Locations of the workspace, and of the files that the grader writes.
+//! The location of the workspace, and of the files that the grader writes.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ pub struct Workspace {
     root: PathBuf,
 }
 
-/// The error when the workspace cannot be found.
+/// The error if the workspace cannot be found.
 #[derive(Debug, thiserror::Error)]
 #[error(
     "cannot find the assignment's folder, which contains student/framework: run the command inside it"
@@ -28,7 +28,8 @@ impl Workspace {
                 folder.join("student/framework/Cargo.toml").is_file()
                     && folder.join("Cargo.lock").is_file()
             })
-            // `canonicalize` is not used, since on Windows it returns paths that nobody would type.
+            // The path is not canonicalised: on Windows, that would give a path such as
+            // `\\?\C:\...`, which looks odd in messages.
             .map(|root| Workspace {
                 root: root.to_owned(),
             })
@@ -64,8 +65,7 @@ impl Workspace {
         self.output_folder().join(".cache")
     }
 
-    /// Returns the path as given if it exists relative to the current folder, or else relative to
-    /// the workspace.
+    /// Returns the path as given if it exists, or else resolves it relative to the workspace.
     pub fn resolve(&self, path: &Path) -> PathBuf {
         if path.exists() {
             path.to_owned()

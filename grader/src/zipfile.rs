@@ -1,5 +1,5 @@
-//! Zip archives: the directory at the end lists the contents, and only requested entries are
-//! inflated. Nothing is written to disk.
+//! Reads zip archives. The central directory at the end lists the contents, and only requested
+//! entries are inflated. Nothing is written to disk.
 
 use std::io::Read;
 
@@ -14,11 +14,11 @@ use rawzip::{
 const CODE_PAGE_437: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐\
     └┴┬├─┼╞╟╚╔╩╦╠═╬╧╨╤╥╙╘╒╓╫╪┘┌█▄▌▐▀αßΓπΣσµτΦΘΩδ∞φε∩≡±≥≤⌠⌡÷≈°∙·√ⁿ²■\u{a0}";
 
-/// A zip archive whose directory has been read.
+/// A zip archive whose central directory has been read.
 #[derive(Debug)]
 pub struct Zip<R> {
     archive: ZipArchive<R>,
-    /// The archive's entries, in directory order.
+    /// The archive's entries, in the order of the directory.
     pub entries: Vec<Entry>,
 }
 
@@ -36,7 +36,8 @@ pub enum EntryKind {
 /// A file, folder, link or device in a zip.
 #[derive(Debug)]
 pub struct Entry {
-    /// The recorded name. It may be a path that leads outside the folder being unpacked.
+    /// The recorded name. It may be a path that leads out of the folder to which the zip is
+    /// unpacked.
     pub name: String,
     /// The kind of the entry.
     pub kind: EntryKind,
@@ -54,13 +55,13 @@ pub enum ZipError {
     #[error("{0}")]
     Damaged(#[from] rawzip::Error),
     /// The directory has more or fewer entries than the zip declares.
-    #[error("the number of files in its directory differs from the declared one")]
+    #[error("its directory does not have the declared number of files")]
     WrongCount,
     /// The zip has too many entries.
     #[error("it has more than {0} files")]
     TooManyEntries(usize),
     /// The entry is encrypted.
-    #[error("it needs a password")]
+    #[error("it is password-protected")]
     Encrypted,
     /// The entry's compression method is rare and not supported.
     #[error("its compression method is not supported")]

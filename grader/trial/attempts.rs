@@ -1,5 +1,6 @@
-//! Runs in the sandbox instead of a submission, tries what no submission may do, and prints a line
-//! for each attempt that succeeds. Standard input is the path of a file that every user may read.
+//! A program that runs in the sandbox in place of a submission. It attempts what no submission may
+//! do, and prints a line for each attempt that succeeds. Its standard input is the path of a file
+//! that every user may read.
 
 use std::collections::HashMap;
 use std::fs;

@@ -1,5 +1,5 @@
 //! The baseline: one `rustc` call for the five task files and the given `lib.rs` and
-//! `primitive.rs`. All their dependencies are compiled already.
+//! `primitive.rs`. All their dependencies are already compiled.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! Submissions that earn all points, and that differ from each other.
+//! Creates submissions that earn all points and differ from each other.
 
 use std::fs;
 use std::path::Path;
@@ -33,7 +33,7 @@ pub fn copy(root: &Path, folder: &Path) {
     }
 }
 
-/// Changes a constant in two hot functions of the submission, so that the compiler must run again.
+/// Changes a constant in two hot functions of the submission, so that nothing can be reused.
 pub fn change(root: &Path, folder: &Path, round: usize) {
     for (file, text_to_change) in [
         ("sphere.rs", "discriminant < 0.0"),

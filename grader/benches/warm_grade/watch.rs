@@ -4,7 +4,7 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, ChildStdout, Command, Stdio};
 
-/// A running grader that waits for saved files. It is killed when this is dropped.
+/// A running grader that waits for saved files. It is killed when this value is dropped.
 pub struct WatchProcess {
     child: Child,
     lines: BufReader<ChildStdout>,

@@ -1,5 +1,5 @@
 //! Measures the cost of the pipe: questions with 100,000 rays are sent to a probe, and the same
-//! questions are answered by the same code in one process. The two measurements alternate.
+//! code answers the same questions in one process. The two measurements alternate.
 
 use std::fs;
 use std::path::Path;
@@ -23,8 +23,8 @@ const BUDGET: Budget = Budget {
     cpu: Duration::from_secs(60),
 };
 
-/// The end of a program that reads all questions, and then answers them once plus the given number
-/// of repetitions.
+/// The end of a program that reads all questions, answers them once, and then repeats the answers
+/// as many times as its argument says.
 const IN_PROCESS: &str = r#"
 fn main() {
     use std::io::Read;
@@ -90,8 +90,8 @@ fn round(folder: &Path, launcher: &Launcher, questions: &[Question]) -> [f64; 2]
     [more.saturating_sub(once) / REPETITIONS, over_pipe.cpu].map(|cpu| 1e3 * cpu.as_secs_f64())
 }
 
-/// Returns questions with this number of rays each, all of them toward one triangle. About half of
-/// them hit.
+/// Returns questions with this number of rays each. All rays are aimed near one triangle, and about
+/// half of them hit it.
 fn questions(rays_per_question: usize) -> Vec<Question> {
     let corner = |x, y| Vertex::new(vec3(x, y, -2.0), Vec3::Z, Vec2::ZERO);
     let triangle = Shape::Triangle {

@@ -1,6 +1,6 @@
 //! Temporary directories for building a submission, or for unpacking a class from an archive. Each
-//! one is new, so it contains nothing from an earlier build, and is removed afterwards. If a grader
-//! is killed, the next one removes its directory.
+//! directory is newly created, so that it contains nothing from an earlier build, and is removed
+//! after use. If a grader is killed, the next grader removes its directory.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -9,7 +9,7 @@ use std::path::Path;
 use tempfile::TempDir;
 
 /// A file that is locked while the directory is in use. The system releases the lock when the
-/// grader ends, for whatever reason.
+/// grader ends, even if it is killed.
 const LOCK_FILE: &str = "lock";
 /// Name of the file until it is locked, so that another grader cannot lock it first.
 const UNLOCKED_FILE: &str = "lock.new";

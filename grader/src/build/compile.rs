@@ -17,7 +17,8 @@ fn main() -> std::process::ExitCode {
 }
 ";
 
-/// Compiles, in `folder`, the task files (pairs of name and text) together with [`GIVEN_FILES`].
+/// Compiles the task files, given as pairs of name and text, together with [`GIVEN_FILES`] in
+/// `folder`.
 pub fn compile(files: &[(&str, &str)], folder: &Path, rustc: &Rustc) -> io::Result<CompileOutcome> {
     let content = files.iter().chain(&GIVEN_FILES).fold(
         ContentHash::default().with(rustc.identity()),

@@ -7,8 +7,8 @@ use std::process::Command;
 use crate::build::rustc::{Crate, CrateKind, Rustc};
 use crate::sandbox::Profile;
 
-/// Folders in which systems keep C compilers, linkers and libraries. They contain nothing that is
-/// specific to a machine, unlike `/usr/local` and `/usr/share`.
+/// Paths at which systems keep C compilers, linkers and libraries. Unlike `/usr/local` and
+/// `/usr/share`, they contain nothing that is specific to a machine.
 const SYSTEM_PATHS: [&str; 14] = [
     "/bin",
     "/lib",

@@ -2,7 +2,7 @@
 //! probe's features. Cargo compiles them once per toolchain with locked versions, and they are
 //! copied to the grader's cache.
 //!
-//! Cargo uses the target folder in which it has compiled the grader, so half of the crates are
+//! Cargo uses the target folder in which it has compiled the grader, so most of the crates are
 //! already compiled. Submissions see only the copy, because the target folder also contains the
 //! reference and may change at any time.
 
@@ -22,10 +22,11 @@ use crate::workspace::Workspace;
 
 /// The crates that a submission may import.
 const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
-/// Cargo arguments for the package that depends on all of them, with the probe's features.
+/// Cargo arguments that build `framework` with the probe's features, and so also `glam` and
+/// `protocol`, on which it depends.
 const FRAMEWORK_PACKAGE: [&str; 3] = ["--package", "framework", "--no-default-features"];
-/// Version of the way in which the dependencies are compiled. Change it when the same sources are
-/// to be compiled differently.
+/// Version of the build commands, which is part of the cache key. Change it when the same sources
+/// are to be compiled differently.
 const RECIPE_VERSION: &str = "4";
 
 /// Locations of the compiled dependencies.
@@ -33,7 +34,7 @@ const RECIPE_VERSION: &str = "4";
 pub struct Dependencies {
     /// The rlib of each crate that a submission may import.
     pub externs: BTreeMap<String, PathBuf>,
-    /// The folder with their dependencies.
+    /// The folder with these crates and their dependencies.
     pub folder: PathBuf,
 }
 
@@ -71,15 +72,15 @@ impl Dependencies {
             .join(&key[..16]);
         prepare_once(&cache, || {
             eprintln!(
-                "Compiling the dependencies of submissions; this takes some seconds, and only once."
+                "Compiling the dependencies of submissions, which takes a few seconds and is done only once."
             );
             let libraries = build(&FRAMEWORK_PACKAGE, workspace, toolchain)?;
             copy(libraries, &EXTERNS, &cache.join("crates"))
         })
     }
 
-    /// Returns the dependencies together with additional crates of the lock file. Only the course's
-    /// own solutions are built with these crates, never a submission.
+    /// Returns the dependencies together with additional crates from the lock file. Only the
+    /// course's own solutions are built with these crates, never a submission.
     pub fn with_crates(
         names: &[String],
         workspace: &Workspace,
@@ -102,8 +103,8 @@ impl Dependencies {
     }
 }
 
-/// Returns the dependencies in this folder, or builds them there. They are never built twice,
-/// because another process may be reading the existing files.
+/// Returns the dependencies in this folder, or builds them there. Existing files are never built
+/// again, because another process may be reading them.
 fn prepare_once(
     cache: &Path,
     make: impl FnOnce() -> Result<Dependencies, DependenciesError>,
@@ -147,8 +148,8 @@ fn read(record: &Path) -> Option<Dependencies> {
         .then_some(ready)
 }
 
-/// Returns a hash of everything that the compiled dependencies depend on: compiler, lock file,
-/// sources.
+/// Returns a hash of everything that the compiled dependencies depend on: the compiler, the lock
+/// file and the sources.
 fn cache_key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, DependenciesError> {
     let mut hasher = blake2b_simd::State::new();
     hasher.update(RECIPE_VERSION.as_bytes());
@@ -183,8 +184,8 @@ fn list_sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Dependenc
     Ok(())
 }
 
-/// Builds one package with cargo, and uses the network only if necessary. Returns the crates' names
-/// and libraries.
+/// Builds packages with cargo, and uses the network only if necessary. `package` holds the cargo
+/// arguments that select them. Returns the name and the library of each crate.
 fn build(
     package: &[&str],
     workspace: &Workspace,
@@ -207,7 +208,8 @@ fn build(
             } else {
                 Stdio::inherit()
             });
-        // The same flags on every machine, regardless of the environment and cargo's configuration.
+        // Uses the same flags on every machine, regardless of the environment and cargo's
+        // configuration.
         cargo
             .env("CARGO_ENCODED_RUSTFLAGS", "")
             .env_remove("RUSTC_WRAPPER")
@@ -240,8 +242,8 @@ fn output(cargo: &mut Command) -> io::Result<Output> {
     output
 }
 
-/// Finds each crate's library in cargo's messages, which are one JSON value per line. For a
-/// procedural macro it is a dynamic library: rustc needs it even though nothing is linked with it.
+/// Finds each crate's library in cargo's messages, which are one JSON value per line. The library
+/// of a procedural macro is a dynamic one, which rustc needs even though nothing is linked with it.
 fn libraries(messages: &str) -> Vec<(String, PathBuf)> {
     messages
         .lines()

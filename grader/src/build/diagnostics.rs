@@ -1,4 +1,4 @@
-//! The compiler's messages in JSON.
+//! Parses the compiler's messages, which are in JSON.
 
 use serde::Deserialize;
 
@@ -43,9 +43,9 @@ pub fn errors(messages: &str) -> Vec<Diagnostic> {
 }
 
 impl Diagnostic {
-    /// Returns the task file that must be fixed. That is the file with the error. For an error in a
-    /// given file, it is a task file that the message refers to ("method not found for this
-    /// struct"), or else the one that is called on the line of the error.
+    /// Returns the task file that must be fixed, which is the file with the error. For an error in
+    /// a given file, it is the task file that the message refers to ("method not found for this
+    /// struct") or, if there is none, the one whose name appears first in the line of the error.
     pub fn blamed_file(&self) -> Option<&'static str> {
         let primary = || self.spans.iter().filter(|span| span.is_primary);
         let secondary = self.spans.iter().filter(|span| !span.is_primary);
@@ -62,7 +62,7 @@ impl Diagnostic {
             })
     }
 
-    /// Returns the line of the error if it is in this file, counted from 1.
+    /// Returns the 1-based line number of the error if it is in this file.
     pub fn line_in(&self, file: &str) -> Option<u32> {
         let mut spans = self.spans.iter().filter(|span| span.is_primary);
         spans.find(|span| span.file_name == file)?.line_start
@@ -74,8 +74,8 @@ impl Diagnostic {
     }
 }
 
-/// Returns the task file that a line of a given file calls first, found by its name, such as
-/// `triangle.bbox()`.
+/// Returns the task file whose name appears first in a line of a given file, such as `triangle.rs`
+/// for `triangle.bbox()`.
 fn called_file(line: &str) -> Option<&'static str> {
     let line = line.to_lowercase();
     let position = |name: &str| line.find(name.trim_end_matches(".rs"));

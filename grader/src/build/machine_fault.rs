@@ -1,4 +1,4 @@
-//! Failures of the machine while it compiles, for which no submission may lose points.
+//! Failures of the machine during compilation, for which no submission may lose points.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,8 +9,8 @@ use crate::system;
 
 /// Free disk space below which a failed compile is blamed on the disk, in bytes.
 const MIN_FREE_BYTES: u64 = 64 << 20;
-/// Part of the compiler's message about a linker that was killed by a signal that resource limits
-/// never send.
+/// Part of the compiler's message if the linker was killed with SIGKILL. Resource limits end it
+/// with other signals.
 const LINKER_KILLED: &str = "signal: 9 (SIGKILL)";
 
 /// Reasons why the machine cannot compile at the moment, regardless of the source code.
@@ -34,7 +34,7 @@ pub(super) enum MachineFault {
 impl MachineFault {
     /// Returns an error if the machine has failed. Errors that name a submission's file are never
     /// the machine's fault. `folder` is the build directory of the failed compile. It is removed
-    /// before free space is checked, so that source code which fills the disk by itself is not
+    /// before free space is checked, so that source code that fills the disk by itself is not
     /// excused.
     pub(super) fn check(
         exit_reason: ExitReason,

@@ -1,5 +1,5 @@
-//! Builds a probe from a submission's five files. A file that does not compile fails its own tasks
-//! only: it is replaced by the starter's file.
+//! Builds a probe from a submission's five files. A file that does not compile is replaced by the
+//! starter's, so that only its own tasks fail.
 
 mod blame;
 pub mod build_dir;
@@ -115,8 +115,8 @@ impl Builder {
         })
     }
 
-    /// Returns a builder with additional crates of the lock file. It is used for the course's own
-    /// solutions, and never for submissions.
+    /// Returns a builder whose programs can import additional crates from the lock file. It is used
+    /// for the course's own solutions, and never for submissions.
     pub fn with_crates(&self, names: &[String], workspace: &Workspace) -> Result<Self, BuildError> {
         let mut builder = self.clone();
         builder.rustc.dependencies =
@@ -219,8 +219,9 @@ impl Builder {
         })
     }
 
-    /// Compiles the starter, after every attempt to compile a submission has failed. If this fails
-    /// too, the cause is a full disk, a broken linker or too little memory, and not the submission.
+    /// Compiles the starter after every attempt to compile a submission has failed. If the starter
+    /// does not compile either, the cause is the machine (a full disk, a broken linker or too
+    /// little memory), not the submission.
     fn check_machine(&self, folder: &Path) -> Result<(), BuildError> {
         let starter = TASK_FILES.map(|file| (file.name, file.starter));
         let why = match compile(&starter, &folder.join("starter"), &self.rustc) {

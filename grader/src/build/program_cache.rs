@@ -1,5 +1,5 @@
-//! A cache of compiled programs by the hash of their inputs, for tools that build the same
-//! submissions repeatedly. Normal grading does not use it: it always compiles.
+//! A cache of compiled programs, with hashes of their inputs as keys, for tools that build the same
+//! submissions repeatedly. Normal grading always compiles and does not use it.
 
 use std::fs;
 use std::io;
@@ -30,7 +30,7 @@ impl ContentHash {
 }
 
 impl ProgramCache {
-    /// Creates a cache in this folder, which is created if necessary.
+    /// Opens the cache in this folder, and creates the folder if necessary.
     pub fn new(folder: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
         Ok(ProgramCache {
@@ -47,8 +47,8 @@ impl ProgramCache {
     /// Stores a program and returns its new path.
     pub fn store(&self, content: &ContentHash, program: &Path) -> io::Result<PathBuf> {
         let path = self.folder.join(content.hex());
-        // Moved instead of copied: the file is complete at any time, and never open for writing
-        // when run.
+        // Moved instead of copied, so that the file is always complete and never executed while it
+        // is open for writing.
         fs::rename(program, &path)?;
         Ok(path)
     }

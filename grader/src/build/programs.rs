@@ -28,14 +28,14 @@ pub struct Build {
 pub enum SubstitutedProgram<'a> {
     /// Path of the program.
     Program(&'a Path),
-    /// The file does not compile with these parts.
+    /// The submission's `bvh.rs` does not compile with these parts.
     NotCompiled,
     /// There is no reference, or the submission's `bvh.rs` is missing or does not compile.
     NoReference,
 }
 
 impl Build {
-    /// Returns the isolation level of the submission.
+    /// Returns the isolation level at which the submission was compiled and will run.
     pub fn isolation(&self) -> Isolation {
         self.sandbox.level()
     }

@@ -1,5 +1,5 @@
-//! Calls `rustc` directly. No manifest, build script, configuration or fingerprint in a submission
-//! is read, and the modification times of its files do not matter.
+//! Calls `rustc` directly instead of Cargo, so that no manifest, build script or configuration in a
+//! submission is read, and the modification times of its files do not matter.
 
 use std::ffi::OsString;
 use std::io;
@@ -41,9 +41,11 @@ pub struct Crate<'a> {
     pub folder: &'a Path,
     /// File of the root module, relative to the folder.
     pub root: &'a str,
-    /// Crates that it may import, in addition to those that every submission may.
+    /// Names and libraries of the crates that it may import, in addition to those that every
+    /// submission may import.
     pub links: &'a [(&'a str, &'a Path)],
-    /// Folder with the dependencies of these crates, in addition to those of every submission.
+    /// Folder with the dependencies of `links`, if they have any besides the dependencies of every
+    /// submission.
     pub dependency_folder: Option<&'a Path>,
 }
 
@@ -52,7 +54,7 @@ pub struct Crate<'a> {
 pub enum CrateKind {
     /// An executable.
     Program,
-    /// An `rlib`, and its metadata, which are enough to compile against it.
+    /// An `rlib`, and its metadata, which is enough to compile other crates against it.
     Library,
 }
 
@@ -73,7 +75,7 @@ pub enum CompileOutcome {
     Done(PathBuf),
     /// Errors in the source code.
     Errors(Vec<Diagnostic>),
-    /// The compiler did not finish, or its messages could not be parsed.
+    /// The compiler did not finish, or it failed and no error could be parsed from its messages.
     Failed(String),
 }
 
@@ -86,7 +88,7 @@ pub struct Rustc {
     pub dependencies: Dependencies,
     /// Programs that were compiled before, if they may be reused.
     pub cache: Option<ProgramCache>,
-    /// The sandbox for the compiler. Programs are linked to run in it.
+    /// The sandbox in which the compiler runs. Programs are linked so that they can run in it.
     pub sandbox: Sandbox,
 }
 
@@ -116,7 +118,7 @@ impl Rustc {
         })
     }
 
-    /// Compiles one crate. A failure of the machine is an error, and not a result of the crate.
+    /// Compiles one crate. A failure of the machine is returned as an error, and not as an outcome.
     pub fn compile(&self, source: &Crate) -> io::Result<CompileOutcome> {
         let mut command = Command::new(&self.toolchain.rustc);
         system::clear_environment(&mut command);

@@ -1,6 +1,6 @@
-//! Tests whether a sandbox works on this machine, by attacking it with the profiles of submissions
-//! instead of asking the system about its features. Anything that cannot be tested counts as not
-//! working.
+//! Tests whether a sandbox works on this machine by attacking it from inside, with the profiles
+//! that submissions get, instead of querying the system's features. A sandbox that cannot be tested
+//! counts as not working.
 
 use std::fs;
 use std::io::{self, Write};
@@ -18,7 +18,7 @@ use crate::capture::Capture;
 use crate::sandbox::{Isolation, Profile};
 use crate::system::{self, Limits};
 
-/// Source of a program that attempts everything that a submission must not do.
+/// Source of a program that attempts what no submission may do.
 const ATTACK_PROGRAM: &str = include_str!("../../trial/attempts.rs");
 /// The last line that the program prints.
 const END: &str = "end";
@@ -40,10 +40,10 @@ pub enum SelfTestError {
     #[error("{0}")]
     Setup(io::Error),
     /// The compiler does not work in the sandbox.
-    #[error("a program cannot be compiled and linked statically in it: {0}")]
+    #[error("cannot compile and statically link a program in the sandbox: {0}")]
     NotCompiled(String),
     /// The compiler can read files that it must not read.
-    #[error("a submission's compiler can read other files")]
+    #[error("the compiler can read files that submissions must not see")]
     CompilerCanRead,
     /// A program can do something that it must not do.
     #[error("a submission can {0}")]
@@ -57,7 +57,7 @@ impl Builder {
     /// Tests the sandbox in which submissions are compiled and run.
     pub fn test_sandbox(&self) -> Result<(), SelfTestError> {
         let work = BuildDir::new_in(&self.folder).map_err(SelfTestError::Setup)?;
-        // Without a sandbox, every user of the machine can read this file.
+        // This folder contains a file that every user of the machine can read without a sandbox.
         let public_folder = TempDir::new().map_err(SelfTestError::Setup)?;
         let key = public_folder.path().join("key");
         system::make_folder_accessible(public_folder.path()).map_err(SelfTestError::Setup)?;
@@ -128,7 +128,8 @@ fn compile(
     compiled.map_err(SelfTestError::Setup)
 }
 
-/// Returns the program's output on both streams, or only the errors if there are any.
+/// Runs the program, and returns what it prints to standard error or, if that is nothing, to
+/// standard output.
 fn run(rustc: &Rustc, program: &Path, key: &Path) -> Result<String, SelfTestError> {
     let mut command = Command::new(program);
     system::clear_environment(&mut command);

@@ -1,4 +1,4 @@
-//! Compiles a submission's `bvh.rs` with the reference's parts, so that a mistake in a box test
+//! Compiles a submission's `bvh.rs` with the reference's parts, so that a mistake in the box test
 //! does not also cost the points for traversing a tree.
 //!
 //! The parts are the reference's other four task files and `primitive.rs`, compiled once. The
@@ -48,7 +48,7 @@ pub struct ReferenceParts {
     scaffold: Scaffold,
 }
 
-/// Sources of two additional crates.
+/// Sources of the two crates that are built around a submission's `bvh.rs`.
 #[derive(Clone, Debug)]
 struct Scaffold {
     /// The root of the crate that contains the submission's `bvh.rs`.
@@ -57,7 +57,7 @@ struct Scaffold {
     probe_files: [(&'static str, String); 2],
 }
 
-/// Reasons why the reference cannot be used to make the parts. Students cannot fix them.
+/// Reasons why the reference's parts cannot be compiled. Students cannot fix them.
 #[derive(Debug, thiserror::Error)]
 pub enum SubstitutionError {
     /// A file cannot be read or written.
@@ -74,7 +74,8 @@ pub enum SubstitutionError {
 }
 
 impl ReferenceParts {
-    /// Returns the parts from `cache` if the files are the same, or compiles them.
+    /// Returns the parts from `cache`, or compiles them if the reference's files or the compiler
+    /// have changed.
     pub fn prepare(
         reference: &Path,
         cache: &Path,
@@ -101,7 +102,7 @@ impl ReferenceParts {
         fs::create_dir_all(cache).map_err(io_error(cache))?;
         let work = TempDir::new_in(cache).map_err(io_error(cache))?;
         compile_parts(&texts, work.path(), rustc)?;
-        // The folder appears complete or not at all. Another process may have been faster.
+        // The folder appears complete or not at all. Another process may have created it first.
         match fs::rename(work.path(), folder) {
             Err(_) if folder.is_dir() => {}
             renamed => renamed.map_err(io_error(folder))?,
@@ -134,7 +135,7 @@ fn io_error(path: &Path) -> impl FnOnce(io::Error) -> SubstitutionError {
     move |source| SubstitutionError::Io { path, source }
 }
 
-/// Reads these files in order.
+/// Reads these files, in this order.
 fn read<const N: usize>(
     folder: &Path,
     names: [&'static str; N],
@@ -191,7 +192,7 @@ fn compile_parts(
 /// A submission's `bvh.rs`, which is compiled with the reference's parts only if needed.
 #[derive(Debug)]
 pub struct Substitution {
-    /// Source of the file.
+    /// Source of the submission's `bvh.rs`.
     pub bvh: String,
     /// The parts that replace the submission's other files.
     pub parts: ReferenceParts,
@@ -204,8 +205,8 @@ pub struct Substitution {
 }
 
 impl Substitution {
-    /// Returns the program, or `None` if it does not compile. This happens if it uses helpers in
-    /// the submission's other files.
+    /// Returns the program, or `None` if it does not compile, for example because `bvh.rs` uses
+    /// helpers in the submission's other files.
     pub fn program(&self) -> io::Result<Option<&Path>> {
         if self.program.get().is_none() {
             let program = self.compile()?;
@@ -235,9 +236,9 @@ impl Substitution {
         )
     }
 
-    /// Compiles the starter's `bvh.rs` with the parts, if no error explains why the submission's
-    /// file does not compile. If the starter's file does not compile either, the machine is to
-    /// blame.
+    /// Compiles the starter's `bvh.rs` with the parts. This is done when no error explains why the
+    /// submission's file does not compile: if the starter's does not compile either, the machine is
+    /// to blame.
     fn check_starter(&self) -> io::Result<()> {
         let [.., bvh] = TASK_FILES;
         let starter = Substitution {

@@ -16,7 +16,7 @@ pub struct Toolchain {
     pub rustc: PathBuf,
 }
 
-/// The error when the compiler cannot be found.
+/// The error if the compiler cannot be found.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot find rustc: install Rust, or put it on the PATH ({0})")]
 pub struct ToolchainError(String);
@@ -36,7 +36,7 @@ impl Toolchain {
         let sysroot = String::from_utf8_lossy(&output.stdout);
         let cargo = format!("cargo{}", env::consts::EXE_SUFFIX);
         toolchain_beside(&Path::new(sysroot.trim()).join("bin").join(cargo))
-            .ok_or_else(|| ToolchainError(format!("nothing in {}", sysroot.trim())))
+            .ok_or_else(|| ToolchainError(format!("there is no toolchain in {:?}", sysroot.trim())))
     }
 
     /// Returns the toolchain's root folder.

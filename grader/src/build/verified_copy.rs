@@ -1,5 +1,5 @@
-//! Copies a file from a folder in which a compiler could write while it read a submission. Nothing
-//! in the folder is trusted.
+//! Copies a file from the folder that a submission's compiler could write to. Nothing in that
+//! folder is trusted.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Seek};
@@ -13,8 +13,9 @@ const MAX_BYTES: u64 = 64 << 20;
 /// First bytes of programs (ELF) and of libraries (`ar`).
 const MAGIC_NUMBERS: [&[u8]; 2] = [b"\x7fELF", b"!<arch>\n"];
 
-/// Copies a file from `folder` to one that only the grader can write, and returns the path of the
-/// copy. `None` if there is no such file, or if it is not a regular program or library.
+/// Copies a file from `folder` to a folder that only the grader can write to, and returns the path
+/// of the copy. Returns `None` if there is no such file, or if it is not a regular file that begins
+/// like a program or library.
 pub(super) fn copy_verified(folder: &Path, name: &str) -> io::Result<Option<PathBuf>> {
     let Some(made) = open_verified(&folder.join(name))? else {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! Packages that are folders: classroom50's, and a GitHub template repository.
+//! Checks packages that are folders: classroom50's, and a GitHub template repository.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ use crate::given_files::TASK_FILES;
 const CLASSROOM50: [&str; 2] = ["autograder.py", "pathtracing.zip"];
 /// Maximum total size of both files that classroom50 accepts, in bytes.
 const MAX_FOLDER_BYTES: u64 = 10 << 20;
-/// The folders in that zip from which the grader is built.
+/// The folders in classroom50's zip from which the grader is built.
 const REQUIRED_FOLDERS: [&str; 2] = [
     "pathtracing/grader/src/",
     "pathtracing/student/framework/src/",
@@ -28,7 +28,7 @@ const TEMPLATE_PATHS: [&str; 4] = [
 /// Paths that a template must not have, because students can read them.
 const PRIVATE_PATHS: [&str; 3] = ["reference", "exam.json", "grader/tests"];
 
-/// Returns a message for each problem, which says what to do.
+/// Returns a message for each problem, including what to do about it.
 pub(super) fn problems(path: &Path) -> Vec<String> {
     if path.join(WORKFLOW).is_file() {
         return template_problems(path);
@@ -56,7 +56,7 @@ fn classroom50_problems(path: &Path) -> Vec<String> {
     if size > MAX_FOLDER_BYTES {
         let size = size >> 20;
         problems.push(format!(
-            "it has {size} MiB, but classroom50 accepts 10 at most"
+            "it has {size} MiB, but classroom50 accepts at most 10 MiB"
         ));
     }
     if problems.is_empty() {

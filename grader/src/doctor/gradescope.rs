@@ -1,4 +1,4 @@
-//! Gradescope's package, which is a zip.
+//! Checks Gradescope's package, which is a zip.
 
 use std::path::Path;
 
@@ -27,7 +27,7 @@ impl PackageContents {
     pub(super) fn problems(&self) -> Vec<String> {
         let mut problems = self.damage_problems();
         problems.extend(SCRIPTS.iter().flat_map(|name| self.script_problems(name)));
-        // As long as Gradescope cannot start it, other problems do not matter.
+        // As long as Gradescope cannot run these scripts, other problems do not matter.
         if problems.is_empty() {
             problems.extend(self.script_problems(GRADE));
             problems.extend(self.exam_and_policy_problems());

@@ -8,7 +8,8 @@ use crate::doctor::package_contents::read_package;
 
 pub use crate::doctor::package_contents::PackageError;
 
-/// Returns a message for each problem, which says what to do. Empty if the package will work.
+/// Returns a message for each problem, including what to do about it. If there is none, the package
+/// will work.
 pub fn problems(path: &Path) -> Result<Vec<String>, PackageError> {
     if path.is_dir() {
         Ok(folder::problems(path))

@@ -10,7 +10,8 @@ use super::hit_comparison::{HitAnswer, HitComparison};
 use super::ink::LineStyle;
 use super::sheet::{Sheet, Symbol};
 
-/// Draws the range of the ray, and the part of the ray before the expected and the submitted hit.
+/// Draws the range of the ray, and the parts of the range before the expected and before the
+/// submitted hit.
 pub(super) fn draw(comparison: &HitComparison) -> Drawing {
     let range = comparison.ray.range;
     let before = |distance: f64| Interval::new(range.min, distance as f32);

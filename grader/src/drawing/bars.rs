@@ -116,8 +116,8 @@ fn tick_step(least: f64) -> f64 {
         .unwrap_or(10.0 * power)
 }
 
-/// Draws the rows from `y` down, and returns the y coordinate below them. The axis covers
-/// `distances`.
+/// Draws the rows from `y` downward, and below them an axis that covers `distances`. Returns the y
+/// coordinate below the axis.
 pub(super) fn draw(
     canvas: &mut Canvas,
     y: f64,

@@ -85,8 +85,8 @@ fn span_answer(element: usize, answer: Option<&Answer>) -> SpanAnswer {
 /// miss like a miss.
 fn deciding_axes(query: &BoxQuery) -> (usize, usize) {
     let Some(slabs) = query.slabs else {
-        // If the exam has no slabs, look along the axis with the smallest component of the
-        // direction.
+        // If the exam has no slabs, look along the axis in which the ray's direction has the
+        // smallest component.
         let along = query.ray.dir.abs();
         let least = (0..3).min_by(|&a, &b| along[a].total_cmp(&along[b]));
         let least = least.unwrap_or(2);
@@ -106,7 +106,7 @@ fn in_order(a: usize, b: usize) -> (usize, usize) {
     (a.min(b), a.max(b))
 }
 
-/// The plane of two axes.
+/// The plane spanned by two axes.
 #[derive(Clone, Copy)]
 struct Plane {
     a: usize,
@@ -222,8 +222,8 @@ fn rows(query: &BoxQuery, got: SpanAnswer) -> Vec<BarRow> {
     rows
 }
 
-/// Returns the distances that the axis must cover. Among the ends of the slabs, it must cover only
-/// the last entry and the first exit.
+/// Returns the distances that the axis must cover. The slabs contribute only the last entry and the
+/// first exit.
 fn axis_distances(query: &BoxQuery, got: SpanAnswer) -> Vec<f64> {
     let ends = |span: Interval| [f64::from(span.min), f64::from(span.max)];
     let mut seen: Vec<f64> = [query.wanted, Some(query.times)]

@@ -1,7 +1,8 @@
 //! An SVG image, built element by element in page units: x to the right, y down.
 //!
-//! Coordinates come from submissions, so points that are not finite or far off the page are
-//! skipped, and nothing is added after [`MAX_BYTES`] bytes. All text is escaped here.
+//! Coordinates may come from submissions, so elements with points that are not finite or far off
+//! the page are skipped, and an image that has reached [`MAX_BYTES`] bytes accepts no more
+//! elements. All text is escaped here.
 
 use std::fmt::{Display, Write};
 
@@ -9,11 +10,12 @@ use glam::{DVec2, dvec2};
 
 use super::ink::{Fill, Ink, LineStyle};
 
-/// The width of every drawing. A phone of 360 pixels shows it at full size, with a small margin.
+/// The width of every drawing. A phone screen that is 360 pixels wide shows it at full size, with a
+/// small margin.
 pub(super) const WIDTH: f64 = 340.0;
 /// The font size.
 const FONT_SIZE: f64 = 12.5;
-/// The maximum size of a drawing in bytes.
+/// The size of a drawing, in bytes, from which no more elements are added.
 const MAX_BYTES: usize = 120_000;
 /// The limit for the absolute value of a coordinate. Points beyond it are not drawn.
 const MAX_COORDINATE: f64 = 1e4;
@@ -32,9 +34,9 @@ pub(super) enum Anchor {
 /// A mark at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mark {
-    /// A disc, for what was expected.
+    /// A disc, for the expected answer.
     Right,
-    /// A cross, for what was submitted, if it is wrong.
+    /// A cross, for the submitted answer if it is wrong.
     Wrong,
     /// A ring, for the origin of a ray.
     Origin,
@@ -161,8 +163,8 @@ impl Canvas {
                     arm(-1.0, 1.0),
                     arm(1.0, -1.0)
                 );
-                // Drawn twice, so that a border of the background colour sets the cross off from
-                // what is below.
+                // Drawn twice, first wider and in the background colour, so that a border separates
+                // the cross from the lines below it.
                 for (paint, width) in [("var(--paper, Canvas)", 6.0), (Ink::Wrong.paint(), 3.0)] {
                     self.add(format_args!(
                         r#"<path d="{path}" fill="none" stroke="{paint}" stroke-width="{width}"/>"#

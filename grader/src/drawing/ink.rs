@@ -1,8 +1,8 @@
-//! Colours and line styles. Colour is never the only difference: what was expected is drawn as
-//! solid lines and discs, what was submitted as dashed lines and crosses.
+//! Colours and line styles. Colour is never the only difference: the expected answer is drawn with
+//! solid lines and discs, and the submitted answer with dashed lines and crosses.
 //!
-//! For its dark theme, a page sets the custom properties `--right`, `--wrong` and `--paper`. The
-//! default colours are from Okabe and Ito, "Color Universal Design", 2008.
+//! A page may set the custom properties `--right`, `--wrong` and `--paper`, for example for its
+//! dark theme. The default colours are from Okabe and Ito, "Color Universal Design", 2008.
 
 /// A colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,9 +11,9 @@ pub(super) enum Ink {
     Text,
     /// A lighter shade of the text colour.
     Faint,
-    /// The colour of what was expected.
+    /// The colour of the expected answer.
     Right,
-    /// The colour of what was submitted, if it is wrong.
+    /// The colour of the submitted answer if it is wrong.
     Wrong,
 }
 
@@ -49,9 +49,9 @@ pub(super) enum LineStyle {
     Behind,
     /// The range of a ray.
     Range,
-    /// The line of what was expected.
+    /// A line of the expected answer.
     Right,
-    /// The line of what was submitted, if it is wrong.
+    /// A line of the submitted answer if it is wrong.
     Wrong,
 }
 

@@ -1,8 +1,8 @@
-//! Drawings of failed questions, to scale: the question, the submitted answer and the expected one.
+//! Draws failed questions to scale, each with the submitted and the expected answer.
 //!
-//! This module is pure and computes no answers: the exam stores what is needed to show how a ray
-//! hits a shape and how a tree is built or traversed ([`judging::drawing_data`]). Submitted answers
-//! may contain any numbers.
+//! This module is pure and computes no answers. The steps that lead to an expected answer, such as
+//! a correct traversal, come from the exam ([`judging::drawing_data`]). Submitted answers may
+//! contain any numbers, including NaN and infinities.
 
 mod along_ray;
 mod bars;
@@ -36,16 +36,17 @@ use traversal::RecordedTraversal;
 /// A drawing of one element of a question.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Drawing {
-    /// One `<svg>` element without ids, ready to be embedded in a page. It is made for widths of
-    /// 340 pixels and more. Its colours come from `color` and the custom properties `--right`,
-    /// `--wrong` and `--paper` (the background).
+    /// One `<svg>` element without ids, ready to be embedded in a page. It is designed for a width
+    /// of at least 340 pixels. Its colours come from the CSS property `color` and the custom
+    /// properties `--right`, `--wrong` and `--paper` (the background).
     pub svg: String,
     /// One sentence that says what the drawing shows.
     pub caption: String,
 }
 
-/// Draws one element of a question, counted from 0, with the answer to the whole question if there
-/// is one. Returns `None` if a drawing would add nothing to the text.
+/// Draws one element of a question. `element` is its index, and `answer` is the answer to the whole
+/// question, if there is one. Returns `None` if there is nothing to draw, or if a drawing would add
+/// nothing to the text.
 pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
     match &question.question {
         Question::Shapes { shapes, .. } => {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// Formats a number with four significant digits, for use where six do not fit.
+/// Formats a number with at most four significant digits, for use where six do not fit.
 pub(super) fn short(value: f64) -> String {
     if value.is_nan() {
         return "NaN".to_owned();
@@ -24,7 +24,7 @@ pub(super) fn short(value: f64) -> String {
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
-/// Formats a vector with four significant digits per component.
+/// Formats a vector with at most four significant digits per component.
 pub(super) fn point(value: DVec3) -> String {
     let [x, y, z] = value.to_array().map(short);
     format!("({x}, {y}, {z})")

@@ -34,7 +34,7 @@ pub(super) fn draw(comparison: &HitComparison, shapes: &[Shape]) -> Option<Drawi
     }
 }
 
-/// Returns the approximate distance of a point from a surface.
+/// Returns the approximate distance of a point from the surface of a shape.
 fn distance_to_surface(shape: &Shape, point: DVec3) -> f64 {
     match *shape {
         Shape::Sphere { center, radius, .. } => {

@@ -36,7 +36,7 @@ pub(super) struct Sheet {
 }
 
 impl Sheet {
-    /// Adds a panel over the whole width, with a border.
+    /// Adds a panel across the whole width, with a border.
     pub(super) fn panel(&mut self, height: f64) -> Panel {
         let panel = self.bordered_panel(1.0, WIDTH - 1.0, height);
         self.advance(height + 6.0);
@@ -73,7 +73,7 @@ impl Sheet {
         panel
     }
 
-    /// Adds a title for what comes below.
+    /// Adds a title for the elements below it.
     pub(super) fn title(&mut self, title: &str) {
         let at = dvec2(1.0, self.y + 12.0);
         self.canvas.text(at, Anchor::Start, Ink::Faint, title);

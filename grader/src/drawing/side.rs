@@ -1,4 +1,4 @@
-//! A ray from the side: it points to the right, and distances along it are to scale.
+//! Draws a ray from the side: it points to the right, and distances along it are to scale.
 
 use glam::{DVec2, DVec3, dvec2};
 use judging::describe;
@@ -31,17 +31,17 @@ impl SideView {
         }
     }
 
-    /// Projects a point to the plane.
+    /// Projects a point onto the plane.
     pub(super) fn project(&self, point: DVec3) -> DVec2 {
         self.project_vector(point - self.origin)
     }
 
-    /// Projects a direction to the plane.
+    /// Projects a direction onto the plane.
     pub(super) fn project_vector(&self, vector: DVec3) -> DVec2 {
         dvec2(vector.dot(self.dir), vector.dot(self.up))
     }
 
-    /// Projects a point to the plane perpendicular to the ray, as seen along the ray. The ray
+    /// Projects a point onto the plane perpendicular to the ray, as seen along the ray. The ray
     /// itself is at (0, 0).
     pub(super) fn project_along_ray(&self, point: DVec3) -> DVec2 {
         let aside = point - self.origin;
@@ -49,9 +49,9 @@ impl SideView {
     }
 }
 
-/// Returns the points that the drawing should show: those of the shape, and also the ray's origin,
-/// the hits and the ends of the range, except those so far away that the shape would shrink to a
-/// dot.
+/// Returns the points that the drawing should show: the points of `shape`, the ray's origin, the
+/// hits, and the ends of the ray's range. Points so far away that the shape would shrink to a dot
+/// are left out.
 pub(super) fn landmarks(
     comparison: &HitComparison,
     side: &SideView,
@@ -76,7 +76,7 @@ pub(super) fn landmarks(
     seen
 }
 
-/// Draws the line of the ray, its origin, and its range if that is limited.
+/// Draws the line of the ray, its origin, and its range if the range is limited.
 pub(super) fn draw_ray(canvas: &mut Canvas, window: &Window, comparison: &HitComparison) {
     const FAR: f64 = 1e7;
 
@@ -105,7 +105,7 @@ pub(super) fn draw_ray(canvas: &mut Canvas, window: &Window, comparison: &HitCom
     }
 }
 
-/// Draws the expected and the submitted hit, with the field that the drawing shows.
+/// Draws the expected and the submitted hit, with the field that is in focus.
 pub(super) fn draw_hits(
     canvas: &mut Canvas,
     window: &Window,
@@ -158,7 +158,7 @@ pub(super) fn draw_hits(
     }
 }
 
-/// Adds the legend of the ray and of both hits.
+/// Adds the legend for the ray and both hits.
 pub(super) fn draw_legend(
     sheet: &mut Sheet,
     comparison: &HitComparison,

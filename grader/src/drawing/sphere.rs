@@ -41,7 +41,7 @@ pub(super) fn draw(comparison: &HitComparison, center: DVec3, radius: f64) -> Dr
     sheet.finish(title, comparison.caption())
 }
 
-/// Returns a suitable height for a panel of the full width that shows these points.
+/// Returns a suitable height for a full-width panel that shows these points.
 pub(super) fn panel_height(seen: &[DVec2]) -> f64 {
     let size = extent(seen.iter().copied()).map_or(DVec2::ONE, |(min, max)| max - min);
     // A single point has no proportions.

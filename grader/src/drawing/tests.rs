@@ -1,4 +1,4 @@
-//! Tests that any answer of a submission gives a small, well-formed image, or none.
+//! Tests that every answer of a submission gives a small, well-formed drawing, or none.
 
 use std::sync::LazyLock;
 
@@ -26,7 +26,7 @@ static QUESTIONS: LazyLock<Vec<ExamQuestion>> = LazyLock::new(|| {
         .collect()
 });
 
-/// Generates numbers that submissions may answer, among them extreme ones.
+/// Generates numbers that submissions may answer with, including extreme ones.
 fn number() -> impl Strategy<Value = f32> {
     prop_oneof![
         4 => -5.0f32..5.0,

@@ -1,5 +1,5 @@
-//! A ray and a triangle, from two viewpoints: along the ray, which is then a point inside or
-//! outside the triangle, and from the side, where the plane of the triangle is a line.
+//! A ray and a triangle, seen from two directions: along the ray, where the ray is a point inside
+//! or outside the triangle, and from the side, where the triangle's plane is a line.
 
 use glam::{DVec2, DVec3, dvec2};
 use protocol::Vertex;
@@ -18,7 +18,7 @@ pub(super) fn draw(comparison: &HitComparison, vertices: &[Vertex; 3]) -> Drawin
     let corners = vertices.map(|vertex| vertex.position.as_dvec3());
     let [p0, p1, p2] = corners;
     // In a plane that contains the ray and the normal, the triangle is seen edge-on. A degenerate
-    // triangle has no normal, so its first edge is used instead.
+    // triangle has no normal, so the first edge is used in its place.
     let normal = (p1 - p0).cross(p2 - p0).try_normalize();
     let side = SideView::new(comparison, normal.unwrap_or(p1 - p0));
 

@@ -28,7 +28,8 @@ impl Window {
         let (min, max) = extent(points).unwrap_or((DVec2::NEG_ONE, DVec2::ONE));
         let available = panel.max - panel.min - 2.0 * MARGIN;
         let size = max - min;
-        // A single point is in the middle at any scale.
+        // The lower bound avoids a division by zero for a single point, which is in the middle at
+        // any scale.
         let scale = (available / size.max(DVec2::splat(1e-12))).min_element();
         Window {
             panel,
@@ -68,14 +69,15 @@ impl Window {
         self.world_length(page.distance(page.clamp(self.panel.min, self.panel.max)))
     }
 
-    /// Clips a segment to the panel, one side after the other (Sutherland and Hodgman, "Reentrant
-    /// polygon clipping", Communications of the ACM 17, 1974). Returns its ends on the page.
+    /// Clips a segment to the panel, one side of the panel at a time (Sutherland and Hodgman,
+    /// "Reentrant polygon clipping", Communications of the ACM 17, 1974). Returns the ends of the
+    /// visible part on the page, or `None` if no part is visible.
     pub(super) fn clip_segment(&self, from: DVec2, to: DVec2) -> Option<(DVec2, DVec2)> {
         let (from, to) = (self.page_position(from), self.page_position(to));
         if !(from.is_finite() && to.is_finite()) {
             return None;
         }
-        // This is far enough to look infinite, and near enough for the precision of `f64`.
+        // Far enough away to look infinite, and near enough to be precise in `f64`.
         let farthest = DVec2::splat(1e9);
         let [mut from, mut to] = [from, to].map(|at| at.clamp(-farthest, farthest));
         for axis in 0..2 {

@@ -1,8 +1,8 @@
 //! Gradescope's `results.json`
 //! (<https://gradescope-autograders.readthedocs.io/en/latest/specs/>, "Output Format").
 //!
-//! Gradescope applies a test's `visibility` itself, and hides the total while a test is hidden. So
-//! hidden items are listed one by one here.
+//! Gradescope applies a test's `visibility` itself, and hides the total while a test is hidden.
+//! Therefore, this format also lists hidden items one by one.
 
 use judging::exam::Task;
 use serde_json::{Map, Value, json};

@@ -10,8 +10,8 @@ use crate::score::{Hint, ItemScore, Verdict};
 /// The id of the exam that students can run themselves.
 const PRACTICE: &str = "practice";
 
-/// Returns one line per row, such as `what: …` and `asked: …`. The text is empty if there is
-/// nothing to report.
+/// Returns the rows of an item, such as `what: …` and `asked: …`, one per line. The text is empty
+/// if there is nothing to report.
 pub fn item_text(view: &StudentView, item: &ItemScore, context: &FormatContext) -> String {
     let evidence = item.evidence.as_ref();
     let is_passed = item.verdict == Verdict::Pass;
@@ -58,7 +58,7 @@ fn hint_text(hints: &[Hint], context: &FormatContext) -> Option<String> {
     (!all.is_empty()).then(|| all.join(" Or: "))
 }
 
-/// Returns the messages of the compiler and the notes of the grader about the files.
+/// Returns the compiler's messages and the grader's notes about the files.
 pub fn build_report(view: &StudentView) -> String {
     let build = &view.visible.build;
     let files = build.not_compiled.iter().map(|file| file.message.clone());

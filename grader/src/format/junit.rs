@@ -129,8 +129,7 @@ impl<'a> FromIterator<&'a ItemScore> for Counts {
     }
 }
 
-/// Returns whether XML allows the character. Characters that it does not allow are invalid even
-/// when escaped.
+/// Returns whether XML allows the character. Other characters are invalid even when escaped.
 fn is_xml_char(character: &char) -> bool {
     matches!(character, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }

@@ -1,5 +1,6 @@
-//! Output formats for learning platforms and build servers. Each renderer is a pure function of a
-//! [`StudentView`] and never gets the score itself, so no format can leak what the policy hides.
+//! Output formats for learning platforms and CI services. Each renderer is a pure function of a
+//! [`StudentView`] and a [`FormatContext`] and never gets the score itself, so no format can leak
+//! what the policy hides.
 
 mod check50;
 mod classroom50;

@@ -24,7 +24,7 @@ const TASK_FILE_FOLDERS: [&str; 3] = ["", "src", "student/src"];
 pub enum OutputError {
     /// An environment variable that the format needs is missing.
     #[error(
-        "--format {format} needs the environment variable {variable}, which is not set: run it on the platform's runner, or set all of {all}"
+        "--format {format} needs the environment variable {variable}, which is not set: grade on the platform's runner, or set {all}"
     )]
     MissingVariable {
         /// The format.
@@ -56,7 +56,7 @@ pub struct Outputs {
 struct Output {
     format: Format,
     path: PathBuf,
-    /// The text that other commands wrote to the file earlier. It is kept.
+    /// Text that other commands wrote to the file earlier. The output is appended to it.
     existing_text: String,
 }
 
@@ -111,7 +111,7 @@ impl Outputs {
         Ok(())
     }
 
-    /// Returns the GitHub annotations to print, if that format is requested.
+    /// Returns the GitHub annotations to print, or `None` if the GitHub format is not requested.
     pub fn runner_commands(&self, view: &StudentView) -> Option<String> {
         let mut files = self.files.iter();
         let is_wanted = files.any(|output| output.format == Format::Github);
@@ -200,7 +200,7 @@ fn folder_in_checkout(submitted: &Path) -> String {
     relative.unwrap_or_default()
 }
 
-/// Returns the line of each task's method, counted from 1.
+/// Returns the 1-based line number of each task's method.
 fn find_method_lines(submission: &Submission) -> BTreeMap<Task, u32> {
     let line = |task: Task| {
         let mut files = submission.files.iter();

@@ -3,14 +3,15 @@
 /// The limits on the number of characters per text, in the order in which they are tried.
 const TEXT_LIMITS: [usize; 5] = [4_000, 1_000, 250, 60, 0];
 
-/// Renders a file with shorter and shorter text limits until it has at most `max_bytes`.
+/// Renders a file with smaller and smaller text limits until it is at most `max_bytes` long. If it
+/// is too long even with the smallest limit, returns it anyway.
 pub fn fit(max_bytes: usize, render: impl Fn(usize) -> String) -> String {
     let mut texts = TEXT_LIMITS.into_iter().map(&render);
     let fitting = texts.find(|text| text.len() <= max_bytes);
     fitting.unwrap_or_else(|| render(0))
 }
 
-/// Truncates a text to `max_chars` characters, and marks the end if anything was cut off.
+/// Truncates a text to `max_chars` characters. Appends a mark if anything was cut off.
 pub fn truncate(text: &str, max_chars: usize) -> String {
     match text.char_indices().nth(max_chars) {
         None => text.to_owned(),

@@ -6,7 +6,7 @@ use crate::policy::{CountedPoints, Lateness, Policy, Visibility};
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
 
-/// A score without what the policy hides, and without notes for staff.
+/// A score without the parts that the policy hides, and without notes for staff.
 #[derive(Clone, Debug)]
 pub struct StudentView {
     /// The score as students may see it now. The hidden items of each task are summed up in a
@@ -23,7 +23,7 @@ pub struct StudentView {
 pub struct ItemView {
     /// The task of the item.
     pub task: Task,
-    /// The item, without what the policy hides.
+    /// The item, without the parts that the policy hides.
     pub item: ItemScore,
     /// When students may see the item.
     pub visibility: Visibility,
@@ -33,7 +33,8 @@ impl StudentView {
     /// Creates the view that a policy allows.
     pub fn new(score: &Score, policy: &Policy, lateness: Lateness) -> Self {
         let mut visible = score.clone();
-        // Students grade again on their own machine, where their own submission is the default.
+        // Students run the grader again on their own machines, where their own submission is the
+        // default.
         visible.rerun_command = RerunCommand::default();
         let mut all_items = Vec::new();
         for task in &mut visible.tasks {
@@ -95,8 +96,8 @@ fn hidden_ids(policy: &Policy, score: &Score) -> Vec<String> {
     hidden.map(|item| item.id.clone()).collect()
 }
 
-/// Removes everything from an item that students with this visibility may not see, including the
-/// ids of `hidden` items.
+/// Removes everything from an item that students may not see at this visibility, including the ids
+/// of `hidden` items.
 fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemScore {
     let mut item = ItemScore {
         staff: None,
@@ -129,7 +130,8 @@ fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemSc
     }
 }
 
-/// Keeps only the title and the points of an item.
+/// Keeps only the id, the title and the points of an item, with a verdict that follows from the
+/// points.
 fn redact_to_points(item: ItemScore) -> ItemScore {
     ItemScore {
         verdict: match item.verdict {

@@ -1,4 +1,4 @@
-//! The score's report on a submission's files.
+//! Reports compiler errors, and notes on a submission's files, in the score.
 
 use crate::build::Build;
 use crate::score::{BuildReport, FileReport};

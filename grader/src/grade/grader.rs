@@ -29,7 +29,8 @@ use crate::submission::Submission;
 use crate::verdict::pending_score;
 use crate::workspace::Workspace;
 
-/// Everything that grading needs and that stays the same between versions of a submission.
+/// The exam, the builder, the policy and the options, which stay the same for all versions of a
+/// submission.
 pub struct Grader<'a> {
     options: &'a GradeOptions,
     workspace: Workspace,
@@ -86,7 +87,7 @@ impl<'a> Grader<'a> {
     }
 
     /// Loads the exam, prepares the builder and builds one submission. Reading the exam takes a
-    /// tenth of the time of compiling, so the two run in parallel.
+    /// tenth as long as compiling, and is done in parallel with it.
     pub(super) fn prepare_and_build(
         options: &'a GradeOptions,
         report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
@@ -164,13 +165,13 @@ impl<'a> Grader<'a> {
         Outputs::new(formats, folder, &submitted, submission, hints)
     }
 
-    /// Returns the identity of the exam.
+    /// Returns the exam's id, and the hash of its file.
     pub fn exam_name(&self) -> &ExamName {
         &self.exam_name
     }
 
-    /// Returns a hash of everything that scores depend on besides submission and exam: compiler,
-    /// dependencies and reference.
+    /// Returns a hash of everything that scores depend on besides the submission and the exam: the
+    /// compiler, the dependencies and the reference.
     pub fn builder_identity(&self) -> String {
         self.builder.identity()
     }

@@ -85,8 +85,8 @@ pub fn grade(options: &GradeOptions) -> Result<GradedSubmission, Error> {
     })
 }
 
-/// Prints the first line of each file's compiler error to standard error, once per file. The report
-/// that follows contains the complete errors.
+/// Returns a function that prints the first line of each file's compiler error to standard error,
+/// once per file. The report that follows contains the complete errors.
 fn print_compile_errors() -> impl FnMut(&BTreeMap<&'static str, NotCompiled>) {
     let mut printed = BTreeSet::new();
     move |files| {

@@ -1,4 +1,4 @@
-//! Converts points to final points, in exact integers, rounded once at the end.
+//! Converts points to final points in exact integer arithmetic, and rounds once at the end.
 
 use std::fmt;
 
@@ -30,7 +30,7 @@ pub struct CountedPoints {
     pub max_points: u32,
     /// Number of started days after the due time, including free days.
     pub late_days: u32,
-    /// Whether the submission was made after the last day, and so counts for nothing.
+    /// Whether the submission counts for nothing, because it was made after the last day.
     pub is_closed: bool,
 }
 
@@ -66,8 +66,8 @@ impl Policy {
         }
     }
 
-    /// Returns how late a submission is that was made at `submitted`, in seconds since 1970 UTC.
-    /// `None` if the policy has no due time.
+    /// Returns how late a submission is. `submitted` is its time in seconds since the Unix epoch.
+    /// Returns `None` if the policy has no due time.
     pub fn lateness(&self, submitted: i64) -> Option<Lateness> {
         let seconds = submitted - unix_seconds(self.late.due.as_ref()?)?;
         Some(Lateness {
@@ -134,7 +134,8 @@ impl Fraction {
     }
 }
 
-/// Returns the seconds since 1970 UTC. `None` if the date, the time or the offset is missing.
+/// Returns the seconds since the Unix epoch, or `None` if the date, the time or the offset is
+/// missing.
 pub(super) fn unix_seconds(datetime: &Datetime) -> Option<i64> {
     let (date, time) = (datetime.date?, datetime.time?);
     let minutes = match datetime.offset? {

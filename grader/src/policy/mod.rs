@@ -37,7 +37,7 @@ pub struct Policy {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PointsPolicy {
-    /// Points for a perfect submission. `None` means the exam's points.
+    /// Points for a perfect submission. `None` means the exam's maximum.
     pub out_of: Option<u32>,
     /// Rounding of the final points.
     pub rounding: Rounding,
@@ -68,11 +68,11 @@ pub struct LatePolicy {
     pub free_days: u32,
     /// Cost of each further day, in percent.
     pub percent_per_day: u32,
-    /// The points to which the percentage refers.
+    /// Whether `percent_per_day` is a percentage of the points earned or of the points possible.
     pub percent_of: PercentBase,
     /// Maximum final points of a late submission, in percent of all points.
     pub most_percent: u32,
-    /// Number of days after which a submission counts for nothing.
+    /// Number of days after which a submission counts for nothing, if there is such a limit.
     pub closed_after_days: Option<u32>,
 }
 

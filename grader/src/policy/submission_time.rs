@@ -12,7 +12,7 @@ use toml::value::Datetime;
 use crate::policy::Policy;
 use crate::policy::late::{Lateness, unix_seconds};
 
-/// The times at which a submission was made and due, in seconds since 1970 UTC.
+/// The times at which a submission was made and was due, in seconds since the Unix epoch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SubmissionTime {
     submitted: i64,

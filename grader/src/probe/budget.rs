@@ -7,7 +7,7 @@ use super::fault::TimeLimit;
 /// The time budget of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// Limit of CPU time. This is the limit that matters.
+    /// The CPU time limit, which is the one that endless loops exceed.
     pub cpu: Duration,
 }
 
@@ -30,7 +30,7 @@ impl Budget {
         }
     }
 
-    /// Returns the limit of wall time. It is generous, because on a busy machine wall time says
+    /// Returns the wall time limit. It is generous, because on a busy machine wall time says
     /// nothing about the code.
     pub fn wall(self) -> Duration {
         4 * self.cpu + Duration::from_secs(5)
@@ -56,8 +56,8 @@ impl BudgetTracker {
     }
 
     /// Returns the exceeded limit, if there is one. CPU time before the first check does not count:
-    /// most items are answered before that, and reading the time at their start would take longer
-    /// than they do.
+    /// most items are answered before that, and reading the CPU time at the start of an item would
+    /// take longer than answering it.
     pub(super) fn exceeded(&mut self, cpu_now: Option<Duration>) -> Option<TimeLimit> {
         self.cpu_at_first_check = self.cpu_at_first_check.or(cpu_now);
         let cpu = cpu_now.zip(self.cpu_at_first_check);

@@ -19,8 +19,8 @@ const BUDGET: Budget = Budget {
     cpu: Duration::from_millis(250),
 };
 
-/// Returns the indices of the first question and element that crash or hang a fresh program, if
-/// they still do so when run alone.
+/// Returns the indices of the first question that crashes or hangs a fresh program, and of the
+/// first element in that question that does. Returns `None` if the fault does not occur again.
 pub fn culprit(launcher: &Launcher, item: &Item) -> io::Result<Option<(usize, usize)>> {
     let questions = item.questions.iter().map(|question| &question.question);
     let Some(number) = first_fault(launcher, questions.clone().cloned())? else {

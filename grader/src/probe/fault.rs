@@ -1,4 +1,4 @@
-//! Faults: why there is no answer.
+//! Faults: the reasons why a probe gives no answer.
 
 use std::fmt;
 use std::time::Duration;
@@ -12,7 +12,7 @@ pub enum Fault {
     TimedOut(TimeLimit),
     /// The memory limit was exceeded.
     OutOfMemory,
-    /// The process ended.
+    /// The process ended before it answered.
     Crashed(Crash),
     /// The answer is invalid.
     Protocol(String),
@@ -21,9 +21,9 @@ pub enum Fault {
 /// A time limit that was exceeded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TimeLimit {
-    /// The limit of CPU time.
+    /// The CPU time limit.
     Cpu(Duration),
-    /// The limit of wall time: the process waited without using its CPU time.
+    /// The wall time limit: the process waited without using up its CPU time.
     Wall(Duration),
 }
 

@@ -73,8 +73,8 @@ pub struct Launcher {
 impl Launcher {
     /// Maximum address space of a probe, in bytes. Its stack uses 64 MiB of it.
     const MEMORY_LIMIT: u64 = 1 << 30;
-    /// Number of items whose time limits add up to the CPU time limit of a probe, which serves a
-    /// whole task. This limit ends the probe even if the grader itself is killed.
+    /// Number of items that the CPU time limit of a probe allows for, since a probe serves a whole
+    /// task. This limit ends the probe even if the grader itself has been killed.
     const MAX_ITEMS_PER_TASK: u32 = 30;
     /// Memory use, in bytes, above which a probe that was killed is considered out of memory.
     /// Correct solutions use less than half of it.
@@ -126,8 +126,8 @@ impl Probe {
         questions: impl IntoIterator<Item = &'a Question>,
         budget: Budget,
     ) -> Result<Vec<Answer>, Fault> {
-        // The last question only marks the end. It detects answers that do not belong to a
-        // question.
+        // The last question only marks the end, so that answers that belong to no question are
+        // detected.
         let questions: Vec<&Question> = questions.into_iter().chain([&Question::Done]).collect();
         let nonces = nonces(questions.len());
         let mut batch = Batch::default();

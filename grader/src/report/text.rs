@@ -55,7 +55,7 @@ fn write_report(
     for task in &tasks {
         write_task_line(out, task)?;
     }
-    // Messages of a single line are omitted here, because the items of the task show them.
+    // Single-line messages are omitted here, because the items of the task show them.
     let compiler_messages = score
         .build
         .not_compiled

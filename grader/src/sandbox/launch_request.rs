@@ -23,9 +23,9 @@ pub enum Profile {
     Probe,
     /// The compiler, and the linker that it starts.
     Compiler {
-        /// The files and folders that the two may read and execute.
+        /// The files and folders that the compiler and the linker may read and execute.
         readable: Vec<PathBuf>,
-        /// The folder that the two may write to.
+        /// The folder that the compiler and the linker may write to.
         writable: PathBuf,
     },
 }

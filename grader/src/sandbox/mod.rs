@@ -72,8 +72,8 @@ impl Sandbox {
         }
     }
 
-    /// Uses another executable as the launcher. Programs such as tests need this, because their own
-    /// `main` does not begin with [`run_as_launcher`]. The `main` of `launcher` must begin with it.
+    /// Uses another executable as the launcher. Tests need this, because their own `main` does not
+    /// call [`run_as_launcher`] first. The `main` of `launcher` must do so.
     pub fn with_launcher(self, launcher: PathBuf) -> Self {
         Sandbox { launcher, ..self }
     }

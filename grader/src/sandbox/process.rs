@@ -8,11 +8,11 @@ use std::time::Duration;
 use crate::sandbox::launch_request::READY;
 use crate::system::{self, ExitReason, Limits};
 
-/// The maximum number of bytes to read of a launcher's error message.
+/// The maximum length of a launcher's error message, in bytes. The rest is not read.
 const MAX_REASON_BYTES: u64 = 4 << 10;
 
-/// A running program, with pipes to its three standard streams. The program is killed when this is
-/// dropped.
+/// A running program, with pipes to its three standard streams. The program is killed when this
+/// value is dropped.
 #[derive(Debug)]
 pub struct Process {
     /// The program's process, or the launcher that supervises it.
@@ -113,7 +113,7 @@ impl ExitReason {
 
     /// Returns whether the process was killed with SIGKILL, as the system does when memory runs
     /// out. The cause is outside the process: its own limits use other signals, and a confined
-    /// probe cannot send itself this one.
+    /// probe cannot send this signal to itself.
     pub fn is_external_kill(self) -> bool {
         /// The number of SIGKILL on every system.
         const KILL: i32 = 9;

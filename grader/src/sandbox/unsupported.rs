@@ -8,6 +8,6 @@ use std::process::ExitCode;
 pub(super) fn launch(_: impl Iterator<Item = OsString>) -> io::Result<ExitCode> {
     Err(io::Error::new(
         io::ErrorKind::Unsupported,
-        "isolation needs Linux: grade other people's work there, or in a Linux virtual machine or container",
+        "isolation needs Linux: grade other people's work on Linux, or in a Linux virtual machine or container",
     ))
 }

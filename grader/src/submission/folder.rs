@@ -53,13 +53,14 @@ pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
     Ok(read_each(files, |name| source.file(name)))
 }
 
-/// Reads the files with these names and paths.
+/// Reads files, each given by its name and its path.
 pub(super) fn read_files(files: &[(String, PathBuf)]) -> SubmissionFiles {
     let files = files.iter().map(|(name, path)| (name.as_str(), path));
     read_each(files, |path| system::open_regular_file(path))
 }
 
-/// Reads the files that are needed. Each file has a name and an argument for `open`.
+/// Reads the task files and the given files among these files, and lists the other Rust files. Each
+/// file is given by its name and an argument for `open`.
 fn read_each<'a, T>(
     files: impl Iterator<Item = (&'a str, T)>,
     open: impl Fn(T) -> io::Result<Option<File>>,
@@ -102,13 +103,13 @@ fn read_file(
 /// folder, with `/`.
 #[derive(Debug, Default)]
 struct Search {
-    /// The paths of all task files in the searched folders. A folder that is a link counts as one
-    /// that has task files.
+    /// The paths of all task files in the searched folders. A candidate folder that is a link is
+    /// listed as if it had a task file.
     files: Vec<String>,
-    /// Links in place of task files or their folders. Each link follows the path of the folder in
-    /// which the task files are expected.
+    /// Links in place of task files or their folders, as pairs: the path of the folder in which the
+    /// task files are expected, and the link.
     links: Vec<(String, String)>,
-    /// Links at the top level, which may be meant as folders with task files.
+    /// Links at the top level, which may lead to folders with task files.
     linked_folders: Vec<String>,
 }
 

@@ -15,12 +15,12 @@ use crate::given_files::{GIVEN_FILES, MAIN_FILE, TASK_FILES, TaskFile};
 
 pub use archive::{Archive, ArchiveError, Listing, Member};
 
-/// The maximum length of a file that is read, in bytes. The reference's files have about 10,000
-/// bytes.
+/// The maximum length of a file that is read, in bytes. The reference's files are about 10,000
+/// bytes long.
 const MAX_FILE_BYTES: u64 = 1 << 20;
 /// The maximum number of notes about other files in a report.
 const MAX_NOTES: usize = 20;
-/// The maximum number of characters of a name to show.
+/// The maximum length of a printed name, in characters.
 const MAX_NAME_CHARS: usize = 200;
 
 /// The five task files as they were submitted.
@@ -72,16 +72,16 @@ pub enum SubmissionError {
     #[error("there is no {0}: name the folder with the five files, such as `student`")]
     NotFound(PathBuf),
     /// The path is a device, a pipe or a socket.
-    #[error("{0} is neither a folder nor a file: name the folder that holds the five files")]
+    #[error("{0} is neither a folder nor a file: name the folder with the five files")]
     NotFileOrFolder(PathBuf),
     /// The folder or archive has none of the five files.
     #[error(
-        "{0} has none of camera.rs, triangle.rs, sphere.rs, bbox.rs and bvh.rs, and neither has its src/ or student/src/"
+        "{0} has none of camera.rs, triangle.rs, sphere.rs, bbox.rs and bvh.rs, and neither do its src/ and student/src/"
     )]
     NoTaskFiles(PathBuf),
-    /// A file or folder that would be read is a link.
+    /// One of the files or folders to read is a link.
     #[error(
-        "{path}: {link} is a link, and links are not followed: put the file or folder itself there"
+        "{path}: {link} is a link, and links are not followed: replace it with the actual file or folder"
     )]
     Link {
         /// The path of the folder.
@@ -171,7 +171,7 @@ struct SubmissionFiles {
 }
 
 /// Returns the task file's name if `name` is exactly that of a task file. A similar name, such as
-/// `Bvh.rs`, is another file.
+/// `Bvh.rs`, does not count.
 fn task_file_name(name: &str) -> Option<&'static str> {
     let mut files = TASK_FILES.into_iter();
     files.find(|file| file.name == name).map(|file| file.name)
@@ -205,14 +205,15 @@ fn decode(name: &'static str, bytes: Vec<u8>) -> Result<String, TaskFileError> {
     })
 }
 
-/// Returns notes that say which other files were found, and that they are not used.
+/// Returns notes that list the other files found, and say that they are not used.
 fn notes(other_files: &BTreeMap<String, Vec<u8>>) -> Vec<String> {
     let given = |name: &str| {
         let given = GIVEN_FILES.into_iter().chain([MAIN_FILE]);
         given.into_iter().find(|(given, _)| *given == name)
     };
     let note = |(name, bytes): (&String, &Vec<u8>)| match given(name) {
-        // The `main.rs` of the reference names another crate; it only renders pictures.
+        // `main.rs` only renders pictures, and the reference's may differ because it imports
+        // another crate.
         Some((main, _)) if main == MAIN_FILE.0 => None,
         Some((_, text)) => {
             let theirs = String::from_utf8_lossy(bytes);

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::task_file_name;
 
-/// Folders that may have the task files, in order of preference.
+/// Folders that may contain the task files, in order of preference.
 pub(super) const CANDIDATES: [&str; 3] = ["", "src", "student/src"];
 /// A folder of metadata that macOS adds to archives.
 const MACOS_METADATA: &str = "__MACOSX";
@@ -14,10 +14,10 @@ const MACOS_METADATA: &str = "__MACOSX";
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct AmbiguousSource(pub(super) Vec<String>);
 
-/// Returns the folder that has the task files, from the paths of all files. It is one of
-/// [`CANDIDATES`]. If none of these has task files, it is one of them inside the only top-level
-/// folder that has any, as in archives made by people or by GitHub. Returns `None` if there is no
-/// such folder.
+/// Finds the folder with the task files, given the paths of all files. The first of [`CANDIDATES`]
+/// that has task files is used. If none has, the candidates inside each top-level folder are
+/// considered, since people and GitHub often put everything in one folder; only one top-level
+/// folder may have task files. Returns `None` if no folder is found.
 pub(super) fn find<'a>(
     paths: impl IntoIterator<Item = &'a str>,
 ) -> Result<Option<String>, AmbiguousSource> {

@@ -98,8 +98,8 @@ const FOLDER_FLAGS: OFlags = OFlags::RDONLY
     .union(OFlags::DIRECTORY)
     .union(OFlags::CLOEXEC);
 
-/// Returns an opened file if it is a regular one. Its type is checked after opening, so that it
-/// cannot be replaced in between.
+/// Returns the opened file if it is a regular one. The type is checked after opening, so that the
+/// file cannot be replaced in between.
 fn regular_file(opened: rustix::io::Result<OwnedFd>) -> io::Result<Option<File>> {
     let file = match opened {
         Ok(file) => File::from(file),
@@ -128,7 +128,7 @@ impl Folder {
         Ok(Folder(self.0.try_clone()?))
     }
 
-    /// Opens a subfolder. Returns `None` if there is something else with this name.
+    /// Opens a subfolder. Returns `None` if the entry with this name is not a folder.
     pub fn subfolder(&self, name: &OsStr) -> io::Result<Option<Self>> {
         let flags = FOLDER_FLAGS | OFlags::NOFOLLOW;
         match rustix::fs::openat(&self.0, single_name(name)?, flags, Mode::empty()) {

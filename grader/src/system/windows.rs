@@ -39,8 +39,9 @@ pub fn open_file_without_hard_links(path: &Path) -> io::Result<Option<File>> {
     open_regular_file(path)
 }
 
-/// Opens a regular file. Returns `None` for anything else. Creating a symbolic link needs
-/// privileges on Windows that students do not have.
+/// Opens a regular file. Returns `None` for anything else. A symbolic link that replaced the file
+/// after the check would be followed, but on Windows, creating one needs privileges that students
+/// do not have.
 pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
     // Checked first, because opening anything else may fail.
     if !path.symlink_metadata()?.is_file() {
@@ -66,7 +67,7 @@ impl Folder {
         Ok(Folder(self.0.clone()))
     }
 
-    /// Opens a subfolder. Returns `None` if there is something else with this name.
+    /// Opens a subfolder. Returns `None` if the entry with this name is not a folder.
     pub fn subfolder(&self, name: &OsStr) -> io::Result<Option<Self>> {
         let is_folder = self.kind(name)? == EntryKind::Folder;
         Ok(is_folder.then(|| Folder(self.0.join(name))))

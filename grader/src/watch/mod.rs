@@ -47,7 +47,7 @@ pub fn watch(options: &GradeOptions, open: bool) -> Result<Infallible, Error> {
 }
 
 /// Grades one version of the submission: first the items that failed last time, then all of them.
-/// Afterwards the screen shows that the grader waits for the next version.
+/// Afterwards the screen shows that the grader is waiting for the next version.
 fn grade_version(
     grader: &Grader,
     submission: &Submission,
@@ -111,7 +111,7 @@ fn files(grader: &Grader, submission: &Submission) -> Option<ReportFiles> {
     grader.files(submission, Reload::WhileUnfocused)
 }
 
-/// Returns an exam of the items that lost points and the items that these need.
+/// Returns an exam of the items that lost points, and of the items that they depend on.
 fn failed_items(exam: &Exam, last: &Score) -> Exam {
     let lost = last.items().filter(|item| item.points < item.max_points);
     let lost: Vec<&str> = lost.map(|item| item.id.as_str()).collect();

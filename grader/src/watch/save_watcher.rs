@@ -1,7 +1,7 @@
 //! Detects when a submission has been saved, by polling its five files.
 //!
-//! File system events would be a few milliseconds faster, but they are not delivered on network
-//! drives, in containers and in virtual machines. Reading five small files takes 50 µs.
+//! File system events would be a few milliseconds faster, but they are not always delivered on
+//! network drives, in containers and in virtual machines. Reading five small files takes 50 µs.
 
 use std::thread;
 use std::time::Duration;
@@ -32,8 +32,8 @@ impl<'a> SaveWatcher<'a> {
         (self.collect)().is_some_and(|now| now != *last)
     }
 
-    /// Waits for the next version and returns it. It must be read twice in a row, because editors
-    /// write a file in several steps, and some delete it first.
+    /// Waits for the next version and returns it. Two reads in a row must give the same version,
+    /// because editors write a file in several steps, and some delete it first.
     pub fn wait_for_change(&self, last: &Submission) -> Submission {
         let mut before = None;
         loop {

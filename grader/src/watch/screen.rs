@@ -28,7 +28,7 @@ pub enum Phase {
         /// The number of items to test.
         total: usize,
     },
-    /// All items have been tested.
+    /// Grading is finished, and the watcher is waiting for a file to change.
     Waiting,
 }
 
@@ -65,8 +65,8 @@ impl Screen {
         }
     }
 
-    /// Draws as much as fits. Lines are truncated, because a wrapped line would push the others
-    /// down.
+    /// Draws as much as fits on the screen. Lines are truncated, because a wrapped line would push
+    /// the others down.
     fn draw(&self, line: &str, report: &str) -> io::Result<()> {
         let (rows, columns) = self.term.size();
         let (rows, columns) = (usize::from(rows), usize::from(columns));
@@ -88,7 +88,7 @@ impl Screen {
     }
 }
 
-/// Returns the line above the report.
+/// Returns the status line, which is shown above the report.
 fn status_line(score: &Score, phase: Phase) -> String {
     let name = &score.submission;
     let seconds = |millis: u64| format!("{:.1} s", millis as f64 / 1e3);

@@ -5,7 +5,7 @@ use crate::chromium::Chromium;
 use crate::devtools::{DESKTOP, Tab, Viewer};
 use crate::pages;
 
-/// axe-core 4.14.1 by Deque Systems, MPL-2.0, as it is in its npm package.
+/// axe-core 4.14.1 by Deque Systems (MPL-2.0), unchanged from its npm package.
 const AXE: &str = include_str!("axe/axe.min.js");
 
 /// Opens all collapsed sections of the loaded page, and returns the violations that axe-core finds.

@@ -1,7 +1,7 @@
 //! The part of the DevTools protocol that these tests need: <https://chromedevtools.github.io>.
 //!
-//! Written by hand on top of a WebSocket, since crates for the whole protocol bring a hundred
-//! others.
+//! It is written by hand on top of a WebSocket, because crates for the whole protocol have a
+//! hundred dependencies.
 
 use std::net::TcpStream;
 use std::path::Path;
@@ -115,7 +115,7 @@ impl Tab {
 
     /// Presses and releases a key. `code` is its Windows virtual key code.
     pub fn press(&mut self, key: &str, code: u32) {
-        // Enter must also send a character, or it does not open anything.
+        // Without a character, Enter would not open anything.
         let text = if key == "Enter" { "\r" } else { "" };
         for kind in ["keyDown", "keyUp"] {
             let arguments = json!({
@@ -128,7 +128,7 @@ impl Tab {
     /// Returns the errors on the console since the page was loaded, such as exceptions and
     /// violations of the content security policy.
     pub fn errors(&mut self) -> Vec<String> {
-        // Receives the events that were sent before this answer.
+        // Waits for an answer, so that all events sent before it are received.
         self.eval("0");
         let is_error = |event: &&Value| match event["method"].as_str() {
             Some("Runtime.exceptionThrown") => true,

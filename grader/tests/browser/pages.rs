@@ -1,4 +1,4 @@
-//! Report pages of several submissions, written by the real binary. Each is graded once.
+//! Report pages of several submissions, written by the real binary. Each submission is graded once.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -61,8 +61,8 @@ fn add_hostile_text(source: &Path) {
     replace(source, "triangle.rs", "Some(Trace {", &panic);
 }
 
-/// Returns the path of the page of a changed copy of the reference. The page stays in the target
-/// folder until the next run.
+/// Grades a copy of the reference after `prepare` has changed it, and returns the path of the page.
+/// The page stays in the target folder until the next run.
 fn page(name: &str, prepare: impl FnOnce(&Path)) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("pages")

@@ -1,4 +1,4 @@
-//! Secrets that no submission may find, and listeners that none may contact.
+//! Secrets that no submission may find, and listeners that no submission may contact.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -59,7 +59,7 @@ impl Canaries {
         &self.secret
     }
 
-    /// Returns the folder for the grader's report files, beside the key.
+    /// Returns the folder for the grader's output files, which is beside the key.
     pub fn out(&self) -> PathBuf {
         self.folder.path().join("out")
     }
@@ -95,7 +95,7 @@ impl Canaries {
                 .any(|encoding| text.contains(encoding))
         };
         let all = [
-            ("the key's file", &self.key),
+            ("the key file", &self.key),
             ("the environment", &self.secret),
         ];
         let found = all.into_iter().filter(|(_, secret)| is_in_text(secret));

@@ -1,4 +1,4 @@
-//! The checks after every run, which are the same for all submissions.
+//! The checks that follow every run. They are the same for all submissions.
 
 use std::sync::LazyLock;
 
@@ -40,7 +40,7 @@ pub enum ViolationKind {
     Harmed,
 }
 
-/// Returns all failed checks. If there is a `baseline`, the score must be the same as its score.
+/// Returns all failed checks. If there is a `baseline`, the score must equal the baseline's.
 pub fn violations(
     entry: &Entry,
     run: &GraderRun,

@@ -98,7 +98,7 @@ fn assert_listed(entries: &[Entry], list: &Path) {
 /// Runs all entries at one level, and returns whether the grader withstood all of them.
 fn run_at_level(entries: &[Entry], level: Isolation) -> bool {
     let reference = Entry::reference();
-    // The first run compiles what all later runs share.
+    // The first run compiles the dependencies that all later runs share.
     run::grade(&reference, &Canaries::plant(), level);
     let first = match grade_and_check(&reference, None, level) {
         Ok(run) => run,
@@ -130,7 +130,7 @@ fn run_at_level(entries: &[Entry], level: Isolation) -> bool {
         print_result(verdict, entry, &violations);
     }
     println!(
-        "{level}: {} of {} hostile entries held, {} forged, {} leaked, {} left something; {} need a better level",
+        "{level}: {} of {} hostile entries held, {} forged, {} leaked, {} left something behind; {} need stronger isolation",
         tally.held,
         here.len(),
         tally.forged,
@@ -174,8 +174,8 @@ impl Tally {
     }
 }
 
-/// Grades one entry and checks everything that it may have done. If there is a `baseline`, the
-/// score must be the same as its score.
+/// Grades one entry and returns the run, or the violations that the checks found. If there is a
+/// `baseline`, the score must equal the baseline's.
 fn grade_and_check(
     entry: &Entry,
     baseline: Option<&GraderRun>,

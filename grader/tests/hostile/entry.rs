@@ -34,15 +34,15 @@ pub struct Expectation {
     /// levels.
     #[serde(default = "Expectation::any_level")]
     pub least: Isolation,
-    /// The task files that the attack changes.
+    /// The task files to which the attack is added.
     #[serde(default)]
     base: Base,
     /// The task file to which `attack.rs` is appended.
     into: Option<String>,
-    /// The methods of that file that call `attack()` first.
+    /// The methods of that file that begin with `call`.
     #[serde(default)]
     within: Vec<String>,
-    /// The statement that is inserted into these methods.
+    /// The statement that is inserted at the beginning of these methods.
     #[serde(default = "Expectation::default_call")]
     call: String,
     /// The form in which the entry is submitted; `None` for a plain folder.
@@ -86,8 +86,8 @@ impl Expectation {
     }
 }
 
-/// Returns the default limit: about ten times what an entry takes on an idle machine, so that other
-/// load does not make it fail.
+/// Returns the default wall time limit: about ten times as long as an entry takes on an idle
+/// machine, so that entries do not fail on a busy one.
 fn default_wall_seconds() -> u64 {
     240
 }
@@ -115,7 +115,7 @@ impl Entry {
         }
     }
 
-    /// Returns an entry that is the reference, without any change.
+    /// Returns an entry that submits the unchanged reference.
     pub fn reference() -> Self {
         Entry {
             name: "reference".to_owned(),
@@ -181,7 +181,8 @@ impl Entry {
     }
 }
 
-/// Copies everything in an entry's folder except the attack itself, including subfolders.
+/// Copies the files in an entry's folder and its subfolders, except `attack.rs` and `expect.toml`,
+/// and fills in their placeholders.
 fn copy_with_placeholders_filled(folder: &Path, target: &Path, placeholders: &[(&str, String)]) {
     for file in fs::read_dir(folder)
         .expect("the folder can be read")

@@ -4,8 +4,8 @@ use std::process::Command;
 
 use grader::sandbox::Isolation;
 
-/// Returns the best level that works here according to `--doctor`. If `CI` is set, it must be one
-/// that isolates submissions.
+/// Returns the best isolation level that works here according to `--doctor`. If none does, returns
+/// [`Isolation::None`], or panics if `CI` is set.
 pub fn best_level() -> Isolation {
     let output = Command::new(env!("CARGO_BIN_EXE_grader"))
         .current_dir(env!("CARGO_MANIFEST_DIR"))

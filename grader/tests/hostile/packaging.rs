@@ -42,7 +42,7 @@ pub enum Packaging {
     Empty,
     /// The first half of a zip.
     Truncated,
-    /// The beginning of a RAR archive, in a file that is named as a zip.
+    /// The beginning of a RAR archive, in a file named like a zip.
     OtherKind,
     /// A folder with a sparse file of 10 GB.
     Sparse,
@@ -234,7 +234,7 @@ fn write_tar(folder: &Path, files: &[(String, Vec<u8>)], others: &[Member]) -> P
     write_archive(folder, "tar.gz", &bytes.expect("the archive is complete"))
 }
 
-/// Returns a header with exactly this name; the crate's own method rejects some names.
+/// Returns a header with exactly this name. The method of the crate `tar` rejects some names.
 fn header(name: &str, kind: EntryType, size: usize) -> Header {
     let mut header = Header::new_ustar();
     let field = &mut header.as_ustar_mut().expect("it is a ustar header").name;

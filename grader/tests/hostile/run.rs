@@ -1,4 +1,4 @@
-//! Runs the real program and measures it from outside.
+//! Runs the real program, and measures its resource usage from outside.
 
 use std::fs;
 use std::io::Read;

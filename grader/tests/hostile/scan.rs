@@ -21,7 +21,7 @@ fn main() {
     let name = c"hostile".as_ptr() as i64;
     let buffer = [0_u64; 64];
     let buffer = buffer.as_ptr() as i64;
-    // The numbers are those of x86_64.
+    // The system call numbers are those of x86_64.
     let calls: [(&str, i64, [i64; 5]); 66] = [
         ("open", 2, [here, 0, 0, 0, 0]),
         ("openat", 257, [-100, here, 0, 0, 0]),

@@ -20,8 +20,8 @@ const WALL_LIMIT: Duration = Duration::from_secs(60);
 /// The last line that the program prints.
 const END_LINE: &str = "end";
 
-/// Returns the system calls that are not refused at this level. Do not use it for level `none`,
-/// where the calls leave something behind.
+/// Returns the system calls that are not refused at this level. Do not call it at level `none`,
+/// where the system calls succeed and leave something behind.
 pub fn allowed_calls(level: Isolation) -> Vec<String> {
     if !cfg!(target_arch = "x86_64") {
         eprintln!("SKIPPED: system call numbers are known for x86_64 only");
@@ -63,7 +63,7 @@ pub fn allowed_calls(level: Isolation) -> Vec<String> {
     }
 }
 
-/// Compiles the program, linked statically like a confined submission.
+/// Compiles the program and links it statically, like a confined submission.
 fn build_scanner(folder: &Path) -> PathBuf {
     let program = folder.join("scan");
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());

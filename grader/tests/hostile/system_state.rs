@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use crate::canary::Canaries;
 
-/// The maximum time that a killed process may take to disappear.
+/// The maximum time to wait for a killed process to disappear.
 const EXIT_TIMEOUT: Duration = Duration::from_millis(500);
 
 /// A snapshot of processes, files and kernel objects, as lines of text.
@@ -41,7 +41,7 @@ impl SystemState {
 /// Returns the lines of a kernel table, without the fields that change by themselves.
 fn kernel_table(list: &str) -> Vec<String> {
     let text = fs::read_to_string(Path::new("/proc").join(list)).unwrap_or_default();
-    // The second to fourth words of a key are its flags, users and age.
+    // The second to fourth words of a key are its flags, usage count and remaining lifetime.
     let stable = |line: &str| match list {
         "keys" => {
             let mut words = line.split_whitespace();
@@ -58,8 +58,8 @@ fn kernel_table(list: &str) -> Vec<String> {
         .collect()
 }
 
-/// Returns the processes whose parent has exited, which makes them children of this process. Waits
-/// for processes that were just killed to disappear.
+/// Returns the processes whose parent has exited. They are children of this process, which is a
+/// subreaper. Waits for processes that were just killed to disappear.
 fn adopted_processes() -> Vec<String> {
     let deadline = Instant::now() + EXIT_TIMEOUT;
     loop {
@@ -86,7 +86,8 @@ fn children() -> Vec<String> {
         .collect()
 }
 
-/// Returns the files that an entry has left on purpose, in folders where everyone may write.
+/// Returns the files that an entry has left behind on purpose, in folders where it might be able to
+/// write.
 fn marked_files(mark: &str) -> Vec<String> {
     let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let home = std::env::var_os("HOME").map(PathBuf::from);
@@ -111,7 +112,8 @@ fn marked_files(mark: &str) -> Vec<String> {
         .collect()
 }
 
-/// Returns the files that the grader reuses for later submissions, which must not change.
+/// Returns the cached files, which the grader reuses for later submissions, and the build
+/// directories. None of them may change.
 fn cache_entries() -> Vec<String> {
     let grade = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/grade/.cache");
     let mut found = Vec::new();

@@ -71,8 +71,8 @@ fn a_file_that_does_not_compile_costs_its_own_task() {
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
     assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
     assert_snapshot!(graded.report());
-    // This line is printed before the other files are compiled without `sphere.rs`, which takes
-    // four times as long.
+    // This line is printed early, before the other files are compiled without `sphere.rs`, because
+    // that compilation takes four times as long.
     let line = "sphere.rs: error[E0609]: no field `direction` on type `&Ray`; grading the rest\n";
     assert!(graded.error().ends_with(line), "{}", graded.error());
 }

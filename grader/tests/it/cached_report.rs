@@ -23,7 +23,8 @@ fn grade_output(submission: &Submission, arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Returns the default output folder of this name, after removing what earlier runs left there.
+/// Returns the default output folder of a submission with this name. Deletes the folder if an
+/// earlier run left one.
 fn clean_output_folder(name: &str) -> PathBuf {
     let folder = workspace().join("target/grade").join(name);
     fs::remove_dir_all(&folder).ok();
@@ -49,7 +50,7 @@ fn prints_the_cached_report_if_nothing_changed() {
     assert_eq!(fs::read(folder.join("score.json")).unwrap(), score);
     assert!(!grade_output(&submission, &["--fresh"]).contains(NOTICE));
 
-    // The required points are not part of the score.
+    // `--require` does not affect the score, so the cached report is printed.
     assert!(grade_output(&submission, &["--require", "1"]).contains(NOTICE));
     fs::remove_dir_all(folder).unwrap();
 }

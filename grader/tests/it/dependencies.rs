@@ -5,8 +5,8 @@ use std::process::Command;
 
 use crate::harness::workspace;
 
-/// Returns all dependencies of a package in this format, direct and indirect, except
-/// dev-dependencies.
+/// Lists all direct and indirect dependencies of a package, except dev-dependencies, one per line
+/// in this `cargo tree` format.
 fn tree(package: &str, format: &str) -> String {
     let output = Command::new(env!("CARGO"))
         .args(["tree", "--offline", "--locked", "--prefix=none"])
@@ -102,8 +102,8 @@ fn student_crates_do_not_depend_on_the_grader() {
 }
 
 /// Checks that no crate is compiled twice: a second version of `syn` would add a tenth to the
-/// compile time. So the lock file holds back `serde`, `clap` and `thiserror` until `maud` and
-/// `landlock` use the same version of `syn`.
+/// compile time. For this reason, the lock file holds back `serde`, `clap` and `thiserror` until
+/// `maud` and `landlock` use the same version of `syn`.
 #[test]
 fn the_grader_has_no_crate_in_two_versions() {
     let text = tree("grader", "{p}");
@@ -121,8 +121,8 @@ fn the_grader_has_no_crate_in_two_versions() {
     assert_eq!(versions, BTreeMap::new());
 }
 
-/// Checks that the features are equal. Otherwise, Cargo would compile these crates twice before the
-/// first grade: once for the grader, and once for submissions.
+/// Checks that crates which both the grader and submissions use have the same features. Otherwise,
+/// Cargo would compile these crates twice before the first grade.
 #[test]
 fn crates_shared_with_submissions_have_the_same_features() {
     let of = |package| -> BTreeMap<String, String> {

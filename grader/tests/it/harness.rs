@@ -34,7 +34,7 @@ impl Submission {
         Submission::copy_of(name, &workspace().join("grader/starter"))
     }
 
-    /// Copies the task files of the reference, and replaces some of them by the files in
+    /// Copies the task files of the reference, and replaces some of them with the files in
     /// `tests/submissions/NAME`.
     pub fn case(name: &str) -> Self {
         let submission = Submission::reference(name);

@@ -5,8 +5,8 @@ use serde_json::Value;
 
 use crate::harness::{GradeRun, Submission};
 
-/// Returns a solution that takes the far root first, but uses other formulas for this than the
-/// catalogue of mistakes does.
+/// Returns a solution that takes the far root first, but with other formulas than in the catalogue
+/// of mistakes.
 fn far_first() -> Submission {
     Submission::reference("far-first").with_replaced(
         "sphere.rs",

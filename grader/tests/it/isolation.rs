@@ -12,8 +12,8 @@ use tempfile::TempDir;
 
 use crate::harness::{FULL_POINTS, GradeRun, Submission, grader};
 
-/// Every isolation level. If a machine does not support a level, its tests are skipped with a
-/// message, or fail if `CI` is set.
+/// Every isolation level. If a machine does not support a level, the tests at that level are
+/// skipped with a message, or fail if `CI` is set.
 const LEVELS: [&str; 3] = ["full", "no-namespaces", "seccomp-only"];
 const SECRET: &str = "the final exam";
 
@@ -40,7 +40,7 @@ fn make_readable_by_all(folder: &Path) {
     fs::set_permissions(folder, fs::Permissions::from_mode(0o755)).unwrap();
 }
 
-/// Returns the reference with this code added, which runs before each camera ray is made.
+/// Returns the reference with additional code, which runs before each camera ray is created.
 fn running(what: &str) -> Submission {
     let method = "let height = 2.0 * framework";
     Submission::reference("mallory").with_replaced(

@@ -22,7 +22,8 @@ const PHRASES: [(&[&str], &str); 9] = [
 /// Beginnings of doc comments that do not say what the item is or does.
 const FIRST_WORDS: [&str; 5] = ["What ", "Which.", "Where.", "Whoever ", "Said of "];
 
-/// Folders and files by others, and this file, which quotes the phrases.
+/// Paths that are not checked: generated files, files by others, and this file, which quotes the
+/// phrases.
 const SKIPPED: [&str; 9] = [
     "target",
     ".git",
@@ -35,7 +36,7 @@ const SKIPPED: [&str; 9] = [
     "Cargo.lock",
 ];
 
-/// File name endings of texts that people read.
+/// Extensions of files that people read.
 const ENDINGS: [&str; 10] = [
     "rs", "md", "toml", "yml", "yaml", "html", "css", "js", "snap", "sh",
 ];
@@ -63,8 +64,8 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// Returns the words of a text in lower case, each with its line number, counted from 1. Lines are
-/// not kept apart, so that a phrase such as "can not" is also found across a line break. In
+/// Returns the words of a text in lower case, each with its 1-based line number. The words of all
+/// lines are in one list, so that a phrase such as "can not" is also found across a line break. In
 /// Markdown, text in double quotes is skipped, because it is a quotation.
 fn words(text: &str, is_markdown: bool) -> Vec<(usize, String)> {
     let mut words = Vec::new();

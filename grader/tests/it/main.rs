@@ -1,6 +1,6 @@
-//! Tests that run the real binary on real submissions. Each module tests one promise to the users.
-//! Each folder in `tests/submissions` is one kind of submission, and has only the files that differ
-//! from the reference.
+//! Tests that run the real binary on real submissions. Each module tests one promise to users. Each
+//! folder in `tests/submissions` is one submission, and contains only the files that differ from
+//! the reference.
 
 mod bad_exams;
 mod bad_submissions;

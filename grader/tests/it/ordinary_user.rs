@@ -1,5 +1,5 @@
-//! Untrusted code, graded by an unprivileged user. The test does something only if root runs the
-//! tests: otherwise all tests run unprivileged anyway.
+//! Untrusted code, graded by an unprivileged user. The test is skipped unless root runs it, because
+//! otherwise all tests run unprivileged anyway.
 
 use std::fs::{self, Permissions};
 use std::os::unix::fs::{PermissionsExt, chown};
@@ -13,9 +13,9 @@ use crate::harness::{Submission, workspace};
 
 /// A user that exists on every system and owns nothing.
 const NOBODY: u32 = 65_534;
-/// A script that runs the command after `--` as another user, in its own mount namespace. Only root
-/// may read root's home, so the script mounts a home there that contains only the folders named
-/// before `--`.
+/// A script that runs the command after `--` as another user, in its own mount namespace. Other
+/// users cannot read root's home, so the script mounts a tmpfs over it that contains only the
+/// folders named before `--`.
 const SCRIPT: &str = r#"
     set -e
     mount --make-rprivate / || exit 99
@@ -108,7 +108,8 @@ fn an_unprivileged_user_grades_untrusted_code_as_well_as_root() {
     fs::write(key.path().join("key"), "the final exam").unwrap();
     let key = key.path().join("key");
 
-    // The submission tries things that its user is allowed to do, and is correct otherwise.
+    // The submission attempts things that its user may do outside the sandbox, and is correct
+    // otherwise.
     let attempt = format!(
         "if std::fs::read({key:?}).is_ok() || std::net::UdpSocket::bind(\"127.0.0.1:0\").is_ok() {{ \
          println!(\"done\"); }}"

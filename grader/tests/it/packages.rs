@@ -31,7 +31,7 @@ const OTHER_FILES: [(&str, &str); 6] = [
     ),
 ];
 
-/// A description of the problem, the files that have it, and the mode of all files.
+/// A description of a problem, the files of a package that has it, and the mode of all these files.
 type Case<'a> = (&'a str, Vec<(&'a str, &'a str)>, u32);
 
 /// Returns a zip with these files.

@@ -26,7 +26,7 @@ impl WatchProcess {
         WatchProcess { child, lines }
     }
 
-    /// Returns the next report, up to the line that says that the grader waits.
+    /// Returns the next report, up to the line that says that the grader is waiting.
     fn report(&mut self) -> String {
         let lines = self.lines.by_ref().lines().map(Result::unwrap);
         let mut report = String::new();
@@ -70,8 +70,8 @@ fn grades_every_save_and_updates_the_score_file() {
     assert!(report.contains("100 / 100"), "{report}");
     assert_eq!(score(), (Some(100), Some(true)));
 
-    // The file is missing for a while, as it is with editors that write another file and then
-    // rename it.
+    // The file is missing for a while, as it is when an editor moves the old file away before it
+    // writes the new one.
     let aside = submission.path().join("sphere.away");
     fs::rename(&sphere, &aside).unwrap();
     let report = watching.report();

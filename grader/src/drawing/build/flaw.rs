@@ -1,4 +1,4 @@
-//! Finds the first thing that is wrong with a tree, in the order in which the judge checks.
+//! Finds the first flaw of a tree, in the order in which the judge checks.
 
 use judging::exam::TreeCheck;
 use judging::judge::tree::{self, FULL_MARKS_RATIO};
@@ -6,7 +6,7 @@ use judging::judge::tree::{self, FULL_MARKS_RATIO};
 use super::{BuildCase, NodePosition};
 use crate::drawing::numbers::pluralize;
 
-/// The first thing that is wrong with a tree.
+/// The first flaw that was found in a tree.
 #[derive(Clone)]
 pub(super) enum Flaw<'a> {
     /// The box of a node does not contain everything below it.
@@ -26,9 +26,9 @@ pub(super) enum Flaw<'a> {
         /// The primitives that are in more than one leaf.
         duplicated: Vec<usize>,
     },
-    /// The tree's SAH cost, as a multiple of the exact sweep's.
+    /// The tree's SAH cost, as a multiple of the cost of the exact sweep's tree.
     Cost(f64),
-    /// Nothing that is judged is wrong.
+    /// No judged property is wrong.
     None,
 }
 
@@ -99,7 +99,7 @@ fn find_partition_flaw<'a>(case: &BuildCase, positions: &[NodePosition<'a>]) -> 
 }
 
 impl<'a> Flaw<'a> {
-    /// Returns the node that has the flaw, unless the whole tree has it.
+    /// Returns the node that has the flaw, or `None` if the flaw concerns the whole tree.
     pub(super) fn node(&self) -> Option<&NodePosition<'a>> {
         match self {
             Flaw::TooSmall(node)

@@ -1,4 +1,5 @@
-//! The primitives and boxes that a flaw concerns, projected to the plane of two axes.
+//! Draws the primitives and boxes that a flaw concerns, projected onto the plane spanned by two
+//! axes.
 
 use glam::{DVec2, DVec3, dvec2};
 use judging::drawing_data::Sweep;
@@ -23,7 +24,7 @@ const MAX_ROW_PRIMITIVES: usize = 32;
 
 const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 
-/// Draws the flaw, if it can be drawn, with its legend.
+/// Draws the flaw with its legend, if the flaw can be drawn.
 pub(super) fn draw(
     sheet: &mut Sheet,
     case: &BuildCase,
@@ -52,7 +53,7 @@ pub(super) fn draw(
     }
 }
 
-/// The plane of two axes.
+/// The plane spanned by two axes.
 #[derive(Clone, Copy)]
 struct Plane(usize, usize);
 
@@ -66,7 +67,7 @@ impl Plane {
         format!("{} to the right, {} up", AXIS_NAMES[a], AXIS_NAMES[b])
     }
 
-    /// Returns the plane of `axis` and the longer of the two other axes.
+    /// Returns the plane of `axis` and the one of the other two axes along which `size` is larger.
     fn containing(axis: usize, size: DVec3) -> Plane {
         let (p, q) = ((axis + 1) % 3, (axis + 2) % 3);
         let other = if size[p] >= size[q] { p } else { q };

@@ -15,9 +15,8 @@ const RIGHT: f64 = WIDTH - 52.0;
 /// The maximum number of nodes that are drawn in a level.
 const MAX_NODES: usize = 2_000;
 
-/// Draws the levels of a tree over `all` primitives, and the cost of each. `total` is the cost of
-/// the whole tree, or NaN if it is unknown. Returns the symbol with which the node `mark` is
-/// marked.
+/// Draws the levels of a tree over `all` primitives, and the cost of each level. `total` is the
+/// cost of the whole tree, or NaN if it is unknown. Returns the symbol that marks the node `mark`.
 pub(super) fn draw(
     sheet: &mut Sheet,
     nodes: &[LevelNode],

@@ -1,5 +1,5 @@
-//! A tree that the submission built: its flaw, and its upper levels above those of the tree with
-//! the best split at every node, which comes with the exam.
+//! Draws a tree that the submission built: its flaw, its upper levels, and below these the upper
+//! levels of the tree with the best split at every node, which the exam stores.
 
 mod flaw;
 mod geometry;
@@ -20,7 +20,7 @@ use judging::judge::tree;
 use judging::judge::tree::reached_nodes::reached_nodes;
 use node_positions::NodePosition;
 
-/// A question about building a tree, and what is judged.
+/// A question about building a tree, and the criteria by which the tree is judged.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BuildCase<'a> {
     /// The primitives.

@@ -42,8 +42,7 @@ pub(super) fn positions<'a>(nodes: &'a [ReachedNode<'a>]) -> Vec<NodePosition<'a
     positions
 }
 
-/// Returns the upper levels of a tree, in the form in which the exam stores the tree of the exact
-/// sweep.
+/// Returns the upper levels of a tree, in the form in which the exam stores the exact sweep's tree.
 pub(super) fn upper_levels(positions: &[NodePosition]) -> Vec<LevelNode> {
     let root = positions
         .first()
@@ -63,7 +62,7 @@ pub(super) fn upper_levels(positions: &[NodePosition]) -> Vec<LevelNode> {
                 start: node.start,
                 count: node.reached.count as u32,
                 is_leaf,
-                // An empty node has no area.
+                // The area of an empty node is not finite.
                 cost: if area.is_finite() { area * times } else { 0.0 } as f32,
             }
         })

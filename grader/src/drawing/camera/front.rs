@@ -13,8 +13,7 @@ use crate::drawing::numbers::short;
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
 
-/// Draws the sensor, the point where the ray should cross it, and the point where the ray does
-/// cross it.
+/// Draws the sensor, the point where the ray should cross it, and the point where it does.
 pub(super) fn draw(
     query: &CameraQuery,
     sensor: &Sensor,

@@ -17,7 +17,7 @@ use sensor::Sensor;
 pub(super) struct CameraQuery {
     /// The camera.
     pub(super) camera: PinholeCamera,
-    /// The sampled pixel, and the offset in it.
+    /// The sampled pixel, and the offset within it.
     pub(super) sample: Sample,
     /// The expected direction of the ray.
     pub(super) wanted: DVec3,
@@ -63,8 +63,8 @@ fn sensor_crossing(dir: DVec3) -> Option<DVec2> {
     (dir.z < 0.0 && point.is_finite()).then_some(point)
 }
 
-/// Returns whether a direction is about right. This only chooses what is drawn: the judge has finer
-/// tolerances.
+/// Returns whether a ray's direction is about right. This only decides which view is drawn; the
+/// judge has finer tolerances.
 fn is_direction_right(ray: &Ray, wanted: DVec3) -> bool {
     let dir = ray.dir.as_dvec3().normalize_or_zero();
     dir.distance(wanted) <= 1e-3

@@ -7,7 +7,7 @@ use crate::drawing::canvas::Canvas;
 use crate::drawing::ink::LineStyle;
 use crate::drawing::window::{Panel, Window};
 
-/// The sensor, a rectangle at z = -1, with its size and its numbers of pixels.
+/// The sensor, a rectangle at z = -1, with its size and its resolution in pixels.
 pub(super) struct Sensor {
     pub(super) size: DVec2,
     pub(super) film: UVec2,
@@ -48,7 +48,7 @@ pub(super) fn draw_grid(canvas: &mut Canvas, window: &Window, sensor: &Sensor) {
 
 /// Draws the borders between the pixels inside a panel.
 pub(super) fn draw_grid_in(canvas: &mut Canvas, panel: Panel, window: &Window, sensor: &Sensor) {
-    /// The maximum number of lines per direction.
+    /// The maximum number of lines in each direction.
     const MAX_LINES: f64 = 80.0;
 
     let half = 0.5 * sensor.size;

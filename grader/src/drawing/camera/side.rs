@@ -13,7 +13,8 @@ use crate::drawing::ink::{Ink, LineStyle};
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
 
-/// Draws the plane that contains the -z axis and the expected ray.
+/// Draws the submitted and the expected ray in the plane that contains the -z axis and the expected
+/// ray.
 pub(super) fn draw(query: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {
     let lateral = query.wanted.truncate().try_normalize().unwrap_or(DVec2::Y);
     let see = |point: DVec3| dvec2(-point.z, point.truncate().dot(lateral));

@@ -14,7 +14,7 @@ fn caption(question: &ExamQuestion, answer: Answer) -> String {
     drawing.map_or("(nothing)".to_owned(), |drawing| drawing.caption)
 }
 
-/// Returns one line per answer.
+/// Returns the captions for several answers, one per line.
 fn captions(question: &ExamQuestion, answers: impl IntoIterator<Item = Answer>) -> String {
     let answers = answers.into_iter();
     let lines: Vec<String> = answers.map(|answer| caption(question, answer)).collect();

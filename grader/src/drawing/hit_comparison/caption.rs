@@ -80,7 +80,7 @@ impl HitComparison {
     }
 }
 
-/// Formats a distance with as many digits as the text of the report has.
+/// Formats a number with as many digits as in the text of the report.
 fn number(value: f64) -> String {
     describe::number(value as f32)
 }

@@ -38,7 +38,7 @@ pub(in crate::drawing) enum Focus {
     Normal,
     /// The texture coordinates.
     Uv,
-    /// The origin of the ray that is stored in the hit.
+    /// The origin of the ray, which a hit stores.
     Origin,
     /// The material of the primitive.
     Material,
@@ -55,7 +55,8 @@ pub(in crate::drawing) struct HitComparison {
 
 impl HitComparison {
     /// Compares one element of a question about rays. Returns `None` for any other question, for an
-    /// element that does not exist, and for a ray whose origin or direction is not finite.
+    /// element that does not exist, and for a ray with an origin that is not finite or without a
+    /// valid direction.
     pub(in crate::drawing) fn new(
         question: &ExamQuestion,
         element: usize,
@@ -115,7 +116,7 @@ impl HitComparison {
         self.ray.dir.as_dvec3().normalize()
     }
 
-    /// Returns the range of the ray, unless it is everything ahead of the origin.
+    /// Returns the range of the ray, or `None` if the range is everything ahead of the origin.
     pub(in crate::drawing) fn limited_range(&self) -> Option<Interval> {
         (self.ray.range != Interval::AHEAD).then_some(self.ray.range)
     }
@@ -177,8 +178,8 @@ fn choose_focus(checks: &[HitCheck], wanted: Option<&DrawnHit>, got: &HitAnswer)
     }
 }
 
-/// Returns whether two numbers differ noticeably. This only chooses what is drawn: the judge has
-/// finer tolerances.
+/// Returns whether two numbers differ noticeably. This only decides which field is drawn; the judge
+/// has finer tolerances.
 fn numbers_differ(a: f64, b: f64) -> bool {
     let is_close = (a - b).abs() <= 1e-4 * b.abs().max(1.0);
     !is_close

@@ -1,4 +1,4 @@
-//! The nodes of a traversal that are drawn, and the status of each.
+//! Chooses the nodes of a traversal to draw, and determines the status of each.
 
 use std::collections::BTreeMap;
 
@@ -19,14 +19,14 @@ pub(super) enum NodeStatus {
     Missed,
     /// The ray hits the box, but only outside the ray's range.
     OutOfRange,
-    /// The box begins beyond the closest hit so far.
+    /// The ray enters the box only beyond the closest hit so far.
     Beyond,
-    /// Several rows are left out here. The `node` of this row is the number of those rows.
+    /// Several rows are left out here. The `node` of this row is their number.
     Elided,
 }
 
 impl NodeStatus {
-    /// Returns whether a correct traversal tests the node's box and does not enter it.
+    /// Returns whether a correct traversal tests the node's box but does not enter the node.
     pub(super) fn is_skipped(self) -> bool {
         match self {
             NodeStatus::Missed | NodeStatus::OutOfRange | NodeStatus::Beyond => true,
@@ -35,7 +35,7 @@ impl NodeStatus {
     }
 }
 
-/// A row, which is a node, or stands for several nodes that are left out.
+/// A row, which shows a node or stands for several nodes that are left out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NodeRow {
     pub(super) node: u32,
@@ -47,7 +47,7 @@ pub(super) struct NodeRow {
     pub(super) span: Option<Interval>,
 }
 
-/// Everything that is drawn.
+/// The rows to draw, and the leaves of the expected and the submitted hit.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     pub(super) rows: Vec<NodeRow>,
@@ -102,8 +102,8 @@ impl Layout {
         }
     }
 
-    /// Returns the deepest row on the path to the submitted hit's leaf: the node where a correct
-    /// traversal turns away from it, or the leaf itself.
+    /// Returns the deepest row on the path to the submitted hit's leaf: the node at which a correct
+    /// traversal leaves the path, or the leaf itself.
     pub(super) fn got_row(&self) -> Option<&NodeRow> {
         let on_path = self.rows.iter().filter(|row| {
             let is_node = row.status != NodeStatus::Elided;
@@ -210,7 +210,7 @@ impl ParentMap {
         self.path_to_root(node).len() - 1
     }
 
-    /// Returns the leaf that contains the primitive with this material.
+    /// Returns the leaf that contains the first primitive with this material.
     fn leaf_with(&self, traversal: &RecordedTraversal, material: u32) -> Option<u32> {
         let mut shapes = traversal.shapes.iter();
         let index = shapes.position(|shape| shape.material() == material)? as u64;

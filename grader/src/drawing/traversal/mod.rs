@@ -1,5 +1,5 @@
-//! A traversal of the exam's tree: the nodes that a correct traversal tests, in order, and the part
-//! of the ray inside the box of each. The exam stores this traversal.
+//! Draws a correct traversal of the exam's tree, which the exam stores: the nodes that it tests, in
+//! order, and the part of the ray inside the box of each.
 
 mod layout;
 mod rows;
@@ -22,7 +22,7 @@ use layout::{Layout, NodeRow, NodeStatus};
 /// The exam's tree, and one correct traversal of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RecordedTraversal<'a> {
-    /// The primitives, in the order to which the leaves refer.
+    /// The primitives, in the order that the leaves' ranges refer to.
     pub(super) shapes: &'a [Shape],
     /// The nodes, in any order.
     pub(super) nodes: &'a [TreeNode],
@@ -141,12 +141,13 @@ fn caption(comparison: &HitComparison, layout: &Layout) -> String {
                 .map_or(String::new(), |span| short(span.min.into()));
             let closest = comparison.wanted.map_or(f64::NAN, |hit| hit.distance);
             let node = if row.node == leaf {
-                "which".to_owned()
+                "whose".to_owned()
             } else {
-                format!("below node {}, which", row.node)
+                format!("below node {}, whose", row.node)
             };
             format!(
-                "Your hit is in leaf {leaf}, {node} begins at {begin}, beyond the closest hit at {}.",
+                "Your hit is in leaf {leaf}, {node} box the ray enters at {begin}, beyond the closest \
+                 hit at {}.",
                 short(closest)
             )
         }

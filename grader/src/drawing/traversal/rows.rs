@@ -1,5 +1,5 @@
-//! The rows of a traversal: the nodes on the left, and the part of the ray in each box on the
-//! right.
+//! Draws the rows of a traversal diagram, one per node: the node's name on the left, and the part
+//! of the ray inside its box on the right.
 
 use glam::dvec2;
 
@@ -15,10 +15,11 @@ const ROW_HEIGHT: f64 = 17.0;
 pub(super) const LEFT: f64 = 156.0;
 /// The indentation per level, in page units.
 const INDENT: f64 = 5.0;
-/// The maximum number of levels that are indented.
+/// The maximum number of indentations. Deeper nodes are not indented further.
 const MAX_INDENTS: usize = 9;
 
-/// Draws the rows from `y` down, and returns the y coordinate below them.
+/// Draws the rows from `y` downward, and the axis below them. Returns the y coordinate below the
+/// axis.
 pub(super) fn draw(
     canvas: &mut Canvas,
     y: f64,

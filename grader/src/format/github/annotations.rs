@@ -1,4 +1,4 @@
-//! Annotations that show what is wrong on the lines of the student's own files.
+//! Annotations, with which GitHub shows problems at the lines of the student's own files.
 
 use crate::format::github::commands::command;
 use crate::format::item_text::item_message;
@@ -53,7 +53,7 @@ fn checkout_path(file: &str, context: &FormatContext) -> String {
     }
 }
 
-/// Returns whether the task's own file compiles and has something to fix.
+/// Returns whether a verdict means that the task's own file compiles and has something to fix.
 fn is_annotated(verdict: &Verdict) -> bool {
     match verdict {
         Verdict::Partial

@@ -27,7 +27,8 @@ fn escape_property(text: &str) -> String {
     escape_message(text).replace(':', "%3A").replace(',', "%2C")
 }
 
-/// Returns a text in which the runner ignores commands until it reads the token.
+/// Wraps a text so that the runner ignores all commands in it. The text must not contain `token`,
+/// which marks the end.
 pub fn with_commands_stopped(text: &str, token: &str) -> String {
     format!("::stop-commands::{token}\n{text}\n::{token}::\n")
 }

@@ -57,7 +57,7 @@ pub(super) fn passed(score: &ItemScore, item: Option<&Item>, answers: &ReportAns
     }
 }
 
-/// Renders the verdict, as a sign and as text with the same meaning.
+/// Renders the verdict, both as a symbol and as text.
 fn verdict(score: &ItemScore) -> Markup {
     let (class, sign) = match score.verdict {
         Verdict::Pass => ("good", "✓"),
@@ -76,7 +76,7 @@ fn verdict(score: &ItemScore) -> Markup {
     }
 }
 
-/// Renders the rows `asked`, `got` and `wanted`. Empty if the reader may not see the item.
+/// Renders the rows `asked`, `got` and `wanted`, or nothing if the reader may not see the item.
 fn evidence(score: &ItemScore, item: Option<&Item>) -> Markup {
     match (&score.evidence, item) {
         (Some(evidence), _) => evidence_table(&evidence.asked, &evidence.got, &evidence.wanted),
@@ -88,7 +88,7 @@ fn evidence(score: &ItemScore, item: Option<&Item>) -> Markup {
     }
 }
 
-/// Returns the three rows for an item without evidence. They say why there is none.
+/// Returns the three rows for an item without evidence, which explain why there is none.
 fn missing_evidence(score: &ItemScore, item: &Item) -> (String, String, String) {
     let count = item.count();
     let first = item.questions.first();

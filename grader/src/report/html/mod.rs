@@ -30,7 +30,7 @@ const SCRIPT: &str = include_str!("page.js");
 /// Hashes for the content security policy. After a change to `page.css` or `page.js`, a test fails
 /// and prints the new hash.
 const STYLE_HASH: &str = "sha256-qibRcJHkq9fgBigRYMh7+w5UjfMsEbtiUPBJxSczQCU=";
-const SCRIPT_HASH: &str = "sha256-sD/wFqM7QXNkQq3DkA4MjXU5C57shP4V+2/EiA0BqU4=";
+const SCRIPT_HASH: &str = "sha256-TEagcJHpDUBf05TrmAO7R1lMuk5kMF98DelmUffG3CY=";
 
 /// Whether an open page reloads itself to show a newer version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,8 +46,8 @@ pub fn page(score: &Score, exam: &Exam, answers: &ReportAnswers, reload: Reload)
     render_page(score, exam, answers, Some(&score.rerun_command), reload)
 }
 
-/// Renders the page for students who do not have the exam. It shows nothing but `score`, which must
-/// already be limited to what students may see.
+/// Renders the page for students who do not have the exam. The page shows only `score`, from which
+/// everything that students may not see must already be removed.
 pub fn feedback(score: &Score) -> String {
     let unseen = Exam {
         schema: score.schema,

@@ -28,7 +28,7 @@ if (!history.state) showTarget();
 const before = history.state;
 if (before) {
   for (const details of document.querySelectorAll('details[id]')) {
-    // New sections start as the page has them.
+    // Sections that are new since the last load keep the page's default state.
     if (before.all.includes(details.id)) details.open = before.open.includes(details.id);
   }
 }

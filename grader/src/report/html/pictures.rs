@@ -1,6 +1,7 @@
 //! The expected picture, the submitted one, and their differences.
 //!
-//! Without a script, they are shown side by side. `page.js` adds the slider and the flicker.
+//! Without scripts, the page shows the pictures side by side. `page.js` adds the slider and the
+//! flicker button.
 
 use glam::UVec2;
 use judging::describe;
@@ -186,7 +187,7 @@ fn spot_label(spot: &WorstPixel) -> String {
     format!("pixel ({x}, {y}): {}", mask::aspect_name(spot.aspect))
 }
 
-/// Renders one layer of a picture: as expected, as submitted, and the difference between the two.
+/// Renders one layer of the expected picture, of the submitted picture, and of their difference.
 fn row(picture: &Picture, view: &LayerComparison) -> Markup {
     html! {
         div .row data-view=(view.name) {

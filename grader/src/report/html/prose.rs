@@ -19,7 +19,8 @@ pub(super) fn prose(text: &str) -> Markup {
     }
 }
 
-/// Splits a text at paired marks. Every second part is inside a pair.
+/// Splits a text at paired marks, so that every second part is inside a pair. If a mark is
+/// unpaired, returns the whole text as one part.
 fn parts(text: &str, mark: char) -> Vec<&str> {
     let parts: Vec<&str> = text.split(mark).collect();
     let inside = parts.iter().skip(1).step_by(2);

@@ -24,7 +24,8 @@ const WRITE_ACCESS: BitFlags<AccessFs> = make_bitflags!(AccessFs::{
     WriteFile | RemoveFile | RemoveDir | MakeReg | MakeDir | Refer | Truncate
 });
 
-/// Blocks all files except those of the profile, all TCP ports, and signals to other processes.
+/// Blocks access to all files except those of the profile, the use of TCP ports, and signals to
+/// processes outside the sandbox.
 pub(super) fn restrict(request: &LaunchRequest, program: &Program) -> io::Result<()> {
     let rules = ruleset(request, program).map_err(while_doing("set up Landlock"))?;
     let status = rules
@@ -75,7 +76,7 @@ fn add_rule(
     path: &Path,
     access: BitFlags<AccessFs>,
 ) -> Result<RulesetCreated, Box<dyn std::error::Error>> {
-    // Rights for folders do not apply to a file, and Landlock would report them.
+    // Rights that only folders have do not apply to a file, and Landlock would report them.
     let access = if path.is_dir() {
         access
     } else {

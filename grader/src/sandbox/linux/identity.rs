@@ -45,11 +45,11 @@ pub(super) fn drop_privileges(request: &LaunchRequest, user: Option<u32>) -> io:
 }
 
 /// Returns a user id for this program alone. It is derived from the process id, so that programs
-/// that run at the same time have different users. Only among the few low ids could two be the
-/// same.
+/// that run at the same time have different users. Two programs can get the same id only if the few
+/// low ids are used.
 ///
 /// Returns `None` if this process is not root. Also returns `None` for a compiler without
-/// namespaces: its toolchain may be in root's home folder, which another user can then not read.
+/// namespaces, because its toolchain may be in root's home folder, which no other user can read.
 pub(super) fn dedicated_user(request: &LaunchRequest) -> Option<u32> {
     let is_reachable = match request.profile {
         Profile::Probe => true,

@@ -8,7 +8,7 @@ use super::super::launch_request::{LaunchRequest, Profile};
 use super::while_doing;
 use crate::system::CPU_GRACE_SECONDS;
 
-/// The maximum number of threads of a probe, including the two that it needs itself. This limit is
+/// The maximum number of threads of a probe, including the two that every probe has. This limit is
 /// set only for a dedicated user, who has no other processes.
 const PROBE_THREADS: u64 = 34;
 /// The maximum number of processes and threads of the compiler, the linker and their helpers.

@@ -2,9 +2,10 @@
 //! program. It has a single thread, and is a fresh process rather than a fork of the grader, so all
 //! its state comes from its arguments.
 //!
-//! The order matters: namespaces first, while the launcher may still create them; then the user,
-//! which gives up that right; then limits; then Landlock, after which no other file can be opened;
-//! and last the system call filter, which forbids the calls that the earlier steps make.
+//! The order matters: namespaces first, while the launcher may still create them; then the switch
+//! to another user, which gives up that right; then limits; then Landlock, after which no other
+//! file can be opened; and last the system call filter, which forbids the calls that the earlier
+//! steps make.
 
 mod descriptors;
 mod files;
@@ -47,7 +48,7 @@ fn confine(request: &LaunchRequest, command: Command) -> io::Result<ExitCode> {
         Isolation::Full => namespaces::enter(&request.profile, program)?,
         Isolation::NoNamespaces | Isolation::SeccompOnly | Isolation::None => program,
     };
-    // Not earlier, because the folders of the new root must be accessible to every user.
+    // Not set earlier, because the folders of the new root must be accessible to every user.
     umask(Mode::RWXG | Mode::RWXO);
     identity::drop_privileges(request, user)?;
     limits::set(request, user)?;

@@ -1,5 +1,5 @@
-//! Linux namespaces: separate mounts, network, System V objects and host name, and for the compiler
-//! also separate processes. The new root contains the files of the profile and no others.
+//! Linux namespaces: separate mounts, network, System V IPC objects and host name and, for the
+//! compiler, separate processes. The new root contains the files of the profile and no others.
 
 use std::fs;
 use std::io;

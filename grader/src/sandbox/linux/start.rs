@@ -75,9 +75,9 @@ impl Program {
         self.command
     }
 
-    /// Replaces this process with the program. It keeps the process id, so the grader measures and
-    /// kills the program itself. The system kills the program when the grader ends, for whatever
-    /// reason.
+    /// Replaces this process with the program. The process id stays the same, so the grader
+    /// measures and kills the program itself. The system kills the program when the grader ends,
+    /// even if the grader is killed.
     pub(super) fn exec(mut self) -> io::Result<ExitCode> {
         signal_ready()?;
         let mut error = self.command.exec();
@@ -94,7 +94,8 @@ impl Program {
     }
 
     /// Starts the program and waits for it. This process stays, because the program starts other
-    /// processes, which must not outlive it or the grader. `cpu` is the limit of its CPU time.
+    /// processes, which must not outlive the program or the grader. `cpu` is the program's CPU time
+    /// limit.
     pub(super) fn supervise(mut self, cpu: Duration) -> io::Result<ExitCode> {
         signal_ready()?;
         let mut child = self.command.stdin(Stdio::null()).spawn()?;
@@ -113,8 +114,8 @@ impl Program {
         }
         let status = child.wait()?;
         if let Some(signal) = status.signal().and_then(Signal::from_named_raw) {
-            // The first process of a namespace does not get the soft limit's SIGXCPU. The hard
-            // limit kills it with SIGKILL, which would look as if memory had run out.
+            // The first process of a PID namespace does not receive SIGXCPU at the soft limit. The
+            // hard limit then kills it with SIGKILL, which would look as if memory had run out.
             let signal = if signal == Signal::KILL && children_cpu_time()? >= cpu {
                 Signal::XCPU
             } else {

@@ -1,8 +1,8 @@
 //! The system call filters (seccomp) of a confined program.
 //!
-//! Each profile has a list of allowed calls. All other calls fail, including those of newer kernels
-//! that are not known here. A filter is compiled for this machine's architecture; a call made
-//! through the interface of another architecture kills the program.
+//! Each profile has a list of allowed calls. All other calls fail, including those that newer
+//! kernels add. A filter is compiled for this machine's architecture; a call made through the
+//! interface of another architecture kills the program.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -18,8 +18,8 @@ use super::while_doing;
 
 mod lists;
 
-/// Allowed system calls by number, each with alternative conditions, of which one must hold. A call
-/// without conditions is always allowed.
+/// The system calls that a filter lists, by number. A call matches if one of its rules holds, or if
+/// it has no rules.
 type CallRules = BTreeMap<i64, Vec<SeccompRule>>;
 
 /// Blocks all system calls except those of the profile. This is the last step before the program is
@@ -34,8 +34,8 @@ pub(super) fn restrict(profile: &Profile) -> io::Result<()> {
 
 fn filters(profile: &Profile) -> Result<[BpfProgram; 2], seccompiler::Error> {
     // The C library creates threads with `clone3`, whose arguments a filter cannot inspect. It
-    // falls back to `clone` only if `clone3` fails with ENOSYS, while other calls must fail with
-    // another error. A filter has a single error for all refused calls, so there are two filters.
+    // falls back to `clone` only if `clone3` fails with ENOSYS, while a probe's other calls must
+    // fail with EPERM. A filter has a single error for all refused calls, so there are two filters.
     // If they disagree about a call, the stricter result counts.
     let no_clone3 = compile_filter(
         [(libc::SYS_clone3, Vec::new())].into(),
@@ -77,8 +77,8 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
     );
     // A program may only signal itself, since its user may have other processes, and only with
     // SIGABRT, for `abort`. With other signals, it could choose how it seems to end: SIGKILL looks
-    // as if memory had run out, which does not count as the program's fault, so the exam would have
-    // to be repeated.
+    // as if memory had run out, which does not count as the program's fault, so the grader would
+    // have to be run again.
     let own = u64::from(std::process::id());
     let abort = libc::SIGABRT as u64;
     let equal = |argument, value| {
@@ -143,7 +143,8 @@ fn compiler_calls() -> Result<CallRules, seccompiler::Error> {
         libc::SYS_clone,
         vec![if_argument(0, masked(namespaces), 0)?],
     );
-    // Signals are allowed only within the own process group, which the launcher kills in this way.
+    // Signals are allowed only within the process's own group, which is how the launcher kills that
+    // group.
     calls.insert(libc::SYS_kill, vec![if_argument(0, SeccompCmpOp::Eq, 0)?]);
     // Rust's standard library starts programs with the help of a socket pair. Sockets of this type
     // stay connected, while a datagram socket could send messages to other sockets.
@@ -175,7 +176,7 @@ fn masked(mask: u64) -> SeccompCmpOp {
     SeccompCmpOp::MaskedEq(mask)
 }
 
-/// Returns a rule that holds if the 32-bit argument compares with `value` by `operator`.
+/// Returns a rule that holds if `operator` is true of the 32-bit argument and `value`.
 fn if_argument(
     argument: u8,
     operator: SeccompCmpOp,
@@ -185,7 +186,7 @@ fn if_argument(
     Ok(SeccompRule::new(vec![condition])?)
 }
 
-/// Returns one rule for each of `values`, which holds if the 32-bit argument is equal to it.
+/// Returns one rule for each of `values`, which holds if the 32-bit argument equals that value.
 fn if_argument_in<const N: usize>(
     argument: u8,
     values: [u64; N],

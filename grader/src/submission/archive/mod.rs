@@ -44,10 +44,10 @@ pub enum ArchiveError {
     #[error("it is damaged ({0}): download or pack it again")]
     Damaged(String),
     /// A member is encrypted.
-    #[error("its file {0} needs a password: pack it without one")]
+    #[error("the file {0} in it is password-protected: create the archive without a password")]
     Encrypted(String),
     /// A member is compressed with an unusual method.
-    #[error("its file {0} has an unusual compression method: pack it as a plain .zip")]
+    #[error("the file {0} in it is compressed with an unusual method: create a plain .zip")]
     UnsupportedCompression(String),
     /// Two Rust files have the same path, at least on some file systems.
     #[error("{0} is in it twice, or is the same file as {1} on some systems: pack it again")]
@@ -56,10 +56,10 @@ pub enum ArchiveError {
     #[error("it has more than {MAX_MEMBERS} files: pack the five files, without target/")]
     TooManyFiles,
     /// The contents are too large.
-    #[error("it has more than {} MiB: pack the five files, without target/", .0 >> 20)]
+    #[error("its contents are larger than {} MiB: pack the five files, without target/", .0 >> 20)]
     TooLarge(u64),
     /// A member's path leads out of the archive.
-    #[error("its path {0} leads outside the archive: pack it again")]
+    #[error("the path {0} in it leads outside the archive: pack it again")]
     PathOutside(String),
     /// A member is a link or a device.
     #[error("{0} in it is a link or device, not a regular file: pack the file itself")]
@@ -112,7 +112,7 @@ enum ArchiveReader {
 }
 
 impl Archive {
-    /// Opens an archive. Its first bytes tell which kind it is.
+    /// Opens an archive. Its kind is determined from its first bytes.
     pub fn open(path: &Path) -> Result<Self, ArchiveError> {
         let mut head = Vec::new();
         let file = File::open(path).map_err(io_error)?;
@@ -131,8 +131,8 @@ impl Archive {
         }))
     }
 
-    /// Lists all contents. If a member is a link or a device, or its path leads outside, only this
-    /// member is rejected: in the archive of a whole class, it affects only one student.
+    /// Lists all contents. A member that is a link or a device, or whose path leads outside, is
+    /// only recorded as an error: in the archive of a whole class, it affects only one student.
     pub fn listing(&mut self) -> Result<Listing, ArchiveError> {
         let mut listing = match &mut self.0 {
             ArchiveReader::Zip(zip) => zip.listing(),
@@ -143,7 +143,7 @@ impl Archive {
         Ok(listing)
     }
 
-    /// Lists the regular files. Fails if any path leads outside, or is a link or device.
+    /// Lists the regular files. Fails if any member is rejected.
     pub fn members(&mut self) -> Result<Vec<Member>, ArchiveError> {
         let listing = self.listing()?;
         match listing.errors.into_iter().next() {
@@ -166,7 +166,7 @@ impl Archive {
     }
 
     /// Returns the number of members that should be read in one call. A tar is scanned from the
-    /// front on each call, so all its members should be read at once.
+    /// start on each call, so all its members should be read at once.
     pub fn batch_size(&self) -> usize {
         match &self.0 {
             ArchiveReader::Zip(_) => 1,
@@ -255,7 +255,7 @@ fn normalize_path(path: &str) -> Result<String, ArchiveError> {
 }
 
 /// Returns an error for each Rust file with the same path as an earlier one. Which of the two is
-/// used would depend on the program that unpacks them.
+/// used would depend on the program that unpacks the archive.
 fn duplicate_paths(members: &[Member]) -> Vec<ArchiveError> {
     let mut known: BTreeMap<String, &str> = BTreeMap::new();
     let mut errors = Vec::new();
@@ -272,9 +272,9 @@ fn duplicate_paths(members: &[Member]) -> Vec<ArchiveError> {
     errors
 }
 
-/// Returns the path in a form in which two paths are equal if any common file system treats them as
-/// the same: in lower case (macOS, Windows), in Unicode's composed form (macOS), and without dots
-/// and spaces at the end of a name (Windows).
+/// Normalises a path for comparison: two paths become equal if any common file system treats them
+/// as the same. The result is in lower case (macOS, Windows) and in Unicode's composed form, NFC
+/// (macOS), and its names have no trailing dots or spaces (Windows).
 fn folded_path(path: &str) -> String {
     let folded: String = path.to_lowercase().nfc().collect();
     let names = folded

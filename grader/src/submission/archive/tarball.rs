@@ -1,5 +1,5 @@
-//! `.tar` and `.tar.gz` archives. They have no directory, so they are scanned from the front each
-//! time.
+//! `.tar` and `.tar.gz` archives. Unlike zip, tar has no central directory, so every access scans
+//! the archive from the start.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read};

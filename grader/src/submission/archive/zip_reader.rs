@@ -1,5 +1,5 @@
-//! `.zip` archives: the directory at the end lists the contents, and only requested members are
-//! inflated.
+//! `.zip` archives. The central directory at the end lists the contents, and only requested members
+//! are inflated.
 
 use std::fs::File;
 use std::io::Read;
@@ -16,10 +16,10 @@ use super::{
 };
 
 /// The maximum number of bytes to read for a list of the contents. This is about the size of a
-/// directory with 50,000 members.
+/// central directory with 50,000 members.
 const MAX_DIRECTORY_BYTES: u64 = 8 << 20;
 
-/// A zip archive whose directory has been read.
+/// A zip archive whose central directory has been read.
 #[derive(Debug)]
 pub(super) struct ZipReader {
     zip: Zip<LimitedReader<FileReader>>,

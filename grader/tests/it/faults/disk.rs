@@ -66,7 +66,7 @@ fn grade_on_disk(
 }
 
 /// Grades on disks of increasing size, from one on which nothing fits to one on which everything
-/// fits: a full disk is never the student's fault.
+/// fits. A full disk must never cost the student points.
 #[test]
 fn a_full_disk_is_reported_and_gives_no_score() {
     let (workspace, submission) = (
@@ -109,9 +109,9 @@ fn a_full_disk_is_reported_and_gives_no_score() {
     );
 }
 
-/// Denies `tmpfs` mounts for the rest of this thread and for all processes that it starts.
+/// Denies `tmpfs` mounts to this thread from now on, and to all processes that it starts.
 fn deny_tmpfs_mounts() {
-    // These are exactly the flags with which the sandbox mounts its new root.
+    // Only mounts with exactly these flags are denied: the sandbox mounts its new root with them.
     let flags = libc::MS_NOSUID | libc::MS_NODEV;
     let condition = SeccompCondition::new(3, SeccompCmpArgLen::Qword, SeccompCmpOp::Eq, flags);
     let rule = SeccompRule::new(vec![condition.unwrap()]).unwrap();

@@ -1,4 +1,4 @@
-//! A grader that is killed, and one on a machine under load.
+//! Tests of a grader that is killed, and of one on a machine under load.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +15,7 @@ use super::processes::{child_named, eventually, is_running};
 #[cfg(target_os = "linux")]
 use super::workspace::WorkspaceCopy;
 
-/// Starts to grade a submission into this folder.
+/// Starts the grader on a submission, with `out` as the output folder.
 fn start(submission: &Submission, out: &Path) -> Child {
     let mut command = grader();
     command.arg(submission.path()).arg("--out").arg(out);
@@ -42,12 +42,12 @@ fn assert_outputs_parse(out: &Path) {
     }
 }
 
-/// Starts the grader this many times, and kills each run at another moment. The moments are spread
-/// over the duration of a run.
+/// Starts the grader this many times, and kills each run at a different moment. The moments are
+/// spread over the duration of a run.
 fn kill_at_moments(times: u32) {
     let submission = Submission::reference("killed");
     let out = submission.path().join("undisturbed");
-    // Compiles the dependencies, which only the first run does.
+    // Compiles the dependencies, so that the run that is timed does not.
     submission.grade();
     let began = Instant::now();
     start(&submission, &out).wait().unwrap();
@@ -56,7 +56,7 @@ fn kill_at_moments(times: u32) {
 
     let mut partial = 0;
     for time in 0..times {
-        // Multiples of the golden ratio, modulo 1, are spread evenly over a run.
+        // Multiples of the golden ratio, modulo 1, are spread evenly between 0 and 1.
         let moment = took.mul_f64(f64::from(time) * 0.618_034 % 1.0);
         let out = submission.path().join(format!("killed-{time}"));
         let mut grader = start(&submission, &out);
@@ -108,8 +108,8 @@ fn no_process_outlives_a_killed_grader() {
     eventually(|| (!is_running(probe)).then_some(()));
 }
 
-/// Kills the grader while it compiles the dependencies, with a fake cargo that is slow and has
-/// started another process.
+/// Kills the grader while it waits for a fake cargo, which has started another process and takes
+/// ten minutes.
 #[cfg(target_os = "linux")]
 #[test]
 fn cargo_does_not_outlive_a_killed_grader() {

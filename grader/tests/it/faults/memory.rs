@@ -11,7 +11,7 @@ use crate::harness::{Submission, grader};
 /// The CPU time after which a process has certainly finished starting up.
 const BUSY_CPU_TIME: Duration = Duration::from_millis(200);
 
-/// Starts to grade a submission into this folder.
+/// Starts the grader on a submission, with `out` as the output folder.
 fn start(submission: &Submission, out: &Path) -> Child {
     let mut command = grader();
     command.arg(submission.path()).arg("--out").arg(out);
@@ -26,7 +26,7 @@ fn kill(process: u32) {
     assert!(status.unwrap().success());
 }
 
-/// Grades a submission, and kills the grader's child process of this name this many times.
+/// Grades a submission. Meanwhile, kills the grader's child process called `name`, this many times.
 fn grade_while_killing(name: &str, times: usize, submission: &Submission, out: &Path) -> Output {
     let grader = start(submission, out);
     let mut last = 0;

@@ -35,7 +35,7 @@ fn without_a_compiler_there_is_no_score() {
     assert_grader_fault(&command.output().unwrap(), &out, "install Rust");
 }
 
-/// Grades with a `PATH` that contains a linker that always fails.
+/// Grades with a linker on the `PATH` that always fails.
 #[cfg(unix)]
 #[test]
 fn without_a_linker_there_is_no_score() {
@@ -76,8 +76,8 @@ fn without_a_writable_disk_there_is_no_score() {
     assert_grader_fault(&command.output().unwrap(), out, "cannot write /dev/full");
 }
 
-/// Checks that times are taken from the monotonic clock, so that a clock that jumps cannot change a
-/// result. The only use of the wall clock is to compare the modification times of a file.
+/// Checks that times are taken from the monotonic clock, so that a jump of the wall clock cannot
+/// change a result. The only exception compares modification times of files.
 #[test]
 fn no_source_reads_the_wall_clock() {
     fn search(folder: &Path, found: &mut Vec<String>) {

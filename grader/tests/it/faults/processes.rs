@@ -4,8 +4,8 @@ use std::fs;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Waits until `happened` returns a value. The limit is long, since other jobs may slow the
-/// machine.
+/// Waits until `happened` returns a value. The time limit is long, because other jobs may slow down
+/// the machine.
 pub fn eventually<T>(mut happened: impl FnMut() -> Option<T>) -> T {
     let deadline = Instant::now() + Duration::from_secs(300);
     loop {

@@ -39,7 +39,8 @@ impl WorkspaceCopy {
         self.folder.path()
     }
 
-    /// Creates a toolchain in the copy whose cargo is this script. Returns the path of that cargo.
+    /// Creates a fake toolchain in the copy, with this shell script as its cargo. Returns the path
+    /// of the script.
     pub fn fake_cargo(&self, script: &str) -> PathBuf {
         let tools = self.path().join("tools");
         fs::create_dir(&tools).unwrap();

@@ -17,7 +17,7 @@ fn assert_snapshots(case: &str, submission: &Submission, arguments: &[&str]) {
     settings.add_filter(r#""execution_time": [0-9.]+"#, r#""execution_time": 1.5"#);
     settings.add_filter(r#""isolation": "[a-z-]+""#, r#""isolation": "as reached""#);
     settings.bind(|| {
-        // Other tests look at the page; here it is only checked against its model.
+        // Other tests check the contents of the page; here it is only checked against its model.
         for (format, _) in FORMATS.into_iter().filter(|(format, _)| *format != "html") {
             let text = models::readable(format, &written[format]);
             assert_snapshot!(format!("{format}-{case}"), text);
@@ -29,8 +29,8 @@ fn assert_snapshots(case: &str, submission: &Submission, arguments: &[&str]) {
     });
 }
 
-/// Returns the lines in which the runner looks for commands: those outside the parts of the log in
-/// which commands are stopped.
+/// Returns the lines of a log in which the runner looks for commands: those outside the sections
+/// where commands are stopped.
 fn runner_commands(log: &str) -> String {
     let mut stop_token: Option<&str> = None;
     let mut commands = Vec::new();

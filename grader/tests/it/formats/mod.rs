@@ -40,7 +40,7 @@ const RUNNER_VARIABLES: [(&str, &str); 9] = [
     ("SUBMITTED_AT", "2026-11-20T21:09:58Z"),
 ];
 
-/// A few items of each task. They are enough, since a format treats all items alike.
+/// One or two items of each task. They are enough, because the formats treat all items alike.
 const ITEMS: [&str; 8] = [
     "camera.corners",
     "camera.unit_length",
@@ -52,8 +52,8 @@ const ITEMS: [&str; 8] = [
     "traverse.closest_hit",
 ];
 
-/// The outputs of one run, by format. The key `log` is for the standard output, and `json` for the
-/// score file.
+/// The outputs of one run, by format. The key `log` stands for the standard output, and `json` for
+/// the score file.
 pub type FormatTexts = BTreeMap<&'static str, String>;
 
 /// Returns a part of the practice exam under another id.
@@ -72,7 +72,7 @@ pub fn small_exam(id: &str) -> String {
     exam.to_string()
 }
 
-/// Grades a submission once, and returns all formats.
+/// Grades a submission once, and returns the output in all formats.
 pub fn grade_in_all_formats(
     submission: &Submission,
     exam: &str,

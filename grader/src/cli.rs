@@ -6,7 +6,7 @@ use clap::{Parser, value_parser};
 use judging::exam::Task;
 
 use crate::exam_source::ExamSource;
-use crate::format::OutputSpec;
+use crate::format::{FORMATS, OutputSpec};
 use crate::options::{Dependents, GradeOptions};
 use crate::probe::Budget;
 use crate::question_ref::QuestionRef;
@@ -129,11 +129,8 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE", help_heading = STAFF_OPTIONS)]
     pub gradescope_metadata: Option<PathBuf>,
 
-    /// Also write these formats: json, text, html, gradescope, classroom50, junit, github,
-    /// github-classroom, check50, prairielearn. They contain what the policy lets students see.
-    /// Each is written to =PATH if given, else where the platform expects it, else to the --out
-    /// folder
-    #[arg(long, value_name = "FORMAT", num_args = 1.., value_delimiter = ',')]
+    /// Additional output formats.
+    #[arg(long, value_name = "FORMAT", num_args = 1.., value_delimiter = ',', help = format_help())]
     #[arg(conflicts_with_all = ["task", "replay", "watch"], help_heading = STAFF_OPTIONS)]
     pub format: Vec<OutputSpec>,
 
@@ -195,6 +192,14 @@ impl Arguments {
             (None, None) => Command::Grade(options, print),
         }
     }
+}
+
+fn format_help() -> String {
+    let known = FORMATS.map(|format| format.id).join(", ");
+    format!(
+        "Also write these formats: {known}. They contain what the policy lets students see. Each is \
+         written to =PATH if given, else where the platform expects it, else to the --out folder"
+    )
 }
 
 fn parse_task(text: &str) -> Result<Task, String> {

@@ -73,9 +73,7 @@ fn grade_and_store(
     if let (Some(key), Some(files)) = (&graded.cache_key, &graded.files) {
         cached_report::store(key, &graded.score, &text, files);
     }
-    if let Some(commands) = graded.commands() {
-        anstream::print!("{commands}");
-    }
+    anstream::print!("{}", graded.runner_commands());
     if print.timings {
         anstream::println!("{}", graded.score.timings.stages.table());
     }

@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use grader::error::Error;
-use grader::format::{Format, FormatContext};
+use grader::format::{FormatContext, html};
 use grader::grade::Grader;
 use grader::policy::Policy;
 use grader::report::html::Reload;
@@ -122,10 +122,9 @@ impl EntryGrader<'_> {
             });
         run.map_err(message)?;
         let student_view = self.grader.student_view(&score);
-        if let Some(page) = Format::Html.render(&student_view, &FormatContext::default()) {
-            let saved = self.store.save_feedback(&entry.id, &page);
-            saved.map_err(|error| error.to_string())?;
-        }
+        let page = html::render(&student_view, &FormatContext::default());
+        let saved = self.store.save_feedback(&entry.id, &page);
+        saved.map_err(|error| error.to_string())?;
         ScoreSummary::parse(&json::to_string(&score)).map_err(|error| error.to_string())
     }
 

@@ -6,11 +6,19 @@
 use serde_json::{Value, json};
 
 use crate::format::item_text::{item_message, item_text};
-use crate::format::{FormatContext, StudentView};
+use crate::format::{FormatContext, FormatSpec, StudentView};
 use crate::score::{ItemScore, Verdict};
 
+/// The format.
+pub static FORMAT: FormatSpec = FormatSpec {
+    id: "check50",
+    file: "check50.json",
+    render: Some(render),
+    ..FormatSpec::EMPTY
+};
+
 /// Renders the file.
-pub fn render(view: &StudentView, context: &FormatContext) -> String {
+fn render(view: &StudentView, context: &FormatContext) -> String {
     let results: Vec<Value> = view
         .visible_items()
         .map(|(_, item)| result(view, item, context))

@@ -7,11 +7,20 @@
 use serde_json::{Value, json};
 
 use crate::format::item_text::{item_message, item_text};
-use crate::format::{FormatContext, StudentView};
+use crate::format::{FormatContext, FormatSpec, StudentView};
 use crate::score::Verdict;
 
+/// The format.
+pub static FORMAT: FormatSpec = FormatSpec {
+    id: "classroom50",
+    file: "classroom50.json",
+    render: Some(render),
+    variables: &VARIABLES,
+    ..FormatSpec::EMPTY
+};
+
 /// The environment variables that describe the submission. The runner sets all but the last.
-pub const VARIABLES: [&str; 9] = [
+const VARIABLES: [&str; 9] = [
     "CLASSROOM",
     "ASSIGNMENT",
     "ASSIGNMENT_TYPE",
@@ -25,7 +34,7 @@ pub const VARIABLES: [&str; 9] = [
 ];
 
 /// Renders the file.
-pub fn render(view: &StudentView, context: &FormatContext) -> String {
+fn render(view: &StudentView, context: &FormatContext) -> String {
     let of = |name: &str| context.variables.get(name).cloned().unwrap_or_default();
     let review = match of("REVIEW_URL") {
         none if none.is_empty() => of("COMMIT_URL"),

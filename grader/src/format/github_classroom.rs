@@ -7,13 +7,23 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
 use crate::format::size::{fit, truncate};
-use crate::format::{FormatContext, StudentView, item_text};
+use crate::format::{FormatContext, FormatSpec, StudentView, item_text};
+
+/// The format.
+pub static FORMAT: FormatSpec = FormatSpec {
+    id: "github-classroom",
+    file: "github-classroom.txt",
+    render: Some(render),
+    // Other commands of the same step may have written to this file already.
+    shared_file: Some("GITHUB_OUTPUT"),
+    ..FormatSpec::EMPTY
+};
 
 /// The maximum size of a step's output in bytes.
 const MAX_BYTES: usize = 1 << 20;
 
 /// Renders one line for `$GITHUB_OUTPUT`.
-pub fn render(view: &StudentView, context: &FormatContext) -> String {
+fn render(view: &StudentView, context: &FormatContext) -> String {
     fit(MAX_BYTES, |max_chars| {
         let result = result(view, context, max_chars).to_string();
         format!("result={}\n", STANDARD.encode(result))

@@ -7,18 +7,27 @@
 use judging::exam::Task;
 use serde_json::{Map, Value, json};
 
+use crate::format::FormatSpec;
 use crate::format::item_text::{build_report, headline, item_text};
 use crate::format::size::{fit, truncate};
 use crate::format::{FormatContext, ItemView, StudentView};
 use crate::policy::Visibility;
 use crate::score::Verdict;
 
+/// The format.
+pub static FORMAT: FormatSpec = FormatSpec {
+    id: "gradescope",
+    file: "gradescope.json",
+    render: Some(render),
+    ..FormatSpec::EMPTY
+};
+
 /// The maximum size in bytes. Gradescope documents no limit; similar platforms truncate at half
 /// this size.
 const MAX_BYTES: usize = 256 << 10;
 
 /// Renders the file.
-pub fn render(view: &StudentView, context: &FormatContext) -> String {
+fn render(view: &StudentView, context: &FormatContext) -> String {
     fit(MAX_BYTES, |max_chars| {
         super::to_json(&results(view, context, max_chars))
     })

@@ -7,13 +7,21 @@
 use maud::{Markup, PreEscaped, html};
 
 use crate::format::item_text::{item_message, item_text};
-use crate::format::{FormatContext, StudentView};
+use crate::format::{FormatContext, FormatSpec, StudentView};
 use crate::score::{ItemScore, TaskScore, Verdict};
+
+/// The format.
+pub static FORMAT: FormatSpec = FormatSpec {
+    id: "junit",
+    file: "junit.xml",
+    render: Some(render),
+    ..FormatSpec::EMPTY
+};
 
 const DECLARATION: PreEscaped<&str> = PreEscaped("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
 
 /// Renders the file.
-pub fn render(view: &StudentView, context: &FormatContext) -> String {
+fn render(view: &StudentView, context: &FormatContext) -> String {
     let score = &view.visible;
     let all: Counts = score.items().collect();
     let report = html! {

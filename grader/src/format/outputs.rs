@@ -9,8 +9,7 @@ use std::path::{Path, PathBuf};
 
 use judging::exam::Task;
 
-use crate::format::github::annotations;
-use crate::format::{Format, FormatContext, OutputSpec, StudentView};
+use crate::format::{FormatContext, FormatSpec, OutputSpec, StudentView};
 use crate::given_files::TASK_FILES;
 use crate::report::atomic_write;
 use crate::report::text::HintDetail;
@@ -54,7 +53,7 @@ pub struct Outputs {
 /// The output file of one format.
 #[derive(Clone, Debug)]
 struct Output {
-    format: Format,
+    format: &'static FormatSpec,
     path: PathBuf,
     /// Text that other commands wrote to the file earlier. The output is appended to it.
     existing_text: String,
@@ -99,10 +98,10 @@ impl Outputs {
             existing_text,
         } in &self.files
         {
-            let Some(text) = format.render(view, &self.context) else {
+            let Some(render) = format.render else {
                 continue;
             };
-            let text = format!("{existing_text}{text}");
+            let text = format!("{existing_text}{}", render(view, &self.context));
             atomic_write::write(&text, path).map_err(|source| OutputError::Io {
                 path: path.clone(),
                 source,
@@ -111,11 +110,11 @@ impl Outputs {
         Ok(())
     }
 
-    /// Returns the GitHub annotations to print, or `None` if the GitHub format is not requested.
-    pub fn runner_commands(&self, view: &StudentView) -> Option<String> {
-        let mut files = self.files.iter();
-        let is_wanted = files.any(|output| output.format == Format::Github);
-        is_wanted.then(|| annotations(view, &self.context))
+    /// Returns the commands that the requested formats print for the CI runner.
+    pub fn runner_commands(&self, view: &StudentView) -> String {
+        let files = self.files.iter();
+        let commands = files.filter_map(|output| output.format.runner_commands);
+        commands.map(|render| render(view, &self.context)).collect()
     }
 
     /// Returns whether no output was requested.
@@ -126,30 +125,18 @@ impl Outputs {
     /// Returns the paths of the requested files, except the score file.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         let files = self.files.iter();
-        let others = files.filter(|output| output.format != Format::Json);
-        others.map(|output| output.path.as_path())
+        let rendered = files.filter(|output| output.format.render.is_some());
+        rendered.map(|output| output.path.as_path())
     }
 }
 
 fn resolve_output(spec: &OutputSpec, folder: &Path) -> Result<Output, OutputError> {
     let format = spec.format;
-    // Other commands of the same step may have written to these files already.
-    let shared = match format {
-        Format::Github => env::var_os("GITHUB_STEP_SUMMARY"),
-        Format::GithubClassroom => env::var_os("GITHUB_OUTPUT"),
-        Format::Json
-        | Format::Text
-        | Format::Html
-        | Format::Gradescope
-        | Format::Classroom50
-        | Format::Junit
-        | Format::Check50
-        | Format::Prairielearn => None,
-    };
+    let shared = format.shared_file.and_then(env::var_os);
     let shared = shared.filter(|path| !path.is_empty()).map(PathBuf::from);
     let (path, existing_text) = match (&spec.path, shared) {
         (Some(path), _) => (path.clone(), String::new()),
-        (None, None) => (folder.join(format.file()), String::new()),
+        (None, None) => (folder.join(format.file), String::new()),
         (None, Some(path)) => match fs::read_to_string(&path) {
             Ok(existing_text) => (path, existing_text),
             Err(error) if error.kind() == io::ErrorKind::NotFound => (path, String::new()),
@@ -165,15 +152,15 @@ fn resolve_output(spec: &OutputSpec, folder: &Path) -> Result<Output, OutputErro
 
 /// Reads the environment variables that a format needs. Fails if one is missing.
 fn read_variables(
-    format: Format,
+    format: &FormatSpec,
     known: &mut BTreeMap<&'static str, String>,
 ) -> Result<(), OutputError> {
-    for variable in format.variables() {
+    for variable in format.variables {
         let value = env::var(variable).ok().filter(|value| !value.is_empty());
         let value = value.ok_or_else(|| OutputError::MissingVariable {
-            format: format.id(),
+            format: format.id,
             variable,
-            all: format.variables().join(", "),
+            all: format.variables.join(", "),
         })?;
         known.insert(variable, value);
     }

@@ -8,13 +8,21 @@ use serde_json::{Value, json};
 
 use crate::format::item_text::{build_report, headline, item_message, item_text};
 use crate::format::size::{fit, truncate};
-use crate::format::{FormatContext, StudentView};
+use crate::format::{FormatContext, FormatSpec, StudentView};
+
+/// The format.
+pub static FORMAT: FormatSpec = FormatSpec {
+    id: "prairielearn",
+    file: "prairielearn.json",
+    render: Some(render),
+    ..FormatSpec::EMPTY
+};
 
 /// The maximum size in bytes, well below PrairieLearn's own limit.
 const MAX_BYTES: usize = 1_000_000;
 
 /// Renders the file.
-pub fn render(view: &StudentView, context: &FormatContext) -> String {
+fn render(view: &StudentView, context: &FormatContext) -> String {
     fit(MAX_BYTES, |max_chars| {
         super::to_json(&results(view, context, max_chars))
     })

@@ -5,6 +5,17 @@ mod annotations;
 mod commands;
 mod summary;
 
-pub use annotations::annotations;
+use crate::format::FormatSpec;
+
 pub use commands::{random_token, with_commands_stopped};
-pub use summary::summary;
+
+/// The format.
+pub static FORMAT: FormatSpec = FormatSpec {
+    id: "github",
+    file: "github.md",
+    // Other commands of the same step may have written to this file already.
+    shared_file: Some("GITHUB_STEP_SUMMARY"),
+    render: Some(summary::summary),
+    runner_commands: Some(annotations::annotations),
+    ..FormatSpec::EMPTY
+};

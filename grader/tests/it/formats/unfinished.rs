@@ -1,8 +1,7 @@
 //! Jobs that were killed, and formats that are requested on the wrong platform.
 
-use clap::ValueEnum;
 use grader::exam_source::ExamSource;
-use grader::format::{Format, FormatContext, StudentView};
+use grader::format::{FORMATS, FormatContext, StudentView};
 use grader::policy::{Lateness, Policy};
 use grader::score::Verdict;
 use grader::verdict::pending_score;
@@ -14,7 +13,7 @@ use crate::harness::{Submission, grader};
 fn a_killed_job_says_that_it_is_unfinished() {
     let file = ExamSource::Practice.load().unwrap();
     let mut around = FormatContext::default();
-    for name in Format::Classroom50.variables() {
+    for name in FORMATS.iter().flat_map(|format| format.variables) {
         around.variables.insert(name, "submit/x".to_owned());
     }
     around
@@ -26,17 +25,18 @@ fn a_killed_job_says_that_it_is_unfinished() {
     let score = pending_score(&file.exam, file.name(), "killed");
     let seen = StudentView::new(&score, &Policy::default(), Lateness::NONE);
     let unfinished = format!("UNFINISHED: 0 of {}", file.exam.items.len());
-    for format in Format::value_variants() {
-        let Some(text) = format.render(&seen, &around) else {
+    for format in FORMATS {
+        let Some(render) = format.render else {
             continue;
         };
-        check(format.id(), &text);
-        let text = readable(format.id(), &text);
+        let text = render(&seen, &around);
+        check(format.id, &text);
+        let text = readable(format.id, &text);
         let marks = [unfinished.as_str(), Verdict::Pending.label()];
         assert!(
             marks.iter().any(|mark| text.contains(mark)),
             "{}: {text}",
-            format.id()
+            format.id
         );
     }
 }

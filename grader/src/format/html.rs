@@ -1,0 +1,17 @@
+//! A page for students who do not have the exam.
+
+use crate::format::{FormatContext, FormatSpec, StudentView};
+use crate::report::html::feedback;
+
+/// The format.
+pub static FORMAT: FormatSpec = FormatSpec {
+    id: "html",
+    file: "feedback.html",
+    render: Some(render),
+    ..FormatSpec::EMPTY
+};
+
+/// Renders the page.
+pub fn render(view: &StudentView, _: &FormatContext) -> String {
+    feedback(&view.visible)
+}

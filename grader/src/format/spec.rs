@@ -1,0 +1,102 @@
+//! What an output format consists of. Each format's file declares its [`FormatSpec`].
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use judging::exam::Task;
+
+use crate::format::{FORMATS, StudentView, json};
+use crate::report::text::HintDetail;
+
+/// An output format, named after the platform that reads it.
+pub struct FormatSpec {
+    /// The name on the command line.
+    pub id: &'static str,
+    /// The default file name.
+    pub file: &'static str,
+    /// The environment variables that the file copies. All of them must be set.
+    pub variables: &'static [&'static str],
+    /// The environment variable with the path of a file that the platform shares between commands.
+    /// If it is set, the text is appended to that file unless another path is requested.
+    pub shared_file: Option<&'static str>,
+    /// Renders the file. `None` for the score file, which is not for students.
+    pub render: Option<Render>,
+    /// Renders commands to the CI runner, which are printed to standard output.
+    pub runner_commands: Option<Render>,
+}
+
+/// A renderer. It gets only what students may see.
+pub type Render = fn(&StudentView, &FormatContext) -> String;
+
+/// Facts about a submission that are not part of its score.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FormatContext {
+    /// The folder of the task files in the repository, such as `student/src`. It is empty if they
+    /// are at the top level.
+    pub folder: String,
+    /// The line where each task's method begins in its file.
+    pub method_lines: BTreeMap<Task, u32>,
+    /// The environment variables with which the platform describes the submission.
+    pub variables: BTreeMap<&'static str, String>,
+    /// The level of detail of hints.
+    pub hints: HintDetail,
+}
+
+/// A format and an optional path, such as `gradescope` or `github=summary.md`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutputSpec {
+    /// The format.
+    pub format: &'static FormatSpec,
+    /// The file to write, or `None` for the format's default file.
+    pub path: Option<PathBuf>,
+}
+
+impl FormatSpec {
+    /// A format with only a name and a default file, from which the others are made.
+    pub const EMPTY: FormatSpec = FormatSpec {
+        id: "",
+        file: "",
+        variables: &[],
+        shared_file: None,
+        render: None,
+        runner_commands: None,
+    };
+}
+
+impl fmt::Debug for FormatSpec {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.id)
+    }
+}
+
+impl PartialEq for FormatSpec {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id
+    }
+}
+
+impl Eq for FormatSpec {}
+
+impl FromStr for OutputSpec {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (name, path) = match text.split_once('=') {
+            Some((name, path)) => (name, Some(PathBuf::from(path))),
+            None => (text, None),
+        };
+        let format = FORMATS.into_iter().find(|format| format.id == name);
+        let format = format.ok_or_else(|| {
+            let known = FORMATS.map(|format| format.id).join(", ");
+            format!("the formats are {known}; append =PATH to choose the file")
+        })?;
+        match path {
+            Some(path) if *format == json::FORMAT || path.as_os_str().is_empty() => {
+                Err("expected a path after `=`; score.json always goes to --out".to_owned())
+            }
+            path => Ok(OutputSpec { format, path }),
+        }
+    }
+}

@@ -38,13 +38,12 @@ pub fn is_undated(policy: &Policy, info: &EntryInfo) -> bool {
     policy.late.due.is_some() && !info.late && !is_dated
 }
 
-/// Parses a time such as `2026-11-20 22:01:05.000000000 Z`, and returns the seconds since 1970.
-fn parse_timestamp(text: &str) -> Option<i64> {
+/// Parses a time such as `2026-11-20 22:01:05.000000000 Z`.
+fn parse_timestamp(text: &str) -> Option<Timestamp> {
     // Gradescope's file has a space before the time zone.
     let text = text.trim().replacen(" Z", "Z", 1).replacen(" +", "+", 1);
     let text = text.replacen(" UTC", "Z", 1);
-    let time: Timestamp = text.parse().ok()?;
-    Some(time.as_second())
+    text.parse().ok()
 }
 
 #[cfg(test)]
@@ -53,7 +52,7 @@ mod tests {
 
     #[test]
     fn reads_gradescope_timestamps() {
-        let seconds = Some(1_795_212_065);
+        let seconds = Timestamp::from_second(1_795_212_065).ok();
         assert_eq!(parse_timestamp("2026-11-20 22:01:05.000000000 Z"), seconds);
         assert_eq!(parse_timestamp("2026-11-20 22:01:05 UTC"), seconds);
         assert_eq!(parse_timestamp("2026-11-20T23:01:05+01:00"), seconds);

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use toml::value::{Datetime, Offset};
+use jiff::Timestamp;
 
 use crate::policy::{LatePolicy, PercentBase, Policy, Rounding};
 
@@ -19,6 +19,13 @@ pub struct Lateness {
 impl Lateness {
     /// The lateness of a submission that is on time.
     pub const NONE: Lateness = Lateness { seconds: 0 };
+
+    /// Returns how long after `due` a submission was made. The started second does not count.
+    pub(super) fn since(due: Timestamp, submitted: Timestamp) -> Self {
+        Lateness {
+            seconds: u64::try_from(submitted.duration_since(due).as_secs()).unwrap_or(0),
+        }
+    }
 }
 
 /// The final points of a submission.
@@ -66,13 +73,10 @@ impl Policy {
         }
     }
 
-    /// Returns how late a submission is. `submitted` is its time in seconds since the Unix epoch.
-    /// Returns `None` if the policy has no due time.
-    pub fn lateness(&self, submitted: i64) -> Option<Lateness> {
-        let seconds = submitted - unix_seconds(self.late.due.as_ref()?)?;
-        Some(Lateness {
-            seconds: u64::try_from(seconds).unwrap_or(0),
-        })
+    /// Returns how late a submission is that was made at `submitted`. `None` if the policy has no
+    /// due time.
+    pub fn lateness(&self, submitted: Timestamp) -> Option<Lateness> {
+        Some(Lateness::since(self.late.due?, submitted))
     }
 }
 
@@ -132,31 +136,6 @@ impl Fraction {
         };
         u32::try_from(rounded).unwrap_or(u32::MAX)
     }
-}
-
-/// Returns the seconds since the Unix epoch, or `None` if the date, the time or the offset is
-/// missing.
-pub(super) fn unix_seconds(datetime: &Datetime) -> Option<i64> {
-    let (date, time) = (datetime.date?, datetime.time?);
-    let minutes = match datetime.offset? {
-        Offset::Z => 0,
-        Offset::Custom { minutes } => i64::from(minutes),
-    };
-    let (hour, minute) = (i64::from(time.hour), i64::from(time.minute));
-    let second = i64::from(time.second.unwrap_or(0));
-    let days = days_since_epoch(date.year.into(), date.month.into(), date.day.into());
-    Some(((days * 24 + hour) * 60 + minute - minutes) * 60 + second)
-}
-
-/// Returns the days since 1970-01-01 (Howard Hinnant, "chrono-Compatible Low-Level Date
-/// Algorithms").
-fn days_since_epoch(year: i64, month: i64, day: i64) -> i64 {
-    // Years start in March, so that the leap day is the last one.
-    let year = if month <= 2 { year - 1 } else { year };
-    let era = year.div_euclid(400);
-    let of_era = year.rem_euclid(400);
-    let of_year = (153 * ((month + 9) % 12) + 2) / 5 + day - 1;
-    era * 146_097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719_468
 }
 
 #[cfg(test)]
@@ -245,17 +224,14 @@ mod tests {
     fn due_times_are_compared_across_time_zones() {
         let due = |text: &str| policy(&format!("[late]\ndue = {text}"));
         // `date -d 2026-11-20T23:59:59+01:00 +%s`
+        let at = |seconds: i64| Timestamp::from_second(seconds).unwrap();
         let time = 1_795_215_599;
         for same in ["2026-11-20T23:59:59+01:00", "2026-11-20T22:59:59Z"] {
             let due = due(same);
-            assert_eq!(due.lateness(time), Some(Lateness::NONE), "{same}");
-            assert_eq!(due.lateness(time - 9), Some(Lateness::NONE), "{same}");
-            assert_eq!(due.lateness(time + 9), Some(Lateness { seconds: 9 }));
+            assert_eq!(due.lateness(at(time)), Some(Lateness::NONE), "{same}");
+            assert_eq!(due.lateness(at(time - 9)), Some(Lateness::NONE), "{same}");
+            assert_eq!(due.lateness(at(time + 9)), Some(Lateness { seconds: 9 }));
         }
-        assert_eq!(
-            unix_seconds(&"2024-02-29T12:00:00Z".parse().unwrap()),
-            Some(1_709_208_000)
-        );
-        assert_eq!(Policy::default().lateness(time), None);
+        assert_eq!(Policy::default().lateness(at(time)), None);
     }
 }

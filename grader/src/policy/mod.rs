@@ -10,8 +10,8 @@ mod visibility;
 
 use std::collections::BTreeMap;
 
+use jiff::Timestamp;
 use serde::Deserialize;
-use toml::value::Datetime;
 
 pub use late::{CountedPoints, Lateness};
 pub use read::PolicyError;
@@ -61,7 +61,8 @@ pub enum Rounding {
 #[serde(deny_unknown_fields, default)]
 pub struct LatePolicy {
     /// The due time. If there is none, the platform's due time is used.
-    pub due: Option<Datetime>,
+    #[serde(deserialize_with = "read::due_time")]
+    pub due: Option<Timestamp>,
     /// Grace period after the due time, in minutes.
     pub grace_minutes: u32,
     /// Number of late days that cost nothing.

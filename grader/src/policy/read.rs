@@ -5,10 +5,13 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use jiff::Timestamp;
 use judging::exam::Exam;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
+use toml::value::Datetime;
 
 use crate::policy::Policy;
-use crate::policy::late::unix_seconds;
 
 /// Reasons why a policy cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -100,17 +103,8 @@ impl Policy {
     /// Returns the key with an invalid value, and the problem with it.
     fn problem(&self) -> Option<(&'static str, &'static str)> {
         let late = &self.late;
-        let is_valid_time = late
-            .due
-            .as_ref()
-            .is_none_or(|due| unix_seconds(due).is_some());
         [
             (self.points.out_of == Some(0), "out_of", "must not be 0"),
-            (
-                !is_valid_time,
-                "due",
-                "must be a date and time with an offset, such as 2026-11-20T23:59:59+01:00",
-            ),
             (
                 late.percent_per_day > 100,
                 "percent_per_day",
@@ -125,6 +119,18 @@ impl Policy {
         .into_iter()
         .find_map(|(is_wrong, key, problem)| is_wrong.then_some((key, problem)))
     }
+}
+
+/// Reads a due time. TOML also has dates, and times without an offset, which are no points in time.
+pub(super) fn due_time<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Timestamp>, D::Error> {
+    let time = Datetime::deserialize(deserializer)?.to_string().parse();
+    time.map(Some).map_err(|_| {
+        D::Error::custom(
+            "must be a date and time with an offset, such as 2026-11-20T23:59:59+01:00",
+        )
+    })
 }
 
 /// A problem at a byte offset of the text.

@@ -6,18 +6,18 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use jiff::Timestamp;
 use serde::Deserialize;
-use toml::value::Datetime;
 
 use crate::policy::Policy;
-use crate::policy::late::{Lateness, unix_seconds};
+use crate::policy::late::Lateness;
 
-/// The times at which a submission was made and was due, in seconds since the Unix epoch.
+/// The times at which a submission was made and due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SubmissionTime {
-    submitted: i64,
+    submitted: Timestamp,
     /// The due time, or `None` if the assignment has no due date.
-    due: Option<i64>,
+    due: Option<Timestamp>,
 }
 
 /// Reasons why the platform's file cannot be used. Students cannot fix them.
@@ -79,19 +79,16 @@ impl SubmissionTime {
     }
 }
 
-fn parse_time(text: &str) -> Result<i64, String> {
-    let datetime: Option<Datetime> = text.parse().ok();
-    let seconds = datetime.as_ref().and_then(unix_seconds);
-    seconds.ok_or_else(|| format!("{text:?} is not a date and time"))
+fn parse_time(text: &str) -> Result<Timestamp, String> {
+    text.parse()
+        .map_err(|_| format!("{text:?} is not a date and time"))
 }
 
 impl Policy {
     /// Returns how late a submission is, relative to the policy's due time or, if there is none, to
     /// the platform's.
     pub fn lateness_of(&self, submission: SubmissionTime) -> Lateness {
-        let late = |due: i64| Lateness {
-            seconds: u64::try_from(submission.submitted - due).unwrap_or(0),
-        };
+        let late = |due: Timestamp| Lateness::since(due, submission.submitted);
         let by_policy = self.lateness(submission.submitted);
         by_policy.unwrap_or(submission.due.map_or(Lateness::NONE, late))
     }

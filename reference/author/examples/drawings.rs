@@ -10,8 +10,8 @@ use std::process::ExitCode;
 use std::{env, error, fs};
 
 use author::exams;
-use author::proof::solutions::Solutions;
-use author::proof::workbench::Workbench;
+use author::solutions::Solutions;
+use author::solutions::workbench::Workbench;
 use grader::drawing::{self, Drawing};
 use judging::exam::Item;
 use judging::judge::{Credit, judge};
@@ -72,7 +72,7 @@ fn run() -> Result<(), Box<dyn error::Error>> {
             }
             Ok(figures)
         })
-        .collect::<Result<Vec<String>, author::proof::workbench::WorkbenchError>>()?;
+        .collect::<Result<Vec<String>, author::solutions::workbench::WorkbenchError>>()?;
     let page = format!(
         "<!doctype html><meta charset=utf-8><meta name=viewport content='width=device-width'>\
          <title>Drawings</title><style>{STYLE}</style>{}",

@@ -11,9 +11,9 @@ use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use author::proof::catalogue::mistakes;
-use author::proof::sources::Sources;
-use author::proof::variants::variants;
+use author::solutions::catalogue::mistakes;
+use author::solutions::sources::Sources;
+use author::solutions::variants::variants;
 use grader::given_files::TASK_FILES;
 use grader::workspace::Workspace;
 

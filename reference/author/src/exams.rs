@@ -8,11 +8,12 @@ use judging::exam::{Exam, Item};
 use crate::drawing_data::with_drawing_data;
 use crate::generated_file::GeneratedFile;
 use crate::hints::with_hints;
+use crate::items::traverse::RecordedPicture;
 use crate::items::{bbox, build, camera, sphere, traverse, triangle};
-use crate::proof::solutions::{ProofError, Solutions};
-use crate::proof::workbench::Workbench;
-use crate::recording::{RecordedPicture, Recorder, RecordingError};
 use crate::seed::Seed;
+use crate::solutions::recording::{Recorder, RecordingError};
+use crate::solutions::workbench::Workbench;
+use crate::solutions::{Solutions, SolutionsError};
 
 /// The version of the exam file's format.
 const SCHEMA: u32 = 1;
@@ -29,7 +30,7 @@ const PRACTICE_FILE: &str = "grader/exams/practice.json";
 pub enum ExamGenerationError {
     /// The reference or a known mistake could not be built, or did not give the expected answers.
     #[error(transparent)]
-    Solutions(#[from] ProofError),
+    Solutions(#[from] SolutionsError),
     /// The exam could not be serialized.
     #[error("cannot serialize the exam: {0}")]
     Text(#[from] serde_json::Error),
@@ -53,15 +54,16 @@ pub fn final_exam_text(seed: u64) -> Result<String, ExamGenerationError> {
 }
 
 fn exam_text(id: &str, seed: Seed) -> Result<String, ExamGenerationError> {
-    let solutions = Solutions::load(Workbench::open().map_err(ProofError::from)?)?;
-    let exam = generate(id, seed, &solutions.recorder).map_err(ProofError::from)?;
+    let solutions = Solutions::load(Workbench::open().map_err(SolutionsError::from)?)?;
+    let exam = generate(id, seed, &solutions.recorder).map_err(SolutionsError::from)?;
     Ok(to_text(&with_drawing_data(with_hints(exam, &solutions)?))?)
 }
 
 /// Generates an exam without hints. The reference renders the picture of the radiance item.
 pub fn generate(id: &str, seed: Seed, recorder: &Recorder) -> Result<Exam, RecordingError> {
-    let recorded = recorder.record_cornell_box(|scene| traverse::radiance_question(seed, scene))?;
-    Ok(assemble(id, seed, recorded))
+    let question = traverse::radiance_question(seed, recorder.scene().to_owned());
+    let pixels = recorder.record(&question)?;
+    Ok(assemble(id, seed, RecordedPicture { question, pixels }))
 }
 
 /// Assembles an exam without hints, in which each item comes after the items that it needs.

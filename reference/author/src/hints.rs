@@ -10,8 +10,8 @@ use judging::signatures::{KnownMistake, MistakeAnswers, MistakeSignatures, Obser
 use protocol::{Answer, Question, Samples};
 use rayon::prelude::*;
 
-use crate::proof::solutions::{ProofError, Solutions};
-use crate::proof::workbench::WorkbenchError;
+use crate::solutions::workbench::WorkbenchError;
+use crate::solutions::{Solutions, SolutionsError};
 
 /// The maximum number of an item's elements that a signature records.
 const MAX_ELEMENTS: usize = 24;
@@ -20,7 +20,7 @@ const MAX_ELEMENTS: usize = 24;
 const MIN_ELEMENTS: usize = 12;
 
 /// Returns the exam with every known mistake's answers to some of its questions.
-pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam, ProofError> {
+pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam, SolutionsError> {
     let answers: Vec<Vec<Option<Vec<ObservedAnswer>>>> = solutions
         .mistakes
         .par_iter()
@@ -32,9 +32,9 @@ pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam, ProofEr
                 own.then(|| observed_answers(item, solution.answers(item)))
                     .transpose()
             });
-            observed.collect::<Result<_, ProofError>>()
+            observed.collect::<Result<_, SolutionsError>>()
         })
-        .collect::<Result<_, ProofError>>()?;
+        .collect::<Result<_, SolutionsError>>()?;
 
     let mistakes = solutions.mistakes.iter().map(|(mistake, _)| KnownMistake {
         id: mistake.id.clone(),
@@ -70,7 +70,7 @@ fn is_table(item: &Item) -> bool {
 fn observed_answers(
     item: &Item,
     answers: std::io::Result<Result<Vec<Answer>, Fault>>,
-) -> Result<Vec<ObservedAnswer>, ProofError> {
+) -> Result<Vec<ObservedAnswer>, SolutionsError> {
     Ok(match answers.map_err(WorkbenchError::from)? {
         Ok(answers) => observe(item, &answers),
         Err(fault) => {

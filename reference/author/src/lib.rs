@@ -3,8 +3,21 @@
 //! tests the exam, by grading many solutions ([`proof`]).
 //!
 //! This crate never links the reference. Keys are computed from the definitions, in double
-//! precision, in [`oracle`]. Grading the reference then shows that the reference and the keys
-//! agree.
+//! precision, in [`oracle`]. Grading the reference then shows that the
+//! reference and the keys agree.
+//!
+//! The modules form layers. A module uses only modules of the layers below its own:
+//!
+//! | layer | modules |
+//! |---|---|
+//! | the handout, which is checked against the command line | [`handout`] |
+//! | the command line | [`cli`] |
+//! | packages for platforms; the proof that the exam is right | [`package`], [`proof`] |
+//! | whole exams; the students' bundle | [`exams`], [`bundle`] |
+//! | additions to an exam | [`hints`], [`drawing_data`] |
+//! | an exam's items; solutions, and how they are built and run | [`items`], [`solutions`] |
+//! | trees with decoys; other generated files | [`tree`], [`starter`], [`scenes`] |
+//! | correct answers, random numbers, files | [`oracle`], [`seed`], [`generated_file`], [`text_file`] |
 
 pub mod bundle;
 pub mod cli;
@@ -17,8 +30,9 @@ pub mod items;
 pub mod oracle;
 pub mod package;
 pub mod proof;
-pub mod recording;
 pub mod scenes;
 pub mod seed;
+pub mod solutions;
 pub mod starter;
+pub mod text_file;
 pub mod tree;

@@ -15,8 +15,8 @@ use author::proof::matrix;
 use author::proof::mutants::{self, MutantSelection};
 use author::proof::prove::prove;
 use author::proof::recognition::recognise;
-use author::proof::solutions::{ProofError, Solutions};
-use author::proof::workbench::Workbench;
+use author::solutions::workbench::Workbench;
+use author::solutions::{Solutions, SolutionsError};
 use author::{exams, handout, scenes, starter};
 use clap::Parser;
 
@@ -143,7 +143,7 @@ fn make_book(_: &Path, _: &Path) -> CommandResult {
     Err("this program was built without mdBook: run `cargo book` instead".into())
 }
 
-fn solutions() -> Result<Solutions, ProofError> {
+fn solutions() -> Result<Solutions, SolutionsError> {
     Solutions::load(Workbench::open()?)
 }
 

@@ -8,11 +8,12 @@ use std::process::Command;
 use std::sync::LazyLock;
 
 use author::exams::load_practice;
-use author::proof::catalogue::Change;
+use author::proof::grade::{grade_mistake, variant_losses};
 use author::proof::recognition::recognise;
-use author::proof::solutions::Solutions;
-use author::proof::variants::Variant;
-use author::proof::workbench::Workbench;
+use author::solutions::Solutions;
+use author::solutions::catalogue::Change;
+use author::solutions::variants::Variant;
+use author::solutions::workbench::Workbench;
 use judging::exam::Exam;
 
 static SOLUTIONS: LazyLock<Solutions> = LazyLock::new(|| {
@@ -97,9 +98,7 @@ fn reports_a_mistake_that_changes_nothing() {
     }];
     let reference = SOLUTIONS.recorder.reference();
     let sources = mistake.apply(reference).unwrap();
-    let graded = SOLUTIONS
-        .grade_mistake(&mistake, &sources, &practice_exam())
-        .unwrap();
+    let graded = grade_mistake(&SOLUTIONS.workbench, &mistake, &sources, &practice_exam()).unwrap();
     let problems = graded.problems();
     assert!(
         problems[0].ends_with("costs nothing in its own task"),
@@ -131,6 +130,6 @@ fn reports_a_wrong_variant() {
         may_lose: Vec::new(),
         crates: Vec::new(),
     };
-    let lost = SOLUTIONS.variant_losses(&variant, sources, &practice_exam());
+    let lost = variant_losses(&SOLUTIONS.workbench, &variant, sources, &practice_exam());
     assert!(!lost.unwrap().is_empty());
 }

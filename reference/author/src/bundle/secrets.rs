@@ -14,8 +14,9 @@ use grader::given_files::TASK_FILES;
 use judging::exam::Exam;
 
 use crate::bundle::Bundle;
-use crate::proof::catalogue::{CatalogueError, mistakes};
-use crate::proof::sources::{ReadError, Sources};
+use crate::solutions::catalogue::{CatalogueError, mistakes};
+use crate::solutions::sources::Sources;
+use crate::text_file::ReadError;
 
 /// The files and folders whose lines are secret.
 const SECRET_PATHS: [&str; 4] = [

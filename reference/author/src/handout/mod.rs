@@ -22,7 +22,7 @@ use crate::generated_file::GeneratedFile;
 use crate::handout::names::KnownNames;
 use crate::handout::pages::{Page, pages};
 use crate::handout::source_file::SourceFile;
-use crate::proof::sources::{ReadError, read};
+use crate::text_file::{ReadError, read};
 
 /// The folders in which the handout's names are looked up: the code that students see, and the code
 /// that writes files that students see.

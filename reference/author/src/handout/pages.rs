@@ -6,7 +6,7 @@ use std::path::Path;
 
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 
-use crate::proof::sources::{ReadError, read};
+use crate::text_file::{ReadError, read};
 
 /// A piece of text from a chapter, and its line.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -8,9 +8,10 @@ use judging::exam::{Exam, Item, Task};
 
 use crate::exams;
 use crate::generated_file::GeneratedFile;
-use crate::proof::graded_mistake::GradedMistake;
-use crate::proof::solutions::{ProofError, Solutions};
-use crate::proof::workbench::Workbench;
+use crate::proof::ProofError;
+use crate::proof::grade::{GradedMistake, grade_mistakes};
+use crate::solutions::Solutions;
+use crate::solutions::workbench::Workbench;
 
 /// The path of the table, relative to the workspace's root.
 const PATH: &str = "reference/mistakes/matrix.md";
@@ -20,7 +21,7 @@ const PATH: &str = "reference/mistakes/matrix.md";
 pub fn generated_file() -> Result<GeneratedFile, ProofError> {
     let solutions = Solutions::load(Workbench::open()?)?;
     let exam = exams::load_practice(solutions.workbench.root())?;
-    let graded = solutions.grade_mistakes(&exam)?;
+    let graded = grade_mistakes(&solutions, &exam)?;
     let problems: Vec<String> = graded.iter().flat_map(GradedMistake::problems).collect();
     if !problems.is_empty() {
         return Err(ProofError::Problems(problems));

@@ -1,19 +1,54 @@
-//! Tests that the exam catches every known mistake and gives full marks to correct code, by grading
-//! many solutions.
-//!
-//! `reference/mistakes` contains known mistakes, which are small changes to the reference,
-//! `reference/variants` contains other correct solutions, and `reference/mutants` lists mechanical
-//! changes to the reference. Each solution is built and graded like any submission.
+//! Tests that the exam catches every known mistake and gives full marks to correct code, by
+//! grading many [solutions](crate::solutions).
 
 pub mod calibrate;
-pub mod catalogue;
-pub mod graded_mistake;
+pub mod grade;
 pub mod matrix;
 pub mod mutants;
 pub mod prove;
 pub mod recognition;
-pub mod solutions;
-pub mod sources;
 pub mod summary;
-pub mod variants;
-pub mod workbench;
+
+use std::io;
+use std::path::PathBuf;
+
+use judging::exam_file::ExamError;
+
+use crate::solutions::SolutionsError;
+use crate::solutions::recording::RecordingError;
+use crate::solutions::workbench::WorkbenchError;
+use crate::text_file::ReadError;
+
+/// The reason why a proof cannot be run.
+#[derive(Debug, thiserror::Error)]
+pub enum ProofError {
+    /// The solutions cannot be used.
+    #[error(transparent)]
+    Solutions(#[from] SolutionsError),
+    /// A file cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A solution cannot be built or run.
+    #[error(transparent)]
+    Workbench(#[from] WorkbenchError),
+    /// The practice exam cannot be used.
+    #[error(transparent)]
+    Exam(#[from] ExamError),
+    /// An exam's picture cannot be recorded.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// Mistakes do not lose the points that they must lose.
+    #[error(
+        "the practice exam and reference/mistakes do not agree; fix the items or the mistakes:\n{}",
+        .0.join("\n")
+    )]
+    Problems(Vec<String>),
+    /// Results cannot be saved.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+}

@@ -12,10 +12,12 @@ use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
 use crate::exams;
-use crate::proof::solutions::{ProofError, Solutions};
-use crate::proof::sources::ReadError;
+use crate::proof::ProofError;
+use crate::proof::grade::{grade_mistake, variant_losses};
 use crate::proof::summary::{ProofSummary, SeedResult};
 use crate::seed::Seed;
+use crate::solutions::Solutions;
+use crate::text_file::ReadError;
 
 /// Grades all solutions with the exam of one seed.
 fn prove_seed(
@@ -30,13 +32,13 @@ fn prove_seed(
         ..SeedResult::default()
     };
     for (variant, sources) in &solutions.variants {
-        let lost = solutions.variant_losses(variant, sources, &exam)?;
+        let lost = variant_losses(&solutions.workbench, variant, sources, &exam)?;
         if !lost.is_empty() {
             result.false_fails.insert(variant.id.clone(), lost);
         }
     }
     for (mistake, sources) in solutions.mistakes.iter().filter(|_| with_mistakes) {
-        let problems = solutions.grade_mistake(mistake, sources, &exam)?.problems();
+        let problems = grade_mistake(&solutions.workbench, mistake, sources, &exam)?.problems();
         if !problems.is_empty() {
             result.uncaught.insert(mistake.id.clone(), problems);
         }

@@ -8,9 +8,10 @@ use judging::exam::{Exam, Item};
 use judging::recognise::Observations;
 use rayon::prelude::*;
 
-use crate::proof::solutions::{ProofError, Solutions};
-use crate::proof::sources::Sources;
-use crate::proof::workbench::WorkbenchError;
+use crate::proof::ProofError;
+use crate::solutions::Solutions;
+use crate::solutions::sources::Sources;
+use crate::solutions::workbench::WorkbenchError;
 
 /// The results of recognising all known mistakes, by their ids.
 #[derive(Debug, Default)]

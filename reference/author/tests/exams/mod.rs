@@ -4,7 +4,7 @@
 use std::sync::LazyLock;
 
 use author::exams::assemble;
-use author::recording::RecordedPicture;
+use author::items::traverse::RecordedPicture;
 use author::seed::Seed;
 use glam::{UVec2, Vec3};
 use judging::exam::Exam;

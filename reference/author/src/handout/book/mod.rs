@@ -14,7 +14,7 @@ use mdbook_driver::errors::Error;
 use self::formulas::render_formulas;
 use self::pages::problems;
 use self::pictures::inline_figures;
-use crate::proof::sources::ReadError;
+use crate::text_file::ReadError;
 
 /// The reason why the book cannot be built.
 #[derive(Debug, thiserror::Error)]

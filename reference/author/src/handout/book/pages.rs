@@ -7,7 +7,7 @@ use judging::section::CHAPTERS;
 
 use crate::handout::links::SUMMARY;
 use crate::handout::pages::{Page, pages};
-use crate::proof::sources::{ReadError, read};
+use crate::text_file::{ReadError, read};
 
 /// Returns the problems with the pages in the folder `book`, built from the workspace at `root`.
 pub fn problems(root: &Path, book: &Path) -> Result<Vec<String>, ReadError> {

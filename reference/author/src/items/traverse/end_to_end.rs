@@ -1,6 +1,6 @@
 //! Items that combine traversal with the other tasks.
 
-use glam::{DVec3, UVec2};
+use glam::{DVec3, UVec2, Vec3};
 use judging::exam::{ExamQuestion, HitCheck, Item, Key};
 use protocol::{Question, Rays};
 
@@ -10,7 +10,6 @@ use super::{
 };
 use crate::items::{hits_key, meshes, picture};
 use crate::oracle::scan::{self, Scan};
-use crate::recording::RecordedPicture;
 use crate::seed::{Rng, Seed};
 
 /// Creates a small question that a linear scan gets wrong and every correct traversal gets right.
@@ -94,6 +93,15 @@ pub fn radiance_question(seed: Seed, scene: String) -> Question {
         bounces: 3,
         seed: rng.index(1 << 30) as u64,
     }
+}
+
+/// A question about a path-traced picture, and the picture that the reference draws for it.
+#[derive(Clone, Debug)]
+pub struct RecordedPicture {
+    /// The question.
+    pub question: Question,
+    /// Linear red, green and blue of each pixel, row by row from the bottom.
+    pub pixels: Vec<Vec3>,
 }
 
 /// Returns the item that compares a path-traced picture with the reference's.

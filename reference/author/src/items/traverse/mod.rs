@@ -21,7 +21,7 @@ use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
 use crate::tree::{Tree, construction, decoy};
 
-pub use end_to_end::{radiance_item, radiance_question};
+pub use end_to_end::{RecordedPicture, radiance_item, radiance_question};
 
 /// Returns the items of the task `traverse`, except [`radiance_item`].
 pub fn items(seed: Seed) -> Vec<Item> {

@@ -15,11 +15,13 @@ use judging::judge::Threshold;
 use rayon::prelude::*;
 
 use crate::exams;
+use crate::proof::ProofError;
 use crate::proof::calibrate::margins::{DeviationSample, Margin, Margins};
-use crate::proof::solutions::{ProofError, Solutions, tasks_and_dependents};
-use crate::proof::sources::Sources;
-use crate::proof::workbench::{BuiltSolution, WorkbenchError};
+use crate::proof::grade::tasks_and_dependents;
 use crate::seed::Seed;
+use crate::solutions::Solutions;
+use crate::solutions::sources::Sources;
+use crate::solutions::workbench::{BuiltSolution, WorkbenchError};
 
 /// The default seeds for writing the table in the repository.
 pub const MANY_SEEDS: Range<u64> = 0..200;

@@ -9,7 +9,7 @@ use judging::judge::Threshold;
 use crate::generated_file::GeneratedFile;
 use crate::proof::calibrate::Calibration;
 use crate::proof::calibrate::margins::{DeviationSample, MIN_MARGIN, Margin};
-use crate::proof::sources::{ReadError, read};
+use crate::text_file::{ReadError, read};
 
 /// The path of the table, relative to the workspace's root.
 pub const PATH: &str = "reference/calibration.md";

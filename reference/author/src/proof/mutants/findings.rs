@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::proof::mutants::equivalent::{self, EquivalentMutant};
+use crate::solutions::mutants::equivalent::{self, EquivalentMutant};
 
 /// The outcome of grading one mutant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

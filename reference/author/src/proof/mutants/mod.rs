@@ -1,14 +1,7 @@
-//! Checks that the exam catches the mutants that cargo-mutants generates from the reference's task
-//! files: every mutant must lose points, except those that are equivalent to the reference.
-//!
-//! Mutants complement the catalogue of mistakes. The catalogue lists mistakes that people make;
-//! mutants are generated without any knowledge of the exam.
+//! Checks that the exam catches the mutants that cargo-mutants generates from the reference's task files:
+//! every mutant must lose points, except those that are equivalent to the reference.
 
-pub mod cargo_mutants;
-pub mod equivalent;
 pub mod findings;
-pub mod list;
-pub mod span;
 
 use std::path::Path;
 
@@ -19,12 +12,13 @@ use rayon::prelude::*;
 
 use crate::exams;
 use crate::generated_file::Mode;
-use crate::proof::mutants::cargo_mutants::CargoMutantsError;
-use crate::proof::mutants::equivalent::{EquivalentsError, equivalent_mutants};
 use crate::proof::mutants::findings::{Findings, MutantOutcome};
-use crate::proof::mutants::list::{MutantList, OutdatedListError};
-use crate::proof::sources::{ReadError, Sources, read};
-use crate::proof::workbench::{Workbench, WorkbenchError};
+use crate::solutions::mutants::cargo_mutants::{self, CargoMutantsError};
+use crate::solutions::mutants::equivalent::{EquivalentsError, equivalent_mutants};
+use crate::solutions::mutants::list::{self, MutantList, OutdatedListError};
+use crate::solutions::sources::Sources;
+use crate::solutions::workbench::{Workbench, WorkbenchError};
+use crate::text_file::{ReadError, read};
 
 /// The step between the mutants of a sample, which contains one in this many, in the order of their
 /// names.

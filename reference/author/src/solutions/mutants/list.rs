@@ -5,8 +5,8 @@ use grader::given_files::{TASK_FILES, TaskFile};
 use serde::{Deserialize, Serialize};
 
 use crate::generated_file::GeneratedFile;
-use crate::proof::mutants::span::SourceSpan;
-use crate::proof::sources::Sources;
+use crate::solutions::mutants::span::SourceSpan;
+use crate::solutions::sources::Sources;
 
 /// The list's file, relative to the workspace's root.
 pub const PATH: &str = "reference/mutants/list.json";

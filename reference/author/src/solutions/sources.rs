@@ -1,29 +1,11 @@
 //! The task files of a solution: those of the reference, some of them changed.
 
-use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use grader::given_files::{TASK_FILES, TaskFile};
 use grader::submission::Submission;
 
-/// The error for a file or folder of the repository that cannot be read.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot read {}: {source}", path.display())]
-pub struct ReadError {
-    /// The file or folder.
-    pub path: PathBuf,
-    /// The system's error.
-    pub source: io::Error,
-}
-
-/// Reads a text file.
-pub fn read(path: &Path) -> Result<String, ReadError> {
-    fs::read_to_string(path).map_err(|source| ReadError {
-        path: path.to_owned(),
-        source,
-    })
-}
+use crate::text_file::{ReadError, read};
 
 /// The five task files of a solution, in lecture order.
 #[derive(Clone, Debug)]

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use judging::exam::Task;
 use serde::Deserialize;
 
-use crate::proof::sources::{ReadError, Sources, read};
+use crate::solutions::sources::Sources;
+use crate::text_file::{ReadError, read};
 
 /// The folder of the variants.
 const FOLDER: &str = "reference/variants";

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use crate::proof::sources::{ReadError, read};
+use crate::text_file::{ReadError, read};
 
 /// The file of the list, relative to the workspace's root.
 pub const PATH: &str = "reference/mutants/equivalent.toml";

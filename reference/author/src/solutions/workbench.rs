@@ -17,7 +17,7 @@ use judging::exam_file::ExamName;
 
 use protocol::Answer;
 
-use crate::proof::sources::Sources;
+use crate::solutions::sources::Sources;
 
 /// The time limit of an item. A correct solution takes milliseconds; the limit is for mistakes that
 /// never terminate.

@@ -9,9 +9,9 @@ use std::process::{Command, Output};
 use grader::given_files::{TASK_FILES, TaskFile};
 use serde::Deserialize;
 
-use crate::proof::mutants::list::{self, FileMutants, MutantList, UnnamedMutant};
-use crate::proof::mutants::span::{SourcePosition, SourceSpan};
-use crate::proof::sources::Sources;
+use crate::solutions::mutants::list::{self, FileMutants, MutantList, UnnamedMutant};
+use crate::solutions::mutants::span::{SourcePosition, SourceSpan};
+use crate::solutions::sources::Sources;
 
 /// The reason why the list of an installed cargo-mutants cannot be used.
 #[derive(Debug, thiserror::Error)]

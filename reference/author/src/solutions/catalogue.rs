@@ -8,7 +8,8 @@ use judging::exam::Task;
 use judging::section::Section;
 use serde::Deserialize;
 
-use crate::proof::sources::{ReadError, Sources, read};
+use crate::solutions::sources::Sources;
+use crate::text_file::{ReadError, read};
 
 /// A known wrong solution.
 #[derive(Clone, Debug, Deserialize)]

@@ -8,8 +8,9 @@ use glam::Vec3;
 use grader::probe::{Budget, Fault};
 use protocol::{Answer, ElementOutcome, Question};
 
-use crate::proof::sources::{ReadError, Sources, read};
-use crate::proof::workbench::{BuiltSolution, Workbench, WorkbenchError};
+use crate::solutions::sources::Sources;
+use crate::solutions::workbench::{BuiltSolution, Workbench, WorkbenchError};
+use crate::text_file::{ReadError, read};
 
 /// The path of the radiance item's scene, relative to the workspace root.
 const SCENE: &str = "scenes/cornell-box.json";
@@ -18,15 +19,6 @@ const SCENE: &str = "scenes/cornell-box.json";
 const BUDGET: Budget = Budget {
     cpu: Duration::from_secs(60),
 };
-
-/// A question and the picture that the reference renders for it.
-#[derive(Clone, Debug)]
-pub struct RecordedPicture {
-    /// The question.
-    pub question: Question,
-    /// Linear red, green and blue of each pixel, row by row from the bottom.
-    pub pixels: Vec<Vec3>,
-}
 
 /// The reason why the reference's picture could not be recorded.
 #[derive(Debug, thiserror::Error)]
@@ -74,21 +66,20 @@ impl Recorder {
         &self.sources
     }
 
-    /// Records the reference's answer to a question about the Cornell box. `question` is called
-    /// with the text of the scene file.
-    pub fn record_cornell_box(
-        &self,
-        question: impl FnOnce(String) -> Question,
-    ) -> Result<RecordedPicture, RecordingError> {
-        let question = question(self.scene.clone());
+    /// Returns the text of the Cornell box's scene file.
+    pub fn scene(&self) -> &str {
+        &self.scene
+    }
+
+    /// Returns the reference's answer to a question about a picture: linear red, green and blue of
+    /// each pixel, row by row from the bottom.
+    pub fn record(&self, question: &Question) -> Result<Vec<Vec3>, RecordingError> {
         let mut probe = self.reference.launcher().start(BUDGET)?;
         let answers = probe
-            .ask([&question], BUDGET)
+            .ask([question], BUDGET)
             .map_err(RecordingError::Fault)?;
         match answers.into_iter().next() {
-            Some(Answer::Picture(ElementOutcome::Value(pixels))) => {
-                Ok(RecordedPicture { question, pixels })
-            }
+            Some(Answer::Picture(ElementOutcome::Value(pixels))) => Ok(pixels),
             Some(Answer::Picture(ElementOutcome::Panicked(panic))) => {
                 Err(RecordingError::UnexpectedAnswer(panic.message))
             }

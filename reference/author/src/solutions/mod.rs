@@ -1,0 +1,95 @@
+//! The solutions of this repository: the reference, known mistakes, known correct variants, and
+//! mutants; how they are read, built and run.
+//!
+//! `reference/mistakes` contains known mistakes, which are small changes to the reference,
+//! `reference/variants` other correct solutions, and `reference/mutants` mechanical changes. Each
+//! is built and run like any submission. The exams take their recorded keys and their hints from
+//! solutions, and the proof grades them.
+
+pub mod catalogue;
+pub mod mutants;
+pub mod recording;
+pub mod sources;
+pub mod variants;
+pub mod workbench;
+
+use crate::solutions::catalogue::{CatalogueError, Mistake, mistakes};
+use crate::solutions::recording::{Recorder, RecordingError};
+use crate::solutions::sources::Sources;
+use crate::solutions::variants::{Variant, VariantsError, variants};
+use crate::solutions::workbench::{Workbench, WorkbenchError};
+use crate::text_file::ReadError;
+
+/// The reason why solutions cannot be read, built or run.
+#[derive(Debug, thiserror::Error)]
+pub enum SolutionsError {
+    /// The mistakes cannot be used.
+    #[error(transparent)]
+    Catalogue(#[from] CatalogueError),
+    /// The variants cannot be used.
+    #[error(transparent)]
+    Variants(#[from] VariantsError),
+    /// A file cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A solution cannot be built or run.
+    #[error(transparent)]
+    Workbench(#[from] WorkbenchError),
+    /// The exam's picture cannot be recorded.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// There is no variant with this id.
+    #[error("there is no variant {0}: see reference/variants/variants.toml for a list")]
+    UnknownVariant(String),
+}
+
+/// The known mistakes and variants with their sources, and the means to build and run them.
+#[derive(Debug)]
+pub struct Solutions {
+    /// Known wrong solutions, in the order of the catalogue.
+    pub mistakes: Vec<(Mistake, Sources)>,
+    /// Known correct solutions, in the order of the list.
+    pub variants: Vec<(Variant, Sources)>,
+    /// The workbench that builds the solutions.
+    pub workbench: Workbench,
+    /// The recorder of the exams' pictures.
+    pub recorder: Recorder,
+}
+
+impl Solutions {
+    /// Reads all mistakes and variants, and applies them to the reference.
+    pub fn load(workbench: Workbench) -> Result<Self, SolutionsError> {
+        let root = workbench.root();
+        let reference = Sources::reference(root)?;
+        let mistakes: Result<Vec<_>, CatalogueError> = mistakes(root)?
+            .into_iter()
+            .map(|mistake| {
+                let sources = mistake.apply(&reference)?;
+                Ok((mistake, sources))
+            })
+            .collect();
+        let variants: Result<Vec<_>, ReadError> = variants(root)?
+            .into_iter()
+            .map(|variant| {
+                let sources = variant.apply(&reference, root)?;
+                Ok((variant, sources))
+            })
+            .collect();
+        Ok(Solutions {
+            mistakes: mistakes?,
+            variants: variants?,
+            recorder: Recorder::open(&workbench)?,
+            workbench,
+        })
+    }
+
+    /// Keeps one variant, and drops all others and the mistakes.
+    pub fn only_variant(mut self, id: &str) -> Result<Self, SolutionsError> {
+        self.mistakes.clear();
+        self.variants.retain(|(variant, _)| variant.id == id);
+        match self.variants.len() {
+            0 => Err(SolutionsError::UnknownVariant(id.to_owned())),
+            _ => Ok(self),
+        }
+    }
+}

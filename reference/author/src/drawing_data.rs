@@ -112,7 +112,7 @@ mod tests {
     use glam::{DVec3, Vec3, vec3};
 
     use super::*;
-    use crate::items::meshes;
+    use crate::items::{self, meshes};
     use crate::seed::Seed;
     use crate::tree::construction;
 
@@ -155,7 +155,7 @@ mod tests {
             schema: 1,
             id: "small".to_owned(),
             mistakes: Vec::new(),
-            items: crate::items::bbox::items(Seed(1)),
+            items: items::resolve(items::bbox::items(Seed(1))),
         };
         let exam = with_drawing_data(exam);
         for question in exam.items.iter().flat_map(|item| &item.questions) {

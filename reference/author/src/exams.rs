@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use grader::exam_source::{ExamSource, ExamSourceError};
-use judging::exam::{Exam, Item};
+use judging::exam::Exam;
 
 use crate::drawing_data::with_drawing_data;
 use crate::generated_file::GeneratedFile;
 use crate::hints::with_hints;
 use crate::items::traverse::RecordedPicture;
-use crate::items::{bbox, build, camera, sphere, traverse, triangle};
+use crate::items::{self, traverse};
 use crate::seed::Seed;
 use crate::solutions::recording::{Recorder, RecordingError};
 use crate::solutions::workbench::Workbench;
@@ -68,22 +68,11 @@ pub fn generate(id: &str, seed: Seed, recorder: &Recorder) -> Result<Exam, Recor
 
 /// Assembles an exam without hints, in which each item comes after the items that it needs.
 pub fn assemble(id: &str, seed: Seed, recorded: RecordedPicture) -> Exam {
-    let tasks: [fn(Seed) -> Vec<Item>; 6] = [
-        camera::items,
-        triangle::items,
-        sphere::items,
-        bbox::items,
-        build::items,
-        traverse::items,
-    ];
-    let items = tasks.into_iter().flat_map(|items| items(seed));
     Exam {
         schema: SCHEMA,
         id: id.to_owned(),
         mistakes: Vec::new(),
-        items: items
-            .chain([traverse::radiance_item(seed, recorded)])
-            .collect(),
+        items: items::items(seed, recorded),
     }
 }
 
@@ -124,7 +113,7 @@ mod tests {
                 hint: "No.".to_owned(),
                 section: None,
             }],
-            items: bbox::items(Seed(1)),
+            items: items::resolve(items::bbox::items(Seed(1))),
         };
         let text = to_text(&exam).unwrap();
         assert_eq!(serde_json::from_str::<Exam>(&text).unwrap(), exam);

@@ -4,6 +4,7 @@
 mod builders;
 
 use author::items::build::{self, MAX_CORRECT_COST, MIN_ADJACENT_COST, relative_cost};
+use author::items::resolve;
 use author::oracle::buckets::{BucketExtent, BucketedBuilder};
 use author::seed::Seed;
 use judging::exam::{ExamQuestion, Item, Key};
@@ -17,7 +18,7 @@ const MIN_BAD_RATIO: f64 = 1.3;
 const SEEDS: [u64; 4] = [2025, 1, 2, 3];
 
 fn cost_items(seed: u64) -> Vec<Item> {
-    let mut items = build::items(Seed(seed));
+    let mut items = resolve(build::items(Seed(seed)));
     items.retain(|item| item.id.starts_with("build.cost_"));
     items
 }
@@ -131,7 +132,7 @@ fn a_wrong_heuristic_is_not_enough() {
 /// Returns the questions of `build.one_split`, each of which has one best split, without the
 /// control.
 fn one_split(seed: u64) -> Vec<ExamQuestion> {
-    let items = build::items(Seed(seed));
+    let items = resolve(build::items(Seed(seed)));
     let item = items.into_iter().find(|item| item.id == "build.one_split");
     let mut questions = item.expect("the item exists").questions;
     questions.pop().expect("the control is the last question");

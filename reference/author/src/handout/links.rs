@@ -71,7 +71,7 @@ pub fn missing_sections(pages: &[Page], exam: &Exam) -> Vec<String> {
         }
     };
     let items = exam.items.iter().map(|item| {
-        let none = "the item has no section: add one in items/sections.rs".to_owned();
+        let none = "the item has no section: its declaration must name one".to_owned();
         let problem = item.section.as_ref().map_or(Some(none), problem);
         problem.map(|problem| format!("{}: {problem}", item.id))
     });
@@ -93,12 +93,12 @@ fn anchors(pages: &[Page]) -> BTreeMap<&str, BTreeSet<String>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::items::bbox;
+    use crate::items::{bbox, resolve};
     use crate::seed::Seed;
 
     #[test]
     fn reports_missing_sections_and_differing_headings_with_their_item() {
-        let mut items = bbox::items(Seed(1));
+        let mut items = resolve(bbox::items(Seed(1)));
         items.truncate(3);
         items[1].section = Some(Section::new("boxes.md#flat-boxes"));
         items[2].section = None;
@@ -114,7 +114,7 @@ mod tests {
             [
                 "bbox.slab_after_slab: boxes.md#flat-boxes would be shown as \"Flat boxes\", but \
                  its heading is \"Flat, boxes\"",
-                "bbox.octants: the item has no section: add one in items/sections.rs",
+                "bbox.octants: the item has no section: its declaration must name one",
             ]
         );
         assert_eq!(

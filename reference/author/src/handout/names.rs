@@ -140,6 +140,8 @@ fn identifiers(text: &str) -> impl Iterator<Item = &str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::items;
+    use crate::seed::Seed;
 
     fn problems(markdown: &str) -> Vec<String> {
         let sources = [SourceFile {
@@ -151,7 +153,7 @@ mod tests {
             schema: 1,
             id: String::new(),
             mistakes: Vec::new(),
-            items: crate::items::bbox::items(crate::seed::Seed(1)),
+            items: items::resolve(items::bbox::items(Seed(1))),
         };
         let known = KnownNames {
             sources: &sources,

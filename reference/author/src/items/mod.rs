@@ -6,41 +6,38 @@
 pub mod bbox;
 pub mod build;
 pub mod camera;
+mod declaration;
 pub mod meshes;
 pub mod picture;
-pub mod sections;
 pub mod sphere;
 pub mod traverse;
 pub mod triangle;
 
 use glam::DVec3;
-use judging::exam::{ExamQuestion, HitCheck, Item, Key, Task};
-use judging::signatures::MistakeSignatures;
+use judging::exam::{ExamQuestion, HitCheck, Item, Key};
 use protocol::{Question, Ray, Rays, Shape};
 
+use crate::items::traverse::RecordedPicture;
 use crate::oracle::{Intersection, Ray64, scan};
+use crate::seed::Seed;
 
-/// Creates an item. `text` contains its title, and advice on where to look for the mistake.
-fn item(
-    task: Task,
-    name: &str,
-    points: u32,
-    text: [&str; 2],
-    questions: impl IntoIterator<Item = ExamQuestion>,
-) -> Item {
-    let [title, look] = text.map(str::to_owned);
-    let id = format!("{task}.{name}");
-    Item {
-        section: sections::section(&id),
-        id,
-        title,
-        task,
-        points,
-        look,
-        needs: Vec::new(),
-        questions: questions.into_iter().collect(),
-        signatures: MistakeSignatures::default(),
-    }
+use declaration::{Declaration, Group, item};
+pub use declaration::{DeclaredItem, resolve};
+
+/// Returns the items of an exam, each after the items that it needs. `recorded` is the picture of
+/// the radiance item.
+pub fn items(seed: Seed, recorded: RecordedPicture) -> Vec<Item> {
+    let tasks: [fn(Seed) -> Vec<DeclaredItem>; 6] = [
+        camera::items,
+        triangle::items,
+        sphere::items,
+        bbox::items,
+        build::items,
+        traverse::items,
+    ];
+    let declared = tasks.into_iter().flat_map(|items| items(seed));
+    let all = declared.chain([traverse::radiance_item(seed, recorded)]);
+    resolve(all.collect())
 }
 
 /// Returns the ray from one point toward another, in single precision.

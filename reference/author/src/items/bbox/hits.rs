@@ -1,16 +1,15 @@
 //! Items about hits and misses of rays from all sides.
 
 use glam::{DVec3, Vec3, dvec3};
-use judging::exam::Item;
 use protocol::{Interval, Ray};
 
-use super::{bbox_question, clear_outcome, hits_and_misses, item, random_box, ray_from_around};
-use crate::items::ray;
+use super::{bbox_question, clear_outcome, hits_and_misses, random_box, ray_from_around};
+use crate::items::{Declaration, DeclaredItem, Group, item, ray};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::{Rng, Seed};
 
-pub(super) fn through(seed: Seed) -> Item {
+pub(super) fn through(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.through");
     let mut question = || {
         let bounds = random_box(&mut rng);
@@ -20,17 +19,21 @@ pub(super) fn through(seed: Seed) -> Item {
         bbox_question(bounds, queries)
     };
     item(
-        "through",
-        [
-            "for a ray through the box, the times of entry and exit are returned",
-            "On each axis, the ray is between the two planes during one interval of times. It is \
-             in the box while it is in all three intervals.",
-        ],
+        Declaration {
+            id: "bbox.through",
+            points: 1,
+            title: "for a ray through the box, the times of entry and exit are returned",
+            look: "On each axis, the ray is between the two planes during one interval of times. \
+                   It is in the box while it is in all three intervals.",
+            section: "boxes.md#from-the-last-entry-to-the-first-exit",
+            group: Some(Group::Boxes),
+            needs: &[],
+        },
         vec![question(), question()],
     )
 }
 
-pub(super) fn slab_after_slab(seed: Seed) -> Item {
+pub(super) fn slab_after_slab(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.slab_after_slab");
     let bounds = random_box(&mut rng);
     // Hits, and misses that cross all three slabs, but never at the same time.
@@ -52,17 +55,21 @@ pub(super) fn slab_after_slab(seed: Seed) -> Item {
         (ray, Interval::AHEAD)
     });
     item(
-        "slab_after_slab",
-        [
-            "a ray that is never in all three slabs at the same time misses",
-            "Compare the axes with each other: the latest entry must come before the earliest \
-             exit.",
-        ],
+        Declaration {
+            id: "bbox.slab_after_slab",
+            points: 1,
+            title: "a ray that is never in all three slabs at the same time misses",
+            look: "Compare the axes with each other: the latest entry must come before the \
+                   earliest exit.",
+            section: "boxes.md#the-slab-intervals-must-overlap",
+            group: Some(Group::Boxes),
+            needs: &[],
+        },
         vec![bbox_question(bounds, queries)],
     )
 }
 
-pub(super) fn octants(seed: Seed) -> Item {
+pub(super) fn octants(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.octants");
     let bounds = random_box(&mut rng);
     let mut queries = Vec::new();
@@ -80,16 +87,21 @@ pub(super) fn octants(seed: Seed) -> Item {
         }
     }
     item(
-        "octants",
-        [
-            "rays in all directions enter and leave at the right times",
-            "On an axis where the direction is negative, the ray reaches the larger plane first.",
-        ],
+        Declaration {
+            id: "bbox.octants",
+            points: 1,
+            title: "rays in all directions enter and leave at the right times",
+            look: "On an axis where the direction is negative, the ray reaches the larger plane \
+                   first.",
+            section: "boxes.md#a-negative-direction-swaps-the-planes",
+            group: Some(Group::Boxes),
+            needs: &[],
+        },
         vec![bbox_question(bounds, queries)],
     )
 }
 
-pub(super) fn axis_parallel(seed: Seed) -> Item {
+pub(super) fn axis_parallel(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.axis_parallel");
     let bounds = random_box(&mut rng);
     let zero = |rng: &mut Rng| if rng.coin() { 0.0 } else { -0.0 };
@@ -106,18 +118,22 @@ pub(super) fn axis_parallel(seed: Seed) -> Item {
         (ray, Interval::AHEAD)
     });
     item(
-        "axis_parallel",
-        [
-            "directions with components 0 and −0 work as well",
-            "A ray that does not move along an axis is always or never between its planes. \
-             Dividing by zero gives infinities that say so: make sure that your comparisons handle \
-             them.",
-        ],
+        Declaration {
+            id: "bbox.axis_parallel",
+            points: 1,
+            title: "directions with components 0 and −0 work as well",
+            look: "A ray that does not move along an axis is always or never between its planes. \
+                   Dividing by zero gives infinities that say so: make sure that your comparisons \
+                   handle them.",
+            section: "boxes.md#zero-and-minus-zero",
+            group: Some(Group::Boxes),
+            needs: &[],
+        },
         vec![bbox_question(bounds, queries)],
     )
 }
 
-pub(super) fn flat(seed: Seed) -> Item {
+pub(super) fn flat(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.flat");
     let mut question = |axis: usize| {
         let mut bounds = random_box(&mut rng);
@@ -134,12 +150,16 @@ pub(super) fn flat(seed: Seed) -> Item {
         bbox_question(bounds, queries)
     };
     item(
-        "flat",
-        [
-            "a box without thickness can be hit",
-            "The box of an axis-parallel triangle is flat: the ray enters and leaves it at the \
-             same time, and that is a hit.",
-        ],
+        Declaration {
+            id: "bbox.flat",
+            points: 1,
+            title: "a box without thickness can be hit",
+            look: "The box of an axis-parallel triangle is flat: the ray enters and leaves it at \
+                   the same time, and that is a hit.",
+            section: "boxes.md#flat-boxes-can-be-hit",
+            group: Some(Group::Boxes),
+            needs: &[],
+        },
         vec![question(0), question(1), question(2)],
     )
 }

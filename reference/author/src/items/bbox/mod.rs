@@ -4,9 +4,10 @@ mod hits;
 mod times;
 
 use glam::{DVec3, dvec3};
-use judging::exam::{ExamQuestion, Item, Key, Task};
+use judging::exam::{ExamQuestion, Key};
 use protocol::{Interval, Question, Ray};
 
+use crate::items::DeclaredItem;
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::{Rng, Seed};
@@ -16,8 +17,8 @@ type Query = (Ray, Interval);
 const QUERIES_OF_EACH_KIND: usize = 12;
 
 /// Returns the items of the task `bbox`.
-pub fn items(seed: Seed) -> Vec<Item> {
-    let all: [fn(Seed) -> Item; 10] = [
+pub fn items(seed: Seed) -> Vec<DeclaredItem> {
+    let all: [fn(Seed) -> DeclaredItem; 10] = [
         hits::through,
         hits::slab_after_slab,
         hits::octants,
@@ -30,10 +31,6 @@ pub fn items(seed: Seed) -> Vec<Item> {
         hits::flat,
     ];
     all.into_iter().map(|item| item(seed)).collect()
-}
-
-fn item(name: &str, text: [&str; 2], questions: Vec<ExamQuestion>) -> Item {
-    super::item(Task::BBox, name, 1, text, questions)
 }
 
 fn bbox_question(bounds: Bounds, queries: Vec<Query>) -> ExamQuestion {

@@ -1,11 +1,10 @@
 //! Items about the times that count.
 
 use glam::DVec3;
-use judging::exam::Item;
 use protocol::{Interval, Ray};
 
-use super::{bbox_question, hits_and_misses, item, random_box, ray_from_around};
-use crate::items::ray;
+use super::{bbox_question, hits_and_misses, random_box, ray_from_around};
+use crate::items::{Declaration, DeclaredItem, Group, item, ray};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::{Rng, Seed};
@@ -15,7 +14,7 @@ fn random_point_in(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
     bounds.min + fraction * (bounds.max - bounds.min)
 }
 
-pub(super) fn behind(seed: Seed) -> Item {
+pub(super) fn behind(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.behind");
     let bounds = random_box(&mut rng);
     let queries = hits_and_misses(&mut rng, &bounds, |rng| {
@@ -29,16 +28,21 @@ pub(super) fn behind(seed: Seed) -> Item {
         (ray, Interval::AHEAD)
     });
     item(
-        "behind",
-        [
-            "a box behind the ray is missed",
-            "Behind the origin the times are negative, and times below times.min do not count.",
-        ],
+        Declaration {
+            id: "bbox.behind",
+            points: 1,
+            title: "a box behind the ray is missed",
+            look: "Behind the origin the times are negative, and times below times.min do not \
+                   count.",
+            section: "boxes.md#use-times-and-not-the-range-of-the-ray",
+            group: Some(Group::Boxes),
+            needs: &[],
+        },
         vec![bbox_question(bounds, queries)],
     )
 }
 
-pub(super) fn from_inside(seed: Seed) -> Item {
+pub(super) fn from_inside(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.from_inside");
     let bounds = random_box(&mut rng);
     let queries = hits_and_misses(&mut rng, &bounds, |rng| {
@@ -52,17 +56,21 @@ pub(super) fn from_inside(seed: Seed) -> Item {
         (ray, Interval::new(min, f32::INFINITY))
     });
     item(
-        "from_inside",
-        [
-            "from inside, the interval starts at times.min, not behind the ray",
-            "A ray that starts in the box has entered it at a negative time: clip the interval to \
-             times.",
-        ],
+        Declaration {
+            id: "bbox.from_inside",
+            points: 1,
+            title: "from inside, the interval starts at times.min, not behind the ray",
+            look: "A ray that starts in the box has entered it at a negative time: clip the \
+                   interval to times.",
+            section: "boxes.md#clip-the-result-to-times",
+            group: Some(Group::Boxes),
+            needs: &[],
+        },
         vec![bbox_question(bounds, queries)],
     )
 }
 
-pub(super) fn clipped(seed: Seed) -> Item {
+pub(super) fn clipped(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.clipped");
     let bounds = random_box(&mut rng);
     let queries = hits_and_misses(&mut rng, &bounds, |rng| {
@@ -77,17 +85,21 @@ pub(super) fn clipped(seed: Seed) -> Item {
         (ray, Interval::new(times.0, times.1))
     });
     item(
-        "clipped",
-        [
-            "only the part of times in which the ray is in the box is returned",
-            "Clip the interval at both ends. A box that is entered after times.max or left before \
-             times.min is missed.",
-        ],
+        Declaration {
+            id: "bbox.clipped",
+            points: 1,
+            title: "only the part of times in which the ray is in the box is returned",
+            look: "Clip the interval at both ends. A box that is entered after times.max or left \
+                   before times.min is missed.",
+            section: "boxes.md#clip-the-result-to-times",
+            group: Some(Group::Boxes),
+            needs: &[],
+        },
         vec![bbox_question(bounds, queries)],
     )
 }
 
-pub(super) fn wholly_inside(seed: Seed) -> Item {
+pub(super) fn wholly_inside(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.wholly_inside");
     let bounds = random_box(&mut rng);
     let queries = hits_and_misses(&mut rng, &bounds, |rng| {
@@ -107,17 +119,21 @@ pub(super) fn wholly_inside(seed: Seed) -> Item {
         })
     });
     item(
-        "wholly_inside",
-        [
-            "if the ray is in the box during all of times, all of times is returned",
-            "The ray then crosses no plane within times, but it is a hit, from times.min to \
-             times.max.",
-        ],
+        Declaration {
+            id: "bbox.wholly_inside",
+            points: 1,
+            title: "if the ray is in the box during all of times, all of times is returned",
+            look: "The ray then crosses no plane within times, but it is a hit, from times.min to \
+                   times.max.",
+            section: "boxes.md#a-range-wholly-inside-the-box-is-a-hit",
+            group: Some(Group::Boxes),
+            needs: &[],
+        },
         vec![bbox_question(bounds, queries)],
     )
 }
 
-pub(super) fn times_not_range(seed: Seed) -> Item {
+pub(super) fn times_not_range(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.times_not_range");
     let bounds = random_box(&mut rng);
     let queries = hits_and_misses(&mut rng, &bounds, |rng| {
@@ -132,11 +148,15 @@ pub(super) fn times_not_range(seed: Seed) -> Item {
         (ray.within(range.min, range.max), times)
     });
     item(
-        "times_not_range",
-        [
-            "the times argument counts, not the ray's own range",
-            "BBox::hit uses only the times that it is given; ray.range is up to the caller.",
-        ],
+        Declaration {
+            id: "bbox.times_not_range",
+            points: 1,
+            title: "the times argument counts, not the ray's own range",
+            look: "BBox::hit uses only the times that it is given; ray.range is up to the caller.",
+            section: "boxes.md#use-times-and-not-the-range-of-the-ray",
+            group: Some(Group::Boxes),
+            needs: &[],
+        },
         vec![bbox_question(bounds, queries)],
     )
 }

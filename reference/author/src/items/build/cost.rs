@@ -1,10 +1,10 @@
 //! Items about the cost of a tree.
 
-use judging::exam::{ExamQuestion, Item, Key};
+use judging::exam::{ExamQuestion, Key};
 use protocol::{Question, Shape};
 
 use super::item;
-use crate::items::meshes;
+use crate::items::{Declaration, DeclaredItem, meshes};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder};
 use crate::oracle::{scan, sweep};
@@ -36,7 +36,7 @@ pub const MIN_ADJACENT_COST: f64 = 1.2;
 
 /// Creates an item with one question about a random mesh, for which correct builders come close to
 /// the exact sweep, and builders that compare only adjacent buckets do not.
-fn cost_item(name: &str, points: u32, text: [&str; 2], mut rng: Rng, mesh: MeshFn) -> Item {
+fn cost_item(declaration: Declaration, mut rng: Rng, mesh: MeshFn) -> DeclaredItem {
     let question = rng.retry(|rng| {
         let shapes = mesh(rng);
         let question = cost_question(meshes::number_shapes(rng.shuffled(shapes)), 4);
@@ -44,7 +44,7 @@ fn cost_item(name: &str, points: u32, text: [&str; 2], mut rng: Rng, mesh: MeshF
             && lowest_adjacent_cost(&question) >= MIN_ADJACENT_COST)
             .then_some(question)
     });
-    item(name, points, text, vec![question])
+    item(declaration, vec![question])
 }
 
 /// Returns the highest relative cost among correct bucketed builders. For some meshes, all planes
@@ -91,43 +91,52 @@ pub fn relative_cost(question: &ExamQuestion, builder: BucketedBuilder) -> f64 {
 
 type MeshFn = fn(&mut Rng) -> Vec<Shape>;
 
-pub(super) fn cost_strands(seed: Seed) -> Item {
+pub(super) fn cost_strands(seed: Seed) -> DeclaredItem {
     cost_item(
-        "cost_strands",
-        1,
-        [
-            "the best of all three axes is chosen, for strands along x, y and z",
-            "Choose the cheapest partition along all axes anew at every node: it is not always \
-             along the same axis, and not always along the longest.",
-        ],
+        Declaration {
+            id: "build.cost_strands",
+            points: 1,
+            title: "the best of all three axes is chosen, for strands along x, y and z",
+            look: "Choose the cheapest partition along all axes anew at every node: it is not \
+                   always along the same axis, and not always along the longest.",
+            section: "building.md#try-all-three-axes-at-every-node",
+            group: None,
+            needs: &[],
+        },
         seed.rng("build.cost_strands"),
         |rng| meshes::strands(rng, 750),
     )
 }
 
-pub(super) fn cost_sheets(seed: Seed) -> Item {
+pub(super) fn cost_sheets(seed: Seed) -> DeclaredItem {
     cost_item(
-        "cost_sheets",
-        1,
-        [
-            "the areas of both sides decide, for sheets stacked above each other",
-            "S_A and S_B are the areas of the boxes around *all* primitives of a side: merge the \
-             buckets from the left and from the right.",
-        ],
+        Declaration {
+            id: "build.cost_sheets",
+            points: 1,
+            title: "the areas of both sides decide, for sheets stacked above each other",
+            look: "S_A and S_B are the areas of the boxes around *all* primitives of a side: merge \
+                   the buckets from the left and from the right.",
+            section: "building.md#areas-and-counts-in-the-cost-formula",
+            group: None,
+            needs: &[],
+        },
         seed.rng("build.cost_sheets"),
         |rng| meshes::sheets(rng, 900),
     )
 }
 
-pub(super) fn cost_town(seed: Seed) -> Item {
+pub(super) fn cost_town(seed: Seed) -> DeclaredItem {
     cost_item(
-        "cost_town",
-        2,
-        [
-            "areas and counts decide together, for crowds on an open field",
-            "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, \
-             together with its cost.",
-        ],
+        Declaration {
+            id: "build.cost_town",
+            points: 2,
+            title: "areas and counts decide together, for crowds on an open field",
+            look: "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, \
+                   together with its cost.",
+            section: "building.md#keep-track-of-the-best-cost",
+            group: None,
+            needs: &[],
+        },
         seed.rng("build.cost_town"),
         |rng| meshes::town(rng, 1200),
     )

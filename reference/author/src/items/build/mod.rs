@@ -7,17 +7,18 @@ mod structure;
 mod unusual_inputs;
 
 use judging::exam::TreeCheck::{Partition, Split};
-use judging::exam::{ExamQuestion, Item, Key, Task, TreeCheck};
+use judging::exam::{ExamQuestion, Key, TreeCheck};
 use protocol::{Question, Shape};
 
 use super::meshes;
+use crate::items::{Declaration, DeclaredItem};
 use crate::seed::Seed;
 
 pub use cost::{MAX_CORRECT_COST, MIN_ADJACENT_COST, relative_cost};
 
 /// Returns the items of the task `build`.
-pub fn items(seed: Seed) -> Vec<Item> {
-    let all: [fn(Seed) -> Item; 16] = [
+pub fn items(seed: Seed) -> Vec<DeclaredItem> {
+    let all: [fn(Seed) -> DeclaredItem; 16] = [
         structure::partition,
         structure::contains,
         structure::tight,
@@ -41,11 +42,11 @@ pub fn items(seed: Seed) -> Vec<Item> {
 /// Creates an item, and adds a control question, whose answer is wrong if there is no tree or if
 /// half of the primitives are in one leaf. The control's primitives are far apart, so that no
 /// heuristic prefers to keep them together: the maximum leaf size is tested by another item.
-fn item(name: &str, points: u32, text: [&str; 2], mut questions: Vec<ExamQuestion>) -> Item {
+fn item(declaration: Declaration, mut questions: Vec<ExamQuestion>) -> DeclaredItem {
     let mut rng = Seed(0).rng("build.control");
     let soup = meshes::soup(&mut rng, 24, 2.0, 0.1);
     questions.push(build_question(&[Partition, Split], soup, 4));
-    super::item(Task::Build, name, points, text, questions)
+    super::item(declaration, questions)
 }
 
 fn build_question(checks: &[TreeCheck], shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {

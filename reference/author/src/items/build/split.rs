@@ -2,12 +2,12 @@
 //! best.
 
 use glam::DVec3;
-use judging::exam::{ExamQuestion, Item};
+use judging::exam::ExamQuestion;
 use protocol::Shape;
 
 use super::cost::cost_question;
 use super::item;
-use crate::items::meshes;
+use crate::items::{Declaration, DeclaredItem, meshes};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{scan, sweep};
 use crate::seed::{Rng, Seed};
@@ -32,7 +32,7 @@ const GAP: Layout = &[
     (0.51, 1.0, 4),
 ];
 
-pub(super) fn one_split(seed: Seed) -> Item {
+pub(super) fn one_split(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.one_split");
     let mut questions = Vec::new();
     for layout in [CLUMPS, GAP] {
@@ -43,14 +43,17 @@ pub(super) fn one_split(seed: Seed) -> Item {
         }
     }
     item(
-        "one_split",
-        1,
-        [
-            "the best split of a few primitives in a row is found",
-            "Each plane between two of the 8 or more buckets is a possible split: all buckets \
-             before it go to one side, and all the others to the other side, from the very first \
-             to the very last.",
-        ],
+        Declaration {
+            id: "build.one_split",
+            points: 1,
+            title: "the best split of a few primitives in a row is found",
+            look: "Each plane between two of the 8 or more buckets is a possible split: all \
+                   buckets before it go to one side, and all the others to the other side, from \
+                   the very first to the very last.",
+            section: "building.md#which-partitions-to-try",
+            group: None,
+            needs: &[],
+        },
         questions,
     )
 }

@@ -1,10 +1,10 @@
 //! Items about properties that every tree must have.
 
+use judging::exam::ExamQuestion;
 use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight};
-use judging::exam::{ExamQuestion, Item};
 
 use super::{build_question, item};
-use crate::items::meshes;
+use crate::items::{Declaration, DeclaredItem, Group, meshes};
 use crate::seed::Seed;
 
 /// Creates a question about small random triangles for each pair of a number of triangles and a
@@ -34,15 +34,18 @@ fn soup_questions_of_size(
     sizes.iter().map(question).collect()
 }
 
-pub(super) fn partition(seed: Seed) -> Item {
+pub(super) fn partition(seed: Seed) -> DeclaredItem {
     item(
-        "partition",
-        2,
-        [
-            "every primitive is in exactly one leaf",
-            "A partition neither loses nor duplicates primitives: each one goes to one of the \
-             node's children, and the leaves' start and size cover all of them once.",
-        ],
+        Declaration {
+            id: "build.partition",
+            points: 2,
+            title: "every primitive is in exactly one leaf",
+            look: "A partition neither loses nor duplicates primitives: each one goes to one of \
+                   the node's children, and the leaves' start and size cover all of them once.",
+            section: "building.md#a-leaf-is-a-slice-of-the-list",
+            group: Some(Group::Trees),
+            needs: &[],
+        },
         soup_questions(
             "build.partition",
             seed,
@@ -52,43 +55,52 @@ pub(super) fn partition(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn contains(seed: Seed) -> Item {
+pub(super) fn contains(seed: Seed) -> DeclaredItem {
     item(
-        "contains",
-        2,
-        [
-            "every box contains everything below it",
-            "If a box misses some of its primitives, check that a primitive is moved to the side \
-             to which its bucket was counted.",
-        ],
+        Declaration {
+            id: "build.contains",
+            points: 2,
+            title: "every box contains everything below it",
+            look: "If a box misses some of its primitives, check that a primitive is moved to the \
+                   side to which its bucket was counted.",
+            section: "building.md#counting-and-partitioning-must-agree",
+            group: Some(Group::Trees),
+            needs: &[],
+        },
         soup_questions("build.contains", seed, &[Contains], &[(64, 1), (300, 4)]),
     )
 }
 
-pub(super) fn tight(seed: Seed) -> Item {
+pub(super) fn tight(seed: Seed) -> DeclaredItem {
     item(
-        "tight",
-        1,
-        [
-            "no box is larger than its contents need",
-            "A node's box is the union of its primitives' boxes. A box that starts at the origin \
-             instead of BBox::EMPTY, or is the parent's box, is too large.",
-        ],
+        Declaration {
+            id: "build.tight",
+            points: 1,
+            title: "no box is larger than its contents need",
+            look: "A node's box is the union of its primitives' boxes. A box that starts at the \
+                   origin instead of BBox::EMPTY, or is the parent's box, is too large.",
+            section: "building.md#start-each-box-empty",
+            group: Some(Group::Trees),
+            needs: &[],
+        },
         soup_questions("build.tight", seed, &[Tight], &[(64, 1), (150, 4)]),
     )
 }
 
-pub(super) fn leaf_size(seed: Seed) -> Item {
+pub(super) fn leaf_size(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.leaf_size.crowd");
     let crowd = build_question(&[LeafSize], meshes::soup(&mut rng, 100, 0.3, 2.5), 1);
     item(
-        "leaf_size",
-        2,
-        [
-            "no leaf holds more than max_leaf_size primitives",
-            "Split a node until it has at most max_leaf_size primitives, even if a leaf would be \
-             cheaper by the heuristic.",
-        ],
+        Declaration {
+            id: "build.leaf_size",
+            points: 2,
+            title: "no leaf holds more than max_leaf_size primitives",
+            look: "Split a node until it has at most max_leaf_size primitives, even if a leaf \
+                   would be cheaper by the heuristic.",
+            section: "building.md#when-a-node-becomes-a-leaf",
+            group: Some(Group::Trees),
+            needs: &[],
+        },
         // The triangles are so large that the heuristic alone would make some leaves too large. In
         // the first question, there are so many triangles that some node is split at its very last
         // plane. In the last question, they are so close together that buckets over the node's box
@@ -106,14 +118,17 @@ pub(super) fn leaf_size(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn stops(seed: Seed) -> Item {
+pub(super) fn stops(seed: Seed) -> DeclaredItem {
     item(
-        "stops",
-        1,
-        [
-            "a node with at most max_leaf_size primitives is a leaf",
-            "max_leaf_size itself is small enough: compare with <=.",
-        ],
+        Declaration {
+            id: "build.stops",
+            points: 1,
+            title: "a node with at most max_leaf_size primitives is a leaf",
+            look: "max_leaf_size itself is small enough: compare with <=.",
+            section: "building.md#when-a-node-becomes-a-leaf",
+            group: Some(Group::Trees),
+            needs: &[],
+        },
         soup_questions(
             "build.stops",
             seed,

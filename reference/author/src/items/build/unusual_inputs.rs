@@ -1,15 +1,14 @@
 //! Items about primitives in unusual arrangements.
 
 use glam::{DVec3, dvec3};
-use judging::exam::Item;
 use judging::exam::TreeCheck::{Contains, Partition, Split, Tight};
 use protocol::Shape;
 
 use super::{build_question, item};
-use crate::items::meshes;
+use crate::items::{Declaration, DeclaredItem, Group, meshes};
 use crate::seed::Seed;
 
-pub(super) fn negative(seed: Seed) -> Item {
+pub(super) fn negative(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.negative");
     let far = dvec3(-20.0, -30.0, -10.0);
     let triangles = (0..80).map(|_| {
@@ -18,18 +17,21 @@ pub(super) fn negative(seed: Seed) -> Item {
     });
     let shapes = meshes::number_shapes(triangles);
     item(
-        "negative",
-        1,
-        [
-            "negative coordinates work as well",
-            "A box that grows from zero never goes below zero, and a cast to usize turns negative \
-             numbers into 0.",
-        ],
+        Declaration {
+            id: "build.negative",
+            points: 1,
+            title: "negative coordinates work as well",
+            look: "A box that grows from zero never goes below zero, and a cast to usize turns \
+                   negative numbers into 0.",
+            section: "building.md#start-each-box-empty",
+            group: Some(Group::Trees),
+            needs: &[],
+        },
         vec![build_question(&[Partition, Contains, Tight], shapes, 2)],
     )
 }
 
-pub(super) fn coincident(seed: Seed) -> Item {
+pub(super) fn coincident(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.coincident");
     let center = rng.point(2.0);
     let same = meshes::random_flat_triangle(&mut rng, center, 0.5);
@@ -39,13 +41,16 @@ pub(super) fn coincident(seed: Seed) -> Item {
     let mut some = meshes::soup(&mut rng, 17, 3.0, 0.4);
     some.extend(vec![same; 30]);
     item(
-        "coincident",
-        1,
-        [
-            "primitives with the same centre are split by count",
-            "If all centres coincide, all primitives are in one bucket and no plane separates \
-             them. Give each side some of them, or the recursion never ends.",
-        ],
+        Declaration {
+            id: "build.coincident",
+            points: 1,
+            title: "primitives with the same centre are split by count",
+            look: "If all centres coincide, all primitives are in one bucket and no plane \
+                   separates them. Give each side some of them, or the recursion never ends.",
+            section: "building.md#when-all-centres-coincide",
+            group: Some(Group::Trees),
+            needs: &[],
+        },
         vec![
             build_question(&[Partition, Split], all.clone(), 1),
             build_question(&[Partition, Split], all, 4),
@@ -58,7 +63,7 @@ pub(super) fn coincident(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn concentric(seed: Seed) -> Item {
+pub(super) fn concentric(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.concentric");
     let center = rng.point(2.0).as_vec3();
     let shells = (1..=13).map(|i| Shape::Sphere {
@@ -67,13 +72,16 @@ pub(super) fn concentric(seed: Seed) -> Item {
         material: 0,
     });
     item(
-        "concentric",
-        1,
-        [
-            "spheres around one centre are split by count",
-            "Their boxes differ, but their centres coincide: dividing by the extent of the centres \
-             divides by zero.",
-        ],
+        Declaration {
+            id: "build.concentric",
+            points: 1,
+            title: "spheres around one centre are split by count",
+            look: "Their boxes differ, but their centres coincide: dividing by the extent of the \
+                   centres divides by zero.",
+            section: "building.md#when-all-centres-coincide",
+            group: Some(Group::Trees),
+            needs: &[],
+        },
         vec![build_question(
             &[Partition, Split, Contains],
             meshes::number_shapes(shells),
@@ -82,7 +90,7 @@ pub(super) fn concentric(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn coplanar(seed: Seed) -> Item {
+pub(super) fn coplanar(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.coplanar");
     let question = |axis: usize| {
         let mut height = DVec3::ZERO;
@@ -99,18 +107,21 @@ pub(super) fn coplanar(seed: Seed) -> Item {
         )
     };
     item(
-        "coplanar",
-        1,
-        [
-            "a flat grid works as well",
-            "Along one axis all centres coincide. Dividing by their extent there gives NaN, which \
-             must not become a bucket.",
-        ],
+        Declaration {
+            id: "build.coplanar",
+            points: 1,
+            title: "a flat grid works as well",
+            look: "Along one axis all centres coincide. Dividing by their extent there gives NaN, \
+                   which must not become a bucket.",
+            section: "building.md#an-axis-without-extent",
+            group: Some(Group::Trees),
+            needs: &[],
+        },
         [0, 1, 2].map(question).to_vec(),
     )
 }
 
-pub(super) fn collinear(_: Seed) -> Item {
+pub(super) fn collinear(_: Seed) -> DeclaredItem {
     let question = |axis: usize| {
         let row = (0..40).map(|i| {
             let center = 0.75 * f64::from(i) * DVec3::AXES[axis];
@@ -123,17 +134,21 @@ pub(super) fn collinear(_: Seed) -> Item {
         build_question(&[Partition, Split, Contains], meshes::number_shapes(row), 3)
     };
     item(
-        "collinear",
-        1,
-        [
-            "a row of primitives works as well, along any axis",
-            "Along two axes all centres coincide. Find the third one, whether it is x, y or z.",
-        ],
+        Declaration {
+            id: "build.collinear",
+            points: 1,
+            title: "a row of primitives works as well, along any axis",
+            look: "Along two axes all centres coincide. Find the third one, whether it is x, y or \
+                   z.",
+            section: "building.md#an-axis-without-extent",
+            group: Some(Group::Trees),
+            needs: &[],
+        },
         [0, 1, 2].map(question).to_vec(),
     )
 }
 
-pub(super) fn outlier(seed: Seed) -> Item {
+pub(super) fn outlier(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.outlier");
     let mut crowd = |far: f64| {
         let mut shapes = meshes::soup(&mut rng, 40, 1.0, 0.1);
@@ -154,13 +169,16 @@ pub(super) fn outlier(seed: Seed) -> Item {
     });
     let growing = meshes::number_shapes(growing);
     item(
-        "outlier",
-        1,
-        [
-            "one primitive far from all others does not spoil the tree",
-            "All the others are then in one bucket. The split still helps: they are in a smaller \
-             node, which gets buckets of its own.",
-        ],
+        Declaration {
+            id: "build.outlier",
+            points: 1,
+            title: "one primitive far from all others does not spoil the tree",
+            look: "All the others are then in one bucket. The split still helps: they are in a \
+                   smaller node, which gets buckets of its own.",
+            section: "building.md#one-primitive-far-from-the-others",
+            group: Some(Group::Trees),
+            needs: &[],
+        },
         questions
             .into_iter()
             .chain([build_question(&checks, growing, 1)])
@@ -168,19 +186,22 @@ pub(super) fn outlier(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn one_or_none(seed: Seed) -> Item {
+pub(super) fn one_or_none(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.one_or_none");
     let checks = [Partition, Contains];
     let one = meshes::soup(&mut rng, 1, 2.0, 0.5);
     let two = meshes::soup(&mut rng, 2, 2.0, 0.5);
     item(
-        "one_or_none",
-        1,
-        [
-            "trees of zero, one and two primitives are built",
-            "For no primitives, build no nodes or one leaf of size 0. For one primitive, build one \
-             leaf.",
-        ],
+        Declaration {
+            id: "build.one_or_none",
+            points: 1,
+            title: "trees of zero, one and two primitives are built",
+            look: "For no primitives, build no nodes or one leaf of size 0. For one primitive, \
+                   build one leaf.",
+            section: "building.md#very-small-inputs",
+            group: Some(Group::Trees),
+            needs: &[],
+        },
         vec![
             build_question(&checks, Vec::new(), 4),
             build_question(&checks, one, 1),

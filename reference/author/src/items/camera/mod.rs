@@ -8,17 +8,18 @@ mod ray;
 mod sensor;
 
 use glam::{UVec2, Vec2, uvec2};
-use judging::exam::{ExamQuestion, Item, Key, RayCheck, Task};
+use judging::exam::{ExamQuestion, Key, RayCheck};
 use protocol::{PinholeCamera, Question, Sample, Samples};
 
+use crate::items::DeclaredItem;
 use crate::oracle;
 use crate::seed::{Rng, Seed};
 
 const MIDDLE: Vec2 = Vec2::splat(0.5);
 
 /// Returns the items of the task `camera`.
-pub fn items(seed: Seed) -> Vec<Item> {
-    let all: [fn(Seed) -> Item; 12] = [
+pub fn items(seed: Seed) -> Vec<DeclaredItem> {
+    let all: [fn(Seed) -> DeclaredItem; 12] = [
         sensor::corners,
         sensor::field_of_view,
         sensor::aspect_ratio,
@@ -33,10 +34,6 @@ pub fn items(seed: Seed) -> Vec<Item> {
         ray::picture,
     ];
     all.into_iter().map(|item| item(seed)).collect()
-}
-
-fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<ExamQuestion>) -> Item {
-    super::item(Task::Camera, name, points, text, questions)
 }
 
 fn camera_question(checks: &[RayCheck], camera: PinholeCamera, samples: Samples) -> ExamQuestion {

@@ -1,10 +1,11 @@
 //! Items about the offset within the pixel, and about the ray itself.
 
 use glam::{UVec2, uvec2, vec2};
-use judging::exam::{ExamQuestion, Item, RayCheck};
+use judging::exam::{ExamQuestion, RayCheck};
 use protocol::{Sample, Samples};
 
-use super::{MIDDLE, camera, camera_question, direction_question, item, random_below};
+use super::{MIDDLE, camera, camera_question, direction_question, random_below};
+use crate::items::{Declaration, DeclaredItem, Group, item};
 use crate::seed::{Rng, Seed};
 
 fn random_offset(rng: &mut Rng) -> f32 {
@@ -12,7 +13,7 @@ fn random_offset(rng: &mut Rng) -> f32 {
     rng.uniform(0.02, 0.98) as f32
 }
 
-pub(super) fn offset(seed: Seed) -> Item {
+pub(super) fn offset(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("camera.offset");
     let mut question = |film: UVec2| {
         let samples = (0..24).map(|_| Sample {
@@ -23,13 +24,16 @@ pub(super) fn offset(seed: Seed) -> Item {
         direction_question(camera(50.0, aspect, film), samples.collect())
     };
     item(
-        "offset",
-        2,
-        [
-            "the offset moves the ray within its pixel",
-            "Pixel x covers [x, x + 1) of the film, so add the offset to the pixel. The offset is \
-             given to you: do not draw random numbers of your own.",
-        ],
+        Declaration {
+            id: "camera.offset",
+            points: 2,
+            title: "the offset moves the ray within its pixel",
+            look: "Pixel x covers [x, x + 1) of the film, so add the offset to the pixel. The \
+                   offset is given to you: do not draw random numbers of your own.",
+            section: "camera.md#the-offset-is-measured-in-pixels",
+            group: Some(Group::CameraRays),
+            needs: &[],
+        },
         vec![
             question(uvec2(1, 1)),
             question(uvec2(3, 1)),
@@ -38,7 +42,7 @@ pub(super) fn offset(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn offset_axes(seed: Seed) -> Item {
+pub(super) fn offset_axes(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("camera.offset_axes");
     let samples = (0..24).map(|i| {
         let (small, large) = (
@@ -56,17 +60,20 @@ pub(super) fn offset_axes(seed: Seed) -> Item {
     });
     let question = direction_question(camera(90.0, 1.0, uvec2(1, 1)), samples.collect());
     item(
-        "offset_axes",
-        1,
-        [
-            "the offset's x moves the ray to the right, and its y moves it up",
-            "The two components are independent, and each belongs to its own axis.",
-        ],
+        Declaration {
+            id: "camera.offset_axes",
+            points: 1,
+            title: "the offset's x moves the ray to the right, and its y moves it up",
+            look: "The two components are independent, and each belongs to its own axis.",
+            section: "camera.md#the-offset-is-measured-in-pixels",
+            group: Some(Group::CameraRays),
+            needs: &[],
+        },
         vec![question],
     )
 }
 
-pub(super) fn large_film(seed: Seed) -> Item {
+pub(super) fn large_film(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("camera.large_film");
     let film = uvec2(3840, 2160);
     let samples = (0..32).map(|_| Sample {
@@ -78,12 +85,15 @@ pub(super) fn large_film(seed: Seed) -> Item {
     });
     let question = direction_question(camera(40.0, 16.0 / 9.0, film), samples.collect());
     item(
-        "large_film",
-        1,
-        [
-            "everything works together on a large film",
-            "If only this item fails, look for an integer division: it drops the fraction.",
-        ],
+        Declaration {
+            id: "camera.large_film",
+            points: 1,
+            title: "everything works together on a large film",
+            look: "If only this item fails, look for an integer division: it drops the fraction.",
+            section: "camera.md#integer-division-gives-zero",
+            group: Some(Group::CameraRays),
+            needs: &[],
+        },
         vec![question],
     )
 }
@@ -100,16 +110,19 @@ fn spread_question(checks: &[RayCheck], rng: &mut Rng) -> ExamQuestion {
     camera_question(checks, camera(90.0, 1.0, film), samples)
 }
 
-pub(super) fn unit_length(seed: Seed) -> Item {
+pub(super) fn unit_length(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("camera.unit_length");
     item(
-        "unit_length",
-        1,
-        [
-            "the direction has length one",
-            "Distances along a ray are measured in lengths of its direction. Ray::new normalises \
-             the direction; filling in the fields yourself does not.",
-        ],
+        Declaration {
+            id: "camera.unit_length",
+            points: 1,
+            title: "the direction has length one",
+            look: "Distances along a ray are measured in lengths of its direction. Ray::new \
+                   normalises the direction; filling in the fields yourself does not.",
+            section: "camera.md#the-direction-has-length-one",
+            group: Some(Group::CameraRays),
+            needs: &[],
+        },
         vec![spread_question(
             &[RayCheck::Direction, RayCheck::UnitLength],
             &mut rng,
@@ -117,32 +130,38 @@ pub(super) fn unit_length(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn origin_and_range(seed: Seed) -> Item {
+pub(super) fn origin_and_range(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("camera.origin_and_range");
     let checks = [RayCheck::Direction, RayCheck::Origin, RayCheck::Range];
     item(
-        "origin_and_range",
-        1,
-        [
-            "the ray starts at the camera and has no end",
-            "The camera is at (0, 0, 0), not on the sensor, and the range of the ray is from 0 to \
-             ∞.",
-        ],
+        Declaration {
+            id: "camera.origin_and_range",
+            points: 1,
+            title: "the ray starts at the camera and has no end",
+            look: "The camera is at (0, 0, 0), not on the sensor, and the range of the ray is from \
+                   0 to ∞.",
+            section: "camera.md#the-ray-starts-at-the-camera",
+            group: Some(Group::CameraRays),
+            needs: &[],
+        },
         vec![spread_question(&checks, &mut rng)],
     )
 }
 
-pub(super) fn picture(seed: Seed) -> Item {
+pub(super) fn picture(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("camera.picture");
     let camera = camera(rng.uniform(45.0, 75.0), 1.5, uvec2(64, 64));
     item(
-        "picture",
-        2,
-        [
-            "every pixel of a picture looks in the right direction",
-            "Five positions in each pixel are compared. See which of them are wrong: those at one \
-             edge, in one half, or all except the middles of pixels?",
-        ],
+        Declaration {
+            id: "camera.picture",
+            points: 2,
+            title: "every pixel of a picture looks in the right direction",
+            look: "Five positions in each pixel are compared. See which of them are wrong: those \
+                   at one edge, in one half, or all except the middles of pixels?",
+            section: "grading.md#reading-a-wrong-picture",
+            group: None,
+            needs: &[],
+        },
         vec![camera_question(
             &[RayCheck::Direction],
             camera,

@@ -3,16 +3,17 @@
 mod roots;
 mod surface;
 
-use judging::exam::{ExamQuestion, HitCheck, Item, Task};
+use judging::exam::{ExamQuestion, HitCheck};
 use protocol::{Ray, Shape};
 
+use crate::items::DeclaredItem;
 use crate::oracle::sphere::Sphere;
 use crate::oracle::{Ray64, scan};
 use crate::seed::{Rng, Seed};
 
 /// Returns the items of the task `sphere`.
-pub fn items(seed: Seed) -> Vec<Item> {
-    let all: [fn(Seed) -> Item; 14] = [
+pub fn items(seed: Seed) -> Vec<DeclaredItem> {
+    let all: [fn(Seed) -> DeclaredItem; 14] = [
         roots::near_side,
         roots::beside,
         roots::radius,
@@ -29,10 +30,6 @@ pub fn items(seed: Seed) -> Vec<Item> {
         surface::picture,
     ];
     all.into_iter().map(|item| item(seed)).collect()
-}
-
-fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<ExamQuestion>) -> Item {
-    super::item(Task::Sphere, name, points, text, questions)
 }
 
 fn random_sphere(rng: &mut Rng, radius: f64) -> Sphere {

@@ -1,24 +1,28 @@
 //! Items about which of the two roots counts, if any.
 
-use judging::exam::{ExamQuestion, HitCheck, Item};
+use judging::exam::{ExamQuestion, HitCheck};
 use protocol::Ray;
 
 use super::{
-    hitting_ray, item, missing_ray, random_sphere, ray_from_inside, ray_passing_at,
-    sphere_question, table_questions, unambiguous_ray,
+    hitting_ray, missing_ray, random_sphere, ray_from_inside, ray_passing_at, sphere_question,
+    table_questions, unambiguous_ray,
 };
+use crate::items::{Declaration, DeclaredItem, Group, item};
 use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
 
-pub(super) fn near_side(seed: Seed) -> Item {
+pub(super) fn near_side(seed: Seed) -> DeclaredItem {
     item(
-        "near_side",
-        1,
-        [
-            "from outside, the near side is hit",
-            "The ray reaches the smaller of the two roots first. Make sure that you take the ray's origin \
-             relative to the sphere's centre.",
-        ],
+        Declaration {
+            id: "sphere.near_side",
+            points: 1,
+            title: "from outside, the near side is hit",
+            look: "The ray reaches the smaller of the two roots first. Make sure that you take the \
+                   ray's origin relative to the sphere's centre.",
+            section: "sphere.md#the-quadratic-equation",
+            group: Some(Group::SphereHits),
+            needs: &[],
+        },
         table_questions(
             "sphere.near_side",
             seed,
@@ -29,7 +33,7 @@ pub(super) fn near_side(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn beside(seed: Seed) -> Item {
+pub(super) fn beside(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("sphere.beside");
     let mut table = |radius: f64| {
         let sphere = random_sphere(&mut rng, radius);
@@ -46,25 +50,31 @@ pub(super) fn beside(seed: Seed) -> Item {
         sphere_question(&[], &sphere, 0, rng.shuffled(rays))
     };
     item(
-        "beside",
-        1,
-        [
-            "a ray that passes beside the sphere misses it",
-            "The quadratic then has no real root: check the value under the square root before you \
-             take the root.",
-        ],
+        Declaration {
+            id: "sphere.beside",
+            points: 1,
+            title: "a ray that passes beside the sphere misses it",
+            look: "The quadratic then has no real root: check the value under the square root \
+                   before you take the root.",
+            section: "sphere.md#the-square-root-of-a-negative-number",
+            group: Some(Group::SphereHits),
+            needs: &[],
+        },
         vec![table(1.0), table(0.6), table(2.0)],
     )
 }
 
-pub(super) fn radius(seed: Seed) -> Item {
+pub(super) fn radius(seed: Seed) -> DeclaredItem {
     item(
-        "radius",
-        1,
-        [
-            "spheres of any radius are hit at the right distance",
-            "The square of the radius is part of the quadratic's c.",
-        ],
+        Declaration {
+            id: "sphere.radius",
+            points: 1,
+            title: "spheres of any radius are hit at the right distance",
+            look: "The square of the radius is part of the quadratic's c.",
+            section: "sphere.md#the-radius-is-not-always-one",
+            group: Some(Group::SphereHits),
+            needs: &[],
+        },
         table_questions(
             "sphere.radius",
             seed,
@@ -75,7 +85,7 @@ pub(super) fn radius(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn behind(seed: Seed) -> Item {
+pub(super) fn behind(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("sphere.behind");
     let mut table = |radius: f64| {
         let sphere = random_sphere(&mut rng, radius);
@@ -91,25 +101,31 @@ pub(super) fn behind(seed: Seed) -> Item {
         sphere_question(&[HitCheck::Distance], &sphere, 0, rays)
     };
     item(
-        "behind",
-        1,
-        [
-            "a sphere behind the ray is missed",
-            "Both roots are then negative, and so outside ray.range.",
-        ],
+        Declaration {
+            id: "sphere.behind",
+            points: 1,
+            title: "a sphere behind the ray is missed",
+            look: "Both roots are then negative, and so outside ray.range.",
+            section: "sphere.md#the-near-root-can-be-out-of-range",
+            group: Some(Group::SphereHits),
+            needs: &[],
+        },
         vec![table(1.0), table(1.5)],
     )
 }
 
-pub(super) fn from_inside(seed: Seed) -> Item {
+pub(super) fn from_inside(seed: Seed) -> DeclaredItem {
     item(
-        "from_inside",
-        1,
-        [
-            "from inside, the far side is hit",
-            "The near root is then negative and the far one is not. Choose the root that is in \
-             ray.range, and compute everything else from it.",
-        ],
+        Declaration {
+            id: "sphere.from_inside",
+            points: 1,
+            title: "from inside, the far side is hit",
+            look: "The near root is then negative and the far one is not. Choose the root that is \
+                   in ray.range, and compute everything else from it.",
+            section: "sphere.md#the-near-root-can-be-out-of-range",
+            group: Some(Group::SphereHits),
+            needs: &[],
+        },
         table_questions(
             "sphere.from_inside",
             seed,
@@ -147,7 +163,7 @@ fn range_questions(
     vec![table(1.0), table(2.0)]
 }
 
-pub(super) fn far_root(seed: Seed) -> Item {
+pub(super) fn far_root(seed: Seed) -> DeclaredItem {
     let range = |rng: &mut Rng, i: usize, [near, far]: [f64; 2]| {
         // The range starts before the sphere, inside it, or behind it.
         let from = match i % 3 {
@@ -158,18 +174,21 @@ pub(super) fn far_root(seed: Seed) -> Item {
         (from, far + rng.uniform(0.1, 3.0))
     };
     item(
-        "far_root",
-        1,
-        [
-            "if the near side is before the range, the far side is hit",
-            "The range need not start at 0. If the near root is outside the range and the far root \
-             is inside, the far root counts.",
-        ],
+        Declaration {
+            id: "sphere.far_root",
+            points: 1,
+            title: "if the near side is before the range, the far side is hit",
+            look: "The range need not start at 0. If the near root is outside the range and the \
+                   far root is inside, the far root counts.",
+            section: "sphere.md#the-near-root-can-be-out-of-range",
+            group: Some(Group::SphereHits),
+            needs: &[],
+        },
         range_questions("sphere.far_root", seed, range),
     )
 }
 
-pub(super) fn range_max(seed: Seed) -> Item {
+pub(super) fn range_max(seed: Seed) -> DeclaredItem {
     let range = |rng: &mut Rng, i: usize, [near, far]: [f64; 2]| {
         // The range ends before the sphere, inside it, or behind it.
         let max = match i % 3 {
@@ -180,18 +199,21 @@ pub(super) fn range_max(seed: Seed) -> Item {
         (0.0, max)
     };
     item(
-        "range_max",
-        1,
-        [
-            "only hits before the end of the range count",
-            "A ray that ends inside the sphere still hits the near side: check each root \
-             separately.",
-        ],
+        Declaration {
+            id: "sphere.range_max",
+            points: 1,
+            title: "only hits before the end of the range count",
+            look: "A ray that ends inside the sphere still hits the near side: check each root \
+                   separately.",
+            section: "sphere.md#check-each-root-by-itself",
+            group: Some(Group::SphereHits),
+            needs: &[],
+        },
         range_questions("sphere.range_max", seed, range),
     )
 }
 
-pub(super) fn range_within(seed: Seed) -> Item {
+pub(super) fn range_within(seed: Seed) -> DeclaredItem {
     let range = |rng: &mut Rng, i: usize, [near, far]: [f64; 2]| {
         let size = far - near;
         // The range is between the roots, behind both, or around the first one.
@@ -202,13 +224,16 @@ pub(super) fn range_within(seed: Seed) -> Item {
         }
     };
     item(
-        "range_within",
-        1,
-        [
-            "a ray whose range contains neither root misses",
-            "Between the roots the ray is inside the sphere and hits nothing; beyond both it has \
-             left the sphere.",
-        ],
+        Declaration {
+            id: "sphere.range_within",
+            points: 1,
+            title: "a ray whose range contains neither root misses",
+            look: "Between the roots the ray is inside the sphere and hits nothing; beyond both it \
+                   has left the sphere.",
+            section: "sphere.md#check-each-root-by-itself",
+            group: Some(Group::SphereHits),
+            needs: &[],
+        },
         range_questions("sphere.range_within", seed, range),
     )
 }

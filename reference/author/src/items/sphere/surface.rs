@@ -1,14 +1,13 @@
 //! Items about the quantities of a hit, and the item with a picture of spheres.
 
 use glam::{DVec3, Vec3, dvec3};
-use judging::exam::{HitCheck, Item};
+use judging::exam::HitCheck;
 use protocol::{Ray, Shape};
 
 use super::{
-    hitting_ray, item, missing_ray, random_sphere, ray_from_inside, sphere_question,
-    table_questions,
+    hitting_ray, missing_ray, random_sphere, ray_from_inside, sphere_question, table_questions,
 };
-use crate::items::picture;
+use crate::items::{Declaration, DeclaredItem, item, picture};
 use crate::oracle::sphere::Sphere;
 use crate::seed::{Rng, Seed};
 
@@ -20,15 +19,18 @@ fn hitting_ray_from_either_side(rng: &mut Rng, sphere: &Sphere) -> Ray {
     }
 }
 
-pub(super) fn position(seed: Seed) -> Item {
+pub(super) fn position(seed: Seed) -> DeclaredItem {
     item(
-        "position",
-        1,
-        [
-            "position is the point of the hit, in world space",
-            "It is the ray's point at the distance t. If your point is relative to the centre, add \
-             the centre.",
-        ],
+        Declaration {
+            id: "sphere.position",
+            points: 1,
+            title: "position is the point of the hit, in world space",
+            look: "It is the ray's point at the distance t. If your point is relative to the \
+                   centre, add the centre.",
+            section: "sphere.md#the-sphere-is-not-always-at-the-origin",
+            group: None,
+            needs: &[],
+        },
         table_questions(
             "sphere.position",
             seed,
@@ -39,7 +41,7 @@ pub(super) fn position(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn normal(seed: Seed) -> Item {
+pub(super) fn normal(seed: Seed) -> DeclaredItem {
     let checks = [HitCheck::Normal, HitCheck::UnitNormal];
     let outside = table_questions("sphere.normal", seed, &checks, &[0.5, 3.0], hitting_ray);
     let inside = table_questions(
@@ -50,39 +52,48 @@ pub(super) fn normal(seed: Seed) -> Item {
         ray_from_inside,
     );
     item(
-        "normal",
-        1,
-        [
-            "the normal points away from the centre and has length one, also from inside",
-            "Divide the vector from the centre to the hit by its length. The normal belongs to the \
-             surface, so it is never flipped toward the ray.",
-        ],
+        Declaration {
+            id: "sphere.normal",
+            points: 1,
+            title: "the normal points away from the centre and has length one, also from inside",
+            look: "Divide the vector from the centre to the hit by its length. The normal belongs \
+                   to the surface, so it is never flipped toward the ray.",
+            section: "sphere.md#the-normal-points-away-from-the-centre",
+            group: None,
+            needs: &[],
+        },
         outside.into_iter().chain(inside).collect(),
     )
 }
 
-pub(super) fn uv(seed: Seed) -> Item {
+pub(super) fn uv(seed: Seed) -> DeclaredItem {
     item(
-        "uv",
-        1,
-        [
-            "uv is computed from the direction from the centre to the hit",
-            "Call the given Sphere::uv with the direction from the centre to the hit, not with the \
-             position or the ray's direction.",
-        ],
+        Declaration {
+            id: "sphere.uv",
+            points: 1,
+            title: "uv is computed from the direction from the centre to the hit",
+            look: "Call the given Sphere::uv with the direction from the centre to the hit, not \
+                   with the position or the ray's direction.",
+            section: "sphere.md#the-uv-function-needs-a-unit-direction",
+            group: None,
+            needs: &[],
+        },
         table_questions("sphere.uv", seed, &[HitCheck::Uv], &[1.0, 1.0], hitting_ray),
     )
 }
 
-pub(super) fn uv_radius(seed: Seed) -> Item {
+pub(super) fn uv_radius(seed: Seed) -> DeclaredItem {
     item(
-        "uv_radius",
-        1,
-        [
-            "uv does not depend on the radius",
-            "Sphere::uv needs a direction of length one, but the vector from the centre to the hit \
-             is as long as the radius.",
-        ],
+        Declaration {
+            id: "sphere.uv_radius",
+            points: 1,
+            title: "uv does not depend on the radius",
+            look: "Sphere::uv needs a direction of length one, but the vector from the centre to \
+                   the hit is as long as the radius.",
+            section: "sphere.md#the-uv-function-needs-a-unit-direction",
+            group: None,
+            needs: &[],
+        },
         table_questions(
             "sphere.uv_radius",
             seed,
@@ -93,7 +104,7 @@ pub(super) fn uv_radius(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn origin_and_material(seed: Seed) -> Item {
+pub(super) fn origin_and_material(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("sphere.origin_and_material");
     let mut table = |material: u32| {
         let sphere = random_sphere(&mut rng, 1.2);
@@ -108,18 +119,21 @@ pub(super) fn origin_and_material(seed: Seed) -> Item {
         )
     };
     item(
-        "origin_and_material",
-        1,
-        [
-            "the trace holds the ray's origin and the sphere's material",
-            "Copy both: the origin from the ray that you were given, even if you computed with a \
-             shifted one, and the material from the sphere.",
-        ],
+        Declaration {
+            id: "sphere.origin_and_material",
+            points: 1,
+            title: "the trace holds the ray's origin and the sphere's material",
+            look: "Copy both: the origin from the ray that you were given, even if you computed \
+                   with a shifted one, and the material from the sphere.",
+            section: "sphere.md#what-to-return",
+            group: None,
+            needs: &[],
+        },
         vec![table(0), table(3), table(99)],
     )
 }
 
-pub(super) fn picture(seed: Seed) -> Item {
+pub(super) fn picture(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("sphere.picture");
     let mut sphere = |x: f64, y: f64, z: f64, radius: f64| {
         let center = dvec3(x, y, z) + rng.point(0.1);
@@ -140,14 +154,17 @@ pub(super) fn picture(seed: Seed) -> Item {
     ];
     let from_inside = vec![sphere(0.0, 0.0, -0.5, 3.0), sphere(0.9, 0.1, -2.0, 0.4)];
     item(
-        "picture",
-        2,
-        [
-            "a picture of spheres is correct in hits, depth, normals and uv",
-            "Some spheres are seen from outside, and one from inside. If all pixels of one sphere \
-             are wrong, how does it differ from the others? Does it have another radius, or is the \
-             camera inside it?",
-        ],
+        Declaration {
+            id: "sphere.picture",
+            points: 2,
+            title: "a picture of spheres is correct in hits, depth, normals and uv",
+            look: "Some spheres are seen from outside, and one from inside. If all pixels of one \
+                   sphere are wrong, how does it differ from the others? Does it have another \
+                   radius, or is the camera inside it?",
+            section: "grading.md#reading-a-wrong-picture",
+            group: None,
+            needs: &[],
+        },
         vec![
             picture::picture_question(camera(0.6, 64), from_outside),
             picture::picture_question(camera(0.6, 32), from_inside),

@@ -1,14 +1,13 @@
 //! Items that combine traversal with the other tasks.
 
 use glam::{DVec3, UVec2, Vec3};
-use judging::exam::{ExamQuestion, HitCheck, Item, Key};
+use judging::exam::{ExamQuestion, HitCheck, Key};
 use protocol::{Question, Rays};
 
 use super::{
-    FIRST_UNREFERENCED, item, needs, question_without_decoys, ray_from_around, soup_tree,
-    unambiguous_rays,
+    FIRST_UNREFERENCED, question_without_decoys, ray_from_around, soup_tree, unambiguous_rays,
 };
-use crate::items::{hits_key, meshes, picture};
+use crate::items::{Declaration, DeclaredItem, Group, hits_key, item, meshes, picture};
 use crate::oracle::scan::{self, Scan};
 use crate::seed::{Rng, Seed};
 
@@ -18,7 +17,7 @@ fn linear_scan_control(rng: &mut Rng) -> ExamQuestion {
     question_without_decoys(rng, tree, [8, 4], ray_from_around)
 }
 
-pub(super) fn own_tree(seed: Seed) -> Item {
+pub(super) fn own_tree(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.own_tree");
     let tree = soup_tree(&mut rng, 400, 0.5, 4);
     let rays = unambiguous_rays(&mut rng, &tree, [40, 16], ray_from_around);
@@ -30,23 +29,25 @@ pub(super) fn own_tree(seed: Seed) -> Item {
         max_leaf_size: 4,
         rays: Rays::List(rays),
     };
-    let item = item(
-        "own_tree",
-        1,
-        [
-            "traversing your own tree finds the same hits as testing every primitive",
-            "If all other items of both tasks pass, look for something that your tree has and the \
-             exam's trees do not.",
-        ],
+    item(
+        Declaration {
+            id: "traverse.own_tree",
+            points: 1,
+            title: "traversing your own tree finds the same hits as testing every primitive",
+            look: "If all other items of both tasks pass, look for something that your tree has \
+                   and the exam's trees do not.",
+            section: "traversal.md#your-own-builder-and-your-own-traversal",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes, Group::Trees],
+        },
         vec![
             ExamQuestion::new(question, key),
             linear_scan_control(&mut rng),
         ],
-    );
-    needs::add(item, &needs::TREES)
+    )
 }
 
-pub(super) fn picture(seed: Seed) -> Item {
+pub(super) fn picture(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.picture");
     let tree = soup_tree(&mut rng, 300, 0.4, 4);
     let mut tree = tree.with_roots_at_both_ends(&mut rng);
@@ -66,20 +67,22 @@ pub(super) fn picture(seed: Seed) -> Item {
         root: tree.root as u32,
         rays: Rays::View(camera),
     };
-    let item = item(
-        "picture",
-        2,
-        [
-            "a picture through a tree is correct in hits, depth, normals and uv",
-            "If pieces are missing, some nodes are skipped that should be entered. If pieces \
-             behind others show, the closest hit is not kept.",
-        ],
+    item(
+        Declaration {
+            id: "traverse.picture",
+            points: 2,
+            title: "a picture through a tree is correct in hits, depth, normals and uv",
+            look: "If pieces are missing, some nodes are skipped that should be entered. If pieces \
+                   behind others show, the closest hit is not kept.",
+            section: "grading.md#reading-a-wrong-picture",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes, Group::TriangleSurface],
+        },
         vec![
             ExamQuestion::new(question, key),
             linear_scan_control(&mut rng),
         ],
-    );
-    needs::add(item, &needs::SURFACES)
+    )
 }
 
 /// Returns the question of the radiance item. Its key is the reference's answer to the same
@@ -105,9 +108,9 @@ pub struct RecordedPicture {
 }
 
 /// Returns the item that compares a path-traced picture with the reference's.
-pub fn radiance_item(seed: Seed, recorded: RecordedPicture) -> Item {
-    /// The maximum number of the 1024 pixels that may differ. In measurements, other correct
-    /// formulas changed none, and cracks of 1e-4 between triangles changed 13.
+pub fn radiance_item(seed: Seed, recorded: RecordedPicture) -> DeclaredItem {
+    /// The maximum number of the 1024 pixels that may differ. Measured: with other correct
+    /// formulas, none differ; cracks of 1e-4 between triangles change 13.
     const MAX_WRONG_PIXELS: u32 = 7;
     let key = Key::Radiance {
         pixels: recorded.pixels,
@@ -115,16 +118,23 @@ pub fn radiance_item(seed: Seed, recorded: RecordedPicture) -> Item {
     };
     let picture = ExamQuestion::new(recorded.question, key);
     let mut rng = seed.rng("traverse.radiance");
-    let item = item(
-        "radiance",
-        2,
-        [
-            "all tasks together render the Cornell box",
-            "The framework draws every random number, so the picture must be the same except for a \
-             few pixels. If only this item fails, look at the output of cargo render.",
-        ],
+    item(
+        Declaration {
+            id: "traverse.radiance",
+            points: 2,
+            title: "all tasks together render the Cornell box",
+            look: "The framework draws every random number, so the picture must be the same except \
+                   for a few pixels. If only this item fails, look at the output of cargo render.",
+            section: "grading.md#reading-a-wrong-picture",
+            group: None,
+            needs: &[
+                Group::TriangleHits,
+                Group::Boxes,
+                Group::CameraRays,
+                Group::TriangleSurface,
+                Group::Trees,
+            ],
+        },
         vec![picture, linear_scan_control(&mut rng)],
-    );
-    let all = [needs::CAMERA.as_slice(), &needs::SURFACES, &needs::TREES];
-    all.into_iter().fold(item, needs::add)
+    )
 }

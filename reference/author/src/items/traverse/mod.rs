@@ -8,15 +8,15 @@
 //! starting at the first or the last node also gives correct answers.
 
 mod end_to_end;
-mod needs;
 mod unusual_trees;
 mod with_decoys;
 mod without_decoys;
 
-use judging::exam::{ExamQuestion, HitCheck, Item, Task};
+use judging::exam::{ExamQuestion, HitCheck};
 use protocol::Ray;
 
 use super::meshes;
+use crate::items::DeclaredItem;
 use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
 use crate::tree::{Tree, construction, decoy};
@@ -24,8 +24,8 @@ use crate::tree::{Tree, construction, decoy};
 pub use end_to_end::{RecordedPicture, radiance_item, radiance_question};
 
 /// Returns the items of the task `traverse`, except [`radiance_item`].
-pub fn items(seed: Seed) -> Vec<Item> {
-    let all: [fn(Seed) -> Item; 15] = [
+pub fn items(seed: Seed) -> Vec<DeclaredItem> {
+    let all: [fn(Seed) -> DeclaredItem; 15] = [
         without_decoys::closest_hit,
         without_decoys::first_box_empty,
         without_decoys::range,
@@ -43,11 +43,6 @@ pub fn items(seed: Seed) -> Vec<Item> {
         end_to_end::picture,
     ];
     all.into_iter().map(|item| item(seed)).collect()
-}
-
-fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<ExamQuestion>) -> Item {
-    let item = super::item(Task::Traverse, name, points, text, questions);
-    needs::add(needs::add(item, &needs::TRIANGLES), &needs::BOXES)
 }
 
 /// The material of the first unreferenced primitive. Materials of primitives in leaves start at 0.

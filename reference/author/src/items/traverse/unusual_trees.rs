@@ -1,19 +1,19 @@
 //! Items about roots at unusual positions, and about empty trees.
 
 use glam::Vec3;
-use judging::exam::{ExamQuestion, Item};
+use judging::exam::ExamQuestion;
 use protocol::{Ray, Shape, TreeNode};
 
 use super::{
-    FIRST_UNREFERENCED, item, question_without_decoys, ray_from_around, soup_tree,
-    traversal_question, unambiguous_rays,
+    FIRST_UNREFERENCED, question_without_decoys, ray_from_around, soup_tree, traversal_question,
+    unambiguous_rays,
 };
-use crate::items::ray;
+use crate::items::{Declaration, DeclaredItem, Group, item, ray};
 use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
 use crate::tree::{RootPosition, Tree, decoy};
 
-pub(super) fn root(seed: Seed) -> Item {
+pub(super) fn root(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.root");
     let question = |position: RootPosition| {
         let tree = soup_tree(&mut rng, 20, 0.9, 1);
@@ -32,13 +32,16 @@ pub(super) fn root(seed: Seed) -> Item {
     let mut rng = seed.rng("traverse.root.leaf_in_front");
     let leaf_in_front = question_with_a_leaf_in_front(&mut rng);
     item(
-        "root",
-        1,
-        [
-            "traversal starts at root, wherever it is in nodes",
-            "The root need be neither the first node nor the last: its index is Bvh::root, and \
-             some nodes may not belong to the tree.",
-        ],
+        Declaration {
+            id: "traverse.root",
+            points: 1,
+            title: "traversal starts at root, wherever it is in nodes",
+            look: "The root need be neither the first node nor the last: its index is Bvh::root, \
+                   and some nodes may not belong to the tree.",
+            section: "traversal.md#the-root-can-be-any-node",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes],
+        },
         [
             RootPosition::First,
             RootPosition::Middle,
@@ -94,7 +97,7 @@ fn with_detached_subtrees(
     tree
 }
 
-pub(super) fn no_nodes(seed: Seed) -> Item {
+pub(super) fn no_nodes(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.no_nodes");
     let nothing = Tree {
         shapes: Vec::new(),
@@ -120,12 +123,15 @@ pub(super) fn no_nodes(seed: Seed) -> Item {
     let tree = soup_tree(&mut rng, 12, 0.9, 1);
     let control = question_without_decoys(&mut rng, tree, [8, 4], ray_from_around);
     item(
-        "no_nodes",
-        1,
-        [
-            "an empty tree has no hits",
-            "Without nodes there is no node at index root: check before you access it.",
-        ],
+        Declaration {
+            id: "traverse.no_nodes",
+            points: 1,
+            title: "an empty tree has no hits",
+            look: "Without nodes there is no node at index root: check before you access it.",
+            section: "traversal.md#an-empty-tree-has-no-nodes",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes],
+        },
         empty.into_iter().chain([control]).collect(),
     )
 }

@@ -1,11 +1,10 @@
 //! Items whose trees contain decoys.
 
-use judging::exam::{ExamQuestion, Item};
+use judging::exam::ExamQuestion;
 use protocol::Ray;
 
-use super::{
-    add_unreferenced, item, ray_from_around, soup_tree, traversal_question, unambiguous_rays,
-};
+use super::{add_unreferenced, ray_from_around, soup_tree, traversal_question, unambiguous_rays};
+use crate::items::{Declaration, DeclaredItem, Group, item};
 use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
 use crate::tree::Tree;
@@ -111,19 +110,22 @@ fn misses_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     sibling.is_some_and(|sibling| tree.bounds(sibling).span(ray64).is_none())
 }
 
-pub(super) fn skips_missed(seed: Seed) -> Item {
+pub(super) fn skips_missed(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.skips_missed");
     let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::Missed)
     };
     item(
-        "skips_missed",
-        2,
-        [
-            "a node whose box the ray misses is not entered",
-            "This is what the tree is for. In this exam, some leaves hold primitives outside their \
-             boxes: a traversal that enters a missed box finds them.",
-        ],
+        Declaration {
+            id: "traverse.skips_missed",
+            points: 2,
+            title: "a node whose box the ray misses is not entered",
+            look: "This is what the tree is for. In this exam, some leaves hold primitives outside \
+                   their boxes: a traversal that enters a missed box finds them.",
+            section: "traversal.md#do-not-enter-a-box-that-is-missed",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes],
+        },
         vec![
             question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct),
             question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct),
@@ -131,7 +133,7 @@ pub(super) fn skips_missed(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn prunes(seed: Seed) -> Item {
+pub(super) fn prunes(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.prunes");
     let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::SubtreePruned)
@@ -142,13 +144,16 @@ pub(super) fn prunes(seed: Seed) -> Item {
         fork.is_some_and(|fork| fork.toward_leaf == leaf) && fits(tree, leaf, ray64)
     };
     item(
-        "prunes",
-        2,
-        [
-            "a node that begins beyond the closest hit is not entered",
-            "Enter the nearer child first. If its hit is nearer than the other child's box, \
-             nothing in that box can be nearer still.",
-        ],
+        Declaration {
+            id: "traverse.prunes",
+            points: 2,
+            title: "a node that begins beyond the closest hit is not entered",
+            look: "Enter the nearer child first. If its hit is nearer than the other child's box, \
+                   nothing in that box can be nearer still.",
+            section: "traversal.md#order-the-children-and-prune",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes],
+        },
         vec![
             question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct),
             question_with_decoys(&mut rng, &second, SlidesAnswer::Correct),
@@ -156,7 +161,7 @@ pub(super) fn prunes(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn nearer_first(seed: Seed) -> Item {
+pub(super) fn nearer_first(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.nearer_first");
     let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::SubtreePruned)
@@ -167,13 +172,16 @@ pub(super) fn nearer_first(seed: Seed) -> Item {
             && fits(tree, leaf, ray64)
     };
     item(
-        "nearer_first",
-        1,
-        [
-            "the nearer child goes first, whether it is l or r, and the other is pruned",
-            "If r goes first, l may begin beyond the closest hit. The slides compare hit2.t in \
-             both cases: compare the entry of the child that comes second.",
-        ],
+        Declaration {
+            id: "traverse.nearer_first",
+            points: 1,
+            title: "the nearer child goes first, whether it is l or r, and the other is pruned",
+            look: "If r goes first, l may begin beyond the closest hit. The slides compare hit2.t \
+                   in both cases: compare the entry of the child that comes second.",
+            section: "traversal.md#compare-the-entry-of-the-second-child",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes],
+        },
         vec![
             question_with_decoys(&mut rng, &fits, SlidesAnswer::Wrong),
             question_with_decoys(&mut rng, &left_last, SlidesAnswer::Wrong),
@@ -181,7 +189,7 @@ pub(super) fn nearer_first(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn both_sides(seed: Seed) -> Item {
+pub(super) fn both_sides(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.both_sides");
     let one = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::Missed) && !misses_sibling(tree, leaf, ray64)
@@ -194,14 +202,17 @@ pub(super) fn both_sides(seed: Seed) -> Item {
             && decoy::siblings_beyond_are_missed(tree, leaf, ray64)
     };
     item(
-        "both_sides",
-        1,
-        [
-            "a child is entered only if its own box is hit, before the closest hit",
-            "If one box is missed, enter only the other child, unless it begins beyond the closest \
-             hit; if both are missed, enter neither. The slides always enter `first`, and after it \
-             a child whose box was missed.",
-        ],
+        Declaration {
+            id: "traverse.both_sides",
+            points: 1,
+            title: "a child is entered only if its own box is hit, before the closest hit",
+            look: "If one box is missed, enter only the other child, unless it begins beyond the \
+                   closest hit; if both are missed, enter neither. The slides always enter \
+                   `first`, and after it a child whose box was missed.",
+            section: "traversal.md#do-not-enter-a-box-that-is-missed",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes],
+        },
         vec![
             question_with_decoys(&mut rng, &one, SlidesAnswer::Wrong),
             question_with_decoys(&mut rng, &both, SlidesAnswer::Wrong),

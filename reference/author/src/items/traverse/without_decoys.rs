@@ -1,27 +1,29 @@
 //! Items whose trees contain no decoys: every primitive in a leaf is inside the leaf's box.
 
 use glam::DVec3;
-use judging::exam::Item;
 use protocol::Shape;
 
-use super::{item, needs, question_without_decoys, ray_from_around, soup_tree};
-use crate::items::{meshes, ray};
+use super::{question_without_decoys, ray_from_around, soup_tree};
+use crate::items::{Declaration, DeclaredItem, Group, item, meshes, ray};
 use crate::oracle::{Ray64, scan};
 use crate::seed::{Rng, Seed};
 use crate::tree::{Tree, construction};
 
-pub(super) fn closest_hit(seed: Seed) -> Item {
+pub(super) fn closest_hit(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.closest_hit");
     // With large triangles, the boxes of siblings overlap considerably.
     let tree = soup_tree(&mut rng, 40, 1.6, 1);
     item(
-        "closest_hit",
-        1,
-        [
-            "the closest hit counts, not the first one found",
-            "Boxes overlap: the child that is entered first may hold a hit that is farther than \
-             one in the other child. Keep the closest hit so far, and continue.",
-        ],
+        Declaration {
+            id: "traverse.closest_hit",
+            points: 1,
+            title: "the closest hit counts, not the first one found",
+            look: "Boxes overlap: the child that is entered first may hold a hit that is farther \
+                   than one in the other child. Keep the closest hit so far, and continue.",
+            section: "traversal.md#the-first-hit-need-not-be-the-closest",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes],
+        },
         vec![question_without_decoys(
             &mut rng,
             tree,
@@ -31,18 +33,21 @@ pub(super) fn closest_hit(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn first_box_empty(seed: Seed) -> Item {
+pub(super) fn first_box_empty(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.first_box_empty");
     // Small triangles leave most of a node's box empty.
     let tree = soup_tree(&mut rng, 40, 0.5, 1);
     item(
-        "first_box_empty",
-        1,
-        [
-            "a ray may hit a box without hitting anything inside it",
-            "Until something is hit, there is no closest hit to compare with: a closest distance \
-             that starts at 0 skips everything.",
-        ],
+        Declaration {
+            id: "traverse.first_box_empty",
+            points: 1,
+            title: "a ray may hit a box without hitting anything inside it",
+            look: "Until something is hit, there is no closest hit to compare with: a closest \
+                   distance that starts at 0 skips everything.",
+            section: "traversal.md#no-hit-yet-is-not-a-hit-at-distance-zero",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes],
+        },
         vec![question_without_decoys(
             &mut rng,
             tree,
@@ -52,7 +57,7 @@ pub(super) fn first_box_empty(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn range(seed: Seed) -> Item {
+pub(super) fn range(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.range");
     let tree = soup_tree(&mut rng, 40, 1.4, 1);
     // The range starts between the first two hits, or ends before the first or the second.
@@ -75,18 +80,21 @@ pub(super) fn range(seed: Seed) -> Item {
         })
     };
     item(
-        "range",
-        1,
-        [
-            "only hits within the ray's range count",
-            "The ray's own range is the first limit, and it has a start as well. A closer hit only \
-             shortens it.",
-        ],
+        Declaration {
+            id: "traverse.range",
+            points: 1,
+            title: "only hits within the ray's range count",
+            look: "The ray's own range is the first limit, and it has a start as well. A closer \
+                   hit only shortens it.",
+            section: "traversal.md#only-a-hit-shortens-the-ray",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes],
+        },
         vec![question_without_decoys(&mut rng, tree, [20, 8], kind)],
     )
 }
 
-pub(super) fn leaf_of_several(seed: Seed) -> Item {
+pub(super) fn leaf_of_several(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.leaf_of_several");
     let tree = soup_tree(&mut rng, 48, 1.0, 8);
     // The closest of several hits in a leaf belongs in turn to the first primitive, to the last
@@ -119,18 +127,21 @@ pub(super) fn leaf_of_several(seed: Seed) -> Item {
         })
     };
     item(
-        "leaf_of_several",
-        1,
-        [
-            "every primitive of a leaf is tested",
-            "A leaf holds primitives[start..start + size]. The closest of their hits counts, not \
-             the first.",
-        ],
+        Declaration {
+            id: "traverse.leaf_of_several",
+            points: 1,
+            title: "every primitive of a leaf is tested",
+            look: "A leaf holds primitives[start..start + size]. The closest of their hits counts, \
+                   not the first.",
+            section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes],
+        },
         vec![question_without_decoys(&mut rng, tree, [24, 8], kind)],
     )
 }
 
-pub(super) fn deep(seed: Seed) -> Item {
+pub(super) fn deep(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.deep");
     const LEVELS: usize = 60;
     let triangles = (0..LEVELS).map(|i| {
@@ -150,18 +161,21 @@ pub(super) fn deep(seed: Seed) -> Item {
         ray(target + 6.0 * away, target)
     };
     item(
-        "deep",
-        1,
-        [
-            "a tree of 60 levels is traversed to the end",
-            "A stack of fixed size must be large enough, and every node that is pushed must be \
-             popped again.",
-        ],
+        Declaration {
+            id: "traverse.deep",
+            points: 1,
+            title: "a tree of 60 levels is traversed to the end",
+            look: "A stack of fixed size must be large enough, and every node that is pushed must \
+                   be popped again.",
+            section: "traversal.md#deep-trees",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes],
+        },
         vec![question_without_decoys(&mut rng, tree, [24, 8], kind)],
     )
 }
 
-pub(super) fn flat(seed: Seed) -> Item {
+pub(super) fn flat(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.flat");
     // Axis-parallel triangles, one per leaf.
     let triangles = (0..36).map(|i| {
@@ -174,13 +188,16 @@ pub(super) fn flat(seed: Seed) -> Item {
     let triangles: Vec<Shape> = triangles.collect();
     let tree = construction::median_split(meshes::number_shapes(triangles), 1);
     item(
-        "flat",
-        1,
-        [
-            "leaves with flat boxes are entered",
-            "A ray enters and leaves a flat box at the same time. If your box test is correct, \
-             check how you use its result: an interval of one point is not empty.",
-        ],
+        Declaration {
+            id: "traverse.flat",
+            points: 1,
+            title: "leaves with flat boxes are entered",
+            look: "A ray enters and leaves a flat box at the same time. If your box test is \
+                   correct, check how you use its result: an interval of one point is not empty.",
+            section: "traversal.md#a-flat-box-has-equal-entry-and-exit",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes],
+        },
         vec![question_without_decoys(
             &mut rng,
             tree,
@@ -190,7 +207,7 @@ pub(super) fn flat(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn mixed(seed: Seed) -> Item {
+pub(super) fn mixed(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.mixed");
     let shapes = (0..36).map(|i| {
         let center = rng.point(2.0);
@@ -206,19 +223,22 @@ pub(super) fn mixed(seed: Seed) -> Item {
     });
     let shapes: Vec<Shape> = shapes.collect();
     let tree = construction::median_split(meshes::number_shapes(shapes), 1);
-    let item = item(
-        "mixed",
-        1,
-        [
-            "a tree can hold spheres and triangles",
-            "Primitive::hit tests either kind, and their distances are compared in the same way.",
-        ],
+    item(
+        Declaration {
+            id: "traverse.mixed",
+            points: 1,
+            title: "a tree can hold spheres and triangles",
+            look: "Primitive::hit tests either kind, and their distances are compared in the same \
+                   way.",
+            section: "traversal.md#the-first-hit-need-not-be-the-closest",
+            group: None,
+            needs: &[Group::TriangleHits, Group::Boxes, Group::SphereHits],
+        },
         vec![question_without_decoys(
             &mut rng,
             tree,
             [24, 8],
             ray_from_around,
         )],
-    );
-    needs::add(item, &needs::SPHERES)
+    )
 }

@@ -1,32 +1,35 @@
 //! Items about whether a ray hits, and at which distance.
 
 use glam::{Vec2, Vec3, vec3};
-use judging::exam::{ExamQuestion, HitCheck, Item};
+use judging::exam::{ExamQuestion, HitCheck};
 use protocol::{Ray, Shape, Vertex};
 
 use super::aim::{
     Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond_edge,
     weights_beyond_edge_by, weights_inside,
 };
-use super::{item, table_questions};
-use crate::items::{ray, shapes_question};
+use super::table_questions;
+use crate::items::{Declaration, DeclaredItem, Group, item, ray, shapes_question};
 use crate::oracle::{Ray64, triangle};
 use crate::seed::{Rng, Seed};
 
-pub(super) fn inside(seed: Seed) -> Item {
+pub(super) fn inside(seed: Seed) -> DeclaredItem {
     item(
-        "inside",
-        2,
-        [
-            "a ray through the inside hits the triangle at distance t",
-            "Solve the three equations for u, v and t. Check the signs in Cramer's rule, and that \
-             the last column of the matrix is −d.",
-        ],
+        Declaration {
+            id: "triangle.inside",
+            points: 2,
+            title: "a ray through the inside hits the triangle at distance t",
+            look: "Solve the three equations for u, v and t. Check the signs in Cramer's rule, and \
+                   that the last column of the matrix is −d.",
+            section: "triangle.md#three-equations-for-three-unknowns",
+            group: Some(Group::TriangleHits),
+            needs: &[],
+        },
         table_questions("triangle.inside", seed, &[HitCheck::Distance], Side::Front),
     )
 }
 
-pub(super) fn outside(seed: Seed) -> Item {
+pub(super) fn outside(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("triangle.outside");
     let mut table = || {
         let vertices = random_triangle(&mut rng);
@@ -43,25 +46,32 @@ pub(super) fn outside(seed: Seed) -> Item {
         shapes_question(&[], vec![shape(&vertices, 0)], rng.shuffled(rays))
     };
     item(
-        "outside",
-        2,
-        [
-            "a ray that crosses the plane beyond an edge misses",
-            "u, v and w = 1 − u − v each belong to one corner. Beyond any of the three edges, the \
-             weight of the opposite corner is negative.",
-        ],
+        Declaration {
+            id: "triangle.outside",
+            points: 2,
+            title: "a ray that crosses the plane beyond an edge misses",
+            look: "u, v and w = 1 − u − v each belong to one corner. Beyond any of the three \
+                   edges, the weight of the opposite corner is negative.",
+            section: "triangle.md#test-the-third-weight-too",
+            group: Some(Group::TriangleHits),
+            needs: &[],
+        },
         vec![table(), table(), table()],
     )
 }
 
-pub(super) fn from_behind(seed: Seed) -> Item {
+pub(super) fn from_behind(seed: Seed) -> DeclaredItem {
     item(
-        "from_behind",
-        1,
-        [
-            "a triangle is hit from behind as well",
-            "Seen from behind, the determinant has the other sign, which is no reason for a miss.",
-        ],
+        Declaration {
+            id: "triangle.from_behind",
+            points: 1,
+            title: "a triangle is hit from behind as well",
+            look: "Seen from behind, the determinant has the other sign, which is no reason for a \
+                   miss.",
+            section: "triangle.md#a-ray-from-behind-has-a-negative-denominator",
+            group: Some(Group::TriangleHits),
+            needs: &[],
+        },
         table_questions(
             "triangle.from_behind",
             seed,
@@ -94,34 +104,40 @@ fn range_questions(
     vec![table(), table()]
 }
 
-pub(super) fn range_max(seed: Seed) -> Item {
+pub(super) fn range_max(seed: Seed) -> DeclaredItem {
     let range = |rng: &mut Rng, t: f64| (0.0, t + rng.sign() * rng.uniform(0.03, 0.6));
     item(
-        "range_max",
-        1,
-        [
-            "there is no hit beyond the end of the ray's range",
-            "Compare t with ray.range before you return a hit: a shadow ray, for example, ends at \
-             the light.",
-        ],
+        Declaration {
+            id: "triangle.range_max",
+            points: 1,
+            title: "there is no hit beyond the end of the ray's range",
+            look: "Compare t with ray.range before you return a hit: a shadow ray, for example, \
+                   ends at the light.",
+            section: "triangle.md#check-both-ends-of-the-range",
+            group: Some(Group::TriangleHits),
+            needs: &[],
+        },
         range_questions("triangle.range_max", seed, range),
     )
 }
 
-pub(super) fn range_min(seed: Seed) -> Item {
+pub(super) fn range_min(seed: Seed) -> DeclaredItem {
     let range = |rng: &mut Rng, t: f64| (t + rng.sign() * rng.uniform(0.03, 0.6), t + 9.0);
     item(
-        "range_min",
-        1,
-        [
-            "there is no hit before the start of the ray's range",
-            "The range has two ends, and its start need not be 0.",
-        ],
+        Declaration {
+            id: "triangle.range_min",
+            points: 1,
+            title: "there is no hit before the start of the ray's range",
+            look: "The range has two ends, and its start need not be 0.",
+            section: "triangle.md#check-both-ends-of-the-range",
+            group: Some(Group::TriangleHits),
+            needs: &[],
+        },
         range_questions("triangle.range_min", seed, range),
     )
 }
 
-pub(super) fn behind_the_ray(seed: Seed) -> Item {
+pub(super) fn behind_the_ray(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("triangle.behind_the_ray");
     let mut table = || {
         let vertices = random_triangle(&mut rng);
@@ -137,17 +153,20 @@ pub(super) fn behind_the_ray(seed: Seed) -> Item {
         shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
     };
     item(
-        "behind_the_ray",
-        1,
-        [
-            "a triangle behind the ray is missed",
-            "Behind the ray, t is negative, although the weights look like those of a hit.",
-        ],
+        Declaration {
+            id: "triangle.behind_the_ray",
+            points: 1,
+            title: "a triangle behind the ray is missed",
+            look: "Behind the ray, t is negative, although the weights look like those of a hit.",
+            section: "triangle.md#hits-behind-the-origin-do-not-count",
+            group: Some(Group::TriangleHits),
+            needs: &[],
+        },
         vec![table(), table()],
     )
 }
 
-pub(super) fn tiny(seed: Seed) -> Item {
+pub(super) fn tiny(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("triangle.tiny");
     let mut table = || {
         // The corners come from a cube of side 4, so scaled edges are about 1e-3 long.
@@ -176,20 +195,23 @@ pub(super) fn tiny(seed: Seed) -> Item {
         shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
     };
     item(
-        "tiny",
-        1,
-        [
-            "a triangle with edges of 1e-3 is hit like any other",
-            "The determinant is small for small triangles too, not only for parallel rays: compare \
-             it with zero, not with a small number.",
-        ],
+        Declaration {
+            id: "triangle.tiny",
+            points: 1,
+            title: "a triangle with edges of 1e-3 is hit like any other",
+            look: "The determinant is small for small triangles too, not only for parallel rays: \
+                   compare it with zero, not with a small number.",
+            section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
+            group: None,
+            needs: &[],
+        },
         vec![table(), table()],
     )
 }
 
 /// Returns the item about degenerate triangles. Its coordinates are small integers, so that the
 /// determinant is exactly zero in every correct formula.
-pub(super) fn degenerate(seed: Seed) -> Item {
+pub(super) fn degenerate(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("triangle.degenerate");
     let flat = |corners: [Vec3; 3]| {
         let vertices = corners.map(|corner| Vertex::new(corner, Vec3::Z, Vec2::ZERO));
@@ -223,13 +245,16 @@ pub(super) fn degenerate(seed: Seed) -> Item {
     ]);
     let question = |shape: Shape, rays: Vec<Ray>| shapes_question(&[], vec![shape], rays);
     item(
-        "degenerate",
-        1,
-        [
-            "a triangle that has no area or is parallel to the ray is missed",
-            "The determinant is then zero, and dividing by it gives no usable number: return a \
-             miss.",
-        ],
+        Declaration {
+            id: "triangle.degenerate",
+            points: 1,
+            title: "a triangle that has no area or is parallel to the ray is missed",
+            look: "The determinant is then zero, and dividing by it gives no usable number: return \
+                   a miss.",
+            section: "triangle.md#when-the-denominator-is-zero",
+            group: None,
+            needs: &[],
+        },
         vec![
             question(line, vec![down(1.0, 1.0), down(2.0, 1.0), down(2.0, 3.0)]),
             question(point, vec![down(1.0, 1.0), down(0.0, 0.0)]),

@@ -6,14 +6,15 @@ mod scene;
 mod surface;
 
 use aim::{Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond_edge};
-use judging::exam::{ExamQuestion, HitCheck, Item, Task};
+use judging::exam::{ExamQuestion, HitCheck};
 use protocol::Ray;
 
+use crate::items::DeclaredItem;
 use crate::seed::Seed;
 
 /// Returns the items of the task `triangle`.
-pub fn items(seed: Seed) -> Vec<Item> {
-    let all: [fn(Seed) -> Item; 15] = [
+pub fn items(seed: Seed) -> Vec<DeclaredItem> {
+    let all: [fn(Seed) -> DeclaredItem; 15] = [
         hits::inside,
         hits::outside,
         surface::position,
@@ -33,12 +34,8 @@ pub fn items(seed: Seed) -> Vec<Item> {
     all.into_iter().map(|item| item(seed)).collect()
 }
 
-fn item(name: &str, points: u32, text: [&str; 2], questions: Vec<ExamQuestion>) -> Item {
-    super::item(Task::Triangle, name, points, text, questions)
-}
-
-/// Creates one question for each of four triangles, with rays that hit the triangle from this side
-/// and some rays that miss.
+/// Creates one question for each of four triangles, with rays that hit it from this side and some
+/// rays that miss.
 fn table_questions(name: &str, seed: Seed, checks: &[HitCheck], side: Side) -> Vec<ExamQuestion> {
     let mut rng = seed.rng(name);
     let mut table = || {

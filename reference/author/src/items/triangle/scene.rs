@@ -1,25 +1,26 @@
 //! The item with a picture of triangles.
 
 use glam::{Vec3, dvec3, vec2, vec3};
-use judging::exam::Item;
 use protocol::{Shape, Vertex};
 
 use super::aim::{random_triangle, shape};
-use super::item;
-use crate::items::picture;
+use crate::items::{Declaration, DeclaredItem, item, picture};
 use crate::seed::{Rng, Seed};
 
-pub(super) fn picture(seed: Seed) -> Item {
+pub(super) fn picture(seed: Seed) -> DeclaredItem {
     let shapes = picture_shapes(&mut seed.rng("triangle.picture"));
     item(
-        "picture",
-        4,
-        [
-            "a picture of triangles is correct in hits, depth, normals and uv",
-            "It shows a smooth hill, a square made of two triangles, triangles seen from behind \
-             and some tiny ones. See where it is wrong: along edges, on one side, or in the tiny \
-             triangles?",
-        ],
+        Declaration {
+            id: "triangle.picture",
+            points: 4,
+            title: "a picture of triangles is correct in hits, depth, normals and uv",
+            look: "It shows a smooth hill, a square made of two triangles, triangles seen from \
+                   behind and some tiny ones. See where it is wrong: along edges, on one side, or \
+                   in the tiny triangles?",
+            section: "grading.md#reading-a-wrong-picture",
+            group: None,
+            needs: &[],
+        },
         vec![picture::picture_question(
             picture::camera_at_origin(64),
             shapes,

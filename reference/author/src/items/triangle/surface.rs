@@ -1,23 +1,27 @@
 //! Items about the quantities of a hit.
 
-use judging::exam::{HitCheck, Item};
+use judging::exam::HitCheck;
 use protocol::Ray;
 
 use super::aim::{
     Side, hitting_ray, missing_ray, random_triangle, ray_through, shape, weights_inside,
 };
-use super::{item, table_questions};
-use crate::items::shapes_question;
+use super::table_questions;
+use crate::items::{Declaration, DeclaredItem, Group, item, shapes_question};
 use crate::seed::Seed;
 
-pub(super) fn position(seed: Seed) -> Item {
+pub(super) fn position(seed: Seed) -> DeclaredItem {
     item(
-        "position",
-        1,
-        [
-            "position is the point where the ray hits the triangle",
-            "It is the ray's point at t, or the weighted sum of the corners: both are the same.",
-        ],
+        Declaration {
+            id: "triangle.position",
+            points: 1,
+            title: "position is the point where the ray hits the triangle",
+            look: "It is the ray's point at t, or the weighted sum of the corners: both are the \
+                   same.",
+            section: "triangle.md#what-to-return",
+            group: Some(Group::TriangleSurface),
+            needs: &[],
+        },
         table_questions(
             "triangle.position",
             seed,
@@ -27,33 +31,39 @@ pub(super) fn position(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn normal(seed: Seed) -> Item {
+pub(super) fn normal(seed: Seed) -> DeclaredItem {
     item(
-        "normal",
-        1,
-        [
-            "the normal is interpolated between the corners' normals",
-            "Each corner has its own normal, for smooth shading, and the normal of the flat face \
-             is not used. w goes with p0, u with p1 and v with p2.",
-        ],
+        Declaration {
+            id: "triangle.normal",
+            points: 1,
+            title: "the normal is interpolated between the corners' normals",
+            look: "Each corner has its own normal, for smooth shading, and the normal of the flat \
+                   face is not used. w goes with p0, u with p1 and v with p2.",
+            section: "triangle.md#interpolate-the-given-normals",
+            group: Some(Group::TriangleSurface),
+            needs: &[],
+        },
         table_questions("triangle.normal", seed, &[HitCheck::Normal], Side::Front),
     )
 }
 
-pub(super) fn uv(seed: Seed) -> Item {
+pub(super) fn uv(seed: Seed) -> DeclaredItem {
     item(
-        "uv",
-        1,
-        [
-            "uv is interpolated between the corners' texture coordinates",
-            "The barycentric u and v are weights; the uv of the Trace is the weighted sum of the \
-             corners' uv.",
-        ],
+        Declaration {
+            id: "triangle.uv",
+            points: 1,
+            title: "uv is interpolated between the corners' texture coordinates",
+            look: "The barycentric u and v are weights; the uv of the Trace is the weighted sum of \
+                   the corners' uv.",
+            section: "triangle.md#the-weights-are-not-the-texture-coordinates",
+            group: Some(Group::TriangleSurface),
+            needs: &[],
+        },
         table_questions("triangle.uv", seed, &[HitCheck::Uv], Side::Front),
     )
 }
 
-pub(super) fn uv_corners(seed: Seed) -> Item {
+pub(super) fn uv_corners(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("triangle.uv_corners");
     let mut table = || {
         let vertices = random_triangle(&mut rng);
@@ -69,26 +79,32 @@ pub(super) fn uv_corners(seed: Seed) -> Item {
         shapes_question(&[HitCheck::Uv], vec![shape(&vertices, 0)], rays)
     };
     item(
-        "uv_corners",
-        1,
-        [
-            "near a corner, that corner's texture coordinates count most",
-            "If two corners are swapped, so are two of the weights: w goes with p0, u with p1 and \
-             v with p2.",
-        ],
+        Declaration {
+            id: "triangle.uv_corners",
+            points: 1,
+            title: "near a corner, that corner's texture coordinates count most",
+            look: "If two corners are swapped, so are two of the weights: w goes with p0, u with \
+                   p1 and v with p2.",
+            section: "triangle.md#each-weight-belongs-to-its-corner",
+            group: Some(Group::TriangleSurface),
+            needs: &[],
+        },
         vec![table(), table()],
     )
 }
 
-pub(super) fn normal_from_behind(seed: Seed) -> Item {
+pub(super) fn normal_from_behind(seed: Seed) -> DeclaredItem {
     item(
-        "normal_from_behind",
-        1,
-        [
-            "seen from behind, the normal stays as it is",
-            "The normal belongs to the surface, not to the ray, so it is never flipped toward the \
-             ray.",
-        ],
+        Declaration {
+            id: "triangle.normal_from_behind",
+            points: 1,
+            title: "seen from behind, the normal stays as it is",
+            look: "The normal belongs to the surface, not to the ray, so it is never flipped \
+                   toward the ray.",
+            section: "triangle.md#do-not-flip-the-normal",
+            group: Some(Group::TriangleSurface),
+            needs: &[],
+        },
         table_questions(
             "triangle.normal_from_behind",
             seed,
@@ -98,7 +114,7 @@ pub(super) fn normal_from_behind(seed: Seed) -> Item {
     )
 }
 
-pub(super) fn origin_and_material(seed: Seed) -> Item {
+pub(super) fn origin_and_material(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("triangle.origin_and_material");
     let mut table = |material: u32| {
         let vertices = random_triangle(&mut rng);
@@ -110,12 +126,15 @@ pub(super) fn origin_and_material(seed: Seed) -> Item {
         shapes_question(&checks, vec![shape(&vertices, material)], rays)
     };
     item(
-        "origin_and_material",
-        1,
-        [
-            "the trace holds the ray's origin and the triangle's material",
-            "Copy both: the origin from the ray, and the material from the triangle.",
-        ],
+        Declaration {
+            id: "triangle.origin_and_material",
+            points: 1,
+            title: "the trace holds the ray's origin and the triangle's material",
+            look: "Copy both: the origin from the ray, and the material from the triangle.",
+            section: "triangle.md#what-to-return",
+            group: Some(Group::TriangleSurface),
+            needs: &[],
+        },
         vec![table(0), table(7), table(42)],
     )
 }

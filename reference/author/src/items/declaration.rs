@@ -1,0 +1,132 @@
+//! The declaration of an item: everything about it except its questions, in one place.
+
+use judging::exam::{ExamQuestion, Item, Task};
+use judging::section::Section;
+use judging::signatures::MistakeSignatures;
+
+/// An item without its questions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Declaration {
+    /// The task's id, a dot, and a name, such as `sphere.near_side`.
+    pub id: &'static str,
+    /// The points for correct answers to all questions.
+    pub points: u32,
+    /// A sentence that says what must hold, which is the feedback for students.
+    pub title: &'static str,
+    /// A hint on where to look for the mistake.
+    pub look: &'static str,
+    /// The section of the handout that teaches it.
+    pub section: &'static str,
+    /// The group that it belongs to, if items of other tasks need that group.
+    pub group: Option<Group>,
+    /// The groups of items of earlier tasks that it depends on.
+    pub needs: &'static [Group],
+}
+
+/// A group of items that items of later tasks need as a whole.
+///
+/// An item needs only groups whose mistakes could make it fail even if its own task is solved
+/// correctly. A student who fails an item and one that it needs is advised to fix the latter first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Group {
+    /// The rays of a picture.
+    CameraRays,
+    /// The distance and the misses of triangles.
+    TriangleHits,
+    /// The other quantities of a triangle's hit.
+    TriangleSurface,
+    /// The distance and the misses of spheres.
+    SphereHits,
+    /// Boxes, which decide which nodes are entered and in which order.
+    Boxes,
+    /// Building a tree that can be traversed, whatever its cost.
+    Trees,
+}
+
+/// An item whose dependencies are groups, and not yet the ids of items.
+#[derive(Clone, Debug)]
+pub struct DeclaredItem {
+    item: Item,
+    group: Option<Group>,
+    needs: &'static [Group],
+}
+
+/// Creates an item from its declaration and its questions.
+pub(super) fn item(declaration: Declaration, questions: Vec<ExamQuestion>) -> DeclaredItem {
+    let Declaration {
+        id,
+        points,
+        title,
+        look,
+        section,
+        group,
+        needs,
+    } = declaration;
+    let item = Item {
+        id: id.to_owned(),
+        title: title.to_owned(),
+        task: task(id),
+        points,
+        look: look.to_owned(),
+        section: Some(Section::new(section)),
+        needs: Vec::new(),
+        questions,
+        signatures: MistakeSignatures::default(),
+    };
+    DeclaredItem { item, group, needs }
+}
+
+fn task(id: &str) -> Task {
+    let of = |task: &Task| id.split('.').next() == Some(task.id());
+    let task = Task::ALL.into_iter().find(of);
+    task.expect("the id of an item begins with its task")
+}
+
+/// Returns the items, each with the ids of all items in the groups that it needs.
+pub fn resolve(declared: Vec<DeclaredItem>) -> Vec<Item> {
+    let members = |group: Group| {
+        let members = declared.iter().filter(move |it| it.group == Some(group));
+        members.map(|it| it.item.id.clone())
+    };
+    let resolved = declared
+        .iter()
+        .map(|DeclaredItem { item, needs, .. }| Item {
+            needs: needs.iter().flat_map(|&group| members(group)).collect(),
+            ..item.clone()
+        });
+    resolved.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn declared(id: &'static str, group: Option<Group>, needs: &'static [Group]) -> DeclaredItem {
+        let declaration = Declaration {
+            id,
+            points: 1,
+            title: "",
+            look: "",
+            section: "start.md",
+            group,
+            needs,
+        };
+        item(declaration, Vec::new())
+    }
+
+    #[test]
+    fn an_item_needs_all_items_of_its_groups_group_by_group() {
+        let items = resolve(vec![
+            declared("triangle.inside", Some(Group::TriangleHits), &[]),
+            declared("triangle.tiny", None, &[]),
+            declared("triangle.outside", Some(Group::TriangleHits), &[]),
+            declared("bbox.through", Some(Group::Boxes), &[]),
+            declared("traverse.deep", None, &[Group::Boxes, Group::TriangleHits]),
+        ]);
+        let needs: Vec<usize> = items.iter().map(|item| item.needs.len()).collect();
+        assert_eq!(needs, [0, 0, 0, 0, 3]);
+        let expected = ["bbox.through", "triangle.inside", "triangle.outside"];
+        assert_eq!(items[4].needs, expected);
+        assert_eq!(items[4].task, Task::Traverse);
+    }
+}

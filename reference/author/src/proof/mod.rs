@@ -12,7 +12,7 @@ pub mod summary;
 use std::io;
 use std::path::PathBuf;
 
-use judging::exam_file::ExamError;
+use grader::exam_source::ExamSourceError;
 
 use crate::solutions::SolutionsError;
 use crate::solutions::recording::RecordingError;
@@ -33,7 +33,7 @@ pub enum ProofError {
     Workbench(#[from] WorkbenchError),
     /// The practice exam cannot be used.
     #[error(transparent)]
-    Exam(#[from] ExamError),
+    Exam(#[from] ExamSourceError),
     /// An exam's picture cannot be recorded.
     #[error(transparent)]
     Recording(#[from] RecordingError),

@@ -109,8 +109,8 @@ pub struct RecordedPicture {
 
 /// Returns the item that compares a path-traced picture with the reference's.
 pub fn radiance_item(seed: Seed, recorded: RecordedPicture) -> DeclaredItem {
-    /// The maximum number of the 1024 pixels that may differ. Measured: with other correct
-    /// formulas, none differ; cracks of 1e-4 between triangles change 13.
+    /// The maximum number of the 1024 pixels that may differ. In measurements, other correct
+    /// formulas changed none, and cracks of 1e-4 between triangles changed 13.
     const MAX_WRONG_PIXELS: u32 = 7;
     let key = Key::Radiance {
         pixels: recorded.pixels,

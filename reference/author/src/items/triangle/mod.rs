@@ -34,8 +34,8 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
     all.into_iter().map(|item| item(seed)).collect()
 }
 
-/// Creates one question for each of four triangles, with rays that hit it from this side and some
-/// rays that miss.
+/// Creates one question for each of four triangles, with rays that hit the triangle from this side
+/// and some rays that miss.
 fn table_questions(name: &str, seed: Seed, checks: &[HitCheck], side: Side) -> Vec<ExamQuestion> {
     let mut rng = seed.rng(name);
     let mut table = || {

@@ -8,11 +8,7 @@ use rawzip::{
     CompressionMethod, RECOMMENDED_BUFFER_SIZE, ReaderAt, ZipArchive, ZipArchiveEntryWayfinder,
     ZipFileHeaderRecord, ZipLocator,
 };
-
-/// The upper half of code page 437, the original encoding of the format, for names that are not
-/// UTF-8 (PKWARE's APPNOTE.TXT, appendix D).
-const CODE_PAGE_437: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐\
-    └┴┬├─┼╞╟╚╔╩╦╠═╬╧╨╤╥╙╘╒╓╫╪┘┌█▄▌▐▀αßΓπΣσµτΦΘΩδ∞φε∩≡±≥≤⌠⌡÷≈°∙·√ⁿ²■\u{a0}";
+use yore::code_pages::CP437;
 
 /// A zip archive whose central directory has been read.
 #[derive(Debug)]
@@ -124,28 +120,22 @@ impl Entry {
     }
 }
 
-/// Decodes a name. UTF-8 is tried even without the flag for it, which not every program sets.
+/// Decodes a name. UTF-8 is tried even without the flag for it, which not every program sets. Other
+/// names are in code page 437, the original encoding of the format (PKWARE's APPNOTE.TXT, appendix
+/// D).
 fn decode_name(bytes: &[u8]) -> String {
-    let of_byte = |byte: &u8| match byte.checked_sub(128) {
-        None => char::from(*byte),
-        Some(index) => CODE_PAGE_437
-            .chars()
-            .nth(index.into())
-            .expect("the table has 128 characters"),
-    };
     match str::from_utf8(bytes) {
         Ok(name) => name.to_owned(),
-        Err(_) => bytes.iter().map(of_byte).collect(),
+        Err(_) => bytes.iter().map(|byte| CP437.decode_byte(*byte)).collect(),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{CODE_PAGE_437, decode_name};
+    use super::decode_name;
 
     #[test]
     fn decodes_names_as_utf8_or_code_page_437() {
-        assert_eq!(CODE_PAGE_437.chars().count(), 128);
         assert_eq!(decode_name("Jürgen/bvh.rs".as_bytes()), "Jürgen/bvh.rs");
         assert_eq!(decode_name(b"J\x81rgen/\xe1.rs"), "Jürgen/ß.rs");
     }

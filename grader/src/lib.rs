@@ -12,7 +12,7 @@
 //! | grading | [`grade`], [`cache_lookup`]; [`options`] |
 //! | files of the report | [`cached_report`], [`report_files`] |
 //! | exam runs and reports | [`run_exam`], [`verdict`], [`report_answers`], [`report`], [`mod@format`] |
-//! | steps of an exam run | [`select_isolation`], [`build`], [`probe`]; [`drawing`] of judged answers |
+//! | steps of an exam run | [`select_isolation`], [`build`], [`probe`]; [`drawing`] of judged answers, in [`svg`] |
 //! | results | [`score`], [`rerun_command`], [`stage_times`] |
 //! | inputs | [`policy`], [`submission`], [`given_files`], [`exam_source`], [`question_ref`] |
 //! | a separate package | [`judging`]: exams, their keys, and the comparison of answers with keys |
@@ -46,6 +46,7 @@ pub mod score;
 pub mod select_isolation;
 pub mod stage_times;
 pub mod submission;
+pub mod svg;
 pub mod system;
 pub mod terminal;
 pub mod verdict;

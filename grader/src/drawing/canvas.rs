@@ -2,13 +2,13 @@
 //!
 //! Coordinates may come from submissions, so elements with points that are not finite or far off
 //! the page are skipped, and an image that has reached [`MAX_BYTES`] bytes accepts no more
-//! elements. All text is escaped here.
-
-use std::fmt::{Display, Write};
+//! elements.
 
 use glam::{DVec2, dvec2};
+use maud::{Markup, PreEscaped, Render, html};
 
 use super::ink::{Fill, Ink, LineStyle};
+use crate::svg::{self, number};
 
 /// The width of every drawing. A phone screen that is 360 pixels wide shows it at full size, with a
 /// small margin.
@@ -19,6 +19,8 @@ const FONT_SIZE: f64 = 12.5;
 const MAX_BYTES: usize = 120_000;
 /// The limit for the absolute value of a coordinate. Points beyond it are not drawn.
 const MAX_COORDINATE: f64 = 1e4;
+/// The background colour of the page.
+const PAPER: &str = "var(--paper, Canvas)";
 
 /// The position of a text relative to its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,25 +54,22 @@ impl Canvas {
     /// Returns the complete image, with this height. `title` and `description` are for screen
     /// readers.
     pub(super) fn finish(self, height: f64, title: &str, description: &str) -> String {
-        let (title, description) = (escape(title), escape(description));
-        format!(
-            concat!(
-                r#"<svg xmlns="http://www.w3.org/2000/svg" role="img" viewBox="0 0 {} {:.0}" "#,
-                r#"font-family="system-ui, sans-serif" font-size="{}" stroke-linejoin="round">"#,
-                "<title>{}</title><desc>{}</desc>{}</svg>"
-            ),
-            WIDTH, height, FONT_SIZE, title, description, self.body
-        )
+        let view_box = format!("0 0 {WIDTH} {height:.0}");
+        let image = html! {
+            svg xmlns="http://www.w3.org/2000/svg" role="img" viewBox=(view_box)
+                font-family="system-ui, sans-serif" font-size=(FONT_SIZE) stroke-linejoin="round" {
+                title { (svg::text(title)) }
+                desc { (svg::text(description)) }
+                (PreEscaped(self.body))
+            }
+        };
+        image.into_string()
     }
 
     /// Draws a straight line.
     pub(super) fn line(&mut self, from: DVec2, to: DVec2, line: LineStyle) {
         if is_drawable(from) && is_drawable(to) {
-            let (a, b) = (coordinates(from), coordinates(to));
-            self.add(format_args!(
-                r#"<path d="M{a}L{b}" {}/>"#,
-                line.attributes()
-            ));
+            self.path(&svg::path(&[from, to]), line, Fill::None);
         }
     }
 
@@ -81,18 +80,21 @@ impl Canvas {
 
     /// Draws several polygons in the same style.
     pub(super) fn polygons(&mut self, all: &[impl AsRef<[DVec2]>], line: LineStyle, fill: Fill) {
-        let mut path = String::new();
-        for corners in all.iter().map(AsRef::as_ref) {
-            if corners.iter().all(|corner| is_drawable(*corner)) {
-                let corners: Vec<String> =
-                    corners.iter().map(|corner| coordinates(*corner)).collect();
-                write!(path, "M{}Z", corners.join("L")).expect("writing to a string cannot fail");
-            }
-        }
+        let polygons = all.iter().map(AsRef::as_ref);
+        let drawable = polygons.filter(|corners| corners.iter().all(|corner| is_drawable(*corner)));
+        let path: String = drawable.map(svg::closed_path).collect();
         if !path.is_empty() {
-            let (fill, line) = (fill.attributes(), line.attributes());
-            self.add(format_args!(r#"<path d="{path}" {fill} {line}/>"#));
+            self.path(&path, line, fill);
         }
+    }
+
+    fn path(&mut self, data: &str, line: LineStyle, fill: Fill) {
+        let stroke = line.stroke();
+        self.add(&html! {
+            path d=(data) fill=(fill.paint()) fill-opacity=[fill.opacity()]
+                stroke=(stroke.paint) stroke-opacity=[stroke.opacity]
+                stroke-width=(stroke.width) stroke-dasharray=[stroke.dashes] {}
+        });
     }
 
     /// Draws a rectangle from two opposite corners.
@@ -105,22 +107,23 @@ impl Canvas {
     pub(super) fn area(&mut self, from: DVec2, to: DVec2, fill: Fill) {
         if is_drawable(from) && is_drawable(to) {
             let (min, size) = (from.min(to), (to - from).abs());
-            let fill = fill.attributes();
-            self.add(format_args!(
-                r#"<rect x="{:.1}" y="{:.1}" width="{:.1}" height="{:.1}" {fill}/>"#,
-                min.x, min.y, size.x, size.y
-            ));
+            self.add(&html! {
+                rect x=(number(min.x)) y=(number(min.y)) width=(number(size.x))
+                    height=(number(size.y)) fill=(fill.paint()) fill-opacity=[fill.opacity()] {}
+            });
         }
     }
 
     /// Draws a circle.
     pub(super) fn circle(&mut self, center: DVec2, radius: f64, line: LineStyle, fill: Fill) {
         if is_drawable(center) && radius.is_finite() && radius < MAX_COORDINATE {
-            let (fill, line) = (fill.attributes(), line.attributes());
-            self.add(format_args!(
-                r#"<circle cx="{:.1}" cy="{:.1}" r="{radius:.1}" {fill} {line}/>"#,
-                center.x, center.y
-            ));
+            let stroke = line.stroke();
+            self.add(&html! {
+                circle cx=(number(center.x)) cy=(number(center.y)) r=(number(radius))
+                    fill=(fill.paint()) fill-opacity=[fill.opacity()]
+                    stroke=(stroke.paint) stroke-opacity=[stroke.opacity]
+                    stroke-width=(stroke.width) stroke-dasharray=[stroke.dashes] {}
+            });
         }
     }
 
@@ -132,11 +135,8 @@ impl Canvas {
         };
         let (back, across) = (to - 9.0 * dir, 4.0 * dir.perp());
         if is_drawable(to) {
-            let head = [to, back + across, back - across]
-                .map(coordinates)
-                .join("L");
-            let paint = ink.paint();
-            self.add(format_args!(r#"<path d="M{head}Z" fill="{paint}"/>"#));
+            let head = svg::closed_path(&[to, back + across, back - across]);
+            self.add(&html! { path d=(head) fill=(ink.paint()) {} });
         }
     }
 
@@ -145,39 +145,27 @@ impl Canvas {
         if !is_drawable(at) {
             return;
         }
-        let paper = r#"stroke="var(--paper, Canvas)" stroke-width="1.5""#;
-        match mark {
-            Mark::Right => {
-                let paint = Ink::Right.paint();
-                let (x, y) = (at.x, at.y);
-                self.add(format_args!(
-                    r#"<circle cx="{x:.1}" cy="{y:.1}" r="5.5" fill="{paint}" {paper}/>"#
-                ));
-            }
+        let (x, y) = (number(at.x), number(at.y));
+        self.add(&match mark {
+            Mark::Right => html! {
+                circle cx=(x) cy=(y) r="5.5" fill=(Ink::Right.paint())
+                    stroke=(PAPER) stroke-width="1.5" {}
+            },
             Mark::Wrong => {
-                let arm = |x: f64, y: f64| coordinates(at + 5.5 * dvec2(x, y));
-                let path = format!(
-                    "M{}L{}M{}L{}",
-                    arm(-1.0, -1.0),
-                    arm(1.0, 1.0),
-                    arm(-1.0, 1.0),
-                    arm(1.0, -1.0)
-                );
-                // Drawn twice, first wider and in the background colour, so that a border separates
-                // the cross from the lines below it.
-                for (paint, width) in [("var(--paper, Canvas)", 6.0), (Ink::Wrong.paint(), 3.0)] {
-                    self.add(format_args!(
-                        r#"<path d="{path}" fill="none" stroke="{paint}" stroke-width="{width}"/>"#
-                    ));
+                let arm =
+                    |x: f64, y: f64| svg::path(&[at - 5.5 * dvec2(x, y), at + 5.5 * dvec2(x, y)]);
+                let cross = arm(1.0, 1.0) + &arm(1.0, -1.0);
+                // Drawn twice, first wider and in the background colour, so that a border
+                // separates the cross from the lines below it.
+                html! {
+                    path d=(cross) fill="none" stroke=(PAPER) stroke-width="6" {}
+                    path d=(cross) fill="none" stroke=(Ink::Wrong.paint()) stroke-width="3" {}
                 }
             }
-            Mark::Origin => {
-                let (x, y) = (at.x, at.y);
-                self.add(format_args!(
-                    r#"<circle cx="{x:.1}" cy="{y:.1}" r="4" fill="var(--paper, Canvas)" stroke="currentColor" stroke-width="2"/>"#
-                ));
-            }
-        }
+            Mark::Origin => html! {
+                circle cx=(x) cy=(y) r="4" fill=(PAPER) stroke="currentColor" stroke-width="2" {}
+            },
+        });
     }
 
     /// Draws text with an outline in the background colour, so that it can be read on top of lines.
@@ -190,23 +178,18 @@ impl Canvas {
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
-        let (paint, opacity, text) = (ink.paint(), ink.opacity(), escape(text));
-        let opacity = match opacity {
-            "1" => String::new(),
-            opacity => format!(r#" fill-opacity="{opacity}""#),
-        };
-        self.add(format_args!(
-            concat!(
-                r#"<text x="{:.1}" y="{:.1}" text-anchor="{}" fill="{}"{} "#,
-                r#"stroke="var(--paper, Canvas)" stroke-width="3" paint-order="stroke">{}</text>"#
-            ),
-            at.x, at.y, anchor, paint, opacity, text
-        ));
+        self.add(&html! {
+            text x=(number(at.x)) y=(number(at.y)) text-anchor=(anchor)
+                fill=(ink.paint()) fill-opacity=[ink.opacity()]
+                stroke=(PAPER) stroke-width="3" paint-order="stroke" {
+                (svg::text(text))
+            }
+        });
     }
 
-    fn add(&mut self, element: impl Display) {
+    fn add(&mut self, element: &Markup) {
         if self.body.len() < MAX_BYTES {
-            write!(self.body, "{element}").expect("writing to a string cannot fail");
+            element.render_to(&mut self.body);
         }
     }
 }
@@ -214,26 +197,6 @@ impl Canvas {
 fn is_drawable(at: DVec2) -> bool {
     // False for NaN.
     at.abs().max_element() < MAX_COORDINATE && at.is_finite()
-}
-
-fn coordinates(at: DVec2) -> String {
-    format!("{:.1} {:.1}", at.x, at.y)
-}
-
-fn escape(text: &str) -> String {
-    let mut escaped = String::new();
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            // Control characters are not allowed in XML, not even escaped.
-            c if c.is_control() => escaped.push('\u{fffd}'),
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }
 
 #[cfg(test)]

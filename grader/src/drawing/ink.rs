@@ -27,11 +27,11 @@ impl Ink {
         }
     }
 
-    /// Returns the opacity, as an SVG value.
-    pub(super) fn opacity(self) -> &'static str {
+    /// Returns the opacity, as an SVG value, or `None` if it is 1.
+    pub(super) fn opacity(self) -> Option<&'static str> {
         match self {
-            Ink::Text | Ink::Right | Ink::Wrong => "1",
-            Ink::Faint => "0.72",
+            Ink::Text | Ink::Right | Ink::Wrong => None,
+            Ink::Faint => Some("0.72"),
         }
     }
 }
@@ -55,28 +55,37 @@ pub(super) enum LineStyle {
     Wrong,
 }
 
+/// The attributes of a line, as SVG values.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stroke {
+    /// The colour.
+    pub(super) paint: &'static str,
+    /// The opacity, or `None` if it is 1.
+    pub(super) opacity: Option<&'static str>,
+    /// The width.
+    pub(super) width: &'static str,
+    /// The lengths of dashes and gaps, or `None` for a solid line.
+    pub(super) dashes: Option<&'static str>,
+}
+
 impl LineStyle {
-    /// Returns the style as attributes of an SVG element.
-    pub(super) fn attributes(self) -> String {
+    /// Returns the attributes of a line of this style.
+    pub(super) fn stroke(self) -> Stroke {
         let (ink, opacity, width, dashes) = match self {
-            LineStyle::Outline => (Ink::Text, "1", "1.5", ""),
-            LineStyle::Grid => (Ink::Text, "0.3", "1", ""),
-            LineStyle::Ray => (Ink::Text, "0.85", "1.5", ""),
-            LineStyle::Behind => (Ink::Text, "0.6", "1.2", "1.5 4"),
-            LineStyle::Range => (Ink::Text, "0.35", "7", ""),
-            LineStyle::Right => (Ink::Right, "1", "2.5", ""),
-            LineStyle::Wrong => (Ink::Wrong, "1", "2.5", "6 4"),
+            LineStyle::Outline => (Ink::Text, None, "1.5", None),
+            LineStyle::Grid => (Ink::Text, Some("0.3"), "1", None),
+            LineStyle::Ray => (Ink::Text, Some("0.85"), "1.5", None),
+            LineStyle::Behind => (Ink::Text, Some("0.6"), "1.2", Some("1.5 4")),
+            LineStyle::Range => (Ink::Text, Some("0.35"), "7", None),
+            LineStyle::Right => (Ink::Right, None, "2.5", None),
+            LineStyle::Wrong => (Ink::Wrong, None, "2.5", Some("6 4")),
         };
-        let dashes = match dashes {
-            "" => String::new(),
-            dashes => format!(r#" stroke-dasharray="{dashes}""#),
-        };
-        let opacity = match opacity {
-            "1" => String::new(),
-            opacity => format!(r#" stroke-opacity="{opacity}""#),
-        };
-        let paint = ink.paint();
-        format!(r#"stroke="{paint}"{opacity} stroke-width="{width}"{dashes}"#)
+        Stroke {
+            paint: ink.paint(),
+            opacity,
+            width,
+            dashes,
+        }
     }
 }
 
@@ -90,14 +99,19 @@ pub(super) enum Fill {
 }
 
 impl Fill {
-    /// Returns the fill as attributes of an SVG element.
-    pub(super) fn attributes(self) -> String {
+    /// Returns the SVG paint.
+    pub(super) fn paint(self) -> &'static str {
         match self {
-            Fill::None => r#"fill="none""#.to_owned(),
-            Fill::Tint(ink, share) => {
-                let (paint, share) = (ink.paint(), share.clamp(0.0, 1.0));
-                format!(r#"fill="{paint}" fill-opacity="{share:.2}""#)
-            }
+            Fill::None => "none",
+            Fill::Tint(ink, _) => ink.paint(),
+        }
+    }
+
+    /// Returns the opacity, as an SVG value, or `None` if there is no fill.
+    pub(super) fn opacity(self) -> Option<String> {
+        match self {
+            Fill::None => None,
+            Fill::Tint(_, share) => Some(format!("{:.2}", share.clamp(0.0, 1.0))),
         }
     }
 }

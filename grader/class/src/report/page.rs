@@ -3,6 +3,7 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use grader::svg::number;
 use judging::sanitize::sanitize;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
@@ -112,17 +113,15 @@ fn bars(distribution: &Distribution) -> Markup {
         "from the lowest tenth to the highest: {}",
         counts.join(", ")
     );
-    let column = |(index, count): (usize, &usize)| {
-        let height = 40.0 * *count as f64 / highest as f64;
-        let (x, y) = (12 * index, 41.0 - height);
-        format!("<rect x=\"{x}\" y=\"{y:.1}\" width=\"10\" height=\"{height:.1}\"/>")
-    };
-    let columns: String = distribution.bins.iter().enumerate().map(column).collect();
+    let columns = distribution.bins.iter().enumerate();
+    let columns = columns.map(|(index, count)| (12 * index, 40.0 * *count as f64 / highest as f64));
     html! {
-        (PreEscaped(format!(
-            "<svg class=\"bars\" viewBox=\"0 0 118 42\" role=\"img\" aria-label=\"{label}\">\
-             {columns}<path d=\"M0 41.5H118\"/></svg>"
-        )))
+        svg .bars viewBox="0 0 118 42" role="img" aria-label=(label) {
+            @for (x, height) in columns {
+                rect x=(x) y=(number(41.0 - height)) width="10" height=(number(height)) {}
+            }
+            path d="M0 41.5H118" {}
+        }
     }
 }
 

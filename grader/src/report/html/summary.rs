@@ -1,12 +1,13 @@
 //! The top of the page: the points, and what to do next.
 
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 use super::elements::{command, plain_text};
 use super::prose::prose;
 use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
+use crate::svg::number;
 
 /// Renders the name of the submission, the exam, and the points per task.
 pub(super) fn header(score: &Score) -> Markup {
@@ -65,11 +66,12 @@ fn row(task: &TaskScore) -> Markup {
 /// beside it say the same.
 fn bar(task: &TaskScore) -> Markup {
     let width = 100.0 * f64::from(task.points) / f64::from(task.max_points.max(1));
-    PreEscaped(format!(
-        "<svg class=\"bar\" viewBox=\"0 0 100 10\" preserveAspectRatio=\"none\" aria-hidden=\"true\">\
-         <rect class=\"all\" width=\"100\" height=\"10\"/>\
-         <rect class=\"some\" width=\"{width:.1}\" height=\"10\"/></svg>"
-    ))
+    html! {
+        svg .bar viewBox="0 0 100 10" preserveAspectRatio="none" aria-hidden="true" {
+            rect .all width="100" height="10" {}
+            rect .some width=(number(width)) height="10" {}
+        }
+    }
 }
 
 /// Renders what to do next: fix the first failing item, in lecture order.

@@ -6,8 +6,10 @@
 //! people with colour blindness can distinguish.
 
 use glam::{DVec2, dvec2};
+use grader::svg::{self, closed_path, number, path};
+use maud::{Markup, PreEscaped, Render, html};
 
-use super::svg::{circle, escape, format_number, path, with_subscripts};
+use super::label::with_subscripts;
 
 /// The style sheet of a drawing, in light and dark mode. The book's style sheet, `handout.css`,
 /// sets the same colours for each of its themes.
@@ -40,14 +42,14 @@ pub enum Hue {
 }
 
 impl Hue {
-    fn name(self) -> &'static str {
+    fn paint(self) -> &'static str {
         match self {
-            Hue::Ink => "ink",
-            Hue::Soft => "soft",
-            Hue::Blue => "blue",
-            Hue::Orange => "orange",
-            Hue::Green => "green",
-            Hue::Pink => "pink",
+            Hue::Ink => "var(--ink)",
+            Hue::Soft => "var(--soft)",
+            Hue::Blue => "var(--blue)",
+            Hue::Orange => "var(--orange)",
+            Hue::Green => "var(--green)",
+            Hue::Pink => "var(--pink)",
         }
     }
 }
@@ -85,14 +87,18 @@ impl Drawing {
         let (w, h) = (self.size.x, self.size.y);
         // The preferred size, if the page is wide enough for it.
         let (wide, high) = (w * 1.25, h * 1.25);
-        let (title, description) = (escape(title), escape(description));
-        let body = &self.body;
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"figure\" role=\"img\" \
-             width=\"{wide}\" height=\"{high}\" viewBox=\"0 0 {w} {h}\">\n\
-             <title>{title}</title>\n<desc>{description}</desc>\n<style>{STYLE}</style>\n\
-             <rect class=\"card\" width=\"{w}\" height=\"{h}\" rx=\"8\"/>\n{body}</svg>\n"
-        )
+        // A line for each element, so that changes can be reviewed.
+        let image = html! {
+            svg .figure xmlns="http://www.w3.org/2000/svg" role="img" width=(wide) height=(high)
+                viewBox=(format!("0 0 {w} {h}")) { "\n"
+                title { (svg::text(title)) } "\n"
+                desc { (svg::text(description)) } "\n"
+                style { (PreEscaped(STYLE)) } "\n"
+                rect .card width=(w) height=(h) rx="8" {} "\n"
+                (PreEscaped(&self.body))
+            } "\n"
+        };
+        image.into_string()
     }
 
     /// Draws a line from `a` to `b`.
@@ -110,11 +116,8 @@ impl Drawing {
         let along = (b - a).normalize();
         let (back, aside) = (b - 11.0 * along, 4.5 * along.perp());
         self.stroke(hue, "line", &path(&[a, back]));
-        let tip = path(&[b, back + aside, back - aside]);
-        self.element(&format!(
-            "<path d=\"{tip}Z\" fill=\"var(--{})\"/>",
-            hue.name()
-        ))
+        let tip = closed_path(&[b, back + aside, back - aside]);
+        self.element(&html! { path d=(tip) fill=(hue.paint()) {} })
     }
 
     /// Draws a dimension line: an arrow with a tip at each end.
@@ -130,15 +133,12 @@ impl Drawing {
 
     /// Fills a polygon with a light tint, without an outline.
     pub fn area(&mut self, hue: Hue, points: &[DVec2]) -> &mut Self {
-        let (path, name) = (path(points), hue.name());
-        self.element(&format!(
-            "<path class=\"area\" d=\"{path}Z\" fill=\"var(--{name})\"/>"
-        ))
+        self.element(&html! { path .area d=(closed_path(points)) fill=(hue.paint()) {} })
     }
 
     /// Draws the outline of a polygon.
     pub fn outline(&mut self, hue: Hue, points: &[DVec2]) -> &mut Self {
-        self.stroke(hue, "line", &format!("{}Z", path(points)))
+        self.stroke(hue, "line", &closed_path(points))
     }
 
     /// Draws a tinted box between two corners.
@@ -154,33 +154,28 @@ impl Drawing {
 
     /// Covers a box with the background, to hide what was drawn there.
     pub fn card(&mut self, a: DVec2, b: DVec2) -> &mut Self {
-        let path = path(&corners(a, b));
-        self.element(&format!("<path class=\"card\" d=\"{path}Z\"/>"))
+        self.element(&html! { path .card d=(closed_path(&corners(a, b))) {} })
     }
 
     /// Draws a tinted circle.
     pub fn disc(&mut self, hue: Hue, center: DVec2, radius: f64) -> &mut Self {
-        let (at, name) = (circle(center, radius), hue.name());
-        self.element(&format!(
-            "<circle class=\"area\" {at} fill=\"var(--{name})\"/>"
-        ))
-        .element(&format!(
-            "<circle class=\"line\" {at} stroke=\"var(--{name})\"/>"
-        ))
+        let [x, y, r] = [center.x, center.y, radius].map(number);
+        self.element(&html! { circle .area cx=(x) cy=(y) r=(r) fill=(hue.paint()) {} })
+            .element(&html! { circle .line cx=(x) cy=(y) r=(r) stroke=(hue.paint()) {} })
     }
 
     /// Draws a point.
     pub fn dot(&mut self, hue: Hue, at: DVec2) -> &mut Self {
-        let (at, name) = (circle(at, 4.5), hue.name());
-        self.element(&format!("<circle {at} fill=\"var(--{name})\"/>"))
+        let (x, y) = (number(at.x), number(at.y));
+        self.element(&html! { circle cx=(x) cy=(y) r="4.5" fill=(hue.paint()) {} })
     }
 
     /// Draws a small ring, for a point that does not count.
     pub fn ring(&mut self, hue: Hue, at: DVec2) -> &mut Self {
-        let (at, name) = (circle(at, 5.0), hue.name());
-        self.element(&format!(
-            "<circle {at} fill=\"var(--card)\" stroke=\"var(--{name})\" stroke-width=\"2\"/>"
-        ))
+        let (x, y) = (number(at.x), number(at.y));
+        self.element(&html! {
+            circle cx=(x) cy=(y) r="5" fill="var(--card)" stroke=(hue.paint()) stroke-width="2" {}
+        })
     }
 
     /// Draws a cross, for something that is wrong, missing or not done.
@@ -192,40 +187,39 @@ impl Drawing {
     /// Draws a label whose base line goes through `at`. `_` makes the next letter a subscript, as
     /// in `S_A`; `__` is an underscore.
     pub fn label(&mut self, hue: Hue, side: Side, at: DVec2, text: &str) -> &mut Self {
-        self.text("", hue, side, at, text)
+        self.text(None, hue, side, at, text)
     }
 
     /// Draws a label in a smaller font.
     pub fn small_label(&mut self, hue: Hue, side: Side, at: DVec2, text: &str) -> &mut Self {
-        self.text(" class=\"small\"", hue, side, at, text)
+        self.text(Some("small"), hue, side, at, text)
     }
 
-    fn text(&mut self, class: &str, hue: Hue, side: Side, at: DVec2, text: &str) -> &mut Self {
+    fn text(
+        &mut self,
+        class: Option<&str>,
+        hue: Hue,
+        side: Side,
+        at: DVec2,
+        text: &str,
+    ) -> &mut Self {
         let anchor = match side {
             Side::Right => "start",
             Side::Middle => "middle",
             Side::Left => "end",
         };
-        let (x, y, name, text) = (
-            format_number(at.x),
-            format_number(at.y),
-            hue.name(),
-            with_subscripts(text),
-        );
-        self.element(&format!(
-            "<text{class} x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" fill=\"var(--{name})\">{text}</text>"
-        ))
+        self.element(&html! {
+            text class=[class] x=(number(at.x)) y=(number(at.y)) text-anchor=(anchor)
+                fill=(hue.paint()) { (with_subscripts(text)) }
+        })
     }
 
     fn stroke(&mut self, hue: Hue, class: &str, path: &str) -> &mut Self {
-        let name = hue.name();
-        self.element(&format!(
-            "<path class=\"{class}\" d=\"{path}\" stroke=\"var(--{name})\"/>"
-        ))
+        self.element(&html! { path class=(class) d=(path) stroke=(hue.paint()) {} })
     }
 
-    fn element(&mut self, element: &str) -> &mut Self {
-        self.body.push_str(element);
+    fn element(&mut self, element: &Markup) -> &mut Self {
+        element.render_to(&mut self.body);
         self.body.push('\n');
         self
     }

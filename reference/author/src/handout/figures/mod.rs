@@ -5,8 +5,8 @@ mod building;
 mod camera;
 mod drawing;
 mod grading;
+mod label;
 mod sphere;
-mod svg;
 mod traversal;
 mod triangle;
 

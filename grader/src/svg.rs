@@ -1,0 +1,54 @@
+//! Numbers, paths and text of SVG images.
+//!
+//! The elements are markup by `maud`, which escapes. It has no `<path/>`, so that an element without
+//! contents is written `path d=(…) {}`: a `;` instead of the braces would leave it open, which is
+//! not XML.
+
+use std::fmt::Write;
+
+use glam::DVec2;
+
+/// Formats a number with at most one decimal: finer than a pixel, and the same on every machine.
+pub fn number(value: f64) -> String {
+    let tenths = (value * 10.0).round() as i64;
+    let (whole, tenth) = (tenths.abs() / 10, tenths.abs() % 10);
+    let sign = if tenths < 0 { "-" } else { "" };
+    match tenth {
+        0 => format!("{sign}{whole}"),
+        _ => format!("{sign}{whole}.{tenth}"),
+    }
+}
+
+/// Returns the data of an open path through the points.
+pub fn path(points: &[DVec2]) -> String {
+    let mut path = String::new();
+    for (index, point) in points.iter().enumerate() {
+        let command = if index == 0 { 'M' } else { 'L' };
+        let (x, y) = (number(point.x), number(point.y));
+        write!(path, "{command}{x} {y}").expect("writing to a String cannot fail");
+    }
+    path
+}
+
+/// Returns the data of a closed path through the points.
+pub fn closed_path(points: &[DVec2]) -> String {
+    path(points) + "Z"
+}
+
+/// Returns the text without control characters, which XML does not allow, not even escaped.
+pub fn text(text: &str) -> String {
+    text.replace(char::is_control, "\u{fffd}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_zero_has_no_sign() {
+        assert_eq!(
+            [3.0, -0.04, -0.25, 12.34].map(number),
+            ["3", "0", "-0.3", "12.3"]
+        );
+    }
+}

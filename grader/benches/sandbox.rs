@@ -5,14 +5,11 @@
 //! `cargo bench -p grader --bench sandbox` prints CPU time and wall time at the best isolation
 //! level that is available.
 
-#[path = "warm_grade/cost.rs"]
-#[allow(dead_code, reason = "only work in this process is measured here")]
-mod cost;
-
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
+use bench_support::cost::Cost;
 use grader::build::{Build, Builder};
 use grader::probe::Budget;
 use grader::sandbox;
@@ -20,8 +17,6 @@ use grader::select_isolation::with_best_level;
 use grader::submission::Submission;
 use grader::workspace::Workspace;
 use protocol::Question;
-
-use cost::Cost;
 
 const COMPILES: usize = 15;
 const STARTS: usize = 100;

@@ -3,10 +3,6 @@
 //! Each round changes the submission and then measures each quantity once, so that a busy machine
 //! affects all of them. CPU times are compared within a round.
 
-mod bare;
-mod changed;
-mod cost;
-mod median;
 mod watch;
 mod wire;
 
@@ -15,14 +11,14 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use bench_support::bare::BareRustc;
+use bench_support::changed::{baseline, change, submission};
+use bench_support::cost::Cost;
+use bench_support::median::median;
 use grader::build::Builder;
 use grader::submission::Submission;
 use grader::workspace::Workspace;
 
-use bare::BareRustc;
-use changed::{baseline, change, submission};
-use cost::Cost;
-use median::median;
 use watch::WatchProcess;
 
 const ROUNDS: usize = 15;

@@ -6,13 +6,12 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
 
+use bench_support::bare::BareRustc;
+use bench_support::cost::Cost;
+use bench_support::median::median;
 use glam::{Vec2, Vec3, vec3};
 use grader::probe::{Budget, Launcher};
 use protocol::{Question, Ray, Rays, Shape, Vertex, wire};
-
-use crate::bare::BareRustc;
-use crate::cost::Cost;
-use crate::median;
 
 const ROUNDS: usize = 7;
 const RAYS: usize = 100_000;

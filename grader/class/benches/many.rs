@@ -4,31 +4,16 @@
 //!
 //! All submissions change in each round, so that nothing cached in an earlier round can be reused.
 
-#[path = "../../benches/warm_grade/bare.rs"]
-#[allow(
-    dead_code,
-    reason = "only the baseline call of the compiler is used here"
-)]
-mod bare;
-#[path = "../../benches/warm_grade/changed.rs"]
-#[allow(dead_code, reason = "not all of the helpers are used for a class")]
-mod changed;
-#[path = "../../benches/warm_grade/cost.rs"]
-mod cost;
-#[path = "../../benches/warm_grade/median.rs"]
-mod median;
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{fs, iter, thread};
 
+use bench_support::bare::BareRustc;
+use bench_support::changed::{baseline, change, copy};
+use bench_support::cost::Cost;
+use bench_support::median::median;
 use grader::workspace::Workspace;
 use tempfile::TempDir;
-
-use bare::BareRustc;
-use changed::{baseline, change, copy};
-use cost::Cost;
-use median::median;
 
 const ROUNDS: usize = 5;
 const STUDENTS: usize = 60;

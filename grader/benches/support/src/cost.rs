@@ -9,11 +9,14 @@ use nix::sys::time::TimeVal;
 /// The wall time and CPU time of an operation. On a busy machine, only CPU times can be compared.
 #[derive(Clone, Copy, Debug)]
 pub struct Cost {
+    /// Wall time.
     pub wall: Duration,
+    /// CPU time of this process and of its children.
     pub cpu: Duration,
 }
 
 impl Cost {
+    /// Measures a function.
     pub fn of(work: impl FnOnce()) -> Cost {
         let (wall, cpu) = (Instant::now(), used());
         work();

@@ -24,7 +24,7 @@ use crate::submission::Submission;
 /// Name of the file that stores the cached report, in the folder of the score.
 const RECORD: &str = "earlier.json";
 
-/// Hashes of all inputs of a score.
+/// Hashes of everything that a score depends on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CacheKey {
     /// Hash of the task files and the notes about other files. It is separate because usually only
@@ -40,7 +40,7 @@ pub struct CachedReport {
     key: CacheKey,
     /// Hashes of the report's files.
     file_hashes: Vec<String>,
-    /// Points of the score.
+    /// Total points of the score.
     pub points: u32,
     /// The report as printed on the terminal.
     pub report: String,
@@ -106,10 +106,10 @@ impl CacheKey {
     }
 }
 
-/// Returns the options that the report depends on as text, or `None` if a report with these options
-/// is not cached.
+/// Returns, as text, the options that the report depends on, or `None` if a report with these
+/// options is not cached.
 fn cacheable_options(options: &GradeOptions) -> Option<String> {
-    // Without `..`, so that it does not compile before a new option is considered here.
+    // Without `..`, so that a new option does not compile until this function handles it.
     let GradeOptions {
         submission,
         exam,

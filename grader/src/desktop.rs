@@ -1,4 +1,4 @@
-//! Opens a file on the user's desktop.
+//! Opens a file in the user's default application for its type.
 
 use std::path::Path;
 use std::{env, io};

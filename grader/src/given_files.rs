@@ -59,7 +59,8 @@ pub const GIVEN_FILES: [(&str, &str); 3] = [
     ("world.rs", include_str!("../starter/world.rs")),
 ];
 
-/// The given file that renders pictures. The grader does not use it.
+/// The given file `main.rs`, as its name and its text. It renders pictures, and the grader does
+/// not use it.
 pub const MAIN_FILE: (&str, &str) = ("main.rs", include_str!("../starter/main.rs"));
 
 impl TaskFile {

@@ -1,13 +1,13 @@
-//! The command that grades an item again.
+//! The commands that a report prints for grading a question or a task again.
 
 use std::path::{Path, PathBuf};
 
 /// The options that every printed command must repeat to refer to the same submission and exam.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RerunCommand {
-    /// The submission, unless it is the default one.
+    /// The path of the submission, or `None` for the default one.
     pub submission: Option<PathBuf>,
-    /// The exam, unless it is the practice exam.
+    /// The path of the exam file, or `None` for the practice exam.
     pub exam: Option<PathBuf>,
 }
 

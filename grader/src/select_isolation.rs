@@ -12,20 +12,20 @@ pub const MIN_FOR_UNTRUSTED: Isolation = Isolation::NoNamespaces;
 /// Reasons why the requested isolation is not available on this machine.
 #[derive(Debug, thiserror::Error)]
 pub enum IsolationError {
-    /// The requested level does not work.
+    /// The requested level is not available.
     #[error("isolation level {level} is not available: {why}\n{ADVICE}")]
     LevelUnavailable {
         /// The requested level.
         level: Isolation,
-        /// The reason why it does not work.
+        /// The reason why it is not available.
         why: SelfTestError,
     },
-    /// No level works that is good enough for other people's code.
+    /// No level that is good enough for other people's code is available.
     #[error(
-        "other people's code cannot be graded here: neither isolation level {MIN_FOR_UNTRUSTED} nor a better one works\n{missing}{ADVICE}"
+        "other people's code cannot be graded here: neither isolation level {MIN_FOR_UNTRUSTED} nor a better one is available\n{missing}{ADVICE}"
     )]
     NoSufficientLevel {
-        /// One line for each tested level, with the reason why it does not work.
+        /// One line for each tested level, with the reason why it is not available.
         missing: String,
     },
 }
@@ -33,7 +33,7 @@ pub enum IsolationError {
 /// The requested isolation of a submission's code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum IsolationRequest {
-    /// None, for one's own work.
+    /// No isolation, for grading your own work.
     #[default]
     OwnWork,
     /// The best available level that is good enough for other people's code.
@@ -44,8 +44,8 @@ pub enum IsolationRequest {
 
 const ADVICE: &str = "see `cargo grade --doctor`; to grade your own work, leave out --untrusted";
 
-/// Returns the builder with the requested isolation, after testing it. Without a request, as for
-/// your own work, the builder is returned unchanged.
+/// Returns the builder with the requested isolation, after testing it. For
+/// [`IsolationRequest::OwnWork`], the builder is returned unchanged.
 pub fn with_requested_level(
     builder: Builder,
     request: IsolationRequest,
@@ -58,7 +58,8 @@ pub fn with_requested_level(
     }
 }
 
-/// Returns the builder with the best level that works and is good enough for other people's code.
+/// Returns the builder with the best available level, provided that it is good enough for other
+/// people's code.
 pub fn with_best_level(builder: &Builder) -> Result<Builder, IsolationError> {
     let mut missing = String::new();
     for level in Isolation::ALL

@@ -142,7 +142,7 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
         SubmissionError::Link { link, .. } => {
             format!("{link} is a link, and links are not followed")
         }
-        SubmissionError::Io { why, .. } => format!("it cannot be read: {why}"),
+        SubmissionError::Io { why, .. } => format!("the folder or file cannot be read: {why}"),
         SubmissionError::Archive { path, why } if path == input => why.to_string(),
         SubmissionError::Archive { path, why } => format!("{}: {why}", sanitize(&name(path), 200)),
     }

@@ -11,7 +11,7 @@ use crate::layout::MetadataError;
 #[derive(Debug, thiserror::Error)]
 pub enum ClassInputError {
     /// The path does not exist.
-    #[error("{0} does not exist: name the folder or archive that you downloaded from the platform")]
+    #[error("{0} does not exist: pass the folder or archive that you downloaded from the platform")]
     NotFound(PathBuf),
     /// A file or folder cannot be read.
     #[error("cannot read {path}: {source}")]
@@ -22,7 +22,7 @@ pub enum ClassInputError {
         source: io::Error,
     },
     /// The archive cannot be read.
-    #[error("{path}: {why}; or unpack it yourself, and name the folder")]
+    #[error("{path}: {why}; alternatively, unpack it yourself and pass the path of the folder")]
     Archive {
         /// The archive's path.
         path: PathBuf,
@@ -34,7 +34,7 @@ pub enum ClassInputError {
     Metadata(#[from] MetadataError),
     /// The input contains no submissions.
     #[error(
-        "{0} contains no submissions: name the folder of a class; to grade a single submission, \
+        "{0} contains no submissions: pass the folder of a class; to grade a single submission, \
          use `cargo grade`"
     )]
     NoSubmissions(PathBuf),

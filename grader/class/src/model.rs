@@ -17,7 +17,7 @@ pub struct GradedClass {
     pub isolation: String,
     /// The submissions, in the order of their ids.
     pub rows: Vec<ClassRow>,
-    /// The people in the lists who have handed in nothing.
+    /// The people on the rosters who submitted nothing.
     pub missing: Vec<Person>,
 }
 

@@ -31,7 +31,7 @@ pub struct ClassSummary {
     pub nothing_to_grade: usize,
     /// The number of submissions that were not graded because of the grader or the machine.
     pub not_graded: usize,
-    /// The number of people in the lists who handed in nothing.
+    /// The number of people on the rosters who submitted nothing.
     pub missing: usize,
     /// The number of submissions that count as on time because their time is unknown.
     pub undated: usize,
@@ -66,7 +66,7 @@ pub struct FailedItem {
     pub item: String,
     /// The item's title: a sentence that describes the correct behaviour.
     pub title: String,
-    /// The number of submissions without full points.
+    /// The number of submissions that did not get full points for this item.
     pub count: usize,
 }
 

@@ -145,7 +145,8 @@ fn extract_to(
     }
 }
 
-/// Returns whether the machine is at fault, so that any other file would cause the same error.
+/// Returns whether the machine is at fault, in which case any other file would cause the same
+/// error.
 fn is_machine_fault(kind: ErrorKind) -> bool {
     matches!(
         kind,

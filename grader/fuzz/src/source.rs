@@ -1,4 +1,4 @@
-//! Students' source files, which the grader reads before the compiler does.
+//! Fuzzes the checks that the grader applies to a student's source file before compiling it.
 
 use grader::given_files::TASK_FILES;
 use judging::sanitize::sanitize;

@@ -1,4 +1,4 @@
-//! Signatures of known mistakes: the answers that a mistake gives, by which it is recognised.
+//! Signatures of known mistakes: the wrong answers that identify each mistake.
 
 use protocol::packed;
 use serde::{Deserialize, Serialize};

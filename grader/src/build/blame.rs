@@ -17,10 +17,10 @@ pub enum NotCompiled {
     Error {
         /// The compiler's message.
         text: String,
-        /// Line number, counted from 1.
+        /// Number of the line with the error, counted from 1, or `None` if it is unknown.
         line: Option<u32>,
     },
-    /// The compiler failed without naming a file.
+    /// The compiler failed, and its messages name no file.
     Compiler(String),
 }
 
@@ -61,7 +61,8 @@ pub(super) fn unusable_files(submission: &Submission) -> BTreeMap<&'static str, 
         .collect()
 }
 
-/// Records each file that the errors name, with its first error. Returns false if no file is new.
+/// Records each file that the errors name, with its first error. Returns whether any of these files
+/// had not been recorded before.
 pub(super) fn blame(
     errors: &[Diagnostic],
     not_compiled: &mut BTreeMap<&'static str, NotCompiled>,

@@ -25,8 +25,8 @@ const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
 /// Cargo arguments that build `framework` with the probe's features, and so also `glam` and
 /// `protocol`, on which it depends.
 const FRAMEWORK_PACKAGE: [&str; 3] = ["--package", "framework", "--no-default-features"];
-/// Version of the build commands, which is part of the cache key. Change it when the same sources
-/// are to be compiled differently.
+/// Version of the build commands. It is part of the cache key, so change it whenever the commands
+/// change.
 const RECIPE_VERSION: &str = "4";
 
 /// Locations of the compiled dependencies.
@@ -44,7 +44,7 @@ pub enum DependenciesError {
     /// The cache cannot be used.
     #[error("cannot use {path}: {source}")]
     Io {
-        /// The affected path.
+        /// The path of the file or folder.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
@@ -242,8 +242,8 @@ fn output(cargo: &mut Command) -> io::Result<Output> {
     output
 }
 
-/// Finds each crate's library in cargo's messages, which are one JSON value per line. The library
-/// of a procedural macro is a dynamic one, which rustc needs even though nothing is linked with it.
+/// Finds each crate's library in cargo's messages, which are one JSON value per line. A procedural
+/// macro is a dynamic library: rustc needs it, even though nothing is linked with it.
 fn libraries(messages: &str) -> Vec<(String, PathBuf)> {
     messages
         .lines()

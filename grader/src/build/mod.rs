@@ -75,7 +75,7 @@ pub enum BuildError {
     /// The build folder cannot be used.
     #[error("cannot build in {path}: {source}")]
     Io {
-        /// Path of the folder.
+        /// Path of the build folder.
         path: PathBuf,
         /// The system's error.
         source: io::Error,

@@ -13,20 +13,20 @@ use crate::sandbox::{Isolation, Sandbox};
 /// A built submission.
 #[derive(Debug)]
 pub struct Build {
-    /// Path of the program, or `None` if nothing compiled.
+    /// Path of the submission's probe, or `None` if nothing compiled.
     pub probe: Option<PathBuf>,
     /// Files whose tasks cannot be graded, with the reasons.
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
     pub(super) substitution: Option<Substitution>,
     pub(super) sandbox: Sandbox,
-    /// The directory that contains the programs. It is removed when dropped.
+    /// The directory that contains the programs. It is removed when this value is dropped.
     pub(super) _build_dir: BuildDir,
 }
 
 /// A submission's `bvh.rs` compiled with the reference's parts in place of its other files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SubstitutedProgram<'a> {
-    /// Path of the program.
+    /// The program, by its path.
     Program(&'a Path),
     /// The submission's `bvh.rs` does not compile with these parts.
     NotCompiled,

@@ -25,7 +25,8 @@ const LIMITS: Limits = Limits {
     cpu: Duration::from_secs(60),
     file: 256 << 20,
 };
-/// Wall time limit, for a compiler that waits instead of working.
+/// Wall time limit of a compiler call. It ends a compiler that waits and therefore never exceeds
+/// its CPU time limit.
 const WALL_LIMIT: Duration = Duration::from_secs(90);
 /// Maximum size of the compiler messages that are stored, in bytes.
 const MAX_MESSAGE_BYTES: usize = 1 << 20;
@@ -33,9 +34,9 @@ const MAX_MESSAGE_BYTES: usize = 1 << 20;
 /// A crate to compile.
 #[derive(Debug)]
 pub struct Crate<'a> {
-    /// Name of the crate.
+    /// Name of the crate, from which the output file gets its name.
     pub name: &'a str,
-    /// Type of the crate.
+    /// Whether to compile the crate to a program or to a library.
     pub kind: CrateKind,
     /// Folder of the sources. The output is also written there.
     pub folder: &'a Path,
@@ -49,7 +50,7 @@ pub struct Crate<'a> {
     pub dependency_folder: Option<&'a Path>,
 }
 
-/// Type of a crate.
+/// The output that a crate is compiled to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CrateKind {
     /// An executable.
@@ -71,18 +72,18 @@ impl CrateKind {
 /// Result of a compiler call.
 #[derive(Debug)]
 pub enum CompileOutcome {
-    /// Path of the program or library.
+    /// The crate was compiled to this program or library.
     Done(PathBuf),
-    /// Errors in the source code.
+    /// The source code has errors.
     Errors(Vec<Diagnostic>),
     /// The compiler did not finish, or it failed and no error could be parsed from its messages.
     Failed(String),
 }
 
-/// The compiler with its environment.
+/// The compiler, with everything that it needs to compile a submission.
 #[derive(Clone, Debug)]
 pub struct Rustc {
-    /// The compiler.
+    /// The toolchain, which contains the compiler.
     pub toolchain: Toolchain,
     /// The crates that everything is linked with.
     pub dependencies: Dependencies,

@@ -1,6 +1,6 @@
 //! Tests whether a sandbox works on this machine by attacking it from inside, with the profiles
 //! that submissions get, instead of querying the system's features. A sandbox that cannot be tested
-//! counts as not working.
+//! counts as unavailable.
 
 use std::fs;
 use std::io::{self, Write};
@@ -39,7 +39,7 @@ pub enum SelfTestError {
     /// A part of the sandbox cannot be set up.
     #[error("{0}")]
     Setup(io::Error),
-    /// The compiler does not work in the sandbox.
+    /// The compiler fails in the sandbox.
     #[error("cannot compile and statically link a program in the sandbox: {0}")]
     NotCompiled(String),
     /// The compiler can read files that it must not read.

@@ -196,7 +196,7 @@ pub struct Substitution {
     pub bvh: String,
     /// The parts that replace the submission's other files.
     pub parts: ReferenceParts,
-    /// The compiler.
+    /// The compiler, which compiles the program on the first request.
     pub rustc: Rustc,
     /// The build folder, which does not exist yet.
     pub folder: PathBuf,

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::system;
 
-/// Maximum size of a program, in bytes. The reference's program has about 6 million.
+/// Maximum size of a program, in bytes. The reference's program has about 6 MB.
 const MAX_BYTES: u64 = 64 << 20;
 
 /// First bytes of programs (ELF) and of libraries (`ar`).

@@ -16,7 +16,7 @@ const REQUIRED_FOLDERS: [&str; 2] = [
     "pathtracing/grader/src/",
     "pathtracing/student/framework/src/",
 ];
-/// The file that makes a folder a template for GitHub.
+/// The file that is present in a folder if it is a template for GitHub.
 const WORKFLOW: &str = ".github/workflows/grade.yml";
 /// Paths that a template must have besides the five task files.
 const TEMPLATE_PATHS: [&str; 4] = [

@@ -19,7 +19,7 @@ const REQUIRED_FOLDERS: [&str; 4] = [
 const CRATE_CACHE: &str = "pathtracing/crates/registry/cache/";
 /// The index of these crates, without which Cargo does not find them.
 const CRATE_INDEX: &str = "pathtracing/crates/registry/index/";
-/// A crate that only Linux needs, so that no other system has downloaded it.
+/// Part of the path of a crate that Cargo downloads only on Linux.
 const LINUX_ONLY_CRATE: &str = "/landlock-";
 
 impl PackageContents {
@@ -108,7 +108,7 @@ impl PackageContents {
         let mut problems = Vec::new();
         if exam.id == "practice" {
             problems.push(
-                "it runs the practice exam, which students have with all its keys: choose another one with --exam-seed".to_owned(),
+                "it runs the practice exam, and students have that exam with all its keys: choose another one with --exam-seed".to_owned(),
             );
         }
         problems.extend(policy_problem(policy, &exam));

@@ -1,5 +1,5 @@
 //! `cargo grade --doctor`: reports the compiler that submissions are built with on this machine,
-//! and the isolation levels that work here.
+//! and the isolation levels that are available here.
 
 mod folder;
 mod gradescope;
@@ -33,7 +33,7 @@ pub fn diagnose() -> Result<Diagnosis, Error> {
 }
 
 impl Diagnosis {
-    /// Returns the best isolation level that works.
+    /// Returns the best available isolation level.
     pub fn best_level(&self) -> Isolation {
         let mut working = self.levels.iter().filter(|(_, result)| result.is_ok());
         working.next().map_or(Isolation::None, |(level, _)| *level)
@@ -76,13 +76,14 @@ impl fmt::Display for Diagnosis {
             ),
             _ => writeln!(
                 f,
-                "\nOnly your own work can be graded here: to grade other people's, isolation level {MIN_FOR_UNTRUSTED} or better must work."
+                "\nOnly your own work can be graded here: to grade other people's, isolation level {MIN_FOR_UNTRUSTED} or better must be available."
             ),
         }
     }
 }
 
-/// Returns what to do about a level that does not work, if the reason itself does not say it.
+/// Returns advice for a level that is not available, if the reason does not already say what to
+/// do.
 fn remedy(why: &SelfTestError) -> Option<&'static str> {
     match why {
         SelfTestError::NotCompiled(_) => Some(

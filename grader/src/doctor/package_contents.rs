@@ -13,7 +13,7 @@ use crate::zipfile::{Zip, ZipError};
 
 /// The scripts that Gradescope runs, at the root of the zip.
 pub(super) const SCRIPTS: [&str; 2] = ["setup.sh", "run_autograder"];
-/// The script that both of these call.
+/// The script that both of [`SCRIPTS`] call.
 pub(super) const GRADE: &str = "pathtracing/grade";
 pub(super) const EXAM: &str = "pathtracing/exam.json";
 pub(super) const POLICY: &str = "pathtracing/policy.toml";

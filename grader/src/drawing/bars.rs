@@ -16,17 +16,17 @@ const RIGHT: f64 = WIDTH - 12.0;
 /// The style of a bar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BarStyle {
-    /// A neutral interval, shown for comparison.
+    /// For a neutral interval, shown for comparison.
     Plain,
-    /// The range of the ray.
+    /// For the range of the ray.
     Range,
-    /// The expected interval.
+    /// For the expected interval.
     Right,
-    /// The submitted interval.
+    /// For the submitted interval.
     Wrong,
 }
 
-/// A row: its name, its interval, and the text to show if the interval is empty.
+/// A row of the diagram: its name, its interval, and the text to show if the interval is empty.
 #[derive(Clone, Debug)]
 pub(super) struct BarRow {
     pub(super) name: &'static str,
@@ -35,7 +35,7 @@ pub(super) struct BarRow {
     pub(super) empty_text: String,
 }
 
-/// An axis of distances.
+/// A horizontal axis of distances along a ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Axis {
     first: f64,
@@ -170,7 +170,7 @@ fn draw_row(canvas: &mut Canvas, axis: &Axis, y: f64, row: &BarRow) {
     let corner = |x: f64, up: f64| dvec2(x, middle + up * half);
     let fill = Fill::Tint(ink, share);
     canvas.rectangle(corner(from, -1.0), corner(to, 1.0), line, fill);
-    // Arrowheads where the interval continues beyond the axis.
+    // Draws arrowheads where the interval continues beyond the axis.
     let goes_on = [(min < axis.first, from, -1.0), (max > axis.last, to, 1.0)];
     for (goes_on, x, dir) in goes_on {
         if goes_on {

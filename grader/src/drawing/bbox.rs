@@ -20,13 +20,14 @@ use super::window::Window;
 pub(super) struct BoxQuery {
     /// The minimum and maximum corner of the box.
     pub(super) corners: [Vec3; 2],
-    /// The ray.
+    /// The ray that is tested against the box.
     pub(super) ray: Ray,
     /// The interval that the result is clipped to.
     pub(super) times: Interval,
-    /// The expected result.
+    /// The expected result: the part of `times` in which the ray is in the box.
     pub(super) wanted: Option<Interval>,
-    /// For each axis, the interval in which the ray is between the two planes, if the exam has it.
+    /// For each axis, the interval in which the ray is between the two planes, if the exam stores
+    /// these intervals.
     pub(super) slabs: Option<[Interval; 3]>,
 }
 
@@ -35,7 +36,7 @@ type SpanAnswer = Option<Option<Interval>>;
 
 const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 
-/// Draws a ray and a box.
+/// Draws the ray and the box of a query.
 pub(super) fn draw(query: &BoxQuery, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
     let [min, max] = query.corners.map(|corner| corner.as_dvec3());
     let ray = &query.ray;

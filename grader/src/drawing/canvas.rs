@@ -15,7 +15,7 @@ use crate::svg::{self, number};
 pub(super) const WIDTH: f64 = 340.0;
 /// The font size.
 const FONT_SIZE: f64 = 12.5;
-/// The size of a drawing, in bytes, from which no more elements are added.
+/// The size of a drawing, in bytes, above which no more elements are added.
 const MAX_BYTES: usize = 120_000;
 /// The limit for the absolute value of a coordinate. Points beyond it are not drawn.
 const MAX_COORDINATE: f64 = 1e4;
@@ -44,7 +44,7 @@ pub(super) enum Mark {
     Origin,
 }
 
-/// The elements drawn so far.
+/// An SVG image under construction: the elements drawn so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Canvas {
     body: String,
@@ -195,7 +195,7 @@ impl Canvas {
 }
 
 fn is_drawable(at: DVec2) -> bool {
-    // False for NaN.
+    // This is also false for NaN.
     at.abs().max_element() < MAX_COORDINATE && at.is_finite()
 }
 

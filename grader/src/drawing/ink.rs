@@ -4,7 +4,7 @@
 //! A page may set the custom properties `--right`, `--wrong` and `--paper`, for example for its
 //! dark theme. The default colours are from Okabe and Ito, "Color Universal Design", 2008.
 
-/// A colour.
+/// A colour of the lines, areas and texts in a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ink {
     /// The text colour of the page.
@@ -36,22 +36,22 @@ impl Ink {
     }
 }
 
-/// A line style.
+/// The style of a line, which depends on the line's meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LineStyle {
-    /// The outline of a shape.
+    /// For the outline of a shape.
     Outline,
-    /// A guide line.
+    /// For a guide line.
     Grid,
-    /// A ray ahead of its origin.
+    /// For a ray ahead of its origin.
     Ray,
-    /// The line of a ray behind its origin.
+    /// For the line of a ray behind its origin.
     Behind,
-    /// The range of a ray.
+    /// For the range of a ray.
     Range,
-    /// A line of the expected answer.
+    /// For a line of the expected answer.
     Right,
-    /// A line of the submitted answer if it is wrong.
+    /// For a line of the submitted answer if it is wrong.
     Wrong,
 }
 

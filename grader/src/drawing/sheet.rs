@@ -19,13 +19,13 @@ pub(super) enum Symbol {
     Mark(Mark),
     /// A short line in this style.
     Line(LineStyle),
-    /// A small area with this fill.
+    /// A small rectangle with this fill.
     Area(Fill),
-    /// No symbol: the line is a remark.
+    /// No symbol, for a line that is a remark.
     None,
 }
 
-/// A drawing, filled from the top.
+/// A drawing that is filled from top to bottom.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sheet {
     /// The elements drawn so far.
@@ -80,7 +80,7 @@ impl Sheet {
         self.advance(ROW_HEIGHT);
     }
 
-    /// Moves the next element down by this height.
+    /// Moves the position of the next element down by this height.
     pub(super) fn advance(&mut self, height: f64) {
         self.y += height;
     }

@@ -10,7 +10,7 @@ use super::numbers::{point, short};
 use super::sheet::{Sheet, Symbol};
 use super::window::{Window, extent};
 
-/// A plane through a ray. The ray points to the right.
+/// A side view of a ray: a plane that contains the ray, oriented so that the ray points right.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SideView {
     origin: DVec3,

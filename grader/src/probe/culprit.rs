@@ -13,8 +13,8 @@ use protocol::Question;
 use super::subset::subset;
 use super::{Budget, Launcher};
 
-/// Budget of each question that is sent. Most correct items take less than this in total, so a
-/// question that takes longer is considered to hang.
+/// Time budget for each question. Most correct items take less than this in total, so a question
+/// that exceeds it is treated as hung.
 const BUDGET: Budget = Budget {
     cpu: Duration::from_millis(250),
 };

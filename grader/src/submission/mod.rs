@@ -84,9 +84,9 @@ pub enum SubmissionError {
         "{path}: {link} is a link, and links are not followed: replace it with the actual file or folder"
     )]
     Link {
-        /// The path of the folder.
+        /// The path of the submission's folder.
         path: PathBuf,
-        /// The link, relative to the folder.
+        /// The path of the link itself, relative to the submission's folder.
         link: String,
     },
     /// The system cannot read the folder.

@@ -12,7 +12,7 @@ pub const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbo
 /// The full points of camera, triangle, sphere, bbox, build and traverse.
 pub const FULL_POINTS: [u64; 6] = [15, 20, 15, 10, 20, 20];
 
-/// Returns the folder of the workspace.
+/// Returns the root folder of the workspace.
 pub fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
@@ -24,7 +24,7 @@ pub struct Submission {
 }
 
 impl Submission {
-    /// Copies the task files of the reference.
+    /// Creates a submission in a folder called `name`, with the reference's task files.
     pub fn reference(name: &str) -> Self {
         Submission::copy_of(name, &workspace().join("reference/src"))
     }

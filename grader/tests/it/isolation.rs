@@ -71,10 +71,10 @@ fn is_available(level: &str) -> bool {
     let works = lines.any(|mut words| words.next() == Some(level) && words.next() == Some("works"));
     assert!(
         works || std::env::var_os("CI").is_none(),
-        "isolation {level} does not work here:\n{diagnosis}"
+        "isolation level {level} is not available here:\n{diagnosis}"
     );
     if !works {
-        eprintln!("SKIPPED: isolation {level} does not work here:\n{diagnosis}");
+        eprintln!("SKIPPED: isolation level {level} is not available here:\n{diagnosis}");
     }
     works
 }

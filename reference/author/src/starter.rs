@@ -66,13 +66,13 @@ pub enum MarkError {
     #[error("`// solution` inside a solution: end the previous one with `// end solution` first")]
     Nested,
     /// An end mark is not in a region.
-    #[error("`// end solution` without a `// solution` above it")]
+    #[error("this `// end solution` has no `// solution` above it")]
     NotStarted,
     /// A region is never ended.
     #[error("this `// solution` has no `// end solution`")]
     NotEnded,
     /// A region has no line for the starter.
-    #[error("a solution without a `// starter:` line: add the line that students get instead")]
+    #[error("this `// solution` has no `// starter:` line: add one with the code that students get")]
     NoStarterLine,
 }
 

@@ -91,7 +91,7 @@ impl Contender for Obvhs {
     }
 }
 
-/// A tree of the crate `bvh`. The crate can traverse it in two ways, and which way is faster
+/// A tree built by the crate `bvh`. The crate has two ways to traverse it, and which one is faster
 /// depends on the rays.
 pub struct CrateBvhTree {
     bvh: CrateBvh<f32, 3>,

@@ -1,5 +1,6 @@
-//! Six inequalities p·t ≤ q, each of which limits one end of the interval: Liang and Barsky, "A New
-//! Concept and Method for Line Clipping", ACM Transactions on Graphics 3(1), 1984.
+//! Clips the ray by the method of Liang and Barsky, "A New Concept and Method for Line Clipping",
+//! ACM Transactions on Graphics 3(1), 1984: each of six inequalities p·t ≤ q limits one end of the
+//! interval.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};

@@ -663,10 +663,11 @@ struct Collapser<'a> {
 /// to cost as much as testing a pack.
 #[derive(Clone, Copy, Default)]
 struct Plan {
-    /// For each n, the cost of the subtree if it becomes at most n children of a wide ancestor.
+    /// `costs[n]` is the cost of this subtree when it is collapsed into at most n children of a
+    /// wide ancestor, for n from 1.
     costs: [f32; 8],
-    /// For each n, the numbers of children that come from the left and from the right subtree. Both
-    /// are 0 if the whole subtree is one child.
+    /// `sides[n]` holds the numbers of these children that come from the left and from the right
+    /// subtree. Both are 0 if the whole subtree is one child.
     sides: [(u8, u8); 9],
 }
 

@@ -15,8 +15,8 @@ pub enum Answer {
     Rays(Vec<ElementOutcome<Ray>>),
     /// The answer to `Shapes`, `Traverse` or `BuildAndTraverse`: the closest hit of each ray.
     Hits(Vec<ElementOutcome<Option<Trace>>>),
-    /// The answer to `BBox`: for each query, the part of its times during which the ray is inside
-    /// the box.
+    /// The answer to `BBox`: for each query, the part of its `times` interval in which the ray is
+    /// inside the box, or `None` if it is never inside.
     Spans(Vec<ElementOutcome<Option<Interval>>>),
     /// The answer to `Build`: the tree.
     Tree(ElementOutcome<Tree>),

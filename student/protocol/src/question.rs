@@ -28,7 +28,7 @@ pub enum Question {
         /// The shapes, tested one after the other.
         #[serde(with = "packed")]
         shapes: Vec<Shape>,
-        /// The rays.
+        /// The rays to intersect with the shapes.
         rays: Rays,
     },
     /// Calls `BBox::hit` once for each ray and its times.
@@ -61,17 +61,17 @@ pub enum Question {
         nodes: Vec<TreeNode>,
         /// The index of the root in `nodes`.
         root: u32,
-        /// The rays.
+        /// The rays to intersect with the tree.
         rays: Rays,
     },
     /// Calls `Bvh::hit` once for each ray, on the tree that the submission's `Bvh::build` returns.
     BuildAndTraverse {
-        /// The primitives.
+        /// The primitives to build the tree over.
         #[serde(with = "packed")]
         shapes: Vec<Shape>,
         /// The maximum number of primitives in a leaf.
         max_leaf_size: u32,
-        /// The rays.
+        /// The rays to intersect with the built tree.
         rays: Rays,
     },
     /// Renders a path-traced picture. The framework draws every random number.

@@ -32,7 +32,7 @@ pub fn grades_table(class: &GradedClass) -> Table {
         }
     }
     for person in &class.missing {
-        let mut row = person_cells("", person, "nothing handed in");
+        let mut row = person_cells("", person, "nothing submitted");
         row.resize(header.len(), String::new());
         table.rows.push(row);
     }

@@ -39,7 +39,7 @@ pub fn render_page(class: &GradedClass, summary: &ClassSummary) -> String {
                     p {
                         (summary.graded) " graded, " (summary.nothing_to_grade)
                         " with nothing to grade, " (summary.not_graded) " not graded, "
-                        (summary.missing) " handed in nothing."
+                        (summary.missing) " without a submission."
                     }
                 }
                 main {
@@ -185,7 +185,7 @@ fn submissions_section(class: &GradedClass) -> Markup {
                                 td .number { "–" }
                                 td .number { "–" }
                                 @for _ in tasks { td {} }
-                                td { "nothing handed in" }
+                                td { "nothing submitted" }
                             }
                         }
                     }

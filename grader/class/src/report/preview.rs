@@ -39,7 +39,7 @@ fn write_preview(out: &mut String, class: &RecognisedClass, missing: &[Person]) 
     }
     write_warnings(out, class)?;
     if !missing.is_empty() {
-        writeln!(out, "\n  in the lists, but nothing handed in:")?;
+        writeln!(out, "\n  on a roster, but nothing submitted:")?;
         for person in missing {
             writeln!(out, "      {}", sanitized(person.display_name()))?;
         }

@@ -37,7 +37,7 @@ fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
             summary.not_graded,
             "not graded because of the grader or the machine: run this again",
         ),
-        (summary.missing, "in the lists, but handed in nothing"),
+        (summary.missing, "on a roster, but submitted nothing"),
         (
             summary.undated,
             "counted as on time, since their submission time is unknown",

@@ -182,7 +182,7 @@ Ann Lee,7004,u4,ann,Lab 1,Team B,52,
 ",
     );
     let preview = class.preview_of(&class.input(), &["--roster", &groups]);
-    let (graded, missing) = preview.split_once("nothing handed in:").unwrap();
+    let (graded, missing) = preview.split_once("nothing submitted:").unwrap();
     assert!(
         graded.contains("  doejane + Núñez, José: five files"),
         "{preview}"
@@ -230,7 +230,7 @@ Participant 308,Ann Lee,b@example.edu,
     );
     let preview = class.preview_of(&class.input(), &["--moodle", &worksheet]);
     assert!(!preview.contains("same person"), "{preview}");
-    assert!(!preview.contains("nothing handed in"), "{preview}");
+    assert!(!preview.contains("nothing submitted"), "{preview}");
 }
 
 #[test]

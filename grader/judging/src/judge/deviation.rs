@@ -48,7 +48,7 @@ impl Deviation {
     }
 }
 
-/// The measured error of one check on an answer.
+/// The error that one check measured in an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
     /// The error. If some wrong positions are tolerated, the worst ones are skipped, and this is

@@ -61,7 +61,7 @@ impl Comparison for Hits<'_> {
     }
 }
 
-/// Returns the deviation of one part of a hit.
+/// Returns how far one part of a traced hit deviates from the expected hit.
 fn deviation(part: HitCheck, ray: &Ray, trace: &Trace, hit: &ExpectedHit) -> Deviation {
     let (threshold, error) = match part {
         HitCheck::Distance => (

@@ -12,7 +12,7 @@ pub(super) const DIRECTION: f32 = 1e-3;
 /// Tolerance of texture coordinates.
 pub(super) const UV: f32 = 2e-3;
 
-/// Returns an error as a multiple of its limit.
+/// Returns `error` as a multiple of `limit`.
 pub(super) fn in_units_of(limit: f64, error: f64) -> f64 {
     // An error of 0 is accepted even if the limit is 0.
     if error <= 0.0 {
@@ -26,20 +26,21 @@ pub(super) fn in_units_of(limit: f64, error: f64) -> f64 {
     }
 }
 
-/// Returns the error of a length.
+/// Returns the error of a length, as a multiple of its tolerance.
 pub(super) fn length_error(got: f32, wanted: f32, tolerance: f32) -> f64 {
     // ∞ − ∞ is NaN, which counts as infinitely far off.
     let limit = tolerance * wanted.abs().max(1.0);
     in_units_of(limit.into(), (got - wanted).abs().into())
 }
 
-/// Returns the error of a position.
+/// Returns the distance of a position from the expected one, as a multiple of its tolerance.
 pub(super) fn point_error(got: Vec3, wanted: Vec3) -> f64 {
     let limit = LENGTH * wanted.length().max(1.0);
     in_units_of(limit.into(), got.distance(wanted).into())
 }
 
-/// Returns the error of a direction, regardless of its length.
+/// Returns the error of a direction, as a multiple of `tolerance`. The length of `got` does not
+/// matter.
 pub(super) fn direction_error(got: Vec3, wanted: Vec3, tolerance: f32) -> f64 {
     // f64 prevents overflow and underflow for all finite f32 vectors.
     let got = got.as_dvec3();

@@ -21,19 +21,19 @@ impl Mismatch {
 /// Kinds of errors at a position, the most serious first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Aspect {
-    /// A missing answer: the code panicked at the position, or the position was skipped after
+    /// The answer is missing: the code panicked at the position, or the position was skipped after
     /// earlier panics.
     NoAnswer,
-    /// A hit instead of a miss, or a miss instead of a hit.
+    /// The answer is a hit instead of a miss, or a miss instead of a hit.
     HitOrMiss,
-    /// A wrong distance of the hit along the ray.
+    /// The distance to the hit along the ray is wrong.
     Depth,
-    /// A wrong surface normal.
+    /// The surface normal is wrong.
     Normal,
-    /// Wrong texture coordinates.
+    /// The texture coordinates are wrong.
     Uv,
-    /// A wrong direction of the camera ray.
+    /// The direction of the camera ray is wrong.
     Direction,
-    /// A wrong brightness of the pixel.
+    /// The radiance of the pixel is wrong.
     Radiance,
 }

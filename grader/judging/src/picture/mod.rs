@@ -85,8 +85,9 @@ pub fn compare(question: &ExamQuestion, answer: &Answer) -> Option<Picture> {
     })
 }
 
-/// Returns the layers of a correct submitted picture. [`compare`] would return the same layers at
-/// ten times the cost, and most pictures are correct.
+/// Returns the layers of a submitted picture that is known to be correct, or `None` if there is no
+/// picture. Most pictures are correct, and for these, [`compare`] would return the same layers but
+/// take ten times as long.
 pub fn submitted_picture(question: &ExamQuestion, answer: &Answer) -> Option<SubmittedPicture> {
     let (film, per_pixel) = grid(&question.question)?;
     let layers = paint::submitted_layers(question, answer, per_pixel)?;

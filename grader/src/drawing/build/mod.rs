@@ -23,11 +23,11 @@ use node_positions::NodePosition;
 /// A question about building a tree, and the criteria by which the tree is judged.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BuildCase<'a> {
-    /// The primitives.
+    /// The primitives that the tree is built over.
     pub(super) shapes: &'a [Shape],
     /// The maximum number of primitives in a leaf.
     pub(super) max_leaf_size: u32,
-    /// The properties that are checked.
+    /// The properties of the tree that are checked.
     pub(super) checks: &'a [TreeCheck],
     /// The cost of the exact sweep's tree, if the cost is judged.
     pub(super) sweep_cost: Option<f64>,

@@ -1,4 +1,4 @@
-//! The sensor from the front.
+//! Draws the camera's sensor from the front.
 
 use glam::{DVec2, DVec3, UVec2, dvec2};
 use judging::describe;

@@ -15,7 +15,7 @@ use sensor::Sensor;
 /// A question about one sample of a camera, with the expected direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CameraQuery {
-    /// The camera.
+    /// The camera that generates the ray.
     pub(super) camera: PinholeCamera,
     /// The sampled pixel, and the offset within it.
     pub(super) sample: Sample,

@@ -1,4 +1,4 @@
-//! The sensor, and the grid of its pixels.
+//! The camera's sensor and its grid of pixels.
 
 use glam::{DVec2, UVec2, dvec2};
 use protocol::PinholeCamera;

@@ -1,4 +1,4 @@
-//! The camera from the side.
+//! Draws a camera ray from the side.
 
 use glam::{DVec2, DVec3, dvec2};
 use judging::describe;

@@ -21,7 +21,7 @@ pub(in crate::drawing) struct DrawnHit {
 /// The submission's answer for one ray.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::drawing) enum HitAnswer {
-    /// Nothing that can be drawn: a panic, or no answer.
+    /// The code panicked or gave no answer, so there is nothing to draw.
     NoAnswer,
     Miss,
     Hit(DrawnHit),
@@ -34,7 +34,7 @@ pub(in crate::drawing) enum Focus {
     Distance,
     /// The position, which need not be on the ray.
     Position,
-    /// The normal.
+    /// The direction or the length of the normal.
     Normal,
     /// The texture coordinates.
     Uv,

@@ -21,7 +21,7 @@ pub(super) enum NodeStatus {
     OutOfRange,
     /// The ray enters the box only beyond the closest hit so far.
     Beyond,
-    /// Several rows are left out here. The `node` of this row is their number.
+    /// The row stands for several omitted rows; its `node` is their number.
     Elided,
 }
 
@@ -35,7 +35,7 @@ impl NodeStatus {
     }
 }
 
-/// A row, which shows a node or stands for several nodes that are left out.
+/// A row of the diagram. It shows one node or stands for several omitted ones.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NodeRow {
     pub(super) node: u32,

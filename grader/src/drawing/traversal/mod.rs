@@ -26,9 +26,9 @@ pub(super) struct RecordedTraversal<'a> {
     pub(super) shapes: &'a [Shape],
     /// The nodes, in any order.
     pub(super) nodes: &'a [TreeNode],
-    /// The index of the root.
+    /// The index of the root in `nodes`.
     pub(super) root: u32,
-    /// The nodes that the traversal tests.
+    /// The nodes that the traversal tests, in order.
     pub(super) steps: &'a [TraversalStep],
 }
 

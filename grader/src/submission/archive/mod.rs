@@ -65,7 +65,7 @@ pub enum ArchiveError {
     #[error("{0} in it is a link or device, not a regular file: pack the file itself")]
     NotRegular(String),
     /// The system cannot read the file.
-    #[error("it cannot be read: {0}")]
+    #[error("the file cannot be read: {0}")]
     Io(String),
 }
 

@@ -29,7 +29,7 @@ pub enum ManifestError {
     /// A file is not valid TOML.
     #[error("{path} is not valid TOML: {source}")]
     Toml {
-        /// The file.
+        /// The path of the file.
         path: String,
         /// The parse error, with its line and column.
         source: TomlError,

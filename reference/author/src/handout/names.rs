@@ -12,7 +12,8 @@ use super::commands;
 use super::pages::{Page, Snippet};
 use super::source_file::SourceFile;
 
-/// Names of Rust and of other crates that the handout uses.
+/// Identifiers that the handout uses and that are defined by Rust or by another crate, not by the
+/// course.
 const RUST_NAMES: [&str; 12] = [
     "Option", "Some", "None", "Vec3", "std", "glam", "usize", "unsafe", "println", "todo", "main",
     "sh",

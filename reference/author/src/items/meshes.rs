@@ -42,7 +42,8 @@ pub fn random_flat_triangle(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
     flat_triangle([corner(-0.8, -0.5), corner(0.8, -0.5), corner(0.0, 0.9)], 0)
 }
 
-/// Returns flat triangles of about this size, anywhere in the cube from −`half` to `half`.
+/// Returns `count` flat triangles of half to full `size`, with centres distributed at random in
+/// the cube from −`half` to `half`.
 pub fn soup(rng: &mut Rng, count: usize, half: f64, size: f64) -> Vec<Shape> {
     let triangles = (0..count).map(|_| {
         let center = rng.point(half);

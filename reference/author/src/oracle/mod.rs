@@ -37,7 +37,7 @@ impl Ray64 {
         self.min <= t && t <= self.max
     }
 
-    /// Returns the same ray with another range.
+    /// Returns this ray with its range replaced by `times`.
     pub fn within(self, times: Interval) -> Ray64 {
         Ray64 {
             min: times.min.into(),

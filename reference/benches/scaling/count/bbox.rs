@@ -1,5 +1,5 @@
-//! The reference's box, which counts every test. It has only the methods that the reference's other
-//! files use.
+//! The reference's bounding box, instrumented to count every intersection test. It has only the
+//! methods that the reference's other files call.
 
 use glam::Vec3;
 use protocol::{Interval, Ray};

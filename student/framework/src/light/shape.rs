@@ -10,7 +10,7 @@ use crate::math::sin_cos;
 
 /// The shape of a light.
 pub(super) enum LightShape {
-    /// A triangle that emits on the side of `normal`, which has length one.
+    /// A triangle that emits light only on the side that its unit `normal` points to.
     Triangle {
         corners: [Vec3; 3],
         normal: Vec3,

@@ -28,14 +28,14 @@ pub(super) fn triples<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Vec3>, D
     Ok(points.into_iter().map(|point| point.0).collect())
 }
 
-/// Parses the fraction of red, green and blue light that a surface reflects.
+/// Parses an RGB reflectance: the fraction of the light that a surface reflects.
 pub(super) fn reflectance<'de, D: Deserializer<'de>>(from: D) -> Result<Vec3, D::Error> {
     numbers(from, "red, green and blue, each from 0 to 1", |x| {
         (0.0..=1.0).contains(&x)
     })
 }
 
-/// Parses radiance in red, green and blue.
+/// Parses an RGB radiance.
 pub(super) fn radiance<'de, D: Deserializer<'de>>(from: D) -> Result<Vec3, D::Error> {
     numbers(from, "red, green and blue, each 0 or more", |x| x >= 0.0)
 }

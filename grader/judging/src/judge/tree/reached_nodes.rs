@@ -17,7 +17,7 @@ const MAX_LISTINGS_PER_PRIMITIVE: usize = 64;
 /// `what` and `got` are also part of the signatures of known mistakes in exam files, so changing
 /// their texts makes existing exams recognise fewer mistakes.
 pub struct TreeDefect {
-    /// The wrong part or property.
+    /// The name of the part or property of the tree that is wrong.
     pub what: &'static str,
     /// The value in the submission's tree.
     pub got: String,

@@ -64,8 +64,8 @@ fn random_box(rng: &mut Rng) -> Bounds {
     }
 }
 
-/// Returns whether a query hits, or `None` if the outcome would change with a slightly larger or
-/// smaller box and interval of times.
+/// Returns whether a query hits, or `None` if slightly growing or shrinking both the box and the
+/// time interval would change the outcome.
 fn clear_outcome(bounds: &Bounds, (ray, times): &Query) -> Option<bool> {
     const MARGIN: f64 = 0.03;
     let ray64 = Ray64::from(ray).within(*times);

@@ -69,8 +69,8 @@ fn io_error(path: &Path) -> impl FnOnce(io::Error) -> TrialError {
 }
 
 /// Prints the time that a submission took, and adds a problem if it is more than half of the
-/// platform's limit. The time is computed from the CPU time, as if at half a core, so it does not
-/// depend on the load of this machine.
+/// platform's limit. This time is estimated from the CPU time, assuming that the submission gets
+/// half a core, so it does not depend on the load of this machine.
 fn check_time(name: &str, job: &JobResult, limit: Duration, problems: &mut Vec<String>) {
     let Some(usage) = job.usage else {
         return println!("{:6.1} s  {name}", job.wall_time.as_secs_f64());

@@ -28,9 +28,9 @@ const RECORD: &str = "earlier.json";
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CacheKey {
     /// Hash of the task files and the notes about other files. It is separate because usually only
-    /// these inputs change.
+    /// these change.
     submission: String,
-    /// Hash of all other inputs.
+    /// Hash of everything else that the score depends on.
     environment: String,
 }
 
@@ -84,8 +84,8 @@ impl CacheKey {
         cacheable_options(options).is_some()
     }
 
-    /// Hashes the inputs of a score. Returns `None` if these options do not allow caching, or if
-    /// the path of the grader's own executable is unknown.
+    /// Hashes everything that a score depends on. Returns `None` if these options do not allow
+    /// caching, or if the path of the grader's own executable is unknown.
     pub fn new(
         options: &GradeOptions,
         submission: &Submission,

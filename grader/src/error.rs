@@ -39,7 +39,7 @@ pub enum Error {
     /// The workspace cannot be found.
     #[error(transparent)]
     Workspace(#[from] WorkspaceError),
-    /// The compiler or the dependencies do not work.
+    /// The compiler cannot be found, or the dependencies cannot be built.
     #[error(transparent)]
     Build(#[from] BuildError),
     /// The required isolation is not available.

@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 
 use judging::exam_file::{self, ExamError, ExamFile};
 
-/// Maximum size of an exam file, in bytes. The committed exams have about 3,000,000.
+/// Maximum size of an exam file, in bytes. The committed exams are about 3 MB.
 const MAX_FILE_BYTES: u64 = 64 << 20;
 
 const PRACTICE: &str = include_str!("../exams/practice.json");
 /// The name of the practice exam's file, for error messages.
 const PRACTICE_FILE: &str = "practice.json";
 
-/// The origin of an exam.
+/// The source that an exam is read from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum ExamSource {
     /// The practice exam.
@@ -21,7 +21,7 @@ pub enum ExamSource {
     Practice,
     /// Standard input, which can be read only once.
     StandardInput,
-    /// A file.
+    /// The exam file at this path.
     File(PathBuf),
 }
 
@@ -31,7 +31,7 @@ pub enum ExamSourceError {
     /// The file cannot be read.
     #[error("cannot read the exam {}: {source}", path.display())]
     Io {
-        /// Path of the exam.
+        /// Path of the exam file.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
@@ -45,8 +45,8 @@ pub enum ExamSourceError {
 }
 
 impl ExamSource {
-    /// Returns the source that the value of `--exam` names: standard input if it is `-`, the
-    /// practice exam if it is missing.
+    /// Returns the source that the value of `--exam` selects: standard input if it is `-`, the
+    /// practice exam if it is missing, and otherwise a file.
     pub fn from_option(path: Option<PathBuf>) -> Self {
         match path {
             None => ExamSource::Practice,

@@ -18,7 +18,7 @@ use crate::select_isolation::IsolationRequest;
 pub struct GradeOptions {
     /// The submission's folder or archive; `None` is the workspace's `student/`.
     pub submission: Option<PathBuf>,
-    /// The exam.
+    /// The exam that the submission is graded with.
     pub exam: ExamSource,
     /// The only task to grade, or `None` for all of them.
     pub task: Option<Task>,

@@ -14,7 +14,7 @@ pub struct StageTimes {
     pub build: Duration,
     /// Starting the probe, once per task.
     pub start: Duration,
-    /// Waiting for answers, for each task, without starting the probe.
+    /// Waiting for the answers of each task, not including the time to start the probe.
     pub asking: [Duration; Task::ALL.len()],
     /// Comparing answers with keys and with the signatures of known mistakes.
     pub judging: Duration,

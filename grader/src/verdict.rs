@@ -23,21 +23,21 @@ const MAX_TEXT_CHARS: usize = 2_000;
 /// The outcome of running one item.
 #[derive(Clone, Debug)]
 pub enum ItemOutcome<'a> {
-    /// Not run yet.
+    /// The item has not been run yet.
     Pending,
     /// The task's file is not part of the program.
     NotCompiled(&'a NotCompiled),
     /// There is no answer.
     Fault {
-        /// The reason.
+        /// The reason why there is no answer.
         fault: Fault,
         /// Indices of the question and of the element that cause the fault when run alone, if
         /// known.
         culprit: Option<(usize, usize)>,
     },
-    /// Not run, because other items of the task exceeded the time limit.
+    /// The item was not run, because other items of the task exceeded the time limit.
     Skipped(Fault),
-    /// Every question has an answer, and these are its judgements.
+    /// Every question has an answer. Holds the judgements of these answers.
     Answered(Vec<Judgement>),
 }
 

@@ -27,7 +27,7 @@ const MAX_FAULT_CHARS: usize = 2_000;
 
 /// Grades entries and stores their results.
 pub struct EntryGrader<'a> {
-    /// The grader.
+    /// The grader, which grades every entry with the same exam.
     pub grader: &'a Grader<'a>,
     /// The output folder.
     pub store: &'a Store,

@@ -16,7 +16,7 @@ pub enum ClassInputError {
     /// A file or folder cannot be read.
     #[error("cannot read {path}: {source}")]
     Io {
-        /// The path.
+        /// The path of the file or folder.
         path: PathBuf,
         /// The operating system's error.
         source: io::Error,
@@ -26,7 +26,7 @@ pub enum ClassInputError {
     Archive {
         /// The archive's path.
         path: PathBuf,
-        /// The reason.
+        /// The reason why the archive cannot be read.
         why: ArchiveError,
     },
     /// Gradescope's metadata file is invalid.

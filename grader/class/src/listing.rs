@@ -12,9 +12,9 @@ const SKIPPED: [&str; 3] = ["__MACOSX", "target", "node_modules"];
 /// A file, a folder, or a link to one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Node {
-    /// The file name.
+    /// The name, which is the last component of the path.
     pub name: String,
-    /// The path.
+    /// The path of the file, folder or link.
     pub path: PathBuf,
     /// The contents of a folder, sorted by name; `None` for a file. A link to a folder has no
     /// contents.

@@ -24,7 +24,7 @@ pub struct GradedClass {
 /// A submission's result and its final points.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClassRow {
-    /// The result.
+    /// The result of grading the submission.
     pub result: EntryResult,
     /// The final points, after the policy has been applied; `None` if there is no score.
     pub counted: Option<CountedPoints>,

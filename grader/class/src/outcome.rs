@@ -12,7 +12,7 @@ pub struct EntryResult {
     pub id: String,
     /// Information about the submission, such as its people.
     pub info: EntryInfo,
-    /// The outcome.
+    /// The outcome of grading the entry.
     pub outcome: EntryOutcome,
 }
 
@@ -65,7 +65,7 @@ pub struct ItemScore {
     pub points: u32,
     /// The maximum number of points.
     pub max_points: u32,
-    /// The verdict.
+    /// The verdict, as in `score.json`.
     pub verdict: String,
     /// The explanation of the verdict, in a sentence.
     pub message: String,
@@ -90,7 +90,7 @@ pub struct Stamp {
     /// Information about the submission, such as its people.
     #[serde(rename = "about")]
     pub info: EntryInfo,
-    /// The outcome.
+    /// The outcome of grading the entry, without the score.
     #[serde(flatten)]
     pub state: EntryState,
 }

@@ -40,7 +40,7 @@ const PLACEHOLDER_NAMES: [&str; 2] = ["Points Possible", "Student, Test"];
 /// A row of a roster or gradebook.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
-    /// The person.
+    /// The person that the row is about.
     pub person: Person,
     /// The group; empty if the list has none.
     pub group: String,

@@ -33,7 +33,7 @@ pub enum StoreError {
     /// A file or folder cannot be read or written.
     #[error("cannot use {path}: {source}")]
     Io {
-        /// The path.
+        /// The path of the file or folder.
         path: PathBuf,
         /// The operating system's error.
         source: io::Error,

@@ -84,7 +84,7 @@ pub struct MistakeCount {
 pub struct Outlier {
     /// The entry's id.
     pub id: String,
-    /// The reason.
+    /// The reason why the submission needs attention.
     pub why: String,
 }
 

@@ -17,7 +17,7 @@ const MAX_PICTURE_SIDE: u32 = 4096;
 /// An exam and the hash of its file.
 #[derive(Clone, Debug)]
 pub struct ExamFile {
-    /// The exam.
+    /// The exam that the file contains.
     pub exam: Exam,
     /// BLAKE2b hash of the file's bytes, in hexadecimal.
     pub hash: String,
@@ -51,7 +51,7 @@ pub enum ExamError {
         "the exam {path} is not valid: {source}; `cargo author exam --seed S` writes a valid one"
     )]
     Json {
-        /// Path of the exam.
+        /// Path of the exam file.
         path: PathBuf,
         /// Line, column and cause.
         source: serde_json::Error,
@@ -61,7 +61,7 @@ pub enum ExamError {
         "the exam {path} is not valid: {problem}; `cargo author exam --seed S` writes a valid one"
     )]
     Invalid {
-        /// Path of the exam.
+        /// Path of the exam file.
         path: PathBuf,
         /// The first problem found.
         problem: String,

@@ -16,7 +16,7 @@ pub struct Toolchain {
     pub rustc: PathBuf,
 }
 
-/// An error: there is no compiler, or it cannot be run.
+/// An error returned if the compiler cannot be found.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot find rustc: install Rust, or put it on the PATH ({0})")]
 pub struct ToolchainError(String);

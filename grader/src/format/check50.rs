@@ -17,7 +17,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     ..FormatSpec::EMPTY
 };
 
-/// Renders the file.
+/// Renders the JSON file.
 fn render(view: &StudentView, context: &FormatContext) -> String {
     let results: Vec<Value> = view
         .visible_items()

@@ -29,11 +29,11 @@ const VARIABLES: [&str; 9] = [
     "COMMIT_URL",
     "RELEASE_URL",
     "REVIEW_URL",
-    // The date of the graded commit. The script of the autograder package sets it.
+    // The date of the graded commit, which the script of the autograder package sets.
     "SUBMITTED_AT",
 ];
 
-/// Renders the file.
+/// Renders `result.json`.
 fn render(view: &StudentView, context: &FormatContext) -> String {
     let of = |name: &str| context.variables.get(name).cloned().unwrap_or_default();
     let review = match of("REVIEW_URL") {

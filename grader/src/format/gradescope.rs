@@ -26,7 +26,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
 /// this size.
 const MAX_BYTES: usize = 256 << 10;
 
-/// Renders the file.
+/// Renders `results.json`.
 fn render(view: &StudentView, context: &FormatContext) -> String {
     fit(MAX_BYTES, |max_chars| {
         super::to_json(&results(view, context, max_chars))

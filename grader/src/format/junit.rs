@@ -1,8 +1,8 @@
 //! JUnit XML with a suite for each task and a test case for each item.
 //!
-//! The file is written with `maud`, whose escaping is valid XML. A crate for JUnit would bring
-//! seven other crates, and add a tenth to the compile time of the first `cargo grade`. Every
-//! element is closed explicitly with `{}`, since XML has no void elements.
+//! The file is written with `maud`, whose escaping is valid XML. A crate for JUnit would bring in
+//! seven other crates and add a tenth to the compile time of the first `cargo grade`. Every element
+//! is closed explicitly with `{}`, since XML has no void elements.
 
 use maud::{Markup, PreEscaped, html};
 
@@ -20,7 +20,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
 
 const DECLARATION: PreEscaped<&str> = PreEscaped("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
 
-/// Renders the file.
+/// Renders the XML file.
 fn render(view: &StudentView, context: &FormatContext) -> String {
     let score = &view.visible;
     let all: Counts = score.items().collect();
@@ -94,8 +94,8 @@ enum Status {
 }
 
 impl Status {
-    /// Maps a verdict: a wrong answer is a failure, a missing answer an error, and an item that was
-    /// not graded is skipped.
+    /// Maps a verdict: a wrong answer becomes a failure, a missing answer an error, and an item
+    /// that was not graded a skipped test case.
     fn from_verdict(verdict: &Verdict) -> Self {
         match verdict {
             Verdict::Pass => Status::Passed,

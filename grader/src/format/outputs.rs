@@ -26,17 +26,17 @@ pub enum OutputError {
         "--format {format} needs the environment variable {variable}, which is not set: grade on the platform's runner, or set {all}"
     )]
     MissingVariable {
-        /// The format.
+        /// The name of the format.
         format: &'static str,
-        /// The missing variable.
+        /// The name of the missing variable.
         variable: &'static str,
-        /// All variables that the format needs.
+        /// The names of all variables that the format needs.
         all: String,
     },
     /// A file cannot be read or written.
     #[error("cannot write {}: {source}", path.display())]
     Io {
-        /// The path of the file.
+        /// The path of the output file.
         path: PathBuf,
         /// The system's error.
         source: io::Error,

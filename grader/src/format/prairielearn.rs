@@ -18,10 +18,10 @@ pub static FORMAT: FormatSpec = FormatSpec {
     ..FormatSpec::EMPTY
 };
 
-/// The maximum size in bytes, well below PrairieLearn's own limit.
+/// The maximum size of `results.json`, in bytes. It is well below PrairieLearn's own limit.
 const MAX_BYTES: usize = 1_000_000;
 
-/// Renders the file.
+/// Renders `results.json`.
 fn render(view: &StudentView, context: &FormatContext) -> String {
     fit(MAX_BYTES, |max_chars| {
         super::to_json(&results(view, context, max_chars))

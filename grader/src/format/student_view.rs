@@ -18,7 +18,7 @@ pub struct StudentView {
     pub counted: CountedPoints,
 }
 
-/// One item, and when students may see it.
+/// An item, and when students may see it.
 #[derive(Clone, Debug)]
 pub struct ItemView {
     /// The task of the item.

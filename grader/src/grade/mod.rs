@@ -23,13 +23,13 @@ pub use resolve::{builder, collect, default_folder};
 /// The score of a submission, and the files to which it was written.
 #[derive(Debug)]
 pub struct GradedSubmission {
-    /// The score.
+    /// The complete score, including what students may not see.
     pub score: Score,
     /// The report's files, if any were written.
     pub files: Option<ReportFiles>,
     /// The part of the score that students may see.
     pub student_view: StudentView,
-    /// The inputs of the score, if its report may be cached.
+    /// Hashes of everything that the score depends on, or `None` if its report must not be cached.
     pub cache_key: Option<CacheKey>,
 }
 

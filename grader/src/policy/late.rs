@@ -31,13 +31,13 @@ impl Lateness {
 /// The final points of a submission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CountedPoints {
-    /// Final points.
+    /// The final points that the submission gets.
     pub points: u32,
     /// Final points of a perfect submission on time.
     pub max_points: u32,
     /// Number of started days after the due time, including free days.
     pub late_days: u32,
-    /// Whether the submission counts for nothing, because it was made after the last day.
+    /// Whether the submission gets no points because it was made after the last day.
     pub is_closed: bool,
 }
 
@@ -91,7 +91,7 @@ impl LatePolicy {
     }
 
     fn fraction(&self, points: u32, max_points: u32, late_days: u32) -> Fraction {
-        // In hundredths of a point, so that percentages are integers.
+        // Points are in hundredths here, so that percentages of them are integers.
         let (points, all) = (u64::from(points) * 100, u64::from(max_points) * 100);
         let days = late_days.saturating_sub(self.free_days);
         if days == 0 {

@@ -25,7 +25,7 @@ pub const DEFAULT: &str = include_str!("default.toml");
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Policy {
-    /// Conversion of points.
+    /// The conversion of points to final points.
     pub points: PointsPolicy,
     /// Deductions for late submissions.
     pub late: LatePolicy,
@@ -43,7 +43,7 @@ pub struct PointsPolicy {
     pub rounding: Rounding,
 }
 
-/// Rounding of fractions.
+/// The rounding of fractions of a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rounding {
@@ -73,7 +73,7 @@ pub struct LatePolicy {
     pub percent_of: PercentBase,
     /// Maximum final points of a late submission, in percent of all points.
     pub most_percent: u32,
-    /// Number of days after which a submission counts for nothing, if there is such a limit.
+    /// Number of days after which a submission gets no points, or `None` if there is no such limit.
     pub closed_after_days: Option<u32>,
 }
 

@@ -22,7 +22,7 @@ pub enum PolicyError {
         path.display()
     )]
     Io {
-        /// Path of the policy.
+        /// Path of the policy file.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
@@ -33,13 +33,13 @@ pub enum PolicyError {
         path.display()
     )]
     Invalid {
-        /// Path of the policy.
+        /// Path of the policy file.
         path: PathBuf,
         /// Line number, counted from 1.
         line: usize,
         /// Text of the line.
         text: String,
-        /// The problem with it.
+        /// The problem with the line.
         problem: String,
     },
     /// An exception refers to an unknown task or item.
@@ -48,7 +48,7 @@ pub enum PolicyError {
         path.display()
     )]
     UnknownItem {
-        /// Path of the policy.
+        /// Path of the policy file.
         path: PathBuf,
         /// The unknown name.
         name: String,

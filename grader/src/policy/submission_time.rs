@@ -26,7 +26,7 @@ pub enum SubmissionTimeError {
     /// The file cannot be read.
     #[error("cannot read Gradescope's {}: {source}", path.display())]
     Io {
-        /// Path of the file.
+        /// Path of Gradescope's file.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
@@ -37,9 +37,9 @@ pub enum SubmissionTimeError {
         path.display()
     )]
     Invalid {
-        /// Path of the file.
+        /// Path of Gradescope's file.
         path: PathBuf,
-        /// The problem with it.
+        /// The problem with the file.
         why: String,
     },
 }

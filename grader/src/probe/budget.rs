@@ -7,7 +7,7 @@ use super::fault::TimeLimit;
 /// The time budget of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// The CPU time limit, which is the one that endless loops exceed.
+    /// The CPU time limit. This is the limit that endless loops exceed.
     pub cpu: Duration,
 }
 
@@ -23,7 +23,7 @@ impl Budget {
     /// The largest limit of CPU time that can be chosen, in seconds.
     pub const MAX_SECONDS: u64 = 600;
 
-    /// Returns a budget with a limit of CPU time in seconds.
+    /// Returns a budget with this limit of CPU time, in seconds.
     pub fn from_seconds(seconds: u64) -> Self {
         Budget {
             cpu: Duration::from_secs(seconds),

@@ -61,12 +61,12 @@ pub struct Probe {
     memory: u64,
 }
 
-/// Starts probes of one submission.
+/// A launcher, which starts the probes of one submission.
 #[derive(Clone, Debug)]
 pub struct Launcher {
-    /// Path of the program.
+    /// Path of the program to start.
     pub program: PathBuf,
-    /// The sandbox in which it runs.
+    /// The sandbox in which the program runs.
     pub sandbox: Sandbox,
 }
 

@@ -14,10 +14,10 @@ use std::vec;
 use protocol::Question;
 use protocol::wire::{self, Frame, WireError};
 
-/// Size in bytes from which a batch is sent. It is the capacity of a pipe.
+/// Size in bytes at which a batch is sent. This is the capacity of a pipe.
 const BATCH_BYTES: usize = 1 << 16;
 
-/// Questions that are sent together.
+/// A batch of questions, which are sent together.
 #[derive(Debug, Default)]
 pub(super) struct Batch {
     frames: Vec<u8>,
@@ -39,7 +39,7 @@ impl Batch {
     }
 }
 
-/// Channels to both threads.
+/// The channels to the writing and the reading thread.
 #[derive(Debug)]
 pub(super) struct Streams {
     questions: Sender<Vec<u8>>,

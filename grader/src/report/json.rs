@@ -1,4 +1,4 @@
-//! The format of `score.json`.
+//! Formats a score as `score.json`.
 
 use crate::score::Score;
 

@@ -37,8 +37,8 @@ pub(super) struct LaunchRequest {
     pub(super) level: Isolation,
     /// The grader's process id. A probe is killed when the grader ends.
     pub(super) grader: u32,
-    /// The access to grant.
+    /// The access that the program is granted.
     pub(super) profile: Profile,
-    /// The resource limits.
+    /// The resource limits of the program.
     pub(super) limits: Limits,
 }

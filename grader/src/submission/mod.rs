@@ -50,7 +50,7 @@ pub enum TaskFileError {
     /// The file is not valid UTF-8.
     #[error("{name} is not UTF-8 text: byte {byte} is invalid")]
     NotText {
-        /// The name of the file.
+        /// The name of the task file.
         name: &'static str,
         /// The position of the first invalid byte, counted from 1.
         byte: usize,
@@ -58,7 +58,7 @@ pub enum TaskFileError {
     /// The system cannot read the file.
     #[error("cannot read {name}: {why}")]
     Io {
-        /// The name of the file.
+        /// The name of the task file.
         name: &'static str,
         /// The system's message.
         why: String,

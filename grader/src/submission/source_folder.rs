@@ -9,8 +9,8 @@ pub(super) const CANDIDATES: [&str; 3] = ["", "src", "student/src"];
 /// A folder of metadata that macOS adds to archives.
 const MACOS_METADATA: &str = "__MACOSX";
 
-/// The error if several top-level folders have task files, so that it is unclear which one is
-/// meant.
+/// An error returned if several top-level folders have task files, so that it is unclear which one
+/// is meant. Holds these folders.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct AmbiguousSource(pub(super) Vec<String>);
 

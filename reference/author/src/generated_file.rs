@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 pub struct GeneratedFile {
     /// The path relative to the workspace's root, with `/` as the separator.
     pub path: String,
-    /// The whole text.
+    /// The complete contents of the file.
     pub contents: String,
 }
 
@@ -46,7 +46,7 @@ pub enum GeneratedFileError {
     /// A file cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Unwritable {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
         /// The system's error.
         source: io::Error,

@@ -42,7 +42,7 @@ pub enum StarterError {
     /// A file of the reference cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Unreadable {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
@@ -50,9 +50,9 @@ pub enum StarterError {
     /// A mark in a file of the reference is wrong.
     #[error("{SOURCE_FOLDER}/{file}:{line}: {error}")]
     Mark {
-        /// The file.
+        /// The name of the file.
         file: &'static str,
-        /// The line, counted from 1.
+        /// The number of the line with the mark, counted from 1.
         line: usize,
         /// The problem on that line.
         error: MarkError,

@@ -23,7 +23,7 @@ pub use moodle::fill_moodle;
 pub struct FilledGradebook {
     /// The gradebook's name for messages.
     pub title: String,
-    /// The copy.
+    /// The copy's table, with the points filled in.
     pub table: Table,
     /// The cells that changed.
     pub changes: Vec<CellChange>,
@@ -36,7 +36,7 @@ pub struct FilledGradebook {
 pub struct CellChange {
     /// The student's name.
     pub who: String,
-    /// The old content.
+    /// The content of the cell before the change.
     pub was: String,
     /// The new content.
     pub now: String,

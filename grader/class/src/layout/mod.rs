@@ -24,7 +24,7 @@ pub use gradescope::{METADATA, MetadataError};
 /// The layout and the entries of a class.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecognisedClass {
-    /// The layout.
+    /// The layout that the input was recognised as.
     pub layout: Layout,
     /// The entries, in the order of their ids.
     pub entries: Vec<Entry>,

@@ -1,4 +1,4 @@
-//! Workflow commands, which are lines in the log that the runner executes
+//! Formats and disables workflow commands: lines of the log that the runner executes
 //! (<https://docs.github.com/en/actions/reference/workflows-and-actions/workflow-commands>).
 
 use std::fmt::Write;

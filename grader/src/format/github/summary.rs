@@ -89,7 +89,8 @@ fn write_item(
     )
 }
 
-/// Puts a text into a code block, with a fence so long that no line of the text can close it.
+/// Puts a text into a code block, with a fence that is longer than any in the text, so that no line
+/// of the text can close it.
 fn fence(text: &str) -> String {
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let fence = "`".repeat((longest + 1).max(3));

@@ -1,4 +1,4 @@
-//! One item of a task.
+//! Renders one item of a task.
 
 use judging::describe;
 use judging::exam::Item;
@@ -183,7 +183,7 @@ fn figure(score: &ItemScore, item: Option<&Item>, answers: &ReportAnswers) -> Ma
     html! {
         @if let Some(drawing) = drawing {
             figure .drawing {
-                // Safe without escaping: the drawing escapes its text.
+                // This is safe without escaping, because the drawing has already escaped its text.
                 (PreEscaped(drawing.svg))
                 figcaption { (plain_text(&drawing.caption)) }
             }

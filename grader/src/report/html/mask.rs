@@ -1,6 +1,6 @@
-//! The mask, which shows the error in each pixel as a colour and a pattern, so that readers who
-//! cannot distinguish the colours can use the patterns. The colours are from Okabe and Ito (2008),
-//! "Color universal design".
+//! Renders the mask, which shows the error in each pixel as a colour and a pattern. The patterns
+//! are for readers who cannot distinguish the colours. The colours are from Okabe and Ito, "Color
+//! Universal Design", 2008.
 
 use glam::UVec2;
 use judging::judge::Aspect;

@@ -1,4 +1,4 @@
-//! The expected picture, the submitted one, and their differences.
+//! Renders the expected picture, the submitted one, and their differences.
 //!
 //! Without scripts, the page shows the pictures side by side. `page.js` adds the slider and the
 //! flicker button.

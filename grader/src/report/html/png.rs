@@ -1,4 +1,4 @@
-//! Small pictures embedded in the page.
+//! Encodes small pictures, to embed them in the page.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

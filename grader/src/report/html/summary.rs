@@ -1,4 +1,4 @@
-//! The top of the page: the points, and what to do next.
+//! Renders the top of the page: the points, and what to do next.
 
 use maud::{Markup, html};
 

@@ -1,4 +1,4 @@
-//! The section of a task, and the section about the submitted files.
+//! Renders the section of a task, and the section about the submitted files.
 
 use judging::exam::{Exam, Item};
 use judging::picture;

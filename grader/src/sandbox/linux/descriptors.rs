@@ -1,4 +1,5 @@
-//! File descriptors that the grader inherited from its own parent process.
+//! Keeps the confined program from inheriting the file descriptors that the grader inherited from
+//! its own parent process.
 
 use std::fs;
 use std::io;

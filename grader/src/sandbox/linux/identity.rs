@@ -1,4 +1,4 @@
-//! The user that a confined program runs as, and its privileges.
+//! Selects the user that a confined program runs as, and drops its privileges.
 
 use std::fs;
 use std::io;

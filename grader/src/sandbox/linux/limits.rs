@@ -1,4 +1,4 @@
-//! Resource limits of a confined program.
+//! Sets the resource limits of a confined program.
 
 use std::io;
 

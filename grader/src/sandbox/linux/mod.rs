@@ -48,7 +48,8 @@ fn confine(request: &LaunchRequest, command: Command) -> io::Result<ExitCode> {
         Isolation::Full => namespaces::enter(&request.profile, program)?,
         Isolation::NoNamespaces | Isolation::SeccompOnly | Isolation::None => program,
     };
-    // Not set earlier, because the folders of the new root must be accessible to every user.
+    // The umask is not set earlier, because the folders of the new root must be accessible to every
+    // user.
     umask(Mode::RWXG | Mode::RWXO);
     identity::drop_privileges(request, user)?;
     limits::set(request, user)?;

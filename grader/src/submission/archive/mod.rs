@@ -74,16 +74,16 @@ pub enum ArchiveError {
 pub struct Member {
     /// The path, with `/` and without `.` components. It is relative and stays inside the archive.
     pub path: String,
-    /// The position of the file in the archive.
+    /// The index of the file among the members of the archive.
     index: usize,
 }
 
 /// The contents of an archive.
 #[derive(Debug, Default)]
 pub struct Listing {
-    /// The regular files.
+    /// The regular files in the archive.
     pub members: Vec<Member>,
-    /// The paths of the folders, with `/`.
+    /// The paths of the folders in the archive, with `/`.
     pub folders: Vec<String>,
     /// Reasons for rejecting other members.
     pub errors: Vec<ArchiveError>,
@@ -254,8 +254,8 @@ fn normalize_path(path: &str) -> Result<String, ArchiveError> {
     Ok(parts.collect::<Vec<_>>().join("/"))
 }
 
-/// Returns an error for each Rust file with the same path as an earlier one. Which of the two is
-/// used would depend on the program that unpacks the archive.
+/// Returns an error for each Rust file with the same path as an earlier one. Which of the two files
+/// is used would depend on the program that unpacks the archive.
 fn duplicate_paths(members: &[Member]) -> Vec<ArchiveError> {
     let mut known: BTreeMap<String, &str> = BTreeMap::new();
     let mut errors = Vec::new();

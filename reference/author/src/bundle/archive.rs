@@ -27,7 +27,7 @@ pub enum WriteError {
     /// A file operation failed.
     #[error("cannot write {}: {source}", path.display())]
     Io {
-        /// The file or folder.
+        /// The path of the file or folder.
         path: PathBuf,
         /// The system's error.
         source: io::Error,

@@ -20,7 +20,7 @@ pub enum CratesError {
     /// A file operation failed.
     #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// The file or folder.
+        /// The path of the file or folder.
         path: PathBuf,
         /// The system's error.
         source: io::Error,

@@ -45,7 +45,7 @@ pub enum FoldersError {
     /// A file operation failed.
     #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// The file or folder.
+        /// The path of the file or folder.
         path: PathBuf,
         /// The system's error.
         source: io::Error,

@@ -21,7 +21,7 @@ pub enum ManifestError {
     /// A file cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
@@ -37,9 +37,9 @@ pub enum ManifestError {
     /// A required key is missing.
     #[error("{path} no longer has the key `{key}`: adapt reference/author/src/bundle/manifests.rs")]
     MissingKey {
-        /// The file.
+        /// The path of the manifest.
         path: &'static str,
-        /// The key.
+        /// The missing key.
         key: &'static str,
     },
 }

@@ -55,7 +55,7 @@ pub enum Leak {
     },
     /// An exam that is not the practice exam.
     Exam {
-        /// The file in the bundle.
+        /// The path of the exam in the bundle.
         found: String,
     },
 }
@@ -66,7 +66,7 @@ pub enum SecretsError {
     /// A file or folder cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// The file or folder.
+        /// The path of the file or folder.
         path: PathBuf,
         /// The system's error.
         source: io::Error,

@@ -11,9 +11,9 @@ use crate::text_file::{ReadError, read};
 /// A piece of text from a chapter, and its line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Snippet {
-    /// The text.
+    /// The text of the snippet.
     pub text: String,
-    /// The line, counted from 1.
+    /// The number of the line on which the text starts, counted from 1.
     pub line: usize,
 }
 

@@ -66,7 +66,7 @@ pub enum PackageError {
     /// The exam file or policy file cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Io {
-        /// The file or folder.
+        /// The path of the file or folder.
         path: PathBuf,
         /// The system's error.
         source: std::io::Error,

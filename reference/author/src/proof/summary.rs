@@ -10,7 +10,7 @@ use crate::generated_file::GeneratedFile;
 /// The result of a proof for one seed.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct SeedResult {
-    /// The seed.
+    /// The seed of the exam that was used.
     pub seed: u64,
     /// Whether the mistakes were also graded with this seed.
     pub with_mistakes: bool,
@@ -23,7 +23,7 @@ pub struct SeedResult {
 /// The results of a proof for all seeds.
 #[derive(Debug)]
 pub struct ProofSummary {
-    /// The seeds.
+    /// The seeds of the exams that were used.
     pub seeds: Range<u64>,
     /// The result of each seed.
     pub results: Vec<SeedResult>,

@@ -59,7 +59,7 @@ pub enum CatalogueError {
     /// A file of the catalogue is invalid.
     #[error("{}: {source}", path.display())]
     Toml {
-        /// The file or folder.
+        /// The path of the file or folder.
         path: PathBuf,
         /// The parse error, with its line and column.
         source: toml::de::Error,
@@ -71,9 +71,9 @@ pub enum CatalogueError {
         path.display()
     )]
     Id {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// The id.
+        /// The id that is not allowed.
         id: String,
     },
     /// The text that a mistake changes no longer occurs exactly once in the reference.

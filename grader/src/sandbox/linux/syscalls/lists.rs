@@ -190,10 +190,10 @@ pub(super) const COMPILER_X86: &[c_long] = &[
     SYS_utime,
 ];
 
-/// Empty on this architecture.
+/// This architecture has no such calls.
 #[cfg(not(target_arch = "x86_64"))]
 pub(super) const COMMON_X86: &[c_long] = &[];
 
-/// Empty on this architecture.
+/// This architecture has no such calls.
 #[cfg(not(target_arch = "x86_64"))]
 pub(super) const COMPILER_X86: &[c_long] = &[];

@@ -30,7 +30,7 @@ pub enum HomeError {
     /// A file operation failed.
     #[error("cannot create {}: {source}", path.display())]
     Io {
-        /// The file or folder.
+        /// The path of the file or folder.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
@@ -100,7 +100,8 @@ impl Home {
             .env("USERPROFILE", &self.folder)
             .env("CARGO_HOME", self.cargo_home())
             .env("CARGO_NET_OFFLINE", "true")
-            // Outside the home directory, so that the next check reuses the compiled files.
+            // This folder is outside the home directory, so that the next check reuses the compiled
+            // files.
             .env("CARGO_TARGET_DIR", self.folder.with_file_name("built"));
     }
 }

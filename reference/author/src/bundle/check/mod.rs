@@ -38,14 +38,14 @@ pub enum CheckError {
     /// A file operation failed.
     #[error("cannot read, write or run {}: {source}", path.display())]
     Io {
-        /// The file, folder or program.
+        /// The path of the file, folder or program.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
     },
 }
 
-/// The part of a score file that is checked.
+/// The fields of a score file that are checked.
 #[derive(Deserialize)]
 struct Score {
     points: u32,

@@ -4,7 +4,7 @@ use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 
 use crate::handout::pages::formulas;
 
-/// The error for a formula that cannot be converted.
+/// An error returned if a formula cannot be converted.
 #[derive(Debug, thiserror::Error)]
 #[error("{chapter}: the formula `{formula}`: {problem}")]
 pub struct FormulaError {

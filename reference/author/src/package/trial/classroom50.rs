@@ -89,7 +89,7 @@ fn autograder_files(folder: &Path) -> Result<Bundle, TrialError> {
 
 /// Returns whether the files that the runner reads are correct. The script must not write a step
 /// summary, because the runner itself shows the text of the release on the run's page. For an empty
-/// submission, there is no result file, which the runner reports as an error.
+/// submission, there must be no result file: the runner reports a missing file as an error.
 fn is_correct(submission: TrialSubmission, checkout: &Path, step: &StepResult) -> bool {
     let result = fs::read(checkout.join("result.json")).ok();
     let result: Option<Value> = result.and_then(|text| serde_json::from_slice(&text).ok());

@@ -33,7 +33,7 @@ pub enum TrialError {
     /// once.
     #[error("{file} must contain `{signature}` exactly once: adapt trial/thief.rs")]
     MissingAttackPoint {
-        /// The file.
+        /// The name of the starter's file.
         file: &'static str,
         /// The expected first line of the method.
         signature: String,
@@ -56,7 +56,7 @@ pub enum TrialError {
     /// A file operation failed.
     #[error("cannot read, write or run {}: {source}", path.display())]
     Io {
-        /// The file, folder or program.
+        /// The path of the file, folder or program.
         path: PathBuf,
         /// The system's error.
         source: io::Error,

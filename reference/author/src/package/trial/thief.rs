@@ -1,5 +1,5 @@
-//! An attacking submission, which knows the paths of the package's files, and tries to include,
-//! open and overwrite them. All of its output is searched for solutions and keys.
+//! An attacking submission. It knows the paths of the package's files, and tries to include, open
+//! and overwrite them. All of its output is searched for solutions and keys.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -8,8 +8,8 @@ use crate::bundle::Bundle;
 use crate::bundle::secrets::Secrets;
 use crate::package::trial::{TrialError, io_error};
 
-/// The attacks: a file, the first line of one of its methods, and the code to insert after that
-/// line.
+/// The attacks, each given by a file, the first line of one of its methods, and the code to insert
+/// after that line.
 const ATTACKS: [(&str, &str, &str); 5] = [
     (
         "camera.rs",

@@ -13,7 +13,7 @@ pub const MIN_MARGIN: f64 = 1.5;
 /// The deviation of one solution in one item of one exam.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DeviationSample {
-    /// The deviation.
+    /// The deviation of the solution's answers.
     pub deviation: Deviation,
     /// The id of the variant or mistake.
     pub solution: String,

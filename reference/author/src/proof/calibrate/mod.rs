@@ -39,7 +39,7 @@ pub struct Calibration {
     pub variants: usize,
     /// The number of mistakes.
     pub mistakes: usize,
-    /// The margins.
+    /// The margins that were measured.
     pub margins: Margins,
 }
 

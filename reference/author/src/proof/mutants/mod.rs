@@ -20,8 +20,7 @@ use crate::solutions::sources::Sources;
 use crate::solutions::workbench::{Workbench, WorkbenchError};
 use crate::text_file::{ReadError, read};
 
-/// The step between the mutants of a sample, which contains one in this many, in the order of their
-/// names.
+/// The step of a sample: it contains one in this many mutants, in the order of their names.
 const SAMPLE_STEP: usize = 8;
 
 /// The reason why the mutants cannot be graded.

@@ -28,9 +28,9 @@ pub enum CargoMutantsError {
         path = list::PATH
     )]
     UnknownFormat {
-        /// The program and its version.
+        /// The name and version of the program that made the list.
         made_by: String,
-        /// The part of the format that is not as expected.
+        /// The part of the list that does not have the expected format.
         reason: String,
     },
 }

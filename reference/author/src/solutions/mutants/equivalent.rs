@@ -10,7 +10,7 @@ use crate::text_file::{ReadError, read};
 /// The file of the list, relative to the workspace's root.
 pub const PATH: &str = "reference/mutants/equivalent.toml";
 
-/// A mutant that gets full marks, as it should.
+/// A mutant that is expected to get full marks, because it is as correct as the reference.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EquivalentMutant {
@@ -29,7 +29,7 @@ pub enum EquivalentsError {
     /// The file is invalid.
     #[error("{}: {source}", path.display())]
     Toml {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
         /// The parse error, with its line and column.
         source: toml::de::Error,

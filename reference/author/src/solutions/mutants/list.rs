@@ -21,7 +21,7 @@ pub struct Mutant {
     pub name: String,
     /// The span that is replaced.
     pub span: SourceSpan,
-    /// The replacement.
+    /// The text that replaces the span.
     pub now: String,
 }
 
@@ -48,7 +48,7 @@ pub struct MutantList {
     pub files: Vec<FileMutants>,
 }
 
-/// The error for a list that was generated before the reference changed.
+/// An error returned if the list was generated before the reference changed.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{PATH} is out of date, because reference/src/{file} has changed: install cargo-mutants \
@@ -62,11 +62,11 @@ pub struct OutdatedListError {
 /// A mutant without a unique name.
 #[derive(Clone, Debug)]
 pub struct UnnamedMutant {
-    /// The change and the function.
+    /// A description of the change, and the function that it is in.
     pub what: String,
     /// The span that is replaced.
     pub span: SourceSpan,
-    /// The replacement.
+    /// The text that replaces the span.
     pub now: String,
 }
 

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 /// The position of a character in a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 pub struct SourcePosition {
-    /// The line, counted from 1.
+    /// The number of the line, counted from 1.
     pub line: usize,
-    /// The character in the line, counted from 1.
+    /// The number of the character in the line, counted from 1.
     pub column: usize,
 }
 
@@ -23,7 +23,7 @@ pub struct SourceSpan {
     pub end: SourcePosition,
 }
 
-/// The error for a text that is not a span.
+/// An error returned if a text is not a span.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is not a span: expected lines and columns, such as `38:9-39:44`")]
 pub struct SpanError(String);

@@ -1,4 +1,5 @@
-//! Score changes of a regrade: whose points changed, in which items, and why.
+//! Compares the scores of a regrade with the earlier ones: whose points changed, in which items,
+//! and why.
 
 use serde::Serialize;
 

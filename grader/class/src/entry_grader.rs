@@ -33,7 +33,7 @@ pub struct EntryGrader<'a> {
     pub store: &'a Store,
     /// The run, with the settings that scores depend on.
     pub run: &'a Run,
-    /// The progress display.
+    /// The display that shows the progress of the run.
     pub progress: &'a Progress,
 }
 
@@ -51,7 +51,8 @@ impl EntryGrader<'_> {
             Ok(submission) => {
                 let key = cache_key(self.run, self.grader.policy(), &submission);
                 match self.store.cached_result(entry, &key) {
-                    // Saved again, because the lists may contain new information about the people.
+                    // The result is saved again, because the rosters may contain new information
+                    // about the people.
                     Some(result) => (self.save(result, &key)?, false),
                     None => (
                         self.grade_with_retries(slot, entry, &submission, &key)?,
@@ -148,9 +149,9 @@ impl EntryGrader<'_> {
     }
 }
 
-/// Returns the cache key: a hash of everything that the output files of an entry depend on. Of the
-/// policy, it covers only the rules on what students may see, since no other rule affects these
-/// files.
+/// Returns the cache key: a hash of everything that the output files of an entry depend on. The
+/// only part of the policy that it covers is what students may see, since no other rule affects
+/// these files.
 fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
     let mut hasher = blake2b_simd::State::new();
     let mut part = |bytes: &[u8]| {

@@ -59,14 +59,14 @@ pub enum Error {
         one.display(), other.display(), differences.join(", ")
     )]
     IncompatibleShards {
-        /// The folder of a shard.
+        /// The output folder of one shard.
         one: PathBuf,
-        /// The folder of the other shard.
+        /// The output folder of the other shard.
         other: PathBuf,
         /// The settings that differ.
         differences: Vec<&'static str>,
     },
-    /// Some shards were not named on the command line.
+    /// Some shards were not given on the command line.
     #[error(
         "results are missing for {}: name the output folders of all parts, or the merged grades \
         would lack submissions",
@@ -79,9 +79,9 @@ pub enum Error {
         one.display(), other.display()
     )]
     DifferentPolicies {
-        /// The folder of a shard.
+        /// The output folder of one shard.
         one: PathBuf,
-        /// The folder of the other shard.
+        /// The output folder of the other shard.
         other: PathBuf,
     },
     /// Two shards contain the same entry.
@@ -91,9 +91,9 @@ pub enum Error {
     DuplicateEntry {
         /// The entry's id.
         id: String,
-        /// The folder of a shard.
+        /// The output folder of one shard.
         one: PathBuf,
-        /// The folder of the other shard.
+        /// The output folder of the other shard.
         other: PathBuf,
     },
 }

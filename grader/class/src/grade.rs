@@ -107,7 +107,7 @@ pub fn grade_class(arguments: &ClassArguments) -> Result<Completion, Error> {
     })
 }
 
-/// Returns the lists named on the command line. If no roster is named, the one that classroom50
+/// Returns the lists given on the command line. If no roster is given, the one that classroom50
 /// writes beside its clones is used.
 fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
     let own = match input.class.layout {
@@ -141,7 +141,7 @@ fn settings(grader: &Grader, options: &GradeOptions) -> Result<Settings, Error> 
 /// Returns the options that scores depend on, as text. Those with a setting of their own, and those
 /// that `cargo class` does not have, are left out.
 fn options_of_scores(options: &GradeOptions) -> String {
-    // Without `..`, so that it does not compile before a new option is considered here.
+    // Without `..`, so that a new option does not compile until this function handles it.
     let GradeOptions {
         dependents,
         budget,
@@ -161,7 +161,7 @@ fn options_of_scores(options: &GradeOptions) -> String {
     format!("{dependents:?} {budget:?}")
 }
 
-/// Returns the text of the policy file, or `None` if no file is named. The file has already been
+/// Returns the text of the policy file, or `None` if no file is given. The file has already been
 /// parsed successfully.
 fn policy_text(path: Option<&Path>) -> Result<Option<String>, PolicyError> {
     let read = |path: &Path| {

@@ -1,4 +1,5 @@
-//! The input: a folder, or an archive, which is unpacked into a temporary folder.
+//! Reads the input, which is a folder or an archive. An archive is unpacked into a temporary
+//! folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! The lateness of submissions, according to the platform's information and the policy.
+//! Computes the lateness of submissions, according to the platform's information and the policy.
 
 use grader::policy::{CountedPoints, Lateness, Policy};
 use jiff::Timestamp;

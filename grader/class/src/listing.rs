@@ -1,4 +1,4 @@
-//! Folder listings, as deep as the layouts need them.
+//! Lists the contents of folders, only as deep as the layouts need them.
 
 use std::fs;
 use std::io;
@@ -9,7 +9,7 @@ const MAX_DEPTH: usize = 3;
 /// The names of folders that are skipped: they contain nothing that a student has written.
 const SKIPPED: [&str; 3] = ["__MACOSX", "target", "node_modules"];
 
-/// A file, a folder, or a link to one.
+/// A file, a folder, or a link to a file or folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Node {
     /// The name, which is the last component of the path.

@@ -83,7 +83,7 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     })
 }
 
-/// Returns the policy that the arguments name, else the one that all shards were graded with.
+/// Returns the policy that the arguments select, or else the one that all shards were graded with.
 fn choose_policy(arguments: &MergeArguments, shards: &[(&PathBuf, Run)]) -> Result<Policy, Error> {
     let (first, run) = &shards[0];
     if let Some(path) = &arguments.policy {

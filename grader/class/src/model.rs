@@ -13,7 +13,7 @@ pub struct GradedClass {
     pub exam: String,
     /// The hash of the exam file.
     pub exam_hash: String,
-    /// The isolation level of the submissions.
+    /// The isolation level at which the submissions were graded.
     pub isolation: String,
     /// The submissions, in the order of their ids.
     pub rows: Vec<ClassRow>,

@@ -21,7 +21,7 @@ pub struct Progress {
 struct Bars {
     all: ProgressBar,
     slots: Vec<ProgressBar>,
-    // Dropping this stops the drawing.
+    // The bars are drawn until this is dropped.
     _drawing: MultiProgress,
 }
 

@@ -1,8 +1,9 @@
-//! A queue of jobs for a few threads. A thread takes the next job as soon as it has finished one.
+//! Runs a queue of jobs on a few threads. A thread takes the next job as soon as it has finished
+//! one.
 //!
-//! Not `rayon`: the progress display has a line for each thread, and entries are graded in the order
-//! of the list, so that a run that is stopped has graded the first ones. `rayon` splits the list into
-//! halves, and with `par_bridge` it loses the order of the results.
+//! This does not use `rayon`, because the progress display has a line for each thread, and entries
+//! are graded in the order of the list, so that a run that is stopped has graded the first ones.
+//! `rayon` splits the list into halves, and `par_bridge` does not keep the order of the results.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,4 +1,4 @@
-//! The people of a class, read from a roster or gradebook. Columns are recognised by their names.
+//! Reads the people of a class from a roster or gradebook. Columns are recognised by their names.
 
 use std::path::Path;
 
@@ -6,8 +6,8 @@ use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
 use crate::table::{Table, TableError};
 
-/// Column names that platforms and people use for a person's full name. The other lists are for the
-/// other fields.
+/// Column names that platforms and people use for a person's full name. The lists below are the
+/// same for the other fields.
 const NAME: [&str; 4] = ["name", "full name", "student", "student name"];
 const FIRST: [&str; 3] = ["first name", "first_name", "given name"];
 const LAST: [&str; 4] = ["last name", "last_name", "surname", "family name"];
@@ -42,7 +42,7 @@ const PLACEHOLDER_NAMES: [&str; 2] = ["Points Possible", "Student, Test"];
 pub struct Member {
     /// The person that the row is about.
     pub person: Person,
-    /// The group; empty if the list has none.
+    /// The name of the person's group; empty if the list has none.
     pub group: String,
     /// The submission time, in the list's format; empty if the list has none.
     pub submitted: String,
@@ -178,7 +178,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
     Some(members)
 }
 
-/// Fills in unknown fields of `people` from the lists. Returns the people in the lists who match
+/// Fills in unknown fields of `people` from the lists. Returns the people on the lists who match
 /// nobody in `people`.
 pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, TableError> {
     let files = [

@@ -1,4 +1,4 @@
-//! Shards: parts of a class, each graded on its own machine.
+//! Divides a class into shards: parts that are each graded on a different machine.
 
 use std::fmt;
 use std::str::FromStr;

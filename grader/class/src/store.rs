@@ -1,5 +1,5 @@
-//! The output folder. Files are written atomically, and an entry's stamp last, so a killed run
-//! never leaves an incomplete entry that looks complete.
+//! Stores the results of a class in the output folder. Files are written atomically, and an entry's
+//! stamp last, so a killed run never leaves an incomplete entry that looks complete.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -41,7 +41,7 @@ pub enum StoreError {
     /// A file has invalid contents.
     #[error("{path} is damaged ({why}): delete it and grade again")]
     Damaged {
-        /// The file's path.
+        /// The path of the damaged file.
         path: PathBuf,
         /// The parser's message.
         why: String,

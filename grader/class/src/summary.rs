@@ -1,4 +1,4 @@
-//! The summary of a class in numbers: `class.json`.
+//! The summary of a class in numbers, which is written to `class.json`.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use crate::outcome::ScoreSummary;
 
 /// The format version of `class.json`.
 const SCHEMA: u32 = 1;
-/// The maximum length of the lists of failed items and of mistakes.
+/// The maximum number of failed items and of mistakes that are listed.
 const MAX_ENTRIES: usize = 10;
 
 /// The contents of `class.json`.
@@ -70,7 +70,7 @@ pub struct FailedItem {
     pub count: usize,
 }
 
-/// A known mistake that was recognised.
+/// A known mistake that was recognised in some submissions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MistakeCount {
     /// The text of the mistake's hint.

@@ -95,7 +95,7 @@ pub fn unpack(
                     let path = &member.path;
                     others.push(unmatched(format!(
                         "{path} in it is longer than {mib} MiB and was cut off: unpack the archive \
-                         yourself, and name the folder"
+                         yourself, and pass the folder"
                     )));
                 }
                 let put = extract_to(folder, &member.path, |target| {

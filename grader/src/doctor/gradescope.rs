@@ -108,7 +108,7 @@ impl PackageContents {
         let mut problems = Vec::new();
         if exam.id == "practice" {
             problems.push(
-                "it runs the practice exam, and students have that exam with all its keys: choose another one with --exam-seed".to_owned(),
+                "it runs the practice exam, which students have with all its keys: choose another one with --exam-seed".to_owned(),
             );
         }
         problems.extend(policy_problem(policy, &exam));

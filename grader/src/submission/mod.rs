@@ -69,10 +69,10 @@ pub enum TaskFileError {
 #[derive(Debug, thiserror::Error)]
 pub enum SubmissionError {
     /// The path does not exist.
-    #[error("there is no {0}: name the folder with the five files, such as `student`")]
+    #[error("there is no {0}: pass the folder with the five files, such as `student`")]
     NotFound(PathBuf),
     /// The path is a device, a pipe or a socket.
-    #[error("{0} is neither a folder nor a file: name the folder with the five files")]
+    #[error("{0} is neither a folder nor a file: pass the folder with the five files")]
     NotFileOrFolder(PathBuf),
     /// The folder or archive has none of the five files.
     #[error(
@@ -98,7 +98,10 @@ pub enum SubmissionError {
         why: String,
     },
     /// The folder or archive has several folders with task files.
-    #[error("{path} has several submissions, in {}: name one of them", folders.join(", "))]
+    #[error(
+        "{path} has several submissions, in {}: pass the path of one of them",
+        folders.join(", ")
+    )]
     Ambiguous {
         /// The path of the folder or archive.
         path: PathBuf,

@@ -72,7 +72,9 @@ pub enum MarkError {
     #[error("this `// solution` has no `// end solution`")]
     NotEnded,
     /// A region has no line for the starter.
-    #[error("this `// solution` has no `// starter:` line: add one with the code that students get")]
+    #[error(
+        "this `// solution` has no `// starter:` line: add one with the code that students get"
+    )]
     NoStarterLine,
 }
 

@@ -1,5 +1,5 @@
-//! CPU time of this process, which does not include the time that other processes take on a shared
-//! machine.
+//! Measures the CPU time of this process. Unlike wall time, it does not include the time that other
+//! processes take on a shared machine.
 
 use std::time::Duration;
 

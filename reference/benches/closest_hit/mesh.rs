@@ -1,5 +1,5 @@
-//! The meshes: well-known meshes if the variable `MESHES` names a folder with their files,
-//! otherwise a mesh from this project's scenes.
+//! Loads the meshes: well-known ones if the environment variable `MESHES` is set to the folder with
+//! their files, and otherwise a mesh from this project's scenes.
 
 use std::fs::{self, File};
 use std::io::{BufReader, Read};

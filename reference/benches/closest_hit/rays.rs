@@ -1,5 +1,5 @@
-//! Three kinds of rays, the same for every contender: a path tracer's primary rays, its bounce
-//! rays, and random rays.
+//! Generates three kinds of rays, the same for every contender: a path tracer's primary rays, its
+//! bounce rays, and random rays.
 
 use glam::{Vec3, vec3};
 use protocol::Ray;

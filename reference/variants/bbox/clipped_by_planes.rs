@@ -1,5 +1,5 @@
 //! Clips the ray against six planes, each given by a normal and a point. This works for any convex
-//! polyhedron: Cyrus and Beck, "Generalized two- and three-dimensional clipping", Computers and
+//! polyhedron. See Cyrus and Beck, "Generalized two- and three-dimensional clipping", Computers and
 //! Graphics 3(1), 1978.
 
 use glam::Vec3;

@@ -1,4 +1,4 @@
-//! A fold over the axes, with one multiplication and one addition per plane: (plane − origin) ·
+//! Folds over the axes, with one multiplication and one addition per plane: (plane − origin) ·
 //! inverse = plane · inverse − origin · inverse. The products are in double precision, to avoid
 //! cancellation.
 

@@ -1,6 +1,6 @@
 //! Selects the plane through which the ray enters each slab by the sign of the inverse direction.
 //! The sign of the direction itself would not be enough: −0 is not less than 0, but its inverse is
-//! −∞. Williams, Barrus, Morley and Shirley, "An Efficient and Robust Ray-Box Intersection
+//! −∞. See Williams, Barrus, Morley and Shirley, "An Efficient and Robust Ray-Box Intersection
 //! Algorithm", Journal of Graphics Tools 10(1), 2005.
 
 use glam::Vec3;

@@ -1,5 +1,5 @@
 //! Goes through the axes one by one, swaps the two times if they are in the wrong order, and
-//! returns at the first axis that leaves an empty interval: Shirley, Black and Hollasch, "Ray
+//! returns at the first axis that leaves an empty interval. See Shirley, Black and Hollasch, "Ray
 //! Tracing: The Next Week", "Ray Intersection with an AABB".
 
 use glam::Vec3;

@@ -1,6 +1,6 @@
 //! Builds a temporary tree of `Box`es and vectors, with primitives partitioned into new vectors
-//! instead of in place, and then creates the nodes from that tree. Traversal: each node returns its
-//! closest hit, and its parent takes the nearer of the two hits.
+//! instead of in place, and then creates the nodes from that tree. During traversal, each node
+//! returns its closest hit, and its parent takes the nearer of the two hits.
 
 use protocol::{Ray, Trace};
 

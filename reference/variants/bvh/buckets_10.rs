@@ -1,5 +1,5 @@
-//! Ten buckets over the node's own box. Traversal: the box of a node is tested when traversal
-//! reaches the node. By then, the closest hit so far has shortened the ray.
+//! Builds the tree with ten buckets over the node's own box. Traversal tests the box of a node when
+//! it reaches the node; by then, the closest hit so far has shortened the ray.
 
 use protocol::{Ray, Trace};
 

@@ -1,6 +1,6 @@
-//! Twelve buckets over the centres, as in Pharr, Jakob and Humphreys, "Physically Based Rendering"
-//! (4th edition), section 7.3.2. Traversal: each node returns its closest hit, and its parent takes
-//! the nearer of the two hits.
+//! Builds the tree with twelve buckets over the centres, as in Pharr, Jakob and Humphreys,
+//! "Physically Based Rendering" (4th edition), section 7.3.2. During traversal, each node returns
+//! its closest hit, and its parent takes the nearer of the two hits.
 
 use protocol::{Ray, Trace};
 

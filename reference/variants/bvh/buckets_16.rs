@@ -1,5 +1,5 @@
-//! Sixteen buckets over the node's own box. Traversal: the children that the ray hits are put in a
-//! sorted list; the ray itself is never shortened.
+//! Builds the tree with sixteen buckets over the node's own box. Traversal puts the children that
+//! the ray hits in a sorted list, and never shortens the ray itself.
 
 use protocol::{Ray, Trace};
 

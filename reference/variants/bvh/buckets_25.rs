@@ -1,5 +1,5 @@
-//! Twenty-five buckets over the node's own box. Traversal: best first. A heap of the nodes still to
-//! be visited returns the node whose box the ray enters first.
+//! Builds the tree with 25 buckets over the node's own box. Traverses the tree best first: a heap
+//! of the nodes still to be visited returns the node whose box the ray enters first.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

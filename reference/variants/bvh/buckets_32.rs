@@ -1,5 +1,5 @@
-//! Thirty-two buckets over the centres. Traversal: visits up to four children at once, which are
-//! found when the tree is built (Wald, Benthin and Boulos, "Getting Rid of Packets", 2008).
+//! Builds the tree with 32 buckets over the centres. Traversal visits up to four children at once;
+//! the build determines these children (Wald, Benthin and Boulos, "Getting Rid of Packets", 2008).
 
 use protocol::{Ray, Trace};
 

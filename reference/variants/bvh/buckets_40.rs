@@ -1,5 +1,6 @@
-//! Forty buckets over the node's own box. Traversal: without a stack, using the index of each
-//! node's parent (Hapala et al., "Efficient Stack-less BVH Traversal for Ray Tracing", 2011).
+//! Builds the tree with forty buckets over the node's own box. Traverses the tree without a stack,
+//! using the index of each node's parent (Hapala et al., "Efficient Stack-less BVH Traversal for
+//! Ray Tracing", 2011).
 
 use protocol::{Ray, Trace};
 

@@ -1,5 +1,5 @@
-//! Eight buckets over the centres. Traversal: a stack of nodes, each with the distance at which the
-//! ray enters it.
+//! Builds the tree with eight buckets over the centres. Traverses the tree with a stack of nodes,
+//! each with the distance at which the ray enters it.
 
 use protocol::{Ray, Trace};
 

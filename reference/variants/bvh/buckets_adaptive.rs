@@ -1,5 +1,5 @@
-//! Eight to 32 buckets over the centres: the more primitives, the more buckets. Traversal: a stack
-//! of indices; a box is tested when its node is popped.
+//! Builds the tree with eight to 32 buckets over the centres: the more primitives, the more
+//! buckets. Traverses the tree with a stack of indices, and tests a box when its node is popped.
 
 use protocol::{Ray, Trace};
 

@@ -1,7 +1,7 @@
-//! A complete tree: all leaves but one are full, and the children of node i are at 2i + 1 and 2i +
-//! 2, as in a binary heap. The number of leaves determines how many primitives are in the left
-//! subtree; areas are not considered. Traversal: the box of a node is tested when traversal reaches
-//! the node. By then, the closest hit so far has shortened the ray.
+//! Builds a complete tree: all leaves but one are full, and the children of node i are at 2i + 1
+//! and 2i + 2, as in a binary heap. The number of leaves determines how many primitives are in the
+//! left subtree; areas are not considered. Traversal tests the box of a node when it reaches the
+//! node; by then, the closest hit so far has shortened the ray.
 
 use protocol::{Ray, Trace};
 

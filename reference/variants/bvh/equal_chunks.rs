@@ -1,6 +1,6 @@
-//! Up to 64 chunks with equal numbers of primitives, in the order of their centres, instead of
-//! slices of equal width. Traversal: a stack of nodes, each with the distance at which the ray
-//! enters it.
+//! Builds the tree with up to 64 chunks of equal numbers of primitives, in the order of their
+//! centres, instead of slices of equal width. Traverses the tree with a stack of nodes, each with
+//! the distance at which the ray enters it.
 
 use protocol::{Ray, Trace};
 

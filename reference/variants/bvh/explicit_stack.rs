@@ -1,6 +1,6 @@
 //! Builds the tree with an explicit stack, marks a leaf by using its own index for both children,
-//! and also fills in `start` and `size` of interior nodes. Traversal: a stack of indices; a box is
-//! tested when its node is popped.
+//! and also fills in `start` and `size` of interior nodes. Traverses the tree with a stack of
+//! indices, and tests a box when its node is popped.
 
 use protocol::{Ray, Trace};
 

@@ -1,6 +1,6 @@
 //! Computes the full formula, C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect,
-//! although parts of the formula are the same for all partitions of a node. Traversal: a parent
-//! tests the boxes of both children and passes the entry distances down.
+//! although parts of the formula are the same for all partitions of a node. During traversal, a
+//! parent tests the boxes of both children and passes the entry distances down.
 
 use protocol::{Ray, Trace};
 

@@ -1,6 +1,6 @@
 //! Pushes the left subtree of a node, then the node, then the right subtree, so that the root is in
-//! the middle; the buckets divide the node's own box. Traversal: best first. A heap of the nodes
-//! still to be visited returns the node whose box the ray enters first.
+//! the middle; the buckets divide the node's own box. Traverses the tree best first: a heap of the
+//! nodes still to be visited returns the node whose box the ray enters first.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

@@ -1,7 +1,7 @@
-//! Inserts one primitive after the other, each where it increases the areas of the boxes the least:
-//! Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE Computer
-//! Graphics and Applications 7(5), 1987. Traversal: best first. A heap of the nodes still to be
-//! visited returns the node whose box the ray enters first.
+//! Inserts one primitive after the other, each where it increases the areas of the boxes the least.
+//! See Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE
+//! Computer Graphics and Applications 7(5), 1987. Traverses the tree best first: a heap of the
+//! nodes still to be visited returns the node whose box the ray enters first.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

@@ -1,7 +1,8 @@
-//! Bottom-up: each cluster finds its nearest neighbour in a window along the Z-order curve, and two
-//! clusters that chose each other are merged. Meister and Bittner, "Parallel Locally-Ordered
-//! Clustering for Bounding Volume Hierarchy Construction", IEEE TVCG 24(3), 2018. Traversal: all
-//! leaves that the ray hits are listed first, and then tested from near to far.
+//! Builds the tree bottom-up: each cluster finds its nearest neighbour in a window along the
+//! Z-order curve, and two clusters that chose each other are merged. See Meister and Bittner,
+//! "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction", IEEE TVCG
+//! 24(3), 2018. Traversal first lists all leaves that the ray hits, and then tests them from near
+//! to far.
 
 use glam::Vec3;
 use protocol::{Ray, Trace};

@@ -1,6 +1,6 @@
 //! Splits at the median of the primitives' centres along the longest axis, so that each side gets
-//! half of the primitives. Areas are not considered. Traversal: without a stack, restarting from
-//! the root along a trail of bits (Laine, "Restart Trail for Stackless BVH Traversal", 2010).
+//! half of the primitives. Areas are not considered. Traverses the tree without a stack, restarting
+//! from the root along a trail of bits (Laine, "Restart Trail for Stackless BVH Traversal", 2010).
 
 use protocol::{Ray, Trace};
 

@@ -1,5 +1,5 @@
 //! Splits at the midpoint of the longest axis, however the primitives are distributed. Areas are
-//! not considered. Traversal: a parent tests the boxes of both children and passes the entry
+//! not considered. During traversal, a parent tests the boxes of both children and passes the entry
 //! distances down.
 
 use protocol::{Ray, Trace};

@@ -1,7 +1,7 @@
 //! Sorts the primitives along the Z-order curve and splits where the highest bit of their codes
-//! changes: Lauterbach et al., "Fast BVH Construction on GPUs", Computer Graphics Forum 28(2),
-//! 2009. Areas are not considered. Traversal: visits up to four children at once, which are found
-//! when the tree is built (Wald, Benthin and Boulos, "Getting Rid of Packets", 2008).
+//! changes, without considering areas (Lauterbach et al., "Fast BVH Construction on GPUs", Computer
+//! Graphics Forum 28(2), 2009). Traversal visits up to four children at once; the build determines
+//! these children (Wald, Benthin and Boulos, "Getting Rid of Packets", 2008).
 
 use glam::Vec3;
 use protocol::{Ray, Trace};

@@ -1,7 +1,7 @@
-//! Bottom-up: the two clusters with the smallest common box are merged, until only one is left.
-//! Walter et al., "Fast Agglomerative Clustering for Rendering", 2008. The pairs are found by
-//! following chains of nearest neighbours. Traversal: a stack of nodes, each with the distance at
-//! which the ray enters it.
+//! Builds the tree bottom-up: merges the two clusters with the smallest common box, until only one
+//! is left (Walter et al., "Fast Agglomerative Clustering for Rendering", 2008). The pairs are
+//! found by following chains of nearest neighbours. Traverses the tree with a stack of nodes, each
+//! with the distance at which the ray enters it.
 
 use protocol::{Ray, Trace};
 

@@ -1,6 +1,6 @@
-//! No buckets: for each of sixteen planes perpendicular to each axis of the node's box, the
-//! primitives are partitioned and both boxes are computed. Traversal: a parent tests the boxes of
-//! both children and passes the entry distances down.
+//! Builds the tree without buckets: for each of sixteen planes perpendicular to each axis of the
+//! node's box, the primitives are partitioned and both boxes are computed. During traversal, a
+//! parent tests the boxes of both children and passes the entry distances down.
 
 use protocol::{Ray, Trace};
 

@@ -1,6 +1,6 @@
-//! No buckets: for each of 32 planes perpendicular to each axis of the node's box, the primitives
-//! are partitioned and both boxes are computed. Traversal: all leaves that the ray hits are listed
-//! first, and then tested from near to far.
+//! Builds the tree without buckets: for each of 32 planes perpendicular to each axis of the node's
+//! box, the primitives are partitioned and both boxes are computed. Traversal first lists all
+//! leaves that the ray hits, and then tests them from near to far.
 
 use protocol::{Ray, Trace};
 

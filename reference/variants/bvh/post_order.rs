@@ -1,6 +1,6 @@
 //! Pushes a node after both of its children, so that the root comes last and no placeholder for an
-//! interior node is needed. Traversal: each node returns its closest hit, and its parent takes the
-//! nearer of the two hits.
+//! interior node is needed. During traversal, each node returns its closest hit, and its parent
+//! takes the nearer of the two hits.
 
 use protocol::{Ray, Trace};
 

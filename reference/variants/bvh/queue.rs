@@ -1,6 +1,6 @@
 //! Builds the tree with a queue, level by level, so that the children of a node are always next to
-//! each other; the buckets divide the box of the centres. Traversal: the children that the ray hits
-//! are put in a sorted list; the ray itself is never shortened.
+//! each other; the buckets divide the box of the centres. Traversal puts the children that the ray
+//! hits in a sorted list, and never shortens the ray itself.
 
 use std::collections::VecDeque;
 

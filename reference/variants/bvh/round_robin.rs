@@ -1,6 +1,6 @@
-//! The surface area heuristic along only one axis per level: x, y and z in turn. If all centres
-//! coincide along that axis, the next axis is used. Traversal: the children that the ray hits are
-//! put in a sorted list; the ray itself is never shortened.
+//! Applies the surface area heuristic along only one axis per level: x, y and z in turn. If all
+//! centres coincide along that axis, the next axis is used. Traversal puts the children that the
+//! ray hits in a sorted list, and never shortens the ray itself.
 
 use protocol::{Ray, Trace};
 

@@ -1,6 +1,6 @@
 //! Compares every partition of the sorted centres, axis by axis, and computes both boxes from
-//! scratch for each. This takes quadratic time, but is as simple as possible. Traversal: a stack of
-//! nodes, each with the distance at which the ray enters it.
+//! scratch for each. This takes quadratic time, but is as simple as possible. Traverses the tree
+//! with a stack of nodes, each with the distance at which the ray enters it.
 
 use protocol::{Ray, Trace};
 

@@ -1,8 +1,8 @@
 //! Compares every partition of the sorted centres, axis by axis, using areas accumulated from both
-//! ends: the full sweep of Wald, Boulos and Shirley, "Ray Tracing Deformable Scenes Using Dynamic
-//! Bounding Volume Hierarchies", ACM Transactions on Graphics 26(1), 2007. Traversal: the box of a
-//! node is tested when traversal reaches the node. By then, the closest hit so far has shortened
-//! the ray.
+//! ends. This is the full sweep of Wald, Boulos and Shirley, "Ray Tracing Deformable Scenes Using
+//! Dynamic Bounding Volume Hierarchies", ACM Transactions on Graphics 26(1), 2007. Traversal tests
+//! the box of a node when it reaches the node; by then, the closest hit so far has shortened the
+//! ray.
 
 use protocol::{Ray, Trace};
 

@@ -658,7 +658,7 @@ struct Collapser<'a> {
     surfaces: Vec<Surface>,
 }
 
-/// The cheapest way to collapse a subtree: Ylitie, Karras and Laine, "Efficient Incoherent Ray
+/// The cheapest way to collapse a subtree. See Ylitie, Karras and Laine, "Efficient Incoherent Ray
 /// Traversal on GPUs Through Compressed Wide BVHs", 2017, section 3.1. Visiting a node is assumed
 /// to cost as much as testing a pack.
 #[derive(Clone, Copy, Default)]

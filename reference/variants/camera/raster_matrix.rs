@@ -1,5 +1,5 @@
 //! Computes a matrix from the film to the sensor once, in `new`. Pharr, Jakob and Humphreys,
-//! "Physically Based Rendering" (4th edition), section 5.2, call this matrix cameraFromRaster.
+//! "Physically Based Rendering" (4th edition), section 5.2, call this matrix `cameraFromRaster`.
 
 use framework::math::tan;
 use glam::{Mat3, UVec2, Vec2, Vec3};

@@ -1,6 +1,6 @@
-//! The geometric solution: the point on the ray that is closest to the centre, plus or minus half
-//! the chord. Haines, "Essential Ray Tracing Algorithms", in Glassner (editor), "An Introduction to
-//! Ray Tracing", 1989.
+//! Solves the problem geometrically: finds the point on the ray that is closest to the centre, and
+//! goes half the chord in either direction. See Haines, "Essential Ray Tracing Algorithms", in
+//! Glassner (editor), "An Introduction to Ray Tracing", 1989.
 
 use std::f32::consts::{PI, TAU};
 

@@ -1,7 +1,7 @@
 //! Computes the discriminant from the vector between the centre and the closest point on the ray,
-//! which is perpendicular to the ray. This avoids the cancellation in b² − c: Haines, Günther and
-//! Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, chapter
-//! 7, 2019.
+//! which is perpendicular to the ray. This avoids the cancellation in b² − c. See Haines, Günther
+//! and Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems,
+//! chapter 7, 2019.
 
 use std::f32::consts::{PI, TAU};
 

@@ -1,5 +1,6 @@
-//! The numerically stable quadratic formula: computes the root of larger magnitude first, and the
-//! other from near · far = c / a. Press et al., "Numerical Recipes" (3rd edition), section 5.6.
+//! Solves the quadratic equation in a numerically stable way: computes the root of larger magnitude
+//! first, and the other from near · far = c / a. See Press et al., "Numerical Recipes" (3rd
+//! edition), section 5.6.
 
 use std::f32::consts::{PI, TAU};
 

@@ -1,5 +1,5 @@
 //! Transforms the ray into the space where the sphere is the unit sphere around the origin. The
-//! direction is scaled too, so t does not change: Pharr, Jakob and Humphreys, "Physically Based
+//! direction is scaled too, so t does not change. See Pharr, Jakob and Humphreys, "Physically Based
 //! Rendering" (4th edition), section 6.2.
 
 use std::f32::consts::{PI, TAU};

@@ -1,6 +1,6 @@
-//! Cramer's rule with all cofactors written out, computing t before the weights: Marschner and
-//! Shirley, "Fundamentals of Computer Graphics" (4th edition), section 4.4.2, with the book's
-//! variable names.
+//! Applies Cramer's rule with all cofactors written out, and computes t before the weights. This
+//! follows Marschner and Shirley, "Fundamentals of Computer Graphics" (4th edition), section 4.4.2,
+//! with the book's variable names.
 
 use protocol::{Ray, Trace, Vertex};
 

@@ -1,5 +1,6 @@
-//! The determinant is the dot product of the face normal and −d, and the weights are tested before
-//! the only division: Ericson, "Real-Time Collision Detection", section 5.3.6; here for both sides.
+//! Computes the determinant as the dot product of the face normal and −d, and tests the weights
+//! before the only division. This follows Ericson, "Real-Time Collision Detection", section 5.3.6,
+//! but accepts hits on both sides.
 
 use protocol::{Ray, Trace, Vertex};
 

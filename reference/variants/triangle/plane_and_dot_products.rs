@@ -1,5 +1,5 @@
 //! Intersects the plane first, then solves two equations of dot products with the edges for the
-//! weights: Ericson, "Real-Time Collision Detection", section 3.4.
+//! weights. See Ericson, "Real-Time Collision Detection", section 3.4.
 
 use protocol::{Ray, Trace, Vertex};
 

@@ -1,6 +1,6 @@
 //! Determines with Plücker coordinates on which side of each edge the ray passes: for two lines
-//! (d1, m1) and (d2, m2), the sign of d1·m2 + d2·m1 tells the side. Shoemake, "Plücker Coordinate
-//! Tutorial", Ray Tracing News 11(1), 1998.
+//! (d1, m1) and (d2, m2), the sign of d1·m2 + d2·m1 tells the side. See Shoemake, "Plücker
+//! Coordinate Tutorial", Ray Tracing News 11(1), 1998.
 
 use glam::Vec3;
 use protocol::{Ray, Trace, Vertex};

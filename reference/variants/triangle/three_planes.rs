@@ -1,7 +1,7 @@
 //! Computes three planes once: the triangle's own plane, and two planes perpendicular to it. The
-//! scaled distances from the latter are u and v. Havel and Herout, "Yet Faster Ray-Triangle
-//! Intersection (Using SSE4)", IEEE TVCG 16(3), 2010; here relative to p0, so that no plane needs
-//! an offset.
+//! scaled distances from the latter are u and v. See Havel and Herout, "Yet Faster Ray-Triangle
+//! Intersection (Using SSE4)", IEEE TVCG 16(3), 2010. Here, the planes are relative to p0, so that
+//! none needs an offset.
 
 use glam::Vec3;
 use protocol::{Ray, Trace, Vertex};

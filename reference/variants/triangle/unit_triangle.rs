@@ -1,6 +1,6 @@
 //! Transforms the ray with a matrix, computed once, that maps the triangle to (0,0), (1,0), (0,1)
 //! in the plane z = 0, where the test is trivial. The third column of the inverse matrix is the
-//! axis along which the face normal has its largest component: Baldwin and Weber, "Fast
+//! axis along which the face normal has its largest component. See Baldwin and Weber, "Fast
 //! Ray-Triangle Intersections by Coordinate Transformation", Journal of Computer Graphics
 //! Techniques 5(3), 2016.
 

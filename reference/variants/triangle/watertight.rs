@@ -1,5 +1,5 @@
-//! Shears space so that the ray becomes the z-axis, and tests the edges in two dimensions: Woop,
-//! Benthin and Wald, "Watertight Ray/Triangle Intersection", Journal of Computer Graphics
+//! Shears space so that the ray becomes the z-axis, and tests the edges in two dimensions. See
+//! Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", Journal of Computer Graphics
 //! Techniques 2(1), 2013.
 
 use glam::Vec3;

@@ -110,7 +110,7 @@ fn hits(rays: &Rays, hit: impl FnMut(&Ray) -> Option<Trace>) -> Answer {
     Answer::Hits(attempt_each(&rays.to_vec(), hit))
 }
 
-/// Finds, for each query, the part of its times during which the ray is inside the box.
+/// Finds, for each query, the part of its `times` interval in which the ray is inside the box.
 fn spans(submission: &dyn Submission, min: Vec3, max: Vec3, queries: &[(Ray, Interval)]) -> Answer {
     Answer::Spans(attempt_each(queries, |(ray, times)| {
         submission.intersect_box(min, max, ray, *times)

@@ -21,7 +21,7 @@ pub enum Tone {
         /// The exposure. Each stop doubles the brightness.
         stops: f32,
     },
-    /// For data such as directions and distances: leaves the values unchanged.
+    /// For data, such as directions and distances: leaves the values unchanged.
     Data,
 }
 

@@ -17,7 +17,7 @@ pub(crate) struct Frame {
 impl Frame {
     /// Creates a frame with the given z-axis, which must have length one.
     ///
-    /// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+    /// See Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
     pub(crate) fn from_z(z: Vec3) -> Self {
         let sign = 1.0_f32.copysign(z.z);
         let a = -1.0 / (sign + z.z);

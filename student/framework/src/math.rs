@@ -1,5 +1,6 @@
-//! Trigonometry and powers with the same results on every machine. With the standard library's
-//! functions, the last bit of a result can differ between systems, so pictures would differ.
+//! Computes trigonometric functions and powers, with the same results on every machine. With the
+//! standard library's functions, the last bit of a result can differ between systems, so pictures
+//! would differ.
 
 /// Returns the angle in `[0, π]` whose cosine is `x`, in radians.
 pub fn acos(x: f32) -> f32 {

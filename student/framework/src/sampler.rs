@@ -11,15 +11,15 @@ use glam::{UVec2, Vec2, vec2};
 /// The decision that a random number is used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// The position within the pixel.
+    /// To choose the position within the pixel.
     Pixel,
-    /// The light to sample.
+    /// To choose the light to sample.
     Light,
-    /// The point on that light.
+    /// To choose the point on that light.
     PointOnLight,
-    /// The direction in which a matte surface scatters the path.
+    /// To choose the direction in which a matte surface scatters the path.
     Direction,
-    /// Whether glass reflects or refracts.
+    /// To choose whether glass reflects or refracts.
     ReflectOrRefract,
 }
 
@@ -50,7 +50,7 @@ impl Sampler {
     }
 }
 
-/// Computes one step of SplitMix64: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
+/// Computes one step of SplitMix64. See Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
 /// Generators", OOPSLA 2014, with Stafford's constants ("mix13").
 ///
 /// This is a bijection. Flipping any bit of the input flips about half of the output bits. Nested

@@ -18,7 +18,7 @@ use crate::view::{PinholeCamera, Rays, Samples};
 pub enum Question {
     /// Calls `Camera::sample_ray` once for each sample.
     Camera {
-        /// The camera.
+        /// The camera that generates the rays.
         camera: PinholeCamera,
         /// The positions on its film.
         samples: Samples,

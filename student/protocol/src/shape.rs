@@ -22,7 +22,7 @@ pub enum Shape {
         /// The material to report in the `Trace`.
         material: u32,
     },
-    /// A sphere.
+    /// A sphere, given by its centre and radius.
     Sphere {
         /// The centre.
         center: Vec3,

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 /// A corner of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Vertex {
-    /// The position.
+    /// The position of the corner.
     pub position: Vec3,
     /// The surface normal at this corner, of length one. It can differ from the face's normal.
     pub normal: Vec3,

@@ -17,7 +17,8 @@ const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and nam
 const SECTION: &str = "Section";
 /// The name in the row with the maximum points.
 const POINTS_POSSIBLE: &str = "Points Possible";
-/// Parts of column titles: Canvas silently ignores columns whose title contains one of them.
+/// Texts that mark ignored columns: Canvas silently ignores each column whose title contains one of
+/// them.
 const IGNORED_TITLES: [&str; 9] = [
     "Current Score",
     "Current Points",

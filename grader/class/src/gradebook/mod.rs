@@ -31,14 +31,14 @@ pub struct FilledGradebook {
     pub warnings: Vec<String>,
 }
 
-/// A changed cell.
+/// A cell of the gradebook that changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CellChange {
     /// The student's name.
     pub who: String,
     /// The content of the cell before the change.
     pub was: String,
-    /// The new content.
+    /// The content of the cell after the change.
     pub now: String,
 }
 

@@ -1,4 +1,4 @@
-//! `grades.csv`: a row for each student.
+//! Writes `grades.csv`, which has a row for each student.
 
 use crate::entry::Person;
 use crate::model::{ClassRow, GradedClass};

@@ -1,4 +1,4 @@
-//! The output of `--dry-run`: the files that would be graded for each student.
+//! Prints the output of `--dry-run`: the files that would be graded for each student.
 
 use std::fmt::{self, Write};
 

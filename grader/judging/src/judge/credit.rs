@@ -1,5 +1,5 @@
-//! The fraction of an item's points that an answer earns, in ten-thousandths. Only the final points
-//! are rounded.
+//! Credit: the fraction of an item's points that an answer earns, in ten-thousandths. Only the
+//! final points are rounded.
 
 /// Number of wrong positions that cost nothing even in a small picture: correct formulas may differ
 /// in the last bits.

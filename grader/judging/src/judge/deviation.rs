@@ -1,4 +1,4 @@
-//! The error of an answer, as a multiple of its tolerance.
+//! Deviations: the errors of an answer, as multiples of their tolerances.
 
 use std::collections::BTreeMap;
 

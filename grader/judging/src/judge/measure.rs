@@ -1,4 +1,5 @@
-//! Errors of numbers, as multiples of their tolerance. Values up to 1 are accepted.
+//! Measures the errors of numbers and vectors, as multiples of their tolerance. Values up to 1 are
+//! accepted.
 //!
 //! No result is NaN: the error of values that cannot be compared is infinite.
 

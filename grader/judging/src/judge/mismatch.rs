@@ -1,4 +1,5 @@
-//! Wrong positions of a picture, for drawing a mask. They do not affect points.
+//! Mismatches: the wrong positions of a picture, from which a mask is drawn. They do not affect
+//! points.
 
 /// The first error at one position of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,7 +9,7 @@ use protocol::Panic;
 
 use crate::scene::SceneError;
 
-/// A reason why no picture is rendered.
+/// An error that prevents a picture from being rendered or written.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum RenderError {
     #[error("cannot find the scene {}{}", .path.display(), list_of_scenes(.known))]

@@ -1,4 +1,4 @@
-//! The paths of the scene and of the picture.
+//! Finds the scene file, and chooses the path of the picture.
 
 use std::env;
 use std::path::{Path, PathBuf};

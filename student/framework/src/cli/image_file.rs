@@ -7,8 +7,8 @@ use image::{ImageFormat, Rgb32FImage, RgbImage};
 use super::error::RenderError;
 use crate::film::{Film, Tone};
 
-/// Writes a picture to a file. An EXR file stores linear floats. Other formats store bytes,
-/// converted for a screen.
+/// Writes a picture to a file. An EXR file stores linear floats. Other formats store bytes, whose
+/// values are converted for a screen.
 pub(super) fn write(film: &Film, tone: Tone, path: &Path) -> Result<(), RenderError> {
     let (width, height) = film.size.into();
     let written = match ImageFormat::from_path(path) {

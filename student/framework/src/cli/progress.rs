@@ -1,4 +1,4 @@
-//! The progress bar, and the summary after rendering.
+//! Shows a progress bar while rendering, and a summary afterwards.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -1,9 +1,9 @@
 //! The path tracer, which renders a scene.
 //!
-//! Kajiya, "The Rendering Equation", SIGGRAPH 1986, with light sampling at each matte surface.
-//! Everything is computed in `f32` and in a fixed order, and each random number depends only on its
-//! use (see [`sampler`](crate::sampler)). So a picture has the same bytes on every machine and with
-//! any number of threads.
+//! The algorithm is that of Kajiya, "The Rendering Equation", SIGGRAPH 1986, with light sampling at
+//! each matte surface. Everything is computed in `f32` and in a fixed order, and each random number
+//! depends only on its use (see [`sampler`](crate::sampler)). So a picture has the same bytes on
+//! every machine and with any number of threads.
 
 mod optics;
 mod path;

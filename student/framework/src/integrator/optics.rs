@@ -17,7 +17,7 @@ pub(super) struct Interface {
 }
 
 /// Computes reflection and refraction by the Fresnel equations for unpolarised light and Snell's
-/// law: Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th edition, section 9.3.
+/// law. See Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th edition, section 9.3.
 ///
 /// `direction` and `normal` must have length one, and the normal must point against the direction.
 /// `eta` is the index of refraction behind the interface divided by the index in front of it.

@@ -9,8 +9,8 @@ use crate::frame::{Frame, sample_cosine_hemisphere};
 use crate::sampler::{Purpose, Sampler};
 use crate::scene::{Material, checker};
 
-/// The error for a sample whose path contains an unusable hit from the submission, such as one with
-/// NaN.
+/// An error returned if the path of a sample contains an unusable hit from the submission, such as
+/// one with NaN.
 pub(super) struct InvalidSample;
 
 /// The surface at the point where a path hits it.
@@ -27,7 +27,7 @@ struct Surface {
 /// The continuation of a path after it is scattered.
 struct Scattered {
     direction: Vec3,
-    /// The factor for light that arrives from `direction`.
+    /// The factor by which light that arrives from `direction` is multiplied.
     attenuation: Vec3,
     /// Whether light sampling already accounts for direct light. If so, a light that the path hits
     /// by chance must not count.

@@ -11,7 +11,8 @@ use protocol::Shape;
 use self::shape::LightShape;
 use crate::scene::Scene;
 
-/// The lights of a scene. They are picked with probabilities proportional to their power.
+/// The lights of a scene, which are picked for sampling with probabilities proportional to their
+/// power.
 pub struct Lights {
     lights: Vec<AreaLight>,
     /// For each light, the total power of this light and all before it.
@@ -24,7 +25,7 @@ pub struct Lights {
 pub struct LightSample {
     /// The direction to the light, of length one.
     pub direction: Vec3,
-    /// The distance to the light.
+    /// The distance to the sampled point on the light.
     pub distance: f32,
     /// The light's radiance divided by the probability density of this direction, per solid angle.
     pub radiance: Vec3,

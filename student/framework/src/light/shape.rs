@@ -16,7 +16,7 @@ pub(super) enum LightShape {
         normal: Vec3,
         area: f32,
     },
-    /// A sphere that emits outward.
+    /// A sphere that emits light only outward.
     Sphere { center: Vec3, radius: f32 },
 }
 
@@ -41,8 +41,8 @@ impl LightShape {
         }
     }
 
-    /// Creates a triangle that emits on the side of `outward`. If `outward` is zero, the order of
-    /// the corners determines the side.
+    /// Creates a triangle that emits light on the side that `outward` points to. If `outward` is
+    /// zero, the order of the corners determines the side.
     fn triangle(corners: [Vec3; 3], outward: Vec3) -> Self {
         let [p0, p1, p2] = corners;
         let cross = (p1 - p0).cross(p2 - p0);
@@ -75,7 +75,7 @@ impl LightShape {
                 normal,
                 area,
             } => {
-                // Turk, "Generating Random Points in Triangles", Graphics Gems, 1990.
+                // See Turk, "Generating Random Points in Triangles", Graphics Gems, 1990.
                 let root = random.x.sqrt();
                 let on_light = p0 * (1.0 - root) + (p1 * (1.0 - random.y) + p2 * random.y) * root;
                 let to_light = on_light - point;
@@ -93,7 +93,7 @@ impl LightShape {
     }
 }
 
-/// Samples a direction in the cone that a sphere subtends, seen from outside: Shirley, Wang and
+/// Samples a direction in the cone that a sphere subtends, seen from outside. See Shirley, Wang and
 /// Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1), 1996.
 fn sample_cone(center: Vec3, radius: f32, point: Vec3, random: Vec2) -> Option<ShapeSample> {
     let to_center = center - point;

@@ -1,4 +1,4 @@
-//! The camera and its position in the scene.
+//! Reads the camera of a scene file, and places it in the scene.
 
 use glam::{Mat3, UVec2, Vec3};
 use protocol::{PinholeCamera, Ray};

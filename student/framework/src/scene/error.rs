@@ -1,4 +1,4 @@
-//! Errors in scenes. Their messages tell the position of the error and how to fix it.
+//! Errors in scenes. Their messages say where the error is and how to fix it.
 
 use std::fmt;
 #[cfg(feature = "cli")]
@@ -19,11 +19,11 @@ pub struct TextPosition {
 /// An error in a scene: the file, the position in it, and the reason.
 #[derive(Debug)]
 pub struct SceneError {
-    /// The file, if the scene was read from one.
+    /// The path of the file with the error, if the scene was read from a file.
     pub file: Option<PathBuf>,
     /// The position in the file, if known.
     pub position: Option<TextPosition>,
-    /// The reason.
+    /// The reason why the scene is invalid.
     pub kind: SceneErrorKind,
 }
 

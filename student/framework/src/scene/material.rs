@@ -11,7 +11,7 @@ use super::number;
 pub enum Material {
     /// A matte surface, on both sides. It reflects the same radiance in all directions.
     Lambertian {
-        /// The fraction of light that is scattered.
+        /// The fraction of light that is scattered, for each colour channel.
         #[serde(deserialize_with = "number::reflectance")]
         albedo: Vec3,
     },
@@ -29,7 +29,7 @@ pub enum Material {
     },
     /// A perfect mirror, on both sides.
     Mirror {
-        /// The fraction of light that is reflected.
+        /// The fraction of light that is reflected, for each colour channel.
         #[serde(deserialize_with = "number::reflectance")]
         reflectance: Vec3,
     },

@@ -1,5 +1,5 @@
-//! Numbers in a scene file. They are checked during parsing, so that the parser adds the line and
-//! the column to the error.
+//! Parses the numbers in a scene file. They are checked during parsing, so that the parser adds the
+//! line and the column to the error.
 
 use glam::Vec3;
 use serde::de::Error;

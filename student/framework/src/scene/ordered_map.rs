@@ -1,4 +1,4 @@
-//! A map that keeps the order of the file.
+//! A map that keeps its entries in the order of the file.
 
 use std::fmt;
 use std::marker::PhantomData;

@@ -1,4 +1,4 @@
-//! Parsing of scene files.
+//! Parses scene files.
 
 use protocol::Shape;
 

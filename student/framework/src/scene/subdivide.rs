@@ -1,6 +1,6 @@
-//! Loop subdivision, which refines a mesh and makes it smooth.
+//! Subdivides meshes by Loop's scheme, which refines a mesh and makes it smooth.
 //!
-//! Charles Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987, with Warren's vertex
+//! See Charles Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987, with Warren's vertex
 //! weights and the boundary rules of Hoppe et al., "Piecewise Smooth Surface Reconstruction",
 //! SIGGRAPH 1994. With subdivision, a scene can have a hundred thousand triangles although its
 //! files contain only a few thousand.

@@ -1,4 +1,4 @@
-//! Bounding boxes, as the judge computes them.
+//! Computes bounding boxes for the judge.
 
 use glam::DVec3;
 use protocol::{Shape, TreeNode};

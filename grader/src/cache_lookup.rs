@@ -24,7 +24,7 @@ pub fn find_cached_report(
     let Some(cached) = cached else {
         return Ok(None);
     };
-    let exam = options.exam.hash()?;
+    let exam = options.exam.hash(options.handed_out)?;
     let builder_identity = builder(options, &workspace)?.identity();
     let key = CacheKey::new(options, &submission, &exam, &builder_identity);
     let is_unchanged = key.is_some_and(|key| cached.is_current(&key, &files));

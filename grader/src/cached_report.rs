@@ -111,6 +111,7 @@ impl CacheKey {
 fn cacheable_options(options: &GradeOptions) -> Option<String> {
     // Without `..`, so that a new option does not compile until this function handles it.
     let GradeOptions {
+        handed_out,
         submission,
         exam,
         task,
@@ -133,13 +134,23 @@ fn cacheable_options(options: &GradeOptions) -> Option<String> {
         && is_default_policy
         && is_default_output
         && is_repeatable)
-        .then(|| format!("{:?}", (submission, exam, dependents, budget, hints)))
+        .then(|| {
+            format!(
+                "{:?}",
+                (handed_out, submission, exam, dependents, budget, hints)
+            )
+        })
 }
 
 fn submission_hash(submission: &Submission) -> String {
-    let Submission { name, files, notes } = submission;
+    let Submission {
+        handed_out,
+        name,
+        files,
+        notes,
+    } = submission;
     let files = files.iter().map(|(file, text)| (file.name, text));
-    let all = format!("{:?}", (name, files.collect::<Vec<_>>(), notes));
+    let all = format!("{:?}", (handed_out, name, files.collect::<Vec<_>>(), notes));
     ContentHash::default().with(all.as_bytes()).hex()
 }
 

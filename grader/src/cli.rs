@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Parser, value_parser};
-use judging::exam::Task;
+use judging::assignment::{Task, TaskInfo};
 
 use crate::exam_source::ExamSource;
 use crate::format::{FORMATS, OutputSpec};
+use crate::handed_out::{HandedOut, RAYS};
 use crate::options::{Dependents, GradeOptions};
 use crate::probe::Budget;
 use crate::question_ref::QuestionRef;
@@ -35,7 +36,7 @@ pub enum Command {
     /// Show what this machine offers and lacks.
     Diagnose,
     /// Check a package for a learning platform.
-    CheckPackage(PathBuf),
+    CheckPackage(PathBuf, &'static HandedOut),
     /// Print the JSON schema of the score file.
     PrintSchema,
     /// Print the default policy.
@@ -49,7 +50,7 @@ pub enum Command {
 #[derive(Clone, Debug, Parser)]
 #[command(name = "cargo grade", bin_name = "cargo grade", version)]
 pub struct Arguments {
-    /// The folder, .zip, .tar or .tar.gz with the five task files (at its top, in src/, or in
+    /// The folder, .zip, .tar or .tar.gz with the task files (at its top, in src/, or in
     /// student/src/); default: student
     pub submission: Option<PathBuf>,
 
@@ -153,6 +154,7 @@ impl Arguments {
             (None, false) => IsolationRequest::OwnWork,
         };
         let options = GradeOptions {
+            handed_out: &RAYS,
             submission: self.submission,
             exam: ExamSource::from_option(self.exam),
             task: self.task,
@@ -183,7 +185,7 @@ impl Arguments {
             _ if self.schema => Command::PrintSchema,
             _ if self.policy_default => Command::PrintDefaultPolicy,
             (Some(question), _) => Command::Replay(options, question),
-            (None, Some(package)) => Command::CheckPackage(package),
+            (None, Some(package)) => Command::CheckPackage(package, &RAYS),
             (None, None) if self.doctor => Command::Diagnose,
             (None, None) if self.watch => Command::Watch {
                 options,
@@ -203,7 +205,14 @@ fn format_help() -> String {
 }
 
 fn parse_task(text: &str) -> Result<Task, String> {
-    let known = || Task::ALL.map(Task::id).join(", ");
-    let task = Task::ALL.into_iter().find(|task| task.id() == text);
+    let tasks = RAYS.assignment.tasks;
+    let known = || {
+        tasks
+            .iter()
+            .map(|task| task.id)
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let task = RAYS.assignment.find(text).map(TaskInfo::task);
     task.ok_or_else(|| format!("unknown task; the tasks are {}", known()))
 }

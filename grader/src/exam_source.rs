@@ -1,15 +1,17 @@
-//! Reads exams: the practice exam, which is embedded in this program, a file, or standard input.
+//! Reads exams: the practice exam of an assignment, which is embedded in this program, a file, or standard input.
 
+use std::borrow::Cow;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use judging::exam_file::{self, ExamError, ExamFile};
 
-/// Maximum size of an exam file, in bytes. The committed exams are about 3 MB.
+use crate::handed_out::HandedOut;
+
+/// Maximum size of an exam file, in bytes. The committed exams have about 3,000,000.
 const MAX_FILE_BYTES: u64 = 64 << 20;
 
-const PRACTICE: &str = include_str!("../exams/practice.json");
 /// The name of the practice exam's file, for error messages.
 const PRACTICE_FILE: &str = "practice.json";
 
@@ -64,22 +66,23 @@ impl ExamSource {
         }
     }
 
-    /// Reads and validates the exam.
-    pub fn load(&self) -> Result<ExamFile, ExamSourceError> {
+    /// Reads the exam, and validates it as one for this assignment.
+    pub fn load(&self, handed_out: &HandedOut) -> Result<ExamFile, ExamSourceError> {
         let name = self.option().unwrap_or(Path::new(PRACTICE_FILE));
-        Ok(match self {
-            ExamSource::Practice => exam_file::parse(name, PRACTICE.as_bytes())?,
-            ExamSource::StandardInput => exam_file::parse(name, &read(name, io::stdin())?)?,
-            ExamSource::File(path) => exam_file::parse(name, &open(path)?)?,
-        })
+        let bytes = self.bytes(handed_out)?;
+        Ok(exam_file::parse(name, &bytes, handed_out.assignment)?)
     }
 
     /// Returns the hash of the exam's bytes, which need not be a valid exam.
-    pub fn hash(&self) -> Result<String, ExamSourceError> {
+    pub fn hash(&self, handed_out: &HandedOut) -> Result<String, ExamSourceError> {
+        Ok(exam_file::hash(&self.bytes(handed_out)?))
+    }
+
+    fn bytes(&self, handed_out: &HandedOut) -> Result<Cow<'static, [u8]>, ExamSourceError> {
         Ok(match self {
-            ExamSource::Practice => exam_file::hash(PRACTICE.as_bytes()),
-            ExamSource::StandardInput => exam_file::hash(&read(Path::new("-"), io::stdin())?),
-            ExamSource::File(path) => exam_file::hash(&open(path)?),
+            ExamSource::Practice => Cow::Borrowed(handed_out.practice_exam.as_bytes()),
+            ExamSource::StandardInput => Cow::Owned(read(Path::new("-"), io::stdin())?),
+            ExamSource::File(path) => Cow::Owned(open(path)?),
         })
     }
 }

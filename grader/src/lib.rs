@@ -14,7 +14,7 @@
 //! | exam runs and reports | [`run_exam`], [`verdict`], [`report_answers`], [`report`], [`mod@format`] |
 //! | steps of an exam run | [`select_isolation`], [`build`], [`probe`]; [`drawing`] of judged answers, in [`svg`] |
 //! | results | [`score`], [`rerun_command`], [`stage_times`] |
-//! | inputs | [`policy`], [`submission`], [`given_files`], [`exam_source`], [`question_ref`] |
+//! | inputs | [`policy`], [`submission`], [`handed_out`], [`exam_source`], [`question_ref`] |
 //! | a separate package | [`judging`]: exams, their keys, and the comparison of answers with keys |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`], [`zipfile`] |
 
@@ -29,8 +29,8 @@ pub mod drawing;
 pub mod error;
 pub mod exam_source;
 pub mod format;
-pub mod given_files;
 pub mod grade;
+pub mod handed_out;
 pub mod options;
 pub mod policy;
 pub mod probe;

@@ -28,7 +28,9 @@ fn run(command: Command) -> Result<ExitCode, Error> {
         Command::Watch { options, open } => match watch(&options, open)? {},
         Command::Replay(options, question) => anstream::print!("{}", replay(&options, &question)?),
         Command::Diagnose => return diagnose_and_print(),
-        Command::CheckPackage(path) => return check_and_print_package(&path),
+        Command::CheckPackage(path, handed_out) => {
+            return check_and_print_package(&path, handed_out);
+        }
         Command::PrintSchema => anstream::print!("{}", score::PUBLISHED_SCHEMA),
         Command::PrintDefaultPolicy => anstream::print!("{}", policy::DEFAULT),
     }

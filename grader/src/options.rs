@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use judging::exam::Task;
+use judging::assignment::Task;
 
 use crate::exam_source::ExamSource;
 use crate::format::OutputSpec;
+use crate::handed_out::{HandedOut, RAYS};
 use crate::probe::Budget;
 use crate::report::text::HintDetail;
 use crate::select_isolation::IsolationRequest;
@@ -14,9 +15,11 @@ use crate::select_isolation::IsolationRequest;
 ///
 /// Code that depends on all options, such as a cache key, destructures this type without `..`, so
 /// that an option that is added later cannot be forgotten there.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GradeOptions {
-    /// The submission's folder or archive; `None` is the workspace's `student/`.
+    /// The assignment.
+    pub handed_out: &'static HandedOut,
+    /// The submission's folder or archive; `None` is the folder of students' own work.
     pub submission: Option<PathBuf>,
     /// The exam that the submission is graded with.
     pub exam: ExamSource,
@@ -38,6 +41,25 @@ pub struct GradeOptions {
     pub out: Option<PathBuf>,
     /// The requested output formats.
     pub formats: Vec<OutputSpec>,
+}
+
+impl Default for GradeOptions {
+    fn default() -> Self {
+        GradeOptions {
+            handed_out: &RAYS,
+            submission: None,
+            exam: ExamSource::default(),
+            task: None,
+            policy: None,
+            gradescope_metadata: None,
+            dependents: Dependents::default(),
+            isolation: IsolationRequest::default(),
+            budget: Budget::default(),
+            hints: HintDetail::default(),
+            out: None,
+            formats: Vec::new(),
+        }
+    }
 }
 
 /// What to do with items that depend on a failed task.

@@ -23,7 +23,7 @@ const MAX_PRINTED_CHARS: usize = 20_000;
 /// Runs the question and returns the text for the terminal.
 pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String, Error> {
     let workspace = Workspace::find()?;
-    let exam = options.exam.load()?.exam;
+    let exam = options.exam.load(options.handed_out)?.exam;
     let (question, wanted) = find_question(&exam, reference)?;
     let submission = collect(options, &workspace)?;
     let build = with_requested_level(Builder::prepare(&workspace)?, options.isolation)?

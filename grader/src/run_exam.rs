@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use judging::exam::{Exam, Item, Task};
+use judging::exam::{Exam, Item};
 use judging::judge::judge;
 use judging::recognise::Observations;
 use judging::sanitize::sanitize;
@@ -34,7 +34,7 @@ pub fn run_exam<E: From<io::Error>>(
     mut progress: impl FnMut(&mut Score, &ReportAnswers) -> Result<(), E>,
 ) -> Result<(), E> {
     let mut report_answers = ReportAnswers::default();
-    for (number, task) in Task::ALL.into_iter().enumerate() {
+    for task in build.handed_out.assignment.tasks() {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
         // One process per task, so that a task cannot affect the next one.
         let mut sessions = TaskSessions::new(build, budget);
@@ -51,7 +51,7 @@ pub fn run_exam<E: From<io::Error>>(
             scores.printed = sessions.finish(exam, &mut scores.items);
             let stages = &mut score.timings.stages;
             stages.start += spent.start;
-            stages.asking[number] += spent.asking;
+            stages.asking.push((task, spent.asking));
             stages.judging += spent.judging + started_at.elapsed();
         }
     }
@@ -79,15 +79,18 @@ impl<'a> TaskSessions<'a> {
     /// Grades one item and returns its score and answers. The items that it depends on must already
     /// be graded.
     fn grade_item(&mut self, item: &Item, others: &Score) -> io::Result<(ItemScore, Vec<Answer>)> {
-        if let Some(why) = self.build.not_compiled.get(item.task.file()) {
-            return Ok((item_score(item, &ItemOutcome::NotCompiled(why)), Vec::new()));
+        let handed_out = self.build.handed_out;
+        let file = handed_out.assignment.info(item.task).file;
+        if let Some(why) = self.build.not_compiled.get(file) {
+            let outcome = ItemOutcome::NotCompiled(why);
+            return Ok((item_score(item, &outcome, handed_out), Vec::new()));
         }
         let (outcome, answers) = self.own.ask(item)?;
-        let line = item_score(item, &outcome);
+        let line = item_score(item, &outcome, handed_out);
         let Some(by) = blocking_item(item, others) else {
             return Ok((line, answers));
         };
-        match self.build.substituted_program()? {
+        match self.build.substituted_program(file)? {
             SubstitutedProgram::NoReference => Ok((blocked_score(by, line), answers)),
             SubstitutedProgram::NotCompiled => Ok((line, answers)),
             SubstitutedProgram::Program(program) => {
@@ -96,7 +99,7 @@ impl<'a> TaskSessions<'a> {
                     .substituted
                     .get_or_insert_with(|| Session::new(self.build, Some(program), budget));
                 let (outcome, answers) = substituted.ask(item)?;
-                let substituted_item = item_score(item, &outcome);
+                let substituted_item = item_score(item, &outcome, handed_out);
                 Ok((substituted_score(by, &line, substituted_item), answers))
             }
         }

@@ -4,12 +4,12 @@
 //! The same submission, exam and toolchain give the same bytes, except for `timings` and
 //! `isolation`.
 
-use judging::exam::Task;
+use judging::assignment::Task;
 use judging::exam_file::ExamName;
 use judging::section::Section;
 use serde::Serialize;
 
-use crate::given_files::TASK_FILES;
+use crate::handed_out::HandedOut;
 use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
 use crate::stage_times::StageTimes;
@@ -125,10 +125,9 @@ pub struct CodeLocation {
 
 impl CodeLocation {
     /// Parses the location of a panic, such as `sphere.rs:34`. `None` if it is not in a task file.
-    pub fn from_panic(location: &str) -> Option<Self> {
+    pub fn from_panic(location: &str, handed_out: &HandedOut) -> Option<Self> {
         let mut parts = location.split(':');
-        let file = parts.next()?;
-        let file = TASK_FILES.iter().find(|known| known.name == file)?;
+        let file = handed_out.task_file(parts.next()?)?;
         Some(CodeLocation {
             file: file.name.to_owned(),
             line: parts.next()?.parse().ok()?,
@@ -238,7 +237,7 @@ pub struct FileReport {
 }
 
 /// Duration of grading, in milliseconds.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Timings {
     /// Time to build the probe.

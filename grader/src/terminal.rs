@@ -11,6 +11,7 @@ use crate::doctor::{diagnose, package};
 use crate::error::Error;
 use crate::format::github;
 use crate::grade::{GradedSubmission, grade};
+use crate::handed_out::HandedOut;
 use crate::options::GradeOptions;
 use crate::report::text::report;
 use crate::report_files::ReportFiles;
@@ -81,8 +82,8 @@ fn grade_and_store(
 }
 
 /// Checks a platform's package and prints the problems found. Returns exit code 2 if there are any.
-pub fn check_and_print_package(path: &Path) -> Result<ExitCode, Error> {
-    let problems = package::problems(path)?;
+pub fn check_and_print_package(path: &Path, handed_out: &HandedOut) -> Result<ExitCode, Error> {
+    let problems = package::problems(path, handed_out)?;
     if problems.is_empty() {
         anstream::println!("{}: no problems found", path.display());
         return Ok(ExitCode::SUCCESS);

@@ -1,7 +1,8 @@
 //! Turns the outcome of an item into its score. The functions here are pure.
 
+use judging::assignment::Task;
 use judging::describe;
-use judging::exam::{Exam, Item, Task};
+use judging::exam::{Exam, Item};
 use judging::exam_file::ExamName;
 use judging::judge::{Credit, Failure, FailureKind, Judgement};
 use judging::sanitize::sanitize;
@@ -9,6 +10,7 @@ use judging::section::Section;
 use judging::signatures::KnownMistake;
 
 use crate::build::NotCompiled;
+use crate::handed_out::HandedOut;
 use crate::probe::Fault;
 use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
@@ -42,23 +44,29 @@ pub enum ItemOutcome<'a> {
 }
 
 /// Returns the score of a submission before any item is graded.
-pub fn pending_score(exam: &Exam, name: ExamName, submission: &str) -> Score {
+pub fn pending_score(
+    exam: &Exam,
+    name: ExamName,
+    submission: &str,
+    handed_out: &HandedOut,
+) -> Score {
     let task_score = |task: Task| {
         let items = exam.items.iter().filter(|item| item.task == task);
         let items: Vec<_> = items
-            .map(|item| item_score(item, &ItemOutcome::Pending))
+            .map(|item| item_score(item, &ItemOutcome::Pending, handed_out))
             .collect();
         TaskScore {
             id: task,
-            title: task.title().to_owned(),
+            title: handed_out.assignment.info(task).title.to_owned(),
             points: 0,
             max_points: items.iter().map(|item| item.max_points).sum(),
             items,
             printed: None,
         }
     };
-    let tasks: Vec<TaskScore> = Task::ALL
-        .into_iter()
+    let tasks: Vec<TaskScore> = handed_out
+        .assignment
+        .tasks()
         .map(task_score)
         .filter(|task| !task.items.is_empty())
         .collect();
@@ -78,7 +86,7 @@ pub fn pending_score(exam: &Exam, name: ExamName, submission: &str) -> Score {
 }
 
 /// Returns the score of an item with this outcome.
-pub fn item_score(item: &Item, outcome: &ItemOutcome) -> ItemScore {
+pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) -> ItemScore {
     let mut score = ItemScore {
         id: item.id.clone(),
         title: item.title.clone(),
@@ -99,7 +107,7 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome) -> ItemScore {
         ItemOutcome::Pending => {}
         ItemOutcome::NotCompiled(why) => {
             score.verdict = Verdict::NotCompiled;
-            score.message = not_compiled_message(item, why);
+            score.message = not_compiled_message(handed_out.assignment.info(item.task).file, why);
         }
         ItemOutcome::Fault { fault, culprit } => {
             score.verdict = verdict_of(fault);
@@ -117,21 +125,20 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome) -> ItemScore {
             score.message =
                 "skipped, because other items of this task exceeded the time limit".to_owned();
         }
-        ItemOutcome::Answered(judgements) => score_answers(item, judgements, &mut score),
+        ItemOutcome::Answered(judgements) => {
+            score_answers(item, judgements, &mut score, handed_out)
+        }
     }
     score
 }
 
-fn not_compiled_message(item: &Item, why: &NotCompiled) -> String {
+fn not_compiled_message(file: &str, why: &NotCompiled) -> String {
     match why {
         NotCompiled::Unreadable(unreadable) => unreadable.to_string(),
         NotCompiled::MissingDeclaration(part) => {
-            format!(
-                "{} has no `{part}`, which other files use",
-                item.task.file()
-            )
+            format!("{file} has no `{part}`, which other files use")
         }
-        NotCompiled::Error { .. } => format!("{} does not compile", item.task.file()),
+        NotCompiled::Error { .. } => format!("{file} does not compile"),
         NotCompiled::Compiler(_) => "the submission does not compile".to_owned(),
     }
 }
@@ -168,7 +175,12 @@ fn verdict_of(fault: &Fault) -> Verdict {
     }
 }
 
-fn score_answers(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
+fn score_answers(
+    item: &Item,
+    judgements: &[Judgement],
+    score: &mut ItemScore,
+    handed_out: &HandedOut,
+) {
     let credit = judgements.iter().map(|judgement| judgement.credit).min();
     let credit = credit.unwrap_or(Credit::NONE);
     score.points = credit.apply(item.points);
@@ -203,7 +215,7 @@ fn score_answers(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
                 "{} still contains `todo!`",
                 sanitize(&panic.location, MAX_TEXT_CHARS)
             );
-            score.at = CodeLocation::from_panic(&panic.location);
+            score.at = CodeLocation::from_panic(&panic.location, handed_out);
             score.look = None;
             score.section = item.section.as_ref().map(Section::whole_chapter);
             return;
@@ -214,7 +226,7 @@ fn score_answers(item: &Item, judgements: &[Judgement], score: &mut ItemScore) {
                 &format!("panicked at {location}: {message}"),
                 MAX_TEXT_CHARS,
             );
-            score.at = CodeLocation::from_panic(&panic.location);
+            score.at = CodeLocation::from_panic(&panic.location, handed_out);
             let panicked = partial(Verdict::Panicked);
             (panicked, "a panic".to_owned(), "an answer".to_owned())
         }

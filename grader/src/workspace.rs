@@ -3,6 +3,8 @@
 use std::env;
 use std::path::{Path, PathBuf};
 
+use crate::handed_out::HandedOut;
+
 /// The folder that contains `student/` and the lock file.
 #[derive(Clone, Debug)]
 pub struct Workspace {
@@ -41,14 +43,9 @@ impl Workspace {
         &self.root
     }
 
-    /// Returns the folder of students' own work.
-    pub fn student(&self) -> PathBuf {
-        self.root.join("student")
-    }
-
-    /// Returns the folder of the reference solution, if it exists.
-    pub fn reference(&self) -> Option<PathBuf> {
-        let folder = self.root.join("reference/src");
+    /// Returns the folder of an assignment's reference solution, if it exists.
+    pub fn reference(&self, handed_out: &HandedOut) -> Option<PathBuf> {
+        let folder = self.root.join(handed_out.reference);
         folder.is_dir().then_some(folder)
     }
 

@@ -16,6 +16,7 @@ use bench_support::changed::{baseline, change, submission};
 use bench_support::cost::Cost;
 use bench_support::median::median;
 use grader::build::Builder;
+use grader::handed_out::RAYS;
 use grader::submission::Submission;
 use grader::workspace::Workspace;
 
@@ -87,7 +88,8 @@ fn main() {
         let bare_rustc = Cost::of_program(&mut bare.compile(folder.path()));
         let types = Cost::of_program(&mut bare.check(folder.path()));
         let probe = Cost::of(|| {
-            let changed = Submission::collect(folder.path()).expect("the submission can be read");
+            let changed =
+                Submission::collect(folder.path(), &RAYS).expect("the submission can be read");
             let build = builder
                 .build(&changed)
                 .expect("the submission can be built");
@@ -115,7 +117,7 @@ fn main() {
     let world = submission(&root);
     let given = root.join("grader/starter/world.rs");
     fs::copy(given, world.path().join("world.rs")).expect("the starter can be copied");
-    let submission = Submission::collect(world.path()).expect("the submission can be read");
+    let submission = Submission::collect(world.path(), &RAYS).expect("the submission can be read");
     let build = builder
         .build(&submission)
         .expect("the submission can be built");

@@ -43,9 +43,14 @@ pub enum Completion {
 /// Reads the input, grades the submissions without a valid result, and writes the class's files.
 pub fn grade_class(arguments: &ClassArguments) -> Result<Completion, Error> {
     check_lists(&arguments.lists)?;
+    let options = arguments.grading.resolve();
     let workspace = Workspace::find().map_err(GraderError::from)?;
     let path = arguments.input.as_deref().unwrap_or(Path::new("."));
-    let input = Input::open(path, &workspace.cache_folder().join("classes"))?;
+    let input = Input::open(
+        path,
+        &workspace.cache_folder().join("classes"),
+        options.handed_out,
+    )?;
     let mut recognised = input.class.clone();
     let people = recognised.entries.iter_mut();
     let mut people: Vec<&mut Person> = people.flat_map(|entry| &mut entry.info.people).collect();
@@ -56,11 +61,13 @@ pub fn grade_class(arguments: &ClassArguments) -> Result<Completion, Error> {
     groups::add_group_members(&lists, &mut infos, &mut missing)?;
     roster::set_submission_times(&lists, &mut infos)?;
     let (Some(out), false) = (&arguments.out, arguments.dry_run) else {
-        anstream::print!("{}", render_preview(&recognised, &missing));
+        anstream::print!(
+            "{}",
+            render_preview(&recognised, &missing, options.handed_out)
+        );
         return Ok(Completion::Complete);
     };
 
-    let options = arguments.grading.resolve();
     let grader = Grader::for_many(&options)?;
     let store = Store::new(out);
     let settings = settings(&grader, &options)?;
@@ -145,6 +152,7 @@ fn options_of_scores(options: &GradeOptions) -> String {
     let GradeOptions {
         dependents,
         budget,
+        handed_out,
         // settings of their own
         exam: _,
         isolation: _,
@@ -158,7 +166,7 @@ fn options_of_scores(options: &GradeOptions) -> String {
         out: _,
         formats: _,
     } = options;
-    format!("{dependents:?} {budget:?}")
+    format!("{handed_out:?} {dependents:?} {budget:?}")
 }
 
 /// Returns the text of the policy file, or `None` if no file is given. The file has already been

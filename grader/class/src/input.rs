@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use grader::build::build_dir::{BuildDir, remove_abandoned};
+use grader::handed_out::HandedOut;
 use grader::submission::{Submission, SubmissionError};
 use judging::sanitize::sanitize;
 
@@ -27,7 +28,11 @@ pub struct Input {
 impl Input {
     /// Opens the folder or archive at `path`. An archive is unpacked into a temporary folder in
     /// `parent`.
-    pub fn open(path: &Path, parent: &Path) -> Result<Self, ClassInputError> {
+    pub fn open(
+        path: &Path,
+        parent: &Path,
+        handed_out: &'static HandedOut,
+    ) -> Result<Self, ClassInputError> {
         remove_abandoned(parent);
         let at = |source| ClassInputError::Io {
             path: path.to_owned(),
@@ -46,11 +51,11 @@ impl Input {
             None => path.canonicalize().map_err(at)?,
         };
         let listed = list_folder(&folder).map_err(at)?;
-        let root = layout::find_class_folder(&listed).clone();
+        let root = layout::find_class_folder(&listed, handed_out).clone();
         let metadata = root.find(METADATA).map(|node| fs::read(&node.path));
         let metadata = metadata.transpose().map_err(at)?;
         let metadata = metadata.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-        let mut class = layout::recognise(&root, metadata.as_deref())?;
+        let mut class = layout::recognise(&root, metadata.as_deref(), handed_out)?;
         class.unmatched.extend(not_unpacked);
         let hidden = hidden_names(&root.path).map_err(at)?;
         class
@@ -73,11 +78,14 @@ impl Input {
 
 /// Reads the task files of an entry. The error is the reason why this entry cannot be graded, and
 /// does not affect others.
-pub fn collect_submission(entry: &Entry) -> Result<Submission, String> {
+pub fn collect_submission(
+    entry: &Entry,
+    handed_out: &'static HandedOut,
+) -> Result<Submission, String> {
     let mut submission = match &entry.source {
-        Source::Path(path) => collect_path(path)?,
+        Source::Path(path) => collect_path(path, handed_out)?,
         Source::Files(files) => {
-            let submission = Submission::from_files(&entry.id, files);
+            let submission = Submission::from_files(&entry.id, files, handed_out);
             if submission.files.iter().any(|(_, text)| text.is_ok()) {
                 submission
             } else {
@@ -90,10 +98,10 @@ pub fn collect_submission(entry: &Entry) -> Result<Submission, String> {
     Ok(submission)
 }
 
-fn collect_path(path: &Path) -> Result<Submission, String> {
-    match Submission::collect(path) {
-        Err(SubmissionError::NoTaskFiles(folder)) if folder.is_dir() => {
-            collect_single_archive(&folder)
+fn collect_path(path: &Path, handed_out: &'static HandedOut) -> Result<Submission, String> {
+    match Submission::collect(path, handed_out) {
+        Err(SubmissionError::NoTaskFiles { path: folder, .. }) if folder.is_dir() => {
+            collect_single_archive(&folder, handed_out)
         }
         other => other.map_err(|error| error_message(&error, path)),
     }
@@ -101,7 +109,10 @@ fn collect_path(path: &Path) -> Result<Submission, String> {
 
 /// Reads a folder that contains a single archive: platforms often create a folder for each
 /// submission.
-fn collect_single_archive(folder: &Path) -> Result<Submission, String> {
+fn collect_single_archive(
+    folder: &Path,
+    handed_out: &'static HandedOut,
+) -> Result<Submission, String> {
     let listed = list_folder(folder).map_err(|error| error.to_string())?;
     let archives: Vec<&Node> = listed
         .children()
@@ -114,11 +125,12 @@ fn collect_single_archive(folder: &Path) -> Result<Submission, String> {
             "{} is a link, and links are not followed",
             sanitize(&only.name, 200)
         )),
-        [only] => Submission::collect(&only.path).map_err(|error| error_message(&error, folder)),
+        [only] => Submission::collect(&only.path, handed_out)
+            .map_err(|error| error_message(&error, folder)),
         [] if listed.children().is_empty() => {
             Err("nothing was handed in: the folder is empty".into())
         }
-        [] => Err("none of the five files was handed in".to_owned()),
+        [] => Err("none of the task files was handed in".to_owned()),
         several => Err(several_archives_message(several.len())),
     }
 }
@@ -135,7 +147,7 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
         SubmissionError::NotFound(_) | SubmissionError::NotFileOrFolder(_) => {
             "it no longer exists".to_owned()
         }
-        SubmissionError::NoTaskFiles(_) => "none of the five files was handed in".to_owned(),
+        SubmissionError::NoTaskFiles { .. } => "none of the task files was handed in".to_owned(),
         SubmissionError::Ambiguous { folders, .. } => {
             let folders = sanitize(&folders.join(", "), 200);
             format!("it contains several submissions, in {folders}: keep the one that counts")
@@ -152,5 +164,5 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
 fn no_task_file_message(files: &[(String, PathBuf)]) -> String {
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     let names = sanitize(&names.join(", "), 200);
-    format!("none of the five files was handed in, only {names}")
+    format!("none of the task files was handed in, only {names}")
 }

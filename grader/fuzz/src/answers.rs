@@ -3,6 +3,7 @@
 
 use std::sync::LazyLock;
 
+use grader::handed_out::RAYS;
 use grader::report::html::{Reload, page};
 use grader::report::json;
 use grader::report::text::{HintDetail, report};
@@ -18,7 +19,8 @@ use protocol::Answer;
 /// An exam with an item for each kind of answer key.
 static EXAM: LazyLock<ExamFile> = LazyLock::new(|| {
     let text = include_bytes!("small.json");
-    judging::exam_file::parse("small.json".as_ref(), text).expect("the exam is valid")
+    judging::exam_file::parse("small.json".as_ref(), text, RAYS.assignment)
+        .expect("the exam is valid")
 });
 
 /// Grades the bytes: the first byte chooses the item, and the answers to the item's questions
@@ -51,7 +53,7 @@ fn grade(item: &Item, answers: Vec<Answer>) {
     for (question, answer) in answered_questions(item, &answers) {
         let _ = (measure(question, answer), mismatches(question, answer));
     }
-    let mut scored = item_score(item, &ItemOutcome::Answered(judgements));
+    let mut scored = item_score(item, &ItemOutcome::Answered(judgements), &RAYS);
     let is_right = scored.points == scored.max_points;
     assert_eq!(is_right, scored.verdict == Verdict::Pass, "{scored:?}");
 
@@ -60,7 +62,7 @@ fn grade(item: &Item, answers: Vec<Answer>) {
     add_hints(&mut scored, &observations.explain(&exam, item));
     let mut report_answers = ReportAnswers::default();
     report_answers.record(item, &scored, answers);
-    let mut score = pending_score(&exam, EXAM.name(), "any");
+    let mut score = pending_score(&exam, EXAM.name(), "any", &RAYS);
     score.record(scored);
     score.update_totals();
     score.complete = true;

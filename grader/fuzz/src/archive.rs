@@ -3,6 +3,7 @@
 use std::fs;
 use std::sync::LazyLock;
 
+use grader::handed_out::RAYS;
 use grader::submission::Submission;
 use tempfile::TempDir;
 
@@ -12,7 +13,7 @@ static FOLDER: LazyLock<TempDir> = LazyLock::new(|| TempDir::new().expect("tempo
 pub fn read(bytes: &[u8]) {
     let path = FOLDER.path().join("any.zip");
     fs::write(&path, bytes).expect("the file can be written");
-    match Submission::collect(&path) {
+    match Submission::collect(&path, &RAYS) {
         Err(error) => assert!(!error.to_string().is_empty()),
         Ok(submission) => assert_eq!(submission.files.len(), 5),
     }

@@ -7,6 +7,7 @@ use glam::UVec2;
 use protocol::Question;
 use serde::Serialize;
 
+use crate::assignment::Assignment;
 use crate::exam::{Exam, Item, Key};
 
 /// Version of the file format that this grader reads.
@@ -73,13 +74,14 @@ pub fn hash(bytes: &[u8]) -> String {
     blake2b_simd::blake2b(bytes).to_hex()[..32].to_owned()
 }
 
-/// Parses and validates the bytes of an exam file. `path` is used in error messages only.
-pub fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, ExamError> {
+/// Parses and validates the bytes of an exam file for an assignment. `path` is used in error
+/// messages only.
+pub fn parse(path: &Path, bytes: &[u8], assignment: &Assignment) -> Result<ExamFile, ExamError> {
     let exam: Exam = serde_json::from_slice(bytes).map_err(|source| ExamError::Json {
         path: path.to_owned(),
         source,
     })?;
-    if let Some(problem) = problem(&exam) {
+    if let Some(problem) = problem(&exam, assignment) {
         return Err(ExamError::Invalid {
             path: path.to_owned(),
             problem,
@@ -92,11 +94,17 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<ExamFile, ExamError> {
 }
 
 /// Returns the first problem found in an exam, if there is one.
-fn problem(exam: &Exam) -> Option<String> {
+fn problem(exam: &Exam, assignment: &Assignment) -> Option<String> {
     if exam.schema != SCHEMA_VERSION {
         return Some(format!(
             "its format is version {}, but this grader reads version {SCHEMA_VERSION}",
             exam.schema
+        ));
+    }
+    if exam.assignment != assignment.id {
+        return Some(format!(
+            "it is for the assignment `{}`, and this grader grades `{}`",
+            exam.assignment, assignment.id
         ));
     }
     if exam.items.is_empty() {
@@ -104,7 +112,8 @@ fn problem(exam: &Exam) -> Option<String> {
     }
     let mut ids_before = BTreeSet::new();
     for item in &exam.items {
-        let problem = item_problem(item, &ids_before);
+        let problem = unknown_task(item, assignment);
+        let problem = problem.or_else(|| item_problem(item, &ids_before));
         let problem = problem.or_else(|| signatures_problem(item, exam.mistakes.len()));
         if let Some(problem) = problem {
             return Some(format!("item {}: {problem}", item.id));
@@ -112,6 +121,19 @@ fn problem(exam: &Exam) -> Option<String> {
         ids_before.insert(item.id.as_str());
     }
     None
+}
+
+/// Returns a message if the item's task is not one of the assignment's.
+fn unknown_task(item: &Item, assignment: &Assignment) -> Option<String> {
+    if assignment.find(item.task.id()).is_some() {
+        return None;
+    }
+    let known: Vec<&str> = assignment.tasks.iter().map(|task| task.id).collect();
+    Some(format!(
+        "there is no task `{}`; the tasks are {}",
+        item.task,
+        known.join(", ")
+    ))
 }
 
 fn item_problem(item: &Item, ids_before: &BTreeSet<&str>) -> Option<String> {
@@ -248,6 +270,7 @@ fn match_key(question: &Question, key: &Key) -> (bool, usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::assignment::RAYS;
 
     const PRACTICE: &str = include_str!("../../exams/practice.json");
 
@@ -270,7 +293,7 @@ mod tests {
     #[test]
     fn reads_former_keys_as_the_same_exam() {
         let path = Path::new("exam.json");
-        let exam = parse(path, PRACTICE.as_bytes()).unwrap().exam;
+        let exam = parse(path, PRACTICE.as_bytes(), &RAYS).unwrap().exam;
         let (exam_level, rest) = PRACTICE.split_once("\"items\"").unwrap();
         let mut former = rest.to_owned();
         let mut found = 0;
@@ -282,7 +305,7 @@ mod tests {
         // The practice exam has no panics, so the key for the location of a panic does not occur.
         assert_eq!(found, FORMER_KEYS.len() - 1);
         let former = format!("{exam_level}\"items\"{former}");
-        let parsed = parse(path, former.as_bytes()).unwrap().exam;
+        let parsed = parse(path, former.as_bytes(), &RAYS).unwrap().exam;
         // Compared as text, because some answers of known mistakes are NaN.
         assert_eq!(
             serde_json::to_string(&parsed).unwrap(),

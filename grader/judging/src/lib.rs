@@ -12,8 +12,9 @@
 //! | comparison | [`judge`] |
 //! | text | [`describe`] |
 //! | exam files | [`exam_file`] |
-//! | data | [`exam`], [`signatures`], [`drawing_data`], [`section`]; [`sanitize`] |
+//! | data | [`exam`], [`assignment`], [`signatures`], [`drawing_data`], [`section`]; [`sanitize`] |
 
+pub mod assignment;
 pub mod describe;
 pub mod drawing_data;
 pub mod exam;

@@ -10,7 +10,8 @@ use std::collections::BTreeMap;
 
 use protocol::{Answer, ElementOutcome, Interval, Ray, Trace};
 
-use crate::exam::{Exam, ExamQuestion, ExpectedHit, HitCheck, Item, Key, RayCheck, Task};
+use crate::assignment::Task;
+use crate::exam::{Exam, ExamQuestion, ExpectedHit, HitCheck, Item, Key, RayCheck};
 use crate::judge::{FailureKind, judge};
 use crate::signatures::{KnownMistake, MistakeAnswers, NoAnswerReason, ObservedAnswer};
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::build::diagnostics::Diagnostic;
-use crate::given_files::TaskFile;
+use crate::handed_out::TaskFile;
 use crate::submission::{Submission, TaskFileError};
 
 /// The reason why a file is not part of the program.
@@ -65,11 +65,12 @@ pub(super) fn unusable_files(submission: &Submission) -> BTreeMap<&'static str, 
 /// had not been recorded before.
 pub(super) fn blame(
     errors: &[Diagnostic],
+    task_files: &[TaskFile],
     not_compiled: &mut BTreeMap<&'static str, NotCompiled>,
 ) -> bool {
     let before = not_compiled.len();
     for error in errors {
-        if let Some(name) = error.blamed_file() {
+        if let Some(name) = error.blamed_file(task_files) {
             let why = || NotCompiled::Error {
                 text: error.text().to_owned(),
                 line: error.line_in(name),

@@ -6,40 +6,45 @@ use std::path::Path;
 
 use crate::build::program_cache::ContentHash;
 use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
-use crate::given_files::GIVEN_FILES;
+use crate::handed_out::HandedOut;
 
-/// File name of the crate's root, which contains the given `lib.rs` and a `main` function.
+/// File name of the crate's root, which contains the given root and a `main` function.
 const ROOT: &str = "probe.rs";
-const ENTRY: &str = "
-/// Answers the grader's questions.
-fn main() -> std::process::ExitCode {
-    framework::probe::main(&world::Student)
-}
-";
 
-/// Compiles the task files, given as pairs of name and text, together with [`GIVEN_FILES`] in
+/// Compiles the task files, given as pairs of name and text, together with the given files in
 /// `folder`.
-pub fn compile(files: &[(&str, &str)], folder: &Path, rustc: &Rustc) -> io::Result<CompileOutcome> {
-    let content = files.iter().chain(&GIVEN_FILES).fold(
+pub fn compile(
+    files: &[(&str, &str)],
+    handed_out: &HandedOut,
+    folder: &Path,
+    rustc: &Rustc,
+) -> io::Result<CompileOutcome> {
+    let given = handed_out.given.iter().map(|file| (file.name, file.text));
+    let all: Vec<(&str, &str)> = files.iter().copied().chain(given).collect();
+    let content = all.iter().chain([&(ROOT, handed_out.entry)]).fold(
         ContentHash::default().with(rustc.identity()),
         |content, (name, text)| content.with(name.as_bytes()).with(text.as_bytes()),
     );
-    rustc.compile_cached(&content, || compile_uncached(files, folder, rustc))
+    rustc.compile_cached(&content, || {
+        compile_uncached(&all, handed_out, folder, rustc)
+    })
 }
 
 fn compile_uncached(
     files: &[(&str, &str)],
+    handed_out: &HandedOut,
     folder: &Path,
     rustc: &Rustc,
 ) -> io::Result<CompileOutcome> {
     fs::create_dir_all(folder)?;
-    for (name, text) in files.iter().chain(&GIVEN_FILES) {
+    for (name, text) in files {
         fs::write(folder.join(name), text)?;
     }
-    let [(_, lib), ..] = GIVEN_FILES;
-    fs::write(folder.join(ROOT), format!("{lib}{ENTRY}"))?;
+    let root = handed_out.given[0].text;
+    fs::write(folder.join(ROOT), format!("{root}{}", handed_out.entry))?;
     rustc.compile(&Crate {
         name: "probe",
+        task_files: handed_out.files,
         kind: CrateKind::Program,
         folder,
         root: ROOT,

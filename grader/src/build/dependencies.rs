@@ -156,7 +156,7 @@ fn cache_key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, Dep
     hasher.update(toolchain.fingerprint().as_bytes());
     let mut files = vec![workspace.root().join("Cargo.lock")];
     for folder in ["protocol", "framework"] {
-        let folder = workspace.student().join(folder);
+        let folder = workspace.root().join("student").join(folder);
         files.push(folder.join("Cargo.toml"));
         list_sources(&folder.join("src"), &mut files)?;
     }

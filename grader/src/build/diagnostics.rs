@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::given_files::TASK_FILES;
+use crate::handed_out::TaskFile;
 
 /// A message of `rustc --error-format=json`.
 #[derive(Clone, Debug, Deserialize)]
@@ -46,19 +46,19 @@ impl Diagnostic {
     /// Returns the task file that must be fixed, which is the file with the error. For an error in
     /// a given file, it is the task file that the message refers to ("method not found for this
     /// struct") or, if there is none, the one whose name appears first in the line of the error.
-    pub fn blamed_file(&self) -> Option<&'static str> {
+    pub fn blamed_file(&self, task_files: &[TaskFile]) -> Option<&'static str> {
         let primary = || self.spans.iter().filter(|span| span.is_primary);
         let secondary = self.spans.iter().filter(|span| !span.is_primary);
         let explaining = self.children.iter().flat_map(|child| &child.spans);
         primary()
             .chain(secondary)
             .chain(explaining)
-            .find_map(|span| TASK_FILES.iter().find(|file| file.name == span.file_name))
+            .find_map(|span| task_files.iter().find(|file| file.name == span.file_name))
             .map(|file| file.name)
             .or_else(|| {
                 primary()
                     .flat_map(|span| &span.text)
-                    .find_map(|line| called_file(&line.text))
+                    .find_map(|line| called_file(&line.text, task_files))
             })
     }
 
@@ -76,10 +76,10 @@ impl Diagnostic {
 
 /// Returns the task file whose name appears first in a line of a given file, such as `triangle.rs`
 /// for `triangle.bbox()`.
-fn called_file(line: &str) -> Option<&'static str> {
+fn called_file(line: &str, task_files: &[TaskFile]) -> Option<&'static str> {
     let line = line.to_lowercase();
     let position = |name: &str| line.find(name.trim_end_matches(".rs"));
-    let called = TASK_FILES
+    let called = task_files
         .iter()
         .filter_map(|file| Some((position(file.name)?, file.name)));
     called.min().map(|(_, name)| name)
@@ -88,12 +88,13 @@ fn called_file(line: &str) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::handed_out::RAYS;
 
     fn blame_one(spans: &str, children: &str) -> Option<&'static str> {
         let line = format!(
             r#"{{"message":"m","level":"error","spans":[{spans}],"children":[{children}],"rendered":"r"}}"#
         );
-        errors(&line)[0].blamed_file()
+        errors(&line)[0].blamed_file(RAYS.files)
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::build::diagnostics::Diagnostic;
+use crate::handed_out::TaskFile;
 use crate::sandbox::ExitReason;
 use crate::system;
 
@@ -39,9 +40,13 @@ impl MachineFault {
     pub(super) fn check(
         exit_reason: ExitReason,
         errors: &[Diagnostic],
+        task_files: &[TaskFile],
         folder: &Path,
     ) -> Result<(), Self> {
-        if errors.iter().any(|error| error.blamed_file().is_some()) {
+        if errors
+            .iter()
+            .any(|error| error.blamed_file(task_files).is_some())
+        {
             return Ok(());
         }
         // Only the first line is checked, because the following lines may contain names chosen by
@@ -66,11 +71,13 @@ mod tests {
 
     use super::*;
     use crate::build::diagnostics::errors;
+    use crate::handed_out::RAYS;
 
     fn check(exit_reason: ExitReason, message: &str, span: &str) -> Result<(), MachineFault> {
         let line = format!(r#"{{"message":"{message}","level":"error","spans":[{span}]}}"#);
         let folder = TempDir::new().unwrap();
-        MachineFault::check(exit_reason, &errors(&line), &folder.path().join("any"))
+        let build_dir = folder.path().join("any");
+        MachineFault::check(exit_reason, &errors(&line), RAYS.files, &build_dir)
     }
 
     #[test]

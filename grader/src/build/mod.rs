@@ -1,4 +1,4 @@
-//! Builds a probe from a submission's five files. A file that does not compile is replaced by the
+//! Builds a probe from a submission's task files. A file that does not compile is replaced by the
 //! starter's, so that only its own tasks fail.
 
 mod blame;
@@ -22,8 +22,6 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use judging::exam::Task;
-
 use crate::build::blame::{blame, blame_all, unusable_files};
 use crate::build::build_dir::{BuildDir, remove_abandoned};
 use crate::build::compile::compile;
@@ -32,7 +30,7 @@ use crate::build::program_cache::ProgramCache;
 use crate::build::rustc::{CompileOutcome, Rustc};
 use crate::build::substitution::{ReferenceParts, Substitution, SubstitutionError};
 use crate::build::toolchain::{Toolchain, ToolchainError};
-use crate::given_files::{TASK_FILES, TaskFile};
+use crate::handed_out::{HandedOut, TaskFile};
 use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, TaskFileError};
 use crate::workspace::Workspace;
@@ -50,8 +48,8 @@ const MAX_ATTEMPTS: usize = 3;
 #[derive(Clone, Debug)]
 pub struct Builder {
     rustc: Rustc,
-    /// The reference's parts, if there is a reference.
-    reference_parts: Option<ReferenceParts>,
+    /// The reference's parts for each file that can be graded with them. Empty without a reference.
+    reference_parts: Vec<ReferenceParts>,
     folder: PathBuf,
 }
 
@@ -96,7 +94,7 @@ impl Builder {
                 cache: None,
                 sandbox: Sandbox::none(),
             },
-            reference_parts: None,
+            reference_parts: Vec::new(),
             folder,
         })
     }
@@ -105,12 +103,17 @@ impl Builder {
     pub fn with_reference(
         self,
         reference: &Path,
+        handed_out: &'static HandedOut,
         workspace: &Workspace,
     ) -> Result<Self, BuildError> {
         let cache = workspace.cache_folder().join("parts");
-        let parts = ReferenceParts::prepare(reference, &cache, &self.rustc)?;
+        let parts = handed_out
+            .substitutions
+            .iter()
+            .map(|file| ReferenceParts::prepare(file, reference, &cache, &self.rustc))
+            .collect::<Result<_, _>>()?;
         Ok(Builder {
-            reference_parts: Some(parts),
+            reference_parts: parts,
             ..self
         })
     }
@@ -126,12 +129,12 @@ impl Builder {
 
     /// Returns a hash of everything that programs depend on besides the submission.
     pub fn identity(&self) -> String {
-        let parts = self
-            .reference_parts
-            .as_ref()
-            .map(ReferenceParts::content_hash)
-            .unwrap_or_default();
-        parts.with(self.rustc.identity()).hex()
+        let parts = self.reference_parts.iter();
+        let identity = ContentHash::default().with(self.rustc.identity());
+        let all = parts.fold(identity, |content, parts| {
+            content.with(parts.content_hash().hex().as_bytes())
+        });
+        all.hex()
     }
 
     /// Returns the path of the compiler.
@@ -182,19 +185,20 @@ impl Builder {
             source,
         };
         let build_dir = BuildDir::new_in(&self.folder).map_err(io)?;
+        let handed_out = submission.handed_out;
         let mut not_compiled = unusable_files(submission);
 
         let mut probe = None;
         for attempt in 0..MAX_ATTEMPTS {
             let files = with_starter_files(submission, &not_compiled);
             let folder = build_dir.path().join(attempt.to_string());
-            match compile(&files, &folder, &self.rustc).map_err(io)? {
+            match compile(&files, handed_out, &folder, &self.rustc).map_err(io)? {
                 CompileOutcome::Done(path) => {
                     probe = Some(path);
                     break;
                 }
                 CompileOutcome::Errors(errors) => {
-                    if !blame(&errors, &mut not_compiled) {
+                    if !blame(&errors, handed_out.files, &mut not_compiled) {
                         blame_all(submission, errors[0].text(), &mut not_compiled);
                     }
                 }
@@ -206,12 +210,13 @@ impl Builder {
             }
         }
         if probe.is_none() {
-            self.check_machine(build_dir.path())?;
+            self.check_machine(handed_out, build_dir.path())?;
             let why = "the remaining files do not compile together";
             blame_all(submission, why, &mut not_compiled);
         }
         Ok(Build {
-            substitution: self.substitution(submission, &not_compiled, build_dir.path()),
+            handed_out,
+            substitutions: self.substitutions(submission, &not_compiled, build_dir.path()),
             probe,
             not_compiled,
             sandbox: self.rustc.sandbox.clone(),
@@ -222,9 +227,11 @@ impl Builder {
     /// Compiles the starter after every attempt to compile a submission has failed. If the starter
     /// does not compile either, the cause is the machine (a full disk, a broken linker or too
     /// little memory), not the submission.
-    fn check_machine(&self, folder: &Path) -> Result<(), BuildError> {
-        let starter = TASK_FILES.map(|file| (file.name, file.starter));
-        let why = match compile(&starter, &folder.join("starter"), &self.rustc) {
+    fn check_machine(&self, handed_out: &HandedOut, folder: &Path) -> Result<(), BuildError> {
+        let starter = handed_out.files.iter();
+        let starter: Vec<_> = starter.map(|file| (file.name, file.starter)).collect();
+        let folder = folder.join("starter");
+        let why = match compile(&starter, handed_out, &folder, &self.rustc) {
             Ok(CompileOutcome::Done(_)) => return Ok(()),
             Ok(CompileOutcome::Errors(errors)) => errors[0].text().to_owned(),
             Ok(CompileOutcome::Failed(why)) => why,
@@ -233,23 +240,31 @@ impl Builder {
         Err(BuildError::Machine(why))
     }
 
-    fn substitution(
+    /// Returns the submission's files that can be graded with the reference's parts.
+    fn substitutions(
         &self,
         submission: &Submission,
         not_compiled: &BTreeMap<&'static str, NotCompiled>,
         build_dir: &Path,
-    ) -> Option<Substitution> {
-        let parts = self.reference_parts.clone()?;
-        let mut files = submission.files.iter();
-        let (file, text) = files.find(|(file, _)| file.name == Task::Traverse.file())?;
-        let bvh = text.as_ref().ok()?.clone();
-        (!not_compiled.contains_key(file.name)).then(|| Substitution {
-            bvh,
-            parts,
-            rustc: self.rustc.clone(),
-            folder: build_dir.join("substitution"),
-            program: OnceLock::new(),
-        })
+    ) -> Vec<Substitution> {
+        let substitution = |parts: &ReferenceParts| {
+            let mut files = submission.files.iter();
+            let (file, text) = files.find(|(file, _)| file.name == parts.file())?;
+            let source = text.as_ref().ok()?.clone();
+            (!not_compiled.contains_key(file.name)).then(|| Substitution {
+                file: *file,
+                source,
+                parts: parts.clone(),
+                handed_out: submission.handed_out,
+                rustc: self.rustc.clone(),
+                folder: build_dir.join("substitution").join(file.name),
+                program: OnceLock::new(),
+            })
+        };
+        self.reference_parts
+            .iter()
+            .filter_map(substitution)
+            .collect()
     }
 }
 

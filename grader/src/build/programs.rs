@@ -7,30 +7,34 @@ use std::path::{Path, PathBuf};
 use crate::build::blame::NotCompiled;
 use crate::build::build_dir::BuildDir;
 use crate::build::substitution::Substitution;
+use crate::handed_out::HandedOut;
 use crate::probe::Launcher;
 use crate::sandbox::{Isolation, Sandbox};
 
 /// A built submission.
 #[derive(Debug)]
 pub struct Build {
-    /// Path of the submission's probe, or `None` if nothing compiled.
+    /// The assignment.
+    pub handed_out: &'static HandedOut,
+    /// Path of the program, or `None` if nothing compiled.
     pub probe: Option<PathBuf>,
     /// Files whose tasks cannot be graded, with the reasons.
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
-    pub(super) substitution: Option<Substitution>,
+    pub(super) substitutions: Vec<Substitution>,
     pub(super) sandbox: Sandbox,
     /// The directory that contains the programs. It is removed when this value is dropped.
     pub(super) _build_dir: BuildDir,
 }
 
-/// A submission's `bvh.rs` compiled with the reference's parts in place of its other files.
+/// A submission's file compiled with the reference's parts in place of its other files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SubstitutedProgram<'a> {
     /// The program, by its path.
     Program(&'a Path),
-    /// The submission's `bvh.rs` does not compile with these parts.
+    /// The submission's file does not compile with these parts.
     NotCompiled,
-    /// There is no reference, or the submission's `bvh.rs` is missing or does not compile.
+    /// There is no reference, there are no parts for this file, or the submission's file is missing
+    /// or does not compile.
     NoReference,
 }
 
@@ -48,12 +52,14 @@ impl Build {
         }
     }
 
-    /// Returns the program with the reference's parts, which is compiled on the first call.
-    pub fn substituted_program(&self) -> io::Result<SubstitutedProgram<'_>> {
-        let Some(carry) = &self.substitution else {
+    /// Returns the program in which the reference's parts replace all files but this one. It is
+    /// compiled on the first call.
+    pub fn substituted_program(&self, file: &str) -> io::Result<SubstitutedProgram<'_>> {
+        let mut substitutions = self.substitutions.iter();
+        let Some(substitution) = substitutions.find(|known| known.file.name == file) else {
             return Ok(SubstitutedProgram::NoReference);
         };
-        Ok(match carry.program()? {
+        Ok(match substitution.program()? {
             Some(program) => SubstitutedProgram::Program(program),
             None => SubstitutedProgram::NotCompiled,
         })

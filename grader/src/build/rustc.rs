@@ -17,6 +17,7 @@ use crate::build::program_cache::{ContentHash, ProgramCache};
 use crate::build::toolchain::Toolchain;
 use crate::build::verified_copy;
 use crate::capture::Capture;
+use crate::handed_out::TaskFile;
 use crate::sandbox::{ExitReason, Sandbox};
 use crate::system::{self, Limits};
 
@@ -34,7 +35,10 @@ const MAX_MESSAGE_BYTES: usize = 1 << 20;
 /// A crate to compile.
 #[derive(Debug)]
 pub struct Crate<'a> {
-    /// Name of the crate, from which the output file gets its name.
+    /// The task files of a submission that may be among its files. Errors in them are never the
+    /// machine's fault.
+    pub task_files: &'a [TaskFile],
+    /// Name of the crate.
     pub name: &'a str,
     /// Whether to compile the crate to a program or to a library.
     pub kind: CrateKind,
@@ -177,7 +181,8 @@ impl Rustc {
             return Ok(CompileOutcome::Done(made));
         }
         let errors = diagnostics::errors(&messages.head());
-        MachineFault::check(exit_reason, &errors, source.folder).map_err(io::Error::other)?;
+        MachineFault::check(exit_reason, &errors, source.task_files, source.folder)
+            .map_err(io::Error::other)?;
         Ok(if errors.is_empty() {
             CompileOutcome::Failed(failure_message(exit_reason))
         } else {

@@ -117,6 +117,7 @@ fn compile(
         .and_then(|()| fs::write(folder.join(&root), text))
         .and_then(|()| {
             rustc.compile(&Crate {
+                task_files: &[],
                 name,
                 kind,
                 folder: &folder,

@@ -1,14 +1,15 @@
-//! Compiles a submission's `bvh.rs` with the reference's parts, so that a mistake in the box test
-//! does not also cost the points for traversing a tree.
+//! Compiles a file of a submission with the reference's parts in place of the other files, so that a
+//! mistake in the box test does not also cost the points for traversing a tree.
 //!
-//! The parts are the reference's other four task files and `primitive.rs`, compiled once. The
-//! submission is compiled against their metadata only, and linked with them in a step that reads
-//! none of its source. The reference's own `bvh.rs` is not used. The submission's `build` is
-//! replaced by a plain one, so that a mistake in building does not cost the points for traversing
-//! either.
+//! The parts are some of the reference's files, compiled once. The submission's file is compiled
+//! against their metadata only, and linked with them in a step that reads none of its source. The
+//! reference's own version of the file is not used. The scaffold around the file may replace some of
+//! the file's functions: around `bvh.rs`, it replaces the submission's `build` by a plain one, so
+//! that a mistake in building does not cost the points for traversing either.
 
 use std::fs;
 use std::io;
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -16,45 +17,33 @@ use tempfile::TempDir;
 
 use crate::build::program_cache::ContentHash;
 use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
-use crate::given_files::{GIVEN_FILES, TASK_FILES};
+use crate::handed_out::{HandedOut, SubstitutedFile, TaskFile};
 use crate::sandbox::Sandbox;
 
-/// The reference's files that make up the parts, in the order of their dependencies.
-const PART_FILES: [&str; 5] = [
-    "camera.rs",
-    "bbox.rs",
-    "triangle.rs",
-    "sphere.rs",
-    "primitive.rs",
-];
-
-/// The root module of the parts.
-const PARTS_ROOT: &str = "
-pub mod bbox;
-pub mod camera;
-pub mod primitive;
-pub mod sphere;
-pub mod triangle;
-";
-/// The files around a submission's `bvh.rs`. They are kept with the reference and not embedded in
-/// this program, because students have the grader's sources, and the plain `build` must stay
-/// hidden.
-const SCAFFOLD_FILES: [&str; 3] = ["around.rs", "probe.rs", "bvh.rs"];
+/// The root of the crate around a submission's file.
+const AROUND: &str = "around.rs";
+/// The root of the crate that answers questions.
+const PROBE: &str = "probe.rs";
 
 /// The compiled parts, and the sources that connect a submission to them.
 #[derive(Clone, Debug)]
 pub struct ReferenceParts {
+    spec: &'static SubstitutedFile,
     folder: PathBuf,
     scaffold: Scaffold,
 }
 
-/// Sources of the two crates that are built around a submission's `bvh.rs`.
+/// Sources of the two crates that are built around a submission's file. They are kept with the
+/// reference and not embedded in this program, because students have the grader's sources, and the
+/// code that replaces functions of the file must stay hidden.
 #[derive(Clone, Debug)]
 struct Scaffold {
-    /// The root of the crate that contains the submission's `bvh.rs`.
+    /// The root of the crate that contains the submission's file.
     root: String,
-    /// The files of the crate that answers questions, compiled separately from the submission.
-    probe_files: [(&'static str, String); 2],
+    /// The root of the crate that answers questions, compiled separately from the submission.
+    probe: String,
+    /// The module of that crate that wraps the submission's file and has its name.
+    wrapper: String,
 }
 
 /// Reasons why the reference's parts cannot be compiled. Students cannot fix them.
@@ -77,6 +66,7 @@ impl ReferenceParts {
     /// Returns the parts from `cache`, or compiles them if the reference's files or the compiler
     /// have changed.
     pub fn prepare(
+        spec: &'static SubstitutedFile,
         reference: &Path,
         cache: &Path,
         rustc: &Rustc,
@@ -86,28 +76,36 @@ impl ReferenceParts {
             sandbox: Sandbox::none(),
             ..rustc.clone()
         };
-        let texts = read(reference, PART_FILES)?;
-        let [(_, root), probe, bvh] = read(&reference.join("../substitution"), SCAFFOLD_FILES)?;
-        let parts = ReferenceParts {
-            folder: cache.join(cache_key(&texts, rustc)),
+        let texts = spec.parts.iter().map(|name| read(reference, name));
+        let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
+        let parts: Vec<(&str, &str)> = iter::zip(spec.parts.iter().copied(), &texts)
+            .map(|(name, text)| (name, text.as_str()))
+            .collect();
+        let scaffold = reference.join("../substitution").join(module(spec.file));
+        let root = parts_root(spec);
+        let parts_folder = cache.join(cache_key(&parts, &root, rustc));
+        let parts_of_file = ReferenceParts {
+            spec,
+            folder: parts_folder,
             scaffold: Scaffold {
-                root,
-                probe_files: [probe, bvh],
+                root: read(&scaffold, AROUND)?,
+                probe: read(&scaffold, PROBE)?,
+                wrapper: read(&scaffold, spec.file)?,
             },
         };
-        let folder = &parts.folder;
+        let folder = &parts_of_file.folder;
         if folder.is_dir() {
-            return Ok(parts);
+            return Ok(parts_of_file);
         }
         fs::create_dir_all(cache).map_err(io_error(cache))?;
         let work = TempDir::new_in(cache).map_err(io_error(cache))?;
-        compile_parts(&texts, work.path(), rustc)?;
+        compile_parts(&parts, &root, work.path(), rustc)?;
         // The folder appears complete or not at all. Another process may have created it first.
         match fs::rename(work.path(), folder) {
             Err(_) if folder.is_dir() => {}
             renamed => renamed.map_err(io_error(folder))?,
         }
-        Ok(parts)
+        Ok(parts_of_file)
     }
 
     /// Returns a hash of everything that the parts and the scaffold depend on.
@@ -115,10 +113,16 @@ impl ReferenceParts {
         let folder = ContentHash::default().with(self.folder.as_os_str().as_encoded_bytes());
         let Scaffold {
             root,
-            probe_files: asking,
+            probe,
+            wrapper,
         } = &self.scaffold;
-        let texts = asking.iter().map(|(_, text)| text).chain([root]);
+        let texts = [root, probe, wrapper].into_iter();
         texts.fold(folder, |content, text| content.with(text.as_bytes()))
+    }
+
+    /// Returns the name of the submission's file.
+    pub fn file(&self) -> &'static str {
+        self.spec.file
     }
 
     fn metadata(&self) -> PathBuf {
@@ -135,65 +139,77 @@ fn io_error(path: &Path) -> impl FnOnce(io::Error) -> SubstitutionError {
     move |source| SubstitutionError::Io { path, source }
 }
 
-/// Reads these files, in this order.
-fn read<const N: usize>(
-    folder: &Path,
-    names: [&'static str; N],
-) -> Result<[(&'static str, String); N], SubstitutionError> {
-    let mut texts = names.map(|name| (name, String::new()));
-    for (name, text) in &mut texts {
-        let path = folder.join(name);
-        *text = fs::read_to_string(&path).map_err(io_error(&path))?;
-    }
-    Ok(texts)
+fn read(folder: &Path, name: &str) -> Result<String, SubstitutionError> {
+    let path = folder.join(name);
+    fs::read_to_string(&path).map_err(io_error(&path))
+}
+
+/// Returns the name of a file's module.
+fn module(file: &str) -> &str {
+    file.trim_end_matches(".rs")
+}
+
+/// Returns the source of the parts' root module.
+fn parts_root(spec: &SubstitutedFile) -> String {
+    let modules = spec.parts.iter();
+    modules
+        .map(|file| format!("pub mod {};\n", module(file)))
+        .collect()
 }
 
 /// Returns a hash of everything that the parts depend on: their sources and the compiler.
-fn cache_key(texts: &[(&str, String)], rustc: &Rustc) -> String {
-    let all = texts.iter().fold(
-        ContentHash::default()
-            .with(rustc.identity())
-            .with(PARTS_ROOT.as_bytes()),
-        |content, (name, text)| content.with(name.as_bytes()).with(text.as_bytes()),
-    );
+fn cache_key(parts: &[(&str, &str)], root: &str, rustc: &Rustc) -> String {
+    let compiler_and_root = ContentHash::default()
+        .with(rustc.identity())
+        .with(root.as_bytes());
+    let all = parts
+        .iter()
+        .fold(compiler_and_root, |content, (name, text)| {
+            content.with(name.as_bytes()).with(text.as_bytes())
+        });
     all.hex()
 }
 
 fn compile_parts(
-    texts: &[(&str, String)],
+    parts: &[(&str, &str)],
+    root: &str,
     folder: &Path,
     rustc: &Rustc,
 ) -> Result<(), SubstitutionError> {
-    let texts = texts.iter().map(|(name, text)| (*name, text.as_str()));
-    for (name, text) in texts.chain([("parts.rs", PARTS_ROOT)]) {
+    for (name, text) in parts.iter().chain([&("parts.rs", root)]) {
         fs::write(folder.join(name), text).map_err(io_error(folder))?;
     }
-    let parts = Crate {
+    let library = Crate {
         name: "parts",
+        task_files: &[],
         kind: CrateKind::Library,
         folder,
         root: "parts.rs",
         links: &[],
         dependency_folder: None,
     };
-    match rustc.compile(&parts).map_err(io_error(folder))? {
+    match rustc.compile(&library).map_err(io_error(folder))? {
         CompileOutcome::Done(_) => {}
         CompileOutcome::Errors(_) | CompileOutcome::Failed(_) => {
             return Err(SubstitutionError::NotCompiled);
         }
     }
     // The sources are no longer needed, and they would leave a solution on this machine.
-    for name in PART_FILES {
+    for (name, _) in parts {
         fs::remove_file(folder.join(name)).map_err(io_error(folder))?;
     }
     Ok(())
 }
 
-/// A submission's `bvh.rs`, which is compiled with the reference's parts only if needed.
+/// A submission's file, which is compiled with the reference's parts only if needed.
 #[derive(Debug)]
 pub struct Substitution {
-    /// Source of the submission's `bvh.rs`.
-    pub bvh: String,
+    /// The file.
+    pub file: TaskFile,
+    /// The submission's text of the file.
+    pub source: String,
+    /// The assignment.
+    pub handed_out: &'static HandedOut,
     /// The parts that replace the submission's other files.
     pub parts: ReferenceParts,
     /// The compiler, which compiles the program on the first request.
@@ -205,7 +221,7 @@ pub struct Substitution {
 }
 
 impl Substitution {
-    /// Returns the program, or `None` if it does not compile, for example because `bvh.rs` uses
+    /// Returns the program, or `None` if it does not compile, for example because the file uses
     /// helpers in the submission's other files.
     pub fn program(&self) -> io::Result<Option<&Path>> {
         if self.program.get().is_none() {
@@ -216,7 +232,7 @@ impl Substitution {
     }
 
     fn compile(&self) -> io::Result<Option<PathBuf>> {
-        let content = self.parts.content_hash().with(self.bvh.as_bytes());
+        let content = self.parts.content_hash().with(self.source.as_bytes());
         Ok(
             match self
                 .rustc
@@ -224,7 +240,9 @@ impl Substitution {
             {
                 CompileOutcome::Done(program) => Some(program),
                 CompileOutcome::Errors(errors)
-                    if errors.iter().any(|error| error.blamed_file().is_some()) =>
+                    if errors
+                        .iter()
+                        .any(|error| error.blamed_file(self.handed_out.files).is_some()) =>
                 {
                     None
                 }
@@ -236,13 +254,14 @@ impl Substitution {
         )
     }
 
-    /// Compiles the starter's `bvh.rs` with the parts. This is done when no error explains why the
+    /// Compiles the starter's file with the parts. This is done when no error explains why the
     /// submission's file does not compile: if the starter's does not compile either, the machine is
     /// to blame.
     fn check_starter(&self) -> io::Result<()> {
-        let [.., bvh] = TASK_FILES;
         let starter = Substitution {
-            bvh: bvh.starter.to_owned(),
+            file: self.file,
+            source: self.file.starter.to_owned(),
+            handed_out: self.handed_out,
             parts: self.parts.clone(),
             rustc: self.rustc.clone(),
             folder: self.folder.with_extension("starter"),
@@ -254,7 +273,8 @@ impl Substitution {
             CompileOutcome::Failed(why) => why,
         };
         Err(io::Error::other(format!(
-            "not even the starter's bvh.rs compiles with the reference's parts: {why}"
+            "not even the starter's {} compiles with the reference's parts: {why}",
+            self.file.name
         )))
     }
 
@@ -262,15 +282,17 @@ impl Substitution {
         fs::create_dir_all(&self.folder)?;
         let Scaffold {
             root,
-            probe_files: asking,
+            probe,
+            wrapper,
         } = &self.parts.scaffold;
-        fs::write(self.folder.join("around.rs"), root)?;
-        fs::write(self.folder.join("bvh.rs"), &self.bvh)?;
+        fs::write(self.folder.join(AROUND), root)?;
+        fs::write(self.folder.join(self.file.name), &self.source)?;
         let submission = self.rustc.compile(&Crate {
             name: "submission",
+            task_files: self.handed_out.files,
             kind: CrateKind::Library,
             folder: &self.folder,
-            root: "around.rs",
+            root: AROUND,
             links: &[("parts", &self.parts.metadata())],
             dependency_folder: None,
         })?;
@@ -281,18 +303,18 @@ impl Substitution {
 
         let joined = self.folder.join("joined");
         fs::create_dir_all(&joined)?;
-        let world = GIVEN_FILES
-            .into_iter()
-            .filter(|(name, _)| *name == "world.rs");
-        let asking = asking.iter().map(|(name, text)| (*name, text.as_str()));
-        for (name, text) in world.chain(asking) {
+        let given = self.handed_out.given.iter();
+        let given = given.filter(|file| self.parts.spec.given.contains(&file.name));
+        let scaffold = [(PROBE, probe.as_str()), (self.file.name, wrapper.as_str())];
+        for (name, text) in given.map(|file| (file.name, file.text)).chain(scaffold) {
             fs::write(joined.join(name), text)?;
         }
         self.rustc.compile(&Crate {
             name: "probe",
+            task_files: self.handed_out.files,
             kind: CrateKind::Program,
             folder: &joined,
-            root: "probe.rs",
+            root: PROBE,
             links: &[
                 ("submission", &submission),
                 ("parts", &self.parts.library()),

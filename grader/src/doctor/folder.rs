@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::doctor::package_contents::{POLICY, PackageContents, policy_problem, read_package};
 use crate::exam_source::ExamSource;
-use crate::given_files::TASK_FILES;
+use crate::handed_out::HandedOut;
 
 /// The script that classroom50 runs, and the zip that the script unpacks.
 const CLASSROOM50: [&str; 2] = ["autograder.py", "pathtracing.zip"];
@@ -18,7 +18,7 @@ const REQUIRED_FOLDERS: [&str; 2] = [
 ];
 /// The file that is present in a folder if it is a template for GitHub.
 const WORKFLOW: &str = ".github/workflows/grade.yml";
-/// Paths that a template must have besides the five task files.
+/// Paths that a template must have besides the task files.
 const TEMPLATE_PATHS: [&str; 4] = [
     "Cargo.lock",
     ".cargo/config.toml",
@@ -29,9 +29,9 @@ const TEMPLATE_PATHS: [&str; 4] = [
 const PRIVATE_PATHS: [&str; 3] = ["reference", "exam.json", "grader/tests"];
 
 /// Returns a message for each problem, including what to do about it.
-pub(super) fn problems(path: &Path) -> Vec<String> {
+pub(super) fn problems(path: &Path, handed_out: &HandedOut) -> Vec<String> {
     if path.join(WORKFLOW).is_file() {
-        return template_problems(path);
+        return template_problems(path, handed_out);
     }
     if !CLASSROOM50.iter().any(|name| path.join(name).exists()) {
         return vec![format!(
@@ -39,10 +39,10 @@ pub(super) fn problems(path: &Path) -> Vec<String> {
             CLASSROOM50.join(" and ")
         )];
     }
-    classroom50_problems(path)
+    classroom50_problems(path, handed_out)
 }
 
-fn classroom50_problems(path: &Path) -> Vec<String> {
+fn classroom50_problems(path: &Path, handed_out: &HandedOut) -> Vec<String> {
     let mut problems = Vec::new();
     let mut size = 0;
     for name in CLASSROOM50 {
@@ -61,7 +61,7 @@ fn classroom50_problems(path: &Path) -> Vec<String> {
     }
     if problems.is_empty() {
         match read_package(&path.join(CLASSROOM50[1])) {
-            Ok(contents) => problems.extend(grader_zip_problems(&contents)),
+            Ok(contents) => problems.extend(grader_zip_problems(&contents, handed_out)),
             Err(error) => problems.push(format!(
                 "{error}; for this folder, use `cargo author package classroom50`"
             )),
@@ -71,10 +71,13 @@ fn classroom50_problems(path: &Path) -> Vec<String> {
 }
 
 /// Returns a message for each problem with the grader's zip, which runs the practice exam.
-fn grader_zip_problems(contents: &PackageContents) -> Vec<String> {
+fn grader_zip_problems(contents: &PackageContents, handed_out: &HandedOut) -> Vec<String> {
     let mut problems = contents.damage_problems();
     problems.extend(contents.empty_folder_problems(&REQUIRED_FOLDERS, "classroom50"));
-    match (contents.bytes_of(POLICY), ExamSource::Practice.load()) {
+    match (
+        contents.bytes_of(POLICY),
+        ExamSource::Practice.load(handed_out),
+    ) {
         (Some(policy), Ok(practice)) => problems.extend(policy_problem(policy, &practice.exam)),
         (_, Err(error)) => problems.push(error.to_string()),
         (None, _) => problems.push(format!(
@@ -84,8 +87,11 @@ fn grader_zip_problems(contents: &PackageContents) -> Vec<String> {
     problems
 }
 
-fn template_problems(path: &Path) -> Vec<String> {
-    let files = TASK_FILES.map(|file| format!("student/src/{}", file.name));
+fn template_problems(path: &Path, handed_out: &HandedOut) -> Vec<String> {
+    let files = handed_out.files.iter();
+    let files: Vec<String> = files
+        .map(|file| format!("student/src/{}", file.name))
+        .collect();
     let required = files.iter().map(String::as_str).chain(TEMPLATE_PATHS);
     let missing = required.filter(|name| !path.join(name).exists());
     let problems =

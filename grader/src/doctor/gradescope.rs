@@ -7,6 +7,7 @@ use judging::exam_file::{self, ExamFile};
 use crate::doctor::package_contents::{
     EXAM, GRADE, POLICY, PackageContents, SCRIPTS, policy_problem,
 };
+use crate::handed_out::HandedOut;
 
 /// The folders from which the grader and the solution are built.
 const REQUIRED_FOLDERS: [&str; 4] = [
@@ -24,13 +25,13 @@ const LINUX_ONLY_CRATE: &str = "/landlock-";
 
 impl PackageContents {
     /// Returns a message for each problem that Gradescope would have with the package.
-    pub(super) fn problems(&self) -> Vec<String> {
+    pub(super) fn problems(&self, handed_out: &HandedOut) -> Vec<String> {
         let mut problems = self.damage_problems();
         problems.extend(SCRIPTS.iter().flat_map(|name| self.script_problems(name)));
         // As long as Gradescope cannot run these scripts, other problems do not matter.
         if problems.is_empty() {
             problems.extend(self.script_problems(GRADE));
-            problems.extend(self.exam_and_policy_problems());
+            problems.extend(self.exam_and_policy_problems(handed_out));
             problems.extend(self.build_input_problems());
         }
         problems
@@ -91,7 +92,7 @@ impl PackageContents {
         faults.map(|(_, fault)| format!("{name} {fault}")).collect()
     }
 
-    fn exam_and_policy_problems(&self) -> Vec<String> {
+    fn exam_and_policy_problems(&self, handed_out: &HandedOut) -> Vec<String> {
         let (exam, policy) = match (self.inspected.get(EXAM), self.inspected.get(POLICY)) {
             (Some(exam), Some(policy)) => (exam, policy),
             (exam, _) => {
@@ -101,7 +102,7 @@ impl PackageContents {
                 )];
             }
         };
-        let exam = match exam_file::parse(Path::new(EXAM), exam) {
+        let exam = match exam_file::parse(Path::new(EXAM), exam, handed_out.assignment) {
             Ok(ExamFile { exam, .. }) => exam,
             Err(error) => return vec![error.to_string()],
         };

@@ -5,15 +5,16 @@ use std::path::Path;
 
 use crate::doctor::folder;
 use crate::doctor::package_contents::read_package;
+use crate::handed_out::HandedOut;
 
 pub use crate::doctor::package_contents::PackageError;
 
 /// Returns a message for each problem, including what to do about it. If there is none, the package
 /// will work.
-pub fn problems(path: &Path) -> Result<Vec<String>, PackageError> {
+pub fn problems(path: &Path, handed_out: &HandedOut) -> Result<Vec<String>, PackageError> {
     if path.is_dir() {
-        Ok(folder::problems(path))
+        Ok(folder::problems(path, handed_out))
     } else {
-        Ok(read_package(path)?.problems())
+        Ok(read_package(path)?.problems(handed_out))
     }
 }

@@ -10,6 +10,7 @@ use roxmltree::Document;
 
 use super::{Drawing, draw};
 use crate::exam_source::ExamSource;
+use crate::handed_out::RAYS;
 
 /// A size that no drawing reaches.
 const MAX_BYTES: usize = 130_000;
@@ -17,7 +18,7 @@ const MAX_BYTES: usize = 130_000;
 /// The first question of each item of the practice exam.
 static QUESTIONS: LazyLock<Vec<ExamQuestion>> = LazyLock::new(|| {
     let exam = ExamSource::Practice
-        .load()
+        .load(&RAYS)
         .expect("the practice exam is embedded")
         .exam;
     let items = exam.items.into_iter();

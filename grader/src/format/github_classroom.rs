@@ -43,7 +43,7 @@ fn result(view: &StudentView, context: &FormatContext, max_chars: usize) -> Valu
                 "score": item.points,
                 "message": if has_all { Value::Null } else { truncate(&text, max_chars).into() },
                 "test_code": "",
-                "filename": task.id.file(),
+                "filename": context.file_of(task.id),
                 "line_no": item.at.as_ref().map_or(0, |at| at.line),
             })
         })

@@ -4,7 +4,6 @@
 //! Gradescope applies a test's `visibility` itself, and hides the total while a test is hidden.
 //! Therefore, this format also lists hidden items one by one.
 
-use judging::exam::Task;
 use serde_json::{Map, Value, json};
 
 use crate::format::FormatSpec;
@@ -36,8 +35,8 @@ fn render(view: &StudentView, context: &FormatContext) -> String {
 fn results(view: &StudentView, context: &FormatContext, max_chars: usize) -> Value {
     let score = &view.visible;
     let milliseconds = score.timings.build_ms + score.timings.exam_ms;
-    let tests = Task::ALL.iter().zip(1..).flat_map(|(task, number)| {
-        let entries = view.all_items.iter().filter(|entry| entry.task == *task);
+    let tests = score.tasks.iter().zip(1..).flat_map(|(task, number)| {
+        let entries = view.all_items.iter().filter(|entry| entry.task == task.id);
         entries.zip(1..).map(move |(entry, position)| {
             let number = format!("{number}.{position}");
             test(view, entry, number, context, max_chars)

@@ -20,7 +20,7 @@ mod spec;
 mod student_view;
 mod text;
 
-pub use spec::{FormatContext, FormatSpec, OutputSpec};
+pub use spec::{FormatContext, FormatSpec, MethodLocation, OutputSpec};
 pub use student_view::{ItemView, StudentView};
 
 /// All formats, in the order in which `--help` lists them.

@@ -7,16 +7,13 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use judging::exam::Task;
+use judging::assignment::{Task, TaskInfo};
 
-use crate::format::{FormatContext, FormatSpec, OutputSpec, StudentView};
-use crate::given_files::TASK_FILES;
+use crate::format::{FormatContext, FormatSpec, MethodLocation, OutputSpec, StudentView};
+use crate::handed_out::HandedOut;
 use crate::report::atomic_write;
 use crate::report::text::HintDetail;
 use crate::submission::Submission;
-
-/// The folders of a checkout that may contain the task files, in the order of the search.
-const TASK_FILE_FOLDERS: [&str; 3] = ["", "src", "student/src"];
 
 /// Reasons why an output file cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -73,8 +70,8 @@ impl Outputs {
         let mut outputs = Outputs {
             files: Vec::new(),
             context: FormatContext {
-                folder: folder_in_checkout(submitted),
-                method_lines: find_method_lines(submission),
+                folder: folder_in_checkout(submitted, submission.handed_out),
+                methods: find_methods(submission),
                 variables: BTreeMap::new(),
                 hints,
             },
@@ -169,16 +166,17 @@ fn read_variables(
 
 /// Returns the folder of the task files relative to the checkout, which is `GITHUB_WORKSPACE` or
 /// the current folder. The result is empty if the files are not below the checkout.
-fn folder_in_checkout(submitted: &Path) -> String {
+fn folder_in_checkout(submitted: &Path, handed_out: &HandedOut) -> String {
     let current = env::current_dir().unwrap_or_default();
     let submitted = current.join(submitted);
     let checkout = env::var_os("GITHUB_WORKSPACE").map_or(current, PathBuf::from);
-    let folders = TASK_FILE_FOLDERS.map(|folder| submitted.join(folder));
+    let folders = handed_out.assignment.folders.iter();
+    let mut folders = folders.map(|folder| submitted.join(folder));
     let has_task_files = |folder: &PathBuf| {
-        let mut files = TASK_FILES.iter();
+        let mut files = handed_out.files.iter();
         files.any(|file| folder.join(file.name).symlink_metadata().is_ok())
     };
-    let folder = folders.into_iter().find(has_task_files);
+    let folder = folders.find(has_task_files);
     let folder = folder.and_then(|folder| folder.canonicalize().ok());
     let relative = folder.and_then(|folder| {
         let relative = folder.strip_prefix(checkout.canonicalize().ok()?).ok()?;
@@ -187,15 +185,20 @@ fn folder_in_checkout(submitted: &Path) -> String {
     relative.unwrap_or_default()
 }
 
-/// Returns the 1-based line number of each task's method.
-fn find_method_lines(submission: &Submission) -> BTreeMap<Task, u32> {
-    let line = |task: Task| {
+/// Finds the method of each task in the submission's files.
+fn find_methods(submission: &Submission) -> BTreeMap<Task, MethodLocation> {
+    let line = |task: &TaskInfo| {
         let mut files = submission.files.iter();
-        let (_, text) = files.find(|(file, _)| file.name == task.file())?;
-        let head = format!("pub fn {}(", task.method());
+        let (_, text) = files.find(|(file, _)| file.name == task.file)?;
+        let head = format!("pub fn {}(", task.method);
         let mut lines = (1..).zip(text.as_ref().ok()?.lines());
         let (line, _) = lines.find(|(_, line)| line.trim_start().starts_with(&head))?;
-        Some((task, line))
+        Some(line)
     };
-    Task::ALL.into_iter().filter_map(line).collect()
+    let location = |task: &TaskInfo| {
+        let (file, line) = (task.file, line(task));
+        (task.task(), MethodLocation { file, line })
+    };
+    let tasks = submission.handed_out.assignment.tasks.iter();
+    tasks.map(location).collect()
 }

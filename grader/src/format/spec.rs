@@ -5,7 +5,7 @@ use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use judging::exam::Task;
+use judging::assignment::Task;
 
 use crate::format::{FORMATS, StudentView, json};
 use crate::report::text::HintDetail;
@@ -36,12 +36,29 @@ pub struct FormatContext {
     /// The folder of the task files in the repository, such as `student/src`. It is empty if they
     /// are at the top level.
     pub folder: String,
-    /// The line where each task's method begins in its file.
-    pub method_lines: BTreeMap<Task, u32>,
+    /// The location of each task's method.
+    pub methods: BTreeMap<Task, MethodLocation>,
     /// The environment variables with which the platform describes the submission.
     pub variables: BTreeMap<&'static str, String>,
     /// The level of detail of hints.
     pub hints: HintDetail,
+}
+
+/// The location of a method that students write.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MethodLocation {
+    /// The name of the task file, such as `sphere.rs`.
+    pub file: &'static str,
+    /// The 1-based line number of the method's signature, if the file has one.
+    pub line: Option<u32>,
+}
+
+impl FormatContext {
+    /// Returns the name of the file with a task's method. It is empty if the task is not one of the
+    /// assignment's.
+    pub fn file_of(&self, task: Task) -> &str {
+        self.methods.get(&task).map_or("", |method| method.file)
+    }
 }
 
 /// A format and an optional path, such as `gradescope` or `github=summary.md`.

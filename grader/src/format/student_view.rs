@@ -1,6 +1,6 @@
 //! The part of a score that students may see. All formats are rendered from it.
 
-use judging::exam::Task;
+use judging::assignment::Task;
 
 use crate::policy::{CountedPoints, Lateness, Policy, Visibility};
 use crate::rerun_command::RerunCommand;
@@ -84,8 +84,8 @@ impl StudentView {
 
     /// Returns whether none of the submission's task files compiled.
     pub fn nothing_compiled(&self) -> bool {
-        let all = crate::given_files::TASK_FILES.len();
-        self.visible.build.not_compiled.len() == all
+        let mut items = self.all_items.iter();
+        items.all(|entry| entry.item.verdict == Verdict::NotCompiled)
     }
 }
 

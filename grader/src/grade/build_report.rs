@@ -26,9 +26,9 @@ fn notes(submission: &Submission, build: &Build) -> Vec<String> {
         .iter()
         .filter(|(file, _)| !build.not_compiled.contains_key(file.name));
     for (file, text) in compiled {
-        let changed = text
-            .as_ref()
-            .map_or(Vec::new(), |text| file.changed_methods(text));
+        let changed = text.as_ref().map_or(Vec::new(), |text| {
+            build.handed_out.changed_methods(file, text)
+        });
         if !changed.is_empty() {
             let (file, changed) = (file.name, changed.join(", "));
             notes.push(format!(

@@ -15,6 +15,7 @@ use crate::build::{Build, BuildError, Builder, NotCompiled};
 use crate::error::Error;
 use crate::format::StudentView;
 use crate::format::outputs::{OutputError, Outputs};
+use crate::handed_out::HandedOut;
 use crate::options::GradeOptions;
 use crate::policy::{Lateness, Policy};
 use crate::report::html::Reload;
@@ -79,7 +80,7 @@ impl<'a> Grader<'a> {
     /// Loads the exam, and prepares the builder.
     pub fn prepare(options: &'a GradeOptions) -> Result<Self, Error> {
         let workspace = Workspace::find()?;
-        let file = options.exam.load()?;
+        let file = options.exam.load(options.handed_out)?;
         // A missing submission is reported before anything is compiled.
         collect(options, &workspace)?;
         let builder = with_requested_level(builder(options, &workspace)?, options.isolation)?;
@@ -95,7 +96,7 @@ impl<'a> Grader<'a> {
         let workspace = Workspace::find()?;
         let submission = collect(options, &workspace)?;
         let (builder, built, file) = thread::scope(|scope| {
-            let reading = scope.spawn(|| options.exam.load());
+            let reading = scope.spawn(|| options.exam.load(options.handed_out));
             let read = |reading: ScopedJoinHandle<'_, _>| {
                 reading.join().expect("reading the exam does not panic")
             };
@@ -121,7 +122,7 @@ impl<'a> Grader<'a> {
     /// Prepares a grader without a submission of its own, for callers that grade several
     /// submissions.
     pub fn for_many(options: &'a GradeOptions) -> Result<Self, Error> {
-        let file = options.exam.load()?;
+        let file = options.exam.load(options.handed_out)?;
         let workspace = Workspace::find()?;
         let builder = with_requested_level(builder(options, &workspace)?, options.isolation)?;
         Grader::new(options, workspace, builder, file)
@@ -165,6 +166,11 @@ impl<'a> Grader<'a> {
         Outputs::new(formats, folder, &submitted, submission, hints)
     }
 
+    /// Returns the assignment.
+    pub fn handed_out(&self) -> &'static HandedOut {
+        self.options.handed_out
+    }
+
     /// Returns the exam's id, and the hash of its file.
     pub fn exam_name(&self) -> &ExamName {
         &self.exam_name
@@ -204,7 +210,12 @@ impl<'a> Grader<'a> {
 
     /// Returns the score before any item is graded.
     pub fn pending_score(&self, submission: &Submission, built: &BuiltSubmission) -> Score {
-        let mut score = pending_score(&self.exam, self.exam_name.clone(), &submission.name);
+        let mut score = pending_score(
+            &self.exam,
+            self.exam_name.clone(),
+            &submission.name,
+            self.options.handed_out,
+        );
         score.rerun_command = RerunCommand {
             submission: self.options.submission.clone(),
             exam: self.options.exam.option().map(Path::to_owned),

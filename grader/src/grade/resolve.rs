@@ -46,9 +46,9 @@ pub fn default_folder(workspace: &Workspace, submission: &Submission) -> PathBuf
 /// Returns the builder. It uses the reference's parts if they exist and are wanted.
 pub fn builder(options: &GradeOptions, workspace: &Workspace) -> Result<Builder, BuildError> {
     let builder = Builder::prepare(workspace)?;
-    match workspace.reference() {
+    match workspace.reference(options.handed_out) {
         Some(reference) if options.dependents == Dependents::SubstituteReference => {
-            builder.with_reference(&reference, workspace)
+            builder.with_reference(&reference, options.handed_out, workspace)
         }
         Some(_) | None => Ok(builder),
     }
@@ -56,20 +56,22 @@ pub fn builder(options: &GradeOptions, workspace: &Workspace) -> Result<Builder,
 
 /// Reads the submission that the options name.
 pub fn collect(options: &GradeOptions, workspace: &Workspace) -> Result<Submission, Error> {
-    Ok(Submission::collect(&submission_path(options, workspace))?)
+    let path = submission_path(options, workspace);
+    Ok(Submission::collect(&path, options.handed_out)?)
 }
 
 /// Returns the path of the submission that the options name.
 pub(super) fn submission_path(options: &GradeOptions, workspace: &Workspace) -> PathBuf {
     match &options.submission {
         Some(path) => workspace.resolve(path),
-        None => workspace.student(),
+        None => workspace.root().join(options.handed_out.student),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::handed_out::RAYS;
 
     #[test]
     fn no_name_leads_out_of_the_output_folder_or_into_the_caches() {
@@ -77,6 +79,7 @@ mod tests {
         // These include `...zip` without its extension, and the name of the cache folder.
         for name in ["..", ".", "", "../..", "/etc", ".cache", "a/b"] {
             let submission = Submission {
+                handed_out: &RAYS,
                 name: name.to_owned(),
                 files: Vec::new(),
                 notes: Vec::new(),

@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use anstyle::{AnsiColor, Style};
-use judging::exam::Task;
+use judging::assignment::Task;
 use judging::sanitize::sanitize;
 use judging::section::Section;
 

@@ -6,16 +6,18 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use super::source_folder::{self, AmbiguousSource, CANDIDATES};
+use super::source_folder::{self, AmbiguousSource};
 use super::{
-    MAX_FILE_BYTES, SubmissionError, SubmissionFiles, TaskFileError, display_name, is_given_file,
-    task_file_name,
+    MAX_FILE_BYTES, SubmissionError, SubmissionFiles, TaskFileError, display_name, no_task_files,
 };
-use crate::given_files::TASK_FILES;
+use crate::handed_out::{HandedOut, TaskFile};
 use crate::system::{self, EntryKind, Folder};
 
 /// Reads the task files of a folder, and the Rust files beside them.
-pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
+pub(super) fn read(
+    path: &Path,
+    handed_out: &'static HandedOut,
+) -> Result<SubmissionFiles, SubmissionError> {
     let io = |error: io::Error| SubmissionError::Io {
         path: path.to_owned(),
         why: error.kind().to_string(),
@@ -25,8 +27,8 @@ pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
         link: display_name(link),
     };
     let folder = Folder::open(path).map_err(io)?;
-    let found = search(&folder).map_err(io)?;
-    let source = source_folder::find(found.files.iter().map(String::as_str));
+    let found = search(&folder, handed_out).map_err(io)?;
+    let source = source_folder::find(found.files.iter().map(String::as_str), handed_out);
     let source = source.map_err(|AmbiguousSource(folders)| SubmissionError::Ambiguous {
         path: path.to_owned(),
         folders,
@@ -34,7 +36,7 @@ pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
     let Some(source) = source else {
         return Err(match found.linked_folders.first() {
             Some(first) => link(first),
-            None => SubmissionError::NoTaskFiles(path.to_owned()),
+            None => no_task_files(path, handed_out),
         });
     };
     // A link could lead to another person's files.
@@ -42,7 +44,7 @@ pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
         return Err(link(first));
     }
     let Subfolder::Found(source) = open_below(&folder, &source).map_err(io)? else {
-        return Err(SubmissionError::NoTaskFiles(path.to_owned()));
+        return Err(no_task_files(path, handed_out));
     };
     let names = source.names().map_err(io)?;
     let names: Vec<String> = names
@@ -50,29 +52,33 @@ pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
         .filter_map(|name| name.into_string().ok())
         .collect();
     let files = names.iter().map(|name| (name.as_str(), OsStr::new(name)));
-    Ok(read_each(files, |name| source.file(name)))
+    Ok(read_each(files, handed_out, |name| source.file(name)))
 }
 
 /// Reads files, each given by its name and its path.
-pub(super) fn read_files(files: &[(String, PathBuf)]) -> SubmissionFiles {
+pub(super) fn read_files(
+    files: &[(String, PathBuf)],
+    handed_out: &'static HandedOut,
+) -> SubmissionFiles {
     let files = files.iter().map(|(name, path)| (name.as_str(), path));
-    read_each(files, |path| system::open_regular_file(path))
+    read_each(files, handed_out, |path| system::open_regular_file(path))
 }
 
 /// Reads the task files and the given files among these files, and lists the other Rust files. Each
 /// file is given by its name and an argument for `open`.
 fn read_each<'a, T>(
     files: impl Iterator<Item = (&'a str, T)>,
+    handed_out: &'static HandedOut,
     open: impl Fn(T) -> io::Result<Option<File>>,
 ) -> SubmissionFiles {
     let mut contents = SubmissionFiles::default();
     for (name, file) in files {
-        if let Some(name) = task_file_name(name) {
+        if let Some(TaskFile { name, .. }) = handed_out.task_file(name) {
             contents
                 .task_files
                 .insert(name, read_file(open(file), name));
         } else if name.ends_with(".rs") {
-            let is_compared = is_given_file(name);
+            let is_compared = handed_out.given_file(name).is_some();
             let bytes = is_compared.then(|| read_file(open(file), "a given file"));
             let bytes = bytes.and_then(Result::ok).unwrap_or_default();
             contents.other_files.insert(name.to_owned(), bytes);
@@ -113,17 +119,18 @@ struct Search {
     linked_folders: Vec<String>,
 }
 
-/// Looks for task files in the [`CANDIDATES`] of this folder and of each folder in it.
-fn search(folder: &Folder) -> io::Result<Search> {
+/// Looks for task files in this folder and in each folder in it, in the subfolders that the assignment
+/// names.
+fn search(folder: &Folder, handed_out: &HandedOut) -> io::Result<Search> {
     let mut found = Search::default();
-    search_candidates(folder, "", &mut found)?;
+    search_candidates(folder, "", handed_out, &mut found)?;
     for name in folder.names()? {
         let Some(text) = name.to_str() else { continue };
         match folder.kind(&name)? {
             EntryKind::Folder => {
                 // A folder that we may not read has nothing that could be graded.
                 if let Ok(Some(top)) = folder.subfolder(&name) {
-                    search_candidates(&top, text, &mut found)?;
+                    search_candidates(&top, text, handed_out, &mut found)?;
                 }
             }
             EntryKind::Link => found.linked_folders.push(text.to_owned()),
@@ -133,21 +140,28 @@ fn search(folder: &Folder) -> io::Result<Search> {
     Ok(found)
 }
 
-/// Looks for task files in the [`CANDIDATES`] of a folder, whose own path is `path`.
-fn search_candidates(folder: &Folder, path: &str, found: &mut Search) -> io::Result<()> {
-    for candidate in CANDIDATES {
+/// Looks for task files in a folder, whose own path is `path`, in the subfolders that the assignment
+/// names.
+fn search_candidates(
+    folder: &Folder,
+    path: &str,
+    handed_out: &HandedOut,
+    found: &mut Search,
+) -> io::Result<()> {
+    for candidate in handed_out.assignment.folders {
         let path = join(path, candidate);
         let candidate = match open_below(folder, candidate)? {
             Subfolder::Found(candidate) => candidate,
             Subfolder::Link => {
-                found.files.push(join(&path, TASK_FILES[0].name));
+                found.files.push(join(&path, handed_out.files[0].name));
                 found.links.push((path.clone(), path));
                 continue;
             }
             Subfolder::Missing => continue,
         };
         for name in candidate.names()? {
-            let Some(name) = name.to_str().and_then(task_file_name) else {
+            let file = name.to_str().and_then(|name| handed_out.task_file(name));
+            let Some(TaskFile { name, .. }) = file else {
                 continue;
             };
             found.files.push(join(&path, name));

@@ -1,4 +1,4 @@
-//! Collects a submission: the five task files from a folder or an archive, and nothing else.
+//! Collects a submission: the task files of an assignment from a folder or an archive, and nothing else.
 //!
 //! An archive is read in memory and never unpacked. Files are selected by their exact names.
 
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use judging::sanitize::sanitize;
 
-use crate::given_files::{GIVEN_FILES, MAIN_FILE, TASK_FILES, TaskFile};
+use crate::handed_out::{HandedOut, TaskFile};
 
 pub use archive::{Archive, ArchiveError, Listing, Member};
 
@@ -23,9 +23,11 @@ const MAX_NOTES: usize = 20;
 /// The maximum length of a printed name, in characters.
 const MAX_NAME_CHARS: usize = 200;
 
-/// The five task files as they were submitted.
+/// The task files as they were submitted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Submission {
+    /// The assignment.
+    pub handed_out: &'static HandedOut,
     /// The name of the folder or archive, for reports.
     pub name: String,
     /// The text of each task file, or the reason why it has none, in lecture order.
@@ -69,16 +71,21 @@ pub enum TaskFileError {
 #[derive(Debug, thiserror::Error)]
 pub enum SubmissionError {
     /// The path does not exist.
-    #[error("there is no {0}: pass the folder with the five files, such as `student`")]
+    #[error("there is no {0}: name the folder with the task files, such as `student`")]
     NotFound(PathBuf),
     /// The path is a device, a pipe or a socket.
-    #[error("{0} is neither a folder nor a file: pass the folder with the five files")]
+    #[error("{0} is neither a folder nor a file: name the folder with the task files")]
     NotFileOrFolder(PathBuf),
-    /// The folder or archive has none of the five files.
-    #[error(
-        "{0} has none of camera.rs, triangle.rs, sphere.rs, bbox.rs and bvh.rs, and neither do its src/ and student/src/"
-    )]
-    NoTaskFiles(PathBuf),
+    /// The folder or archive has none of the task files.
+    #[error("{} has none of {files}, and neither does any of its folders {folders}", path.display())]
+    NoTaskFiles {
+        /// The path of the folder or archive.
+        path: PathBuf,
+        /// The names of the task files.
+        files: String,
+        /// The other folders that were searched.
+        folders: String,
+    },
     /// One of the files or folders to read is a link.
     #[error(
         "{path}: {link} is a link, and links are not followed: replace it with the actual file or folder"
@@ -122,18 +129,20 @@ impl Submission {
     /// Reads the task files from the top level of a folder or archive, or else from its `src/` or
     /// `student/src/`. If none of these three folders has any, looks in the same three folders of
     /// each subfolder; only one subfolder may have task files.
-    pub fn collect(path: &Path) -> Result<Self, SubmissionError> {
+    pub fn collect(path: &Path, handed_out: &'static HandedOut) -> Result<Self, SubmissionError> {
         if path.is_dir() {
             return Ok(Submission::from_contents(
                 folder_name(path),
-                folder::read(path)?,
+                folder::read(path, handed_out)?,
+                handed_out,
             ));
         }
         if path.is_file() {
-            let contents = archive::read(path)?;
+            let contents = archive::read(path, handed_out)?;
             return Ok(Submission::from_contents(
                 archive::without_extension(&folder_name(path)),
                 contents,
+                handed_out,
             ));
         }
         Err(match path.symlink_metadata() {
@@ -143,11 +152,20 @@ impl Submission {
     }
 
     /// Reads a submission from single files, listed by submitted name and path on disk.
-    pub fn from_files(name: &str, files: &[(String, PathBuf)]) -> Self {
-        Submission::from_contents(name.to_owned(), folder::read_files(files))
+    pub fn from_files(
+        name: &str,
+        files: &[(String, PathBuf)],
+        handed_out: &'static HandedOut,
+    ) -> Self {
+        let contents = folder::read_files(files, handed_out);
+        Submission::from_contents(name.to_owned(), contents, handed_out)
     }
 
-    fn from_contents(name: String, mut contents: SubmissionFiles) -> Self {
+    fn from_contents(
+        name: String,
+        mut contents: SubmissionFiles,
+        handed_out: &'static HandedOut,
+    ) -> Self {
         let mut text = |file: TaskFile| {
             let missing = || Err(TaskFileError::Missing(file.name));
             let bytes = contents
@@ -156,10 +174,12 @@ impl Submission {
                 .unwrap_or_else(missing)?;
             decode(file.name, bytes)
         };
+        let files = handed_out.files.iter().map(|file| (*file, text(*file)));
         Submission {
+            handed_out,
             name,
-            files: TASK_FILES.map(|file| (file, text(file))).to_vec(),
-            notes: notes(&contents.other_files),
+            files: files.collect(),
+            notes: notes(&contents.other_files, handed_out),
         }
     }
 }
@@ -173,17 +193,16 @@ struct SubmissionFiles {
     other_files: BTreeMap<String, Vec<u8>>,
 }
 
-/// Returns the task file's name if `name` is exactly that of a task file. A similar name, such as
-/// `Bvh.rs`, does not count.
-fn task_file_name(name: &str) -> Option<&'static str> {
-    let mut files = TASK_FILES.into_iter();
-    files.find(|file| file.name == name).map(|file| file.name)
-}
-
-/// Returns whether this is the name of a given file.
-fn is_given_file(name: &str) -> bool {
-    let mut given = GIVEN_FILES.iter().chain([&MAIN_FILE]);
-    given.any(|(given, _)| *given == name)
+/// Returns the error for a folder or archive without task files.
+fn no_task_files(path: &Path, handed_out: &HandedOut) -> SubmissionError {
+    let folders = handed_out.assignment.folders.iter();
+    let folders = folders.filter(|folder| !folder.is_empty());
+    let folders: Vec<String> = folders.map(|folder| format!("{folder}/")).collect();
+    SubmissionError::NoTaskFiles {
+        path: path.to_owned(),
+        files: handed_out.file_list(),
+        folders: folders.join(" and "),
+    }
 }
 
 /// Returns a name that is safe to print: shortened, and with control characters escaped.
@@ -209,23 +228,19 @@ fn decode(name: &'static str, bytes: Vec<u8>) -> Result<String, TaskFileError> {
 }
 
 /// Returns notes that list the other files found, and say that they are not used.
-fn notes(other_files: &BTreeMap<String, Vec<u8>>) -> Vec<String> {
-    let given = |name: &str| {
-        let given = GIVEN_FILES.into_iter().chain([MAIN_FILE]);
-        given.into_iter().find(|(given, _)| *given == name)
-    };
-    let note = |(name, bytes): (&String, &Vec<u8>)| match given(name) {
+fn notes(other_files: &BTreeMap<String, Vec<u8>>, handed_out: &HandedOut) -> Vec<String> {
+    let note = |(name, bytes): (&String, &Vec<u8>)| match handed_out.given_file(name) {
         // `main.rs` only renders pictures, and the reference's may differ because it imports
         // another crate.
-        Some((main, _)) if main == MAIN_FILE.0 => None,
-        Some((_, text)) => {
+        Some(given) if *given == handed_out.main => None,
+        Some(given) => {
             let theirs = String::from_utf8_lossy(bytes);
             // Compares by line: git and editors may change line endings.
-            let same = theirs.lines().eq(text.lines());
+            let same = theirs.lines().eq(given.text.lines());
             (!same).then(|| format!("{name} differs from the given one, which is used"))
         }
         None => Some(format!(
-            "{} is not one of the five files: ignored",
+            "{} is not one of the task files: ignored",
             display_name(name)
         )),
     };

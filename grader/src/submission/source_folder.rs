@@ -2,10 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::task_file_name;
+use crate::handed_out::HandedOut;
 
-/// Folders that may contain the task files, in order of preference.
-pub(super) const CANDIDATES: [&str; 3] = ["", "src", "student/src"];
 /// A folder of metadata that macOS adds to archives.
 const MACOS_METADATA: &str = "__MACOSX";
 
@@ -14,19 +12,21 @@ const MACOS_METADATA: &str = "__MACOSX";
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct AmbiguousSource(pub(super) Vec<String>);
 
-/// Finds the folder with the task files, given the paths of all files. The first of [`CANDIDATES`]
-/// that has task files is used. If none has, the candidates inside each top-level folder are
+/// Finds the folder with the task files, given the paths of all files. The first of the assignment's
+/// folders that has task files is used. If none has, the candidates inside each top-level folder are
 /// considered, since people and GitHub often put everything in one folder; only one top-level
 /// folder may have task files. Returns `None` if no folder is found.
 pub(super) fn find<'a>(
     paths: impl IntoIterator<Item = &'a str>,
+    handed_out: &HandedOut,
 ) -> Result<Option<String>, AmbiguousSource> {
     let folder = |path: &'a str| {
         let (folder, name) = path.rsplit_once('/').unwrap_or(("", path));
-        task_file_name(name).map(|_| folder)
+        handed_out.task_file(name).map(|_| folder)
     };
     let folders: BTreeSet<&str> = paths.into_iter().filter_map(folder).collect();
-    if let Some(candidate) = CANDIDATES
+    let candidates = handed_out.assignment.folders;
+    if let Some(candidate) = candidates
         .iter()
         .find(|candidate| folders.contains(**candidate))
     {
@@ -36,7 +36,7 @@ pub(super) fn find<'a>(
     let mut tops: BTreeMap<&str, usize> = BTreeMap::new();
     for folder in folders {
         let (top, below) = folder.split_once('/').unwrap_or((folder, ""));
-        let rank = CANDIDATES.iter().position(|candidate| *candidate == below);
+        let rank = candidates.iter().position(|candidate| *candidate == below);
         if let Some(rank) = rank.filter(|_| top != MACOS_METADATA && !top.starts_with('.')) {
             tops.entry(top)
                 .and_modify(|best| *best = rank.min(*best))
@@ -49,7 +49,7 @@ pub(super) fn find<'a>(
         ));
     }
     let only = tops.into_iter().next();
-    Ok(only.map(|(top, rank)| match CANDIDATES[rank] {
+    Ok(only.map(|(top, rank)| match candidates[rank] {
         "" => top.to_owned(),
         below => format!("{top}/{below}"),
     }))
@@ -58,9 +58,10 @@ pub(super) fn find<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::handed_out::RAYS;
 
     fn find_in(paths: &[&str]) -> Result<Option<String>, AmbiguousSource> {
-        find(paths.iter().copied())
+        find(paths.iter().copied(), &RAYS)
     }
 
     #[test]

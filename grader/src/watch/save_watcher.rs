@@ -1,4 +1,4 @@
-//! Detects when a submission has been saved, by polling its five files.
+//! Detects when a submission has been saved, by polling its task files.
 //!
 //! File system events would be a few milliseconds faster, but they are not always delivered on
 //! network drives, in containers and in virtual machines. Reading five small files takes 50 µs.
@@ -52,12 +52,13 @@ mod tests {
     use std::cell::RefCell;
 
     use super::*;
-    use crate::given_files::TASK_FILES;
+    use crate::handed_out::RAYS;
 
     fn version(text: &str) -> Option<Submission> {
         Some(Submission {
+            handed_out: &RAYS,
             name: "student".to_owned(),
-            files: vec![(TASK_FILES[0], Ok(text.to_owned()))],
+            files: vec![(RAYS.files[0], Ok(text.to_owned()))],
             notes: Vec::new(),
         })
     }

@@ -4,7 +4,7 @@
 use std::io;
 
 use console::{Term, truncate_str};
-use judging::exam::Task;
+use judging::assignment::Task;
 
 use crate::report::text::{HintDetail, report};
 use crate::score::Score;

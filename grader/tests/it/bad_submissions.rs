@@ -44,7 +44,7 @@ fn a_renamed_file_counts_as_missing_and_is_noted() {
     let note = &graded.score()["build"]["notes"][0];
     assert_eq!(
         note,
-        "sphere_final.rs is not one of the five files: ignored"
+        "sphere_final.rs is not one of the task files: ignored"
     );
 }
 

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use author::solutions::catalogue::mistakes;
 use author::solutions::sources::Sources;
 use author::solutions::variants::variants;
-use grader::given_files::TASK_FILES;
+use grader::handed_out::RAYS;
 use grader::workspace::Workspace;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn write(folder: &Path, sources: &Sources) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(folder)?;
-    for file in TASK_FILES {
+    for file in RAYS.files {
         fs::write(
             folder.join(file.name),
             sources.text(file.name).unwrap_or_default(),

@@ -110,6 +110,7 @@ fn traversal_steps(tree: &Tree, ray: &Ray) -> Vec<TraversalStep> {
 #[cfg(test)]
 mod tests {
     use glam::{DVec3, Vec3, vec3};
+    use grader::handed_out::RAYS;
 
     use super::*;
     use crate::items::{self, meshes};
@@ -153,6 +154,7 @@ mod tests {
     fn drawing_data_fits_its_questions() {
         let exam = Exam {
             schema: 1,
+            assignment: RAYS.assignment.id.to_owned(),
             id: "small".to_owned(),
             mistakes: Vec::new(),
             items: items::resolve(items::bbox::items(Seed(1))),

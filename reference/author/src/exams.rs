@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use grader::exam_source::{ExamSource, ExamSourceError};
+use grader::handed_out::RAYS;
 use judging::exam::Exam;
 
 use crate::drawing_data::with_drawing_data;
@@ -44,7 +45,7 @@ pub fn generated_files() -> Result<Vec<GeneratedFile>, ExamGenerationError> {
 
 /// Reads the practice exam that is committed in the workspace at `root`.
 pub fn load_practice(root: &Path) -> Result<Exam, ExamSourceError> {
-    Ok(ExamSource::File(root.join(PRACTICE_FILE)).load()?.exam)
+    Ok(ExamSource::File(root.join(PRACTICE_FILE)).load(&RAYS)?.exam)
 }
 
 /// Generates the text of a final exam. Its questions are about the same ideas as those of the
@@ -70,6 +71,7 @@ pub fn generate(id: &str, seed: Seed, recorder: &Recorder) -> Result<Exam, Recor
 pub fn assemble(id: &str, seed: Seed, recorded: RecordedPicture) -> Exam {
     Exam {
         schema: SCHEMA,
+        assignment: RAYS.assignment.id.to_owned(),
         id: id.to_owned(),
         mistakes: Vec::new(),
         items: items::items(seed, recorded),
@@ -106,6 +108,7 @@ mod tests {
     fn text_parses_back_to_the_exam() {
         let exam = Exam {
             schema: SCHEMA,
+            assignment: RAYS.assignment.id.to_owned(),
             id: "a \"test\"".to_owned(),
             mistakes: vec![KnownMistake {
                 id: "bbox.none".to_owned(),

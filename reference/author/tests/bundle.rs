@@ -68,8 +68,8 @@ fn finds_an_inserted_secret_of_each_kind() {
             line_with("reference/variants/bvh/median.rs", "total_cmp"),
         ),
         (
-            "reference/substitution/bvh.rs",
-            line_with("reference/substitution/bvh.rs", "split_at_mut"),
+            "reference/substitution/bvh/bvh.rs",
+            line_with("reference/substitution/bvh/bvh.rs", "split_at_mut"),
         ),
         (
             "reference/author/src/oracle/",

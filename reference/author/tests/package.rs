@@ -8,6 +8,7 @@ use author::bundle::secrets::Secrets;
 use author::bundle::{Bundle, archive};
 use author::package::{Course, PackageError, Platform, collect};
 use grader::doctor::package::problems;
+use grader::handed_out::RAYS;
 
 /// A course with a substitute for a final exam: the practice exam with another id.
 static FINAL: LazyLock<Course> = LazyLock::new(|| {
@@ -31,7 +32,7 @@ fn the_gradescope_zip_is_complete_and_has_no_needless_files() {
     let folder = tempfile::TempDir::new().unwrap();
     let zip = folder.path().join("gradescope.zip");
     std::fs::write(&zip, archive::zip_with_prefix(&package, "").unwrap()).unwrap();
-    assert_eq!(problems(&zip).unwrap(), [""; 0]);
+    assert_eq!(problems(&zip, &RAYS).unwrap(), [""; 0]);
     for path in package.files.keys() {
         for staff in [
             "mistakes", "variants", "mutants", "author", "tests/", "handout/",
@@ -75,7 +76,7 @@ fn written_folders_are_complete() {
             .output()
             .unwrap();
         assert!(output.status.success(), "{output:?}");
-        assert_eq!(problems(&out).unwrap(), [""; 0], "{platform}");
+        assert_eq!(problems(&out, &RAYS).unwrap(), [""; 0], "{platform}");
     }
 }
 

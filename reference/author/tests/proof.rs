@@ -14,6 +14,7 @@ use author::solutions::Solutions;
 use author::solutions::catalogue::Change;
 use author::solutions::variants::Variant;
 use author::solutions::workbench::Workbench;
+use grader::handed_out::RAYS;
 use judging::exam::Exam;
 
 static SOLUTIONS: LazyLock<Solutions> = LazyLock::new(|| {
@@ -88,7 +89,9 @@ fn every_variant_file_is_listed() {
 #[test]
 fn reports_a_mistake_that_changes_nothing() {
     let (mut mistake, _) = SOLUTIONS.mistakes[0].clone();
-    let file = root().join("reference/src").join(mistake.task().file());
+    let file = root()
+        .join("reference/src")
+        .join(RAYS.assignment.info(mistake.task()).file);
     let line = "//! Task 1: rays from the camera.";
     assert!(fs::read_to_string(file).unwrap().contains(line));
     mistake.changes = vec![Change {

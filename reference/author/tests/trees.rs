@@ -6,7 +6,8 @@ use std::collections::BTreeSet;
 
 use author::oracle::{Ray64, scan};
 use author::tree::{Tree, decoy};
-use judging::exam::{Exam, Task};
+use judging::assignment::RAYS;
+use judging::exam::Exam;
 use protocol::{Question, Ray, Rays};
 
 use crate::exams::{SEEDS, exam_of};
@@ -85,7 +86,11 @@ fn a_linear_scan_fails_every_traversal_item() {
                 caught.insert(id);
             }
         }
-        for item in exam.items.iter().filter(|item| item.task == Task::Traverse) {
+        for item in exam
+            .items
+            .iter()
+            .filter(|item| item.task == RAYS.find("traverse").unwrap().task())
+        {
             assert!(caught.contains(&*item.id), "seed {seed}, {}", item.id);
         }
     }

@@ -5,7 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{LayoutContents, is_task_file, unmatched_path};
+use grader::handed_out::HandedOut;
+
+use super::{LayoutContents, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
@@ -79,7 +81,7 @@ fn split_late(parts: &[&str]) -> (String, bool) {
     (names.join("_"), late)
 }
 
-pub(super) fn read(root: &Node) -> LayoutContents {
+pub(super) fn read(root: &Node, handed_out: &HandedOut) -> LayoutContents {
     let mut users: BTreeMap<&str, Vec<(CanvasName, &Node)>> = BTreeMap::new();
     let mut texts = Vec::new();
     let mut others = Vec::new();
@@ -107,18 +109,24 @@ pub(super) fn read(root: &Node) -> LayoutContents {
         let source = Source::Missing(TEXT_ONLY.to_owned());
         entry(&name, name.late, node.name.clone(), source)
     });
-    let entries = users.into_values().map(entry_of_files).chain(of_texts);
+    let entries = users
+        .into_values()
+        .map(|files| entry_of_files(files, handed_out))
+        .chain(of_texts);
     (entries.collect(), others)
 }
 
 /// Returns the entry for all files of one user.
-fn entry_of_files(mut files: Vec<(CanvasName, &Node)>) -> Entry {
+fn entry_of_files(mut files: Vec<(CanvasName, &Node)>, handed_out: &HandedOut) -> Entry {
     files.sort_by_key(|(name, _)| name.attachment);
     let (last, newest) = files.last().expect("every user has a file");
-    let is_one = |(name, _): &(CanvasName, &Node)| is_task_file(&original_name(&name.file));
+    let is_task_file = |(name, _): &(CanvasName, &Node)| {
+        let name = original_name(&name.file, handed_out);
+        handed_out.task_file(&name).is_some()
+    };
     let archive = files.iter().rfind(|(_, node)| node.is_archive());
     // Task files that are not packed take precedence over an archive, as in a folder.
-    let archive = archive.filter(|_| !files.iter().any(is_one));
+    let archive = archive.filter(|_| !files.iter().any(is_task_file));
     let source = match archive {
         Some((_, archive)) => Source::Path(archive.path.clone()),
         // Files that were handed in again come later in the list. Of several files with the same
@@ -126,7 +134,7 @@ fn entry_of_files(mut files: Vec<(CanvasName, &Node)>) -> Entry {
         None => Source::Files(
             files
                 .iter()
-                .map(|(name, node)| (original_name(&name.file), node.path.clone()))
+                .map(|(name, node)| (original_name(&name.file, handed_out), node.path.clone()))
                 .collect(),
         ),
     };
@@ -160,7 +168,7 @@ fn entry(name: &CanvasName, late: bool, from: String, source: Source) -> Entry {
 
 /// Removes the number that Canvas appends: returns `camera.rs` for `camera-2.rs`. Changes only the
 /// names of task files, since other names may end in a number of their own.
-fn original_name(name: &str) -> String {
+fn original_name(name: &str, handed_out: &HandedOut) -> String {
     let original = |file: &str| -> Option<String> {
         let (stem, end) = file.rsplit_once('.')?;
         let (stem, number) = stem.rsplit_once('-')?;
@@ -168,12 +176,14 @@ fn original_name(name: &str) -> String {
         is_number.then(|| format!("{stem}.{end}"))
     };
     original(name)
-        .filter(|name| is_task_file(name))
+        .filter(|name| handed_out.task_file(name).is_some())
         .unwrap_or_else(|| name.to_owned())
 }
 
 #[cfg(test)]
 mod tests {
+    use grader::handed_out::RAYS;
+
     use super::*;
 
     #[test]
@@ -192,8 +202,8 @@ mod tests {
 
     #[test]
     fn removes_canvas_numbers_from_task_file_names_only() {
-        assert_eq!(original_name("camera-12.rs"), "camera.rs");
-        assert_eq!(original_name("camera-final.rs"), "camera-final.rs");
-        assert_eq!(original_name("scene-2.rs"), "scene-2.rs");
+        assert_eq!(original_name("camera-12.rs", &RAYS), "camera.rs");
+        assert_eq!(original_name("camera-final.rs", &RAYS), "camera-final.rs");
+        assert_eq!(original_name("scene-2.rs", &RAYS), "scene-2.rs");
     }
 }

@@ -12,7 +12,7 @@ mod plain;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use grader::given_files::TASK_FILES;
+use grader::handed_out::HandedOut;
 use judging::sanitize::safe_folder_name;
 
 use crate::entry::{Entry, Source};
@@ -71,14 +71,18 @@ impl Layout {
 
 /// Recognises the layout of a folder and returns its entries. `metadata` is the text of
 /// Gradescope's metadata file, if there is one.
-pub fn recognise(root: &Node, metadata: Option<&str>) -> Result<RecognisedClass, MetadataError> {
-    let root = find_class_folder(root);
+pub fn recognise(
+    root: &Node,
+    metadata: Option<&str>,
+    handed_out: &HandedOut,
+) -> Result<RecognisedClass, MetadataError> {
+    let root = find_class_folder(root, handed_out);
     let (layout, (mut entries, unmatched)) = if let Some(metadata) = metadata {
         (Layout::Gradescope, gradescope::read(root, metadata)?)
     } else if is_majority(root, |node| canvas::is_name(&node.name)) {
-        (Layout::Canvas, canvas::read(root))
+        (Layout::Canvas, canvas::read(root, handed_out))
     } else if is_majority(root, |node| moodle::parse(&node.name).is_some()) {
-        (Layout::Moodle, moodle::read(root))
+        (Layout::Moodle, moodle::read(root, handed_out))
     } else if github::prefix(root).is_some() {
         (Layout::GitHub, github::read(root))
     } else {
@@ -115,26 +119,29 @@ fn reject_links(root: &Node, entries: &mut [Entry]) {
 
 /// Returns the folder that contains the entries. A folder that contains only another folder is
 /// skipped, unless the inner folder is a submission.
-pub fn find_class_folder(root: &Node) -> &Node {
+pub fn find_class_folder<'a>(root: &'a Node, handed_out: &HandedOut) -> &'a Node {
     match root.children() {
-        [only] if only.is_folder() && !only.is_link && !is_submission(only) => {
-            find_class_folder(only)
+        [only] if only.is_folder() && !only.is_link && !is_submission(only, handed_out) => {
+            find_class_folder(only, handed_out)
         }
         _ => root,
     }
 }
 
-fn is_task_file(name: &str) -> bool {
-    TASK_FILES.iter().any(|file| file.name == name)
-}
-
 /// Returns whether a folder is a single submission rather than a class.
-fn is_submission(node: &Node) -> bool {
+fn is_submission(node: &Node, handed_out: &HandedOut) -> bool {
     let is_moodles = moodle::parse(&node.name).is_some();
-    let holds = |node: &Node| TASK_FILES.iter().any(|file| node.find(file.name).is_some());
-    let below = node.find("src").is_some_and(holds);
-    let student = node.find("student").and_then(|student| student.find("src"));
-    is_moodles || holds(node) || below || student.is_some_and(holds)
+    let holds = |node: &Node| {
+        handed_out
+            .files
+            .iter()
+            .any(|file| node.find(file.name).is_some())
+    };
+    let below = |path: &&str| {
+        let mut names = path.split('/').filter(|name| !name.is_empty());
+        names.try_fold(node, Node::find).is_some_and(holds)
+    };
+    is_moodles || handed_out.assignment.folders.iter().any(below)
 }
 
 /// Returns whether `is_one` is true for more than half of the files and folders in `root`.

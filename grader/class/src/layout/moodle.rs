@@ -4,7 +4,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{LayoutContents, is_task_file, unmatched_path};
+use grader::handed_out::HandedOut;
+
+use super::{LayoutContents, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source, several_archives_message};
 use crate::listing::Node;
 
@@ -40,7 +42,7 @@ pub(super) fn parse(name: &str) -> Option<MoodleName<'_>> {
     })
 }
 
-pub(super) fn read(root: &Node) -> LayoutContents {
+pub(super) fn read(root: &Node, handed_out: &HandedOut) -> LayoutContents {
     let mut people: BTreeMap<&str, Vec<(MoodleName, &Node)>> = BTreeMap::new();
     let mut others = Vec::new();
     for node in root.children() {
@@ -63,7 +65,7 @@ pub(super) fn read(root: &Node) -> LayoutContents {
         }
         let beside = |(_, node): &(MoodleName, &Node)| unmatched_path(node, TEXT_BESIDE_FILES);
         others.extend(texts.iter().map(beside));
-        let (first, source) = choose_source(&files);
+        let (first, source) = choose_source(&files, handed_out);
         entries.push(entry(first, source));
     }
     (entries, others)
@@ -73,14 +75,15 @@ pub(super) fn read(root: &Node) -> LayoutContents {
 /// the file whose name identifies the entry.
 fn choose_source<'f, 'n>(
     files: &'f [(MoodleName<'n>, &'n Node)],
+    handed_out: &HandedOut,
 ) -> (&'f (MoodleName<'n>, &'n Node), Source) {
     let path = |(_, node): &(MoodleName, &Node)| Source::Path(node.path.clone());
     if let Some(folder) = files.iter().find(|(_, node)| node.is_folder()) {
         return (folder, path(folder));
     }
-    let is_one = |(name, _): &&(MoodleName, &Node)| is_task_file(name.file);
+    let is_task_file = |(name, _): &&(MoodleName, &Node)| handed_out.task_file(name.file).is_some();
     let archives: Vec<_> = files.iter().filter(|(_, node)| node.is_archive()).collect();
-    match (files.iter().find(is_one), archives.as_slice()) {
+    match (files.iter().find(is_task_file), archives.as_slice()) {
         (None, [only]) => (only, path(only)),
         (None, [first, ..]) => (
             first,

@@ -3,6 +3,8 @@
 
 use std::path::PathBuf;
 
+use grader::handed_out::RAYS;
+
 use super::*;
 
 fn file(name: &str) -> Node {
@@ -22,21 +24,21 @@ fn folder(name: &str, inside: Vec<Node>) -> Node {
 }
 
 fn layout(root: &Node) -> Layout {
-    recognise(root, None).unwrap().layout
+    recognise(root, None, &RAYS).unwrap().layout
 }
 
 #[test]
 fn skips_wrapper_folders_but_not_submissions() {
     let class = folder("class", vec![folder("ann", vec![]), folder("bob", vec![])]);
     let wrapped = folder("download", vec![class.clone()]);
-    assert_eq!(find_class_folder(&wrapped), &class);
+    assert_eq!(find_class_folder(&wrapped, &RAYS), &class);
     let one = folder("class", vec![folder("ann", vec![file("camera.rs")])]);
-    assert_eq!(find_class_folder(&one), &one);
+    assert_eq!(find_class_folder(&one, &RAYS), &one);
     let moodle = folder(
         "class",
         vec![folder("Ann_1_assignsubmission_file_", vec![])],
     );
-    assert_eq!(find_class_folder(&moodle), &moodle);
+    assert_eq!(find_class_folder(&moodle, &RAYS), &moodle);
 }
 
 #[test]
@@ -56,7 +58,7 @@ fn the_majority_of_names_decides_the_layout() {
 #[test]
 fn ids_that_differ_only_in_case_get_numbers() {
     let names = ["Ann", "ann", "a/n"].map(|name| folder(name, vec![]));
-    let found = recognise(&folder("x", names.to_vec()), None).unwrap();
+    let found = recognise(&folder("x", names.to_vec()), None, &RAYS).unwrap();
     let ids: Vec<&str> = found
         .entries
         .iter()

@@ -2,6 +2,7 @@
 
 use std::fmt::{self, Write};
 
+use grader::handed_out::HandedOut;
 use judging::sanitize::sanitize;
 
 use crate::entry::{Entry, Person};
@@ -12,13 +13,22 @@ use crate::layout::{RecognisedClass, UnmatchedPath};
 const MAX_CHARS: usize = 200;
 
 /// Renders the entries with the files that each would be graded from.
-pub fn render_preview(class: &RecognisedClass, missing: &[Person]) -> String {
+pub fn render_preview(
+    class: &RecognisedClass,
+    missing: &[Person],
+    handed_out: &'static HandedOut,
+) -> String {
     let mut text = String::new();
-    write_preview(&mut text, class, missing).expect("writing to a string succeeds");
+    write_preview(&mut text, class, missing, handed_out).expect("writing to a string succeeds");
     text
 }
 
-fn write_preview(out: &mut String, class: &RecognisedClass, missing: &[Person]) -> fmt::Result {
+fn write_preview(
+    out: &mut String,
+    class: &RecognisedClass,
+    missing: &[Person],
+    handed_out: &'static HandedOut,
+) -> fmt::Result {
     writeln!(
         out,
         "\n  {} in {}\n",
@@ -27,7 +37,7 @@ fn write_preview(out: &mut String, class: &RecognisedClass, missing: &[Person]) 
     )?;
     let mut gradable = 0;
     for entry in &class.entries {
-        let files = describe_files(entry);
+        let files = describe_files(entry, handed_out);
         gradable += usize::from(files.is_ok());
         let who = sanitized(&entry.info.display_names());
         let late = if entry.info.late { ", late" } else { "" };
@@ -82,17 +92,18 @@ fn count_submissions(entries: usize) -> String {
     }
 }
 
-fn describe_files(entry: &Entry) -> Result<String, String> {
-    let submission = collect_submission(entry)?;
+fn describe_files(entry: &Entry, handed_out: &'static HandedOut) -> Result<String, String> {
+    let submission = collect_submission(entry, handed_out)?;
     let missing = submission.files.iter().filter(|(_, text)| text.is_err());
     let missing: Vec<String> = missing
         .filter_map(|(_, text)| text.as_ref().err().map(ToString::to_string))
         .collect();
+    let count = submission.files.len();
     Ok(match missing.as_slice() {
-        [] => "five files".to_owned(),
+        [] => format!("all {count} files"),
         missing => format!(
-            "{} of 5 files; {}",
-            submission.files.len() - missing.len(),
+            "{} of {count} files; {}",
+            count - missing.len(),
             missing.join("; ")
         ),
     })

@@ -5,107 +5,15 @@
 
 mod key;
 
-use std::fmt;
-
 use protocol::Question;
 use serde::{Deserialize, Serialize};
 
+use crate::assignment::{RAYS, Task};
 use crate::drawing_data::DrawingData;
 use crate::section::Section;
 use crate::signatures::{KnownMistake, MistakeSignatures};
 
 pub use key::{ExpectedHit, HitCheck, Key, RayCheck, Surface, TreeCheck};
-
-/// One of the six tasks of the assignment, in lecture order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum Task {
-    /// `Camera::sample_ray`
-    Camera,
-    /// `Triangle::hit`
-    Triangle,
-    /// `Sphere::hit`
-    Sphere,
-    /// `BBox::hit`
-    #[serde(rename = "bbox")]
-    BBox,
-    /// `Bvh::build`
-    Build,
-    /// `Bvh::hit`
-    Traverse,
-}
-
-impl Task {
-    /// All tasks, in lecture order.
-    pub const ALL: [Task; 6] = [
-        Task::Camera,
-        Task::Triangle,
-        Task::Sphere,
-        Task::BBox,
-        Task::Build,
-        Task::Traverse,
-    ];
-
-    /// Returns the id that the command line and files use.
-    pub fn id(self) -> &'static str {
-        match self {
-            Task::Camera => "camera",
-            Task::Triangle => "triangle",
-            Task::Sphere => "sphere",
-            Task::BBox => "bbox",
-            Task::Build => "build",
-            Task::Traverse => "traverse",
-        }
-    }
-
-    /// Returns a human-readable title.
-    pub fn title(self) -> &'static str {
-        match self {
-            Task::Camera => "Task 1: camera rays",
-            Task::Triangle => "Task 2: triangles",
-            Task::Sphere => "Task 2: spheres",
-            Task::BBox => "Task 3: boxes",
-            Task::Build => "Task 3: building a BVH",
-            Task::Traverse => "Task 3: traversing a BVH",
-        }
-    }
-
-    /// Returns the submission's file that contains the task.
-    pub fn file(self) -> &'static str {
-        match self {
-            Task::Camera => "camera.rs",
-            Task::Triangle => "triangle.rs",
-            Task::Sphere => "sphere.rs",
-            Task::BBox => "bbox.rs",
-            Task::Build | Task::Traverse => "bvh.rs",
-        }
-    }
-
-    /// Returns the name of the method to write.
-    pub fn method(self) -> &'static str {
-        match self {
-            Task::Camera => "sample_ray",
-            Task::Triangle | Task::Sphere | Task::BBox | Task::Traverse => "hit",
-            Task::Build => "build",
-        }
-    }
-
-    /// Returns the total points of the task's items.
-    pub fn points(self) -> u32 {
-        match self {
-            Task::Camera | Task::Sphere => 15,
-            Task::Triangle | Task::Build | Task::Traverse => 20,
-            Task::BBox => 10,
-        }
-    }
-}
-
-impl fmt::Display for Task {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(self.id())
-    }
-}
 
 /// An exam, worth 100 points in total.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -113,6 +21,9 @@ impl fmt::Display for Task {
 pub struct Exam {
     /// Version of the file format.
     pub schema: u32,
+    /// Id of the assignment. Files that do not name one are for `rays`.
+    #[serde(default = "rays", skip_serializing_if = "is_rays")]
+    pub assignment: String,
     /// Name of the exam, such as `practice`.
     pub id: String,
     /// The known mistakes. The items' signatures refer to them by index.
@@ -120,6 +31,14 @@ pub struct Exam {
     pub mistakes: Vec<KnownMistake>,
     /// The items in the order in which they are graded. An item comes after those that it needs.
     pub items: Vec<Item>,
+}
+
+fn rays() -> String {
+    RAYS.id.to_owned()
+}
+
+fn is_rays(id: &str) -> bool {
+    id == RAYS.id
 }
 
 impl Exam {
@@ -135,6 +54,7 @@ impl Exam {
         let items = self.items.iter().filter(|item| wanted(item));
         Exam {
             schema: self.schema,
+            assignment: self.assignment.clone(),
             id: self.id.clone(),
             mistakes: self.mistakes.clone(),
             items: items.cloned().collect(),

@@ -32,9 +32,9 @@ fn file_annotation(file: &FileReport, context: &FormatContext) -> String {
 
 fn item_annotation(task: &TaskScore, item: &ItemScore, context: &FormatContext) -> String {
     let at = item.at.as_ref();
-    let file = at.map_or(task.id.file(), |at| &at.file);
+    let file = at.map_or(context.file_of(task.id), |at| &at.file);
     let line = at.map(|at| at.line);
-    let line = line.or_else(|| context.method_lines.get(&task.id).copied());
+    let line = line.or_else(|| context.methods.get(&task.id)?.line);
     let mut properties = vec![("file", checkout_path(file, context))];
     properties.extend(line.map(|line| ("line", line.to_string())));
     let (points, of) = (task.points, task.max_points);

@@ -51,6 +51,7 @@ pub fn page(score: &Score, exam: &Exam, answers: &ReportAnswers, reload: Reload)
 pub fn feedback(score: &Score) -> String {
     let unseen = Exam {
         schema: score.schema,
+        assignment: String::new(),
         id: score.exam.id.clone(),
         mistakes: Vec::new(),
         items: Vec::new(),

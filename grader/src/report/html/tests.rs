@@ -7,6 +7,7 @@ use sha2::{Digest, Sha256};
 
 use super::Reload;
 use crate::exam_source::ExamSource;
+use crate::handed_out::RAYS;
 use crate::report_answers::ReportAnswers;
 use crate::score::{Evidence, FileReport, Hint, Score, Verdict};
 use crate::verdict::pending_score;
@@ -16,7 +17,10 @@ const HOSTILE: &str =
     "</title></script><script>alert(1)</script>\"><img src=x>&amp;\u{202e}\u{1b}[2J";
 
 fn exam() -> Exam {
-    ExamSource::Practice.load().expect("the practice exam").exam
+    ExamSource::Practice
+        .load(&RAYS)
+        .expect("the practice exam")
+        .exam
 }
 
 fn sample_pending_score(exam: &Exam, submission: &str) -> Score {
@@ -24,7 +28,7 @@ fn sample_pending_score(exam: &Exam, submission: &str) -> Score {
         id: exam.id.clone(),
         hash: "0123456789abcdef".to_owned(),
     };
-    pending_score(exam, name, submission)
+    pending_score(exam, name, submission, &RAYS)
 }
 
 /// Returns the page without its own style and script.

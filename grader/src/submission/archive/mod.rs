@@ -15,9 +15,9 @@ use unicode_normalization::UnicodeNormalization;
 
 use super::source_folder::{self, AmbiguousSource};
 use super::{
-    MAX_FILE_BYTES, SubmissionError, SubmissionFiles, TaskFileError, display_name, is_given_file,
-    task_file_name,
+    MAX_FILE_BYTES, SubmissionError, SubmissionFiles, TaskFileError, display_name, no_task_files,
 };
+use crate::handed_out::{HandedOut, TaskFile};
 
 use limited_reader::LimitedReader;
 use tarball::Tarball;
@@ -53,10 +53,10 @@ pub enum ArchiveError {
     #[error("{0} is in it twice, or is the same file as {1} on some systems: pack it again")]
     DuplicatePath(String, String),
     /// There are too many members.
-    #[error("it has more than {MAX_MEMBERS} files: pack the five files, without target/")]
+    #[error("it has more than {MAX_MEMBERS} files: pack the task files, without target/")]
     TooManyFiles,
     /// The contents are too large.
-    #[error("its contents are larger than {} MiB: pack the five files, without target/", .0 >> 20)]
+    #[error("its contents are larger than {} MiB: pack the task files, without target/", .0 >> 20)]
     TooLarge(u64),
     /// A member's path leads out of the archive.
     #[error("the path {0} in it leads outside the archive: pack it again")]
@@ -176,19 +176,23 @@ impl Archive {
 }
 
 /// Reads the task files of an archive, and the Rust files beside them.
-pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
+pub(super) fn read(
+    path: &Path,
+    handed_out: &'static HandedOut,
+) -> Result<SubmissionFiles, SubmissionError> {
     let rejected = |why| SubmissionError::Archive {
         path: path.to_owned(),
         why,
     };
     let mut archive = Archive::open(path).map_err(rejected)?;
     let members = archive.members().map_err(rejected)?;
-    let source = source_folder::find(members.iter().map(|member| member.path.as_str()));
+    let paths = members.iter().map(|member| member.path.as_str());
+    let source = source_folder::find(paths, handed_out);
     let source = source.map_err(|AmbiguousSource(folders)| SubmissionError::Ambiguous {
         path: path.to_owned(),
         folders: folders.iter().map(|folder| display_name(folder)).collect(),
     })?;
-    let source = source.ok_or_else(|| SubmissionError::NoTaskFiles(path.to_owned()))?;
+    let source = source.ok_or_else(|| no_task_files(path, handed_out))?;
 
     let name = |member: &Member| {
         let (folder, name) = member.path.rsplit_once('/').unwrap_or(("", &member.path));
@@ -198,16 +202,17 @@ pub(super) fn read(path: &Path) -> Result<SubmissionFiles, SubmissionError> {
         .iter()
         .filter_map(|member| Some((name(member)?, member)))
         .collect();
-    let is_read =
-        |(name, _): &&(String, &Member)| task_file_name(name).is_some() || is_given_file(name);
+    let is_read = |(name, _): &&(String, &Member)| {
+        handed_out.task_file(name).is_some() || handed_out.given_file(name).is_some()
+    };
     let (read, others): (Vec<_>, Vec<_>) = here.iter().partition(is_read);
     let requested: Vec<&Member> = read.iter().map(|(_, member)| *member).collect();
 
     let mut contents = SubmissionFiles::default();
     let bytes = archive.read(&requested, MAX_FILE_BYTES).map_err(rejected)?;
     for ((name, _), bytes) in read.iter().zip(bytes) {
-        match task_file_name(name) {
-            Some(name) => {
+        match handed_out.task_file(name) {
+            Some(TaskFile { name, .. }) => {
                 let is_too_long = bytes.len() as u64 > MAX_FILE_BYTES;
                 let bytes = if is_too_long {
                     Err(TaskFileError::TooLong(name))

@@ -11,6 +11,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::*;
+use crate::handed_out::RAYS;
 use crate::submission::Submission;
 
 type Files<'a> = &'a [(&'a str, &'a [u8])];
@@ -75,7 +76,7 @@ fn write_archive(name: &str, bytes: &[u8]) -> TempArchive {
 }
 
 fn collect(name: &str, bytes: &[u8]) -> Result<Submission, SubmissionError> {
-    Submission::collect(&write_archive(name, bytes).path)
+    Submission::collect(&write_archive(name, bytes).path, &RAYS)
 }
 
 fn collect_error(bytes: &[u8]) -> ArchiveError {
@@ -146,7 +147,7 @@ fn reads_zip_tar_and_tar_gz_alike() {
             Err(TaskFileError::Missing("camera.rs"))
         );
         let notes = [
-            "helper.rs is not one of the five files: ignored",
+            "helper.rs is not one of the task files: ignored",
             "world.rs differs from the given one, which is used",
         ];
         assert_eq!(submission.notes, notes);
@@ -240,7 +241,7 @@ fn reports_what_is_wrong_with_an_unusable_archive() {
     );
     assert!(matches!(
         collect("a.zip", &zip(&[("a/b/c/d.rs", b"")])),
-        Err(SubmissionError::NoTaskFiles(_))
+        Err(SubmissionError::NoTaskFiles { .. })
     ));
     assert!(matches!(
         collect("a.zip", &zip(&[("a/bvh.rs", b""), ("b/bvh.rs", b"")])),
@@ -254,7 +255,7 @@ fn truncated_archives_are_damaged_or_lack_files() {
         for length in (0..whole.len()).step_by(7) {
             match collect("a", &whole[..length]) {
                 Ok(submission) => assert_eq!(submission.files.len(), 5),
-                Err(SubmissionError::Archive { .. } | SubmissionError::NoTaskFiles(_)) => {}
+                Err(SubmissionError::Archive { .. } | SubmissionError::NoTaskFiles { .. }) => {}
                 Err(other) => panic!("{length}: {other}"),
             }
         }

@@ -2,6 +2,7 @@
 
 use grader::exam_source::ExamSource;
 use grader::format::{FORMATS, FormatContext, StudentView};
+use grader::handed_out::RAYS;
 use grader::policy::{Lateness, Policy};
 use grader::score::Verdict;
 use grader::verdict::pending_score;
@@ -11,7 +12,7 @@ use crate::harness::{Submission, grader};
 
 #[test]
 fn a_killed_job_says_that_it_is_unfinished() {
-    let file = ExamSource::Practice.load().unwrap();
+    let file = ExamSource::Practice.load(&RAYS).unwrap();
     let mut around = FormatContext::default();
     for name in FORMATS.iter().flat_map(|format| format.variables) {
         around.variables.insert(name, "submit/x".to_owned());
@@ -22,7 +23,7 @@ fn a_killed_job_says_that_it_is_unfinished() {
     around
         .variables
         .insert("SUBMITTED_AT", "2026-11-20T21:09:58Z".to_owned());
-    let score = pending_score(&file.exam, file.name(), "killed");
+    let score = pending_score(&file.exam, file.name(), "killed", &RAYS);
     let seen = StudentView::new(&score, &Policy::default(), Lateness::NONE);
     let unfinished = format!("UNFINISHED: 0 of {}", file.exam.items.len());
     for format in FORMATS {

@@ -10,7 +10,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use grader::given_files::TASK_FILES;
+use grader::handed_out::RAYS;
 use judging::exam::Exam;
 
 use crate::bundle::Bundle;
@@ -21,7 +21,7 @@ use crate::text_file::ReadError;
 /// The files and folders whose lines are secret.
 const SECRET_PATHS: [&str; 4] = [
     "reference/src",
-    "reference/substitution/bvh.rs",
+    "reference/substitution/bvh/bvh.rs",
     "reference/mutants",
     "reference/variants",
 ];
@@ -94,7 +94,7 @@ impl Secrets {
         let reference = Sources::reference(root)?;
         for mistake in mistakes(root)? {
             let wrong = mistake.apply(&reference)?;
-            for file in TASK_FILES {
+            for file in RAYS.files {
                 let source = format!("the mistake {}, {}", mistake.id, file.name);
                 secrets.add(&source, wrong.text(file.name).unwrap_or_default());
             }

@@ -95,6 +95,7 @@ mod tests {
     use super::*;
     use crate::items::{bbox, resolve};
     use crate::seed::Seed;
+    use grader::handed_out::RAYS;
 
     #[test]
     fn reports_missing_sections_and_differing_headings_with_their_item() {
@@ -104,6 +105,7 @@ mod tests {
         items[2].section = None;
         let exam = Exam {
             schema: 1,
+            assignment: RAYS.assignment.id.to_owned(),
             id: String::new(),
             mistakes: Vec::new(),
             items,

@@ -6,7 +6,8 @@
 
 use std::collections::BTreeSet;
 
-use judging::exam::{Exam, Task};
+use judging::assignment::RAYS;
+use judging::exam::Exam;
 
 use super::commands;
 use super::pages::{Page, Snippet};
@@ -84,7 +85,7 @@ pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
 fn item_id(text: &str) -> Option<&str> {
     let id = text.split('#').next()?;
     let (task, name) = id.split_once('.')?;
-    let is_task = Task::ALL.into_iter().any(|known| known.id() == task);
+    let is_task = RAYS.tasks().any(|known| known.id() == task);
     (is_task && is_identifier(name) && name != "rs").then_some(id)
 }
 
@@ -152,6 +153,7 @@ mod tests {
         let files = BTreeSet::from(["student/src/bvh.rs".to_owned()]);
         let exam = Exam {
             schema: 1,
+            assignment: RAYS.id.to_owned(),
             id: String::new(),
             mistakes: Vec::new(),
             items: items::resolve(items::bbox::items(Seed(1))),

@@ -1,6 +1,7 @@
 //! The declaration of an item: everything about it except its questions, in one place.
 
-use judging::exam::{ExamQuestion, Item, Task};
+use judging::assignment::{RAYS, Task};
+use judging::exam::{ExamQuestion, Item};
 use judging::section::Section;
 use judging::signatures::MistakeSignatures;
 
@@ -78,7 +79,7 @@ pub(super) fn item(declaration: Declaration, questions: Vec<ExamQuestion>) -> De
 
 fn task(id: &str) -> Task {
     let of = |task: &Task| id.split('.').next() == Some(task.id());
-    let task = Task::ALL.into_iter().find(of);
+    let task = RAYS.tasks().find(of);
     task.expect("the id of an item begins with its task")
 }
 
@@ -127,6 +128,6 @@ mod tests {
         assert_eq!(needs, [0, 0, 0, 0, 3]);
         let expected = ["bbox.through", "triangle.inside", "triangle.outside"];
         assert_eq!(items[4].needs, expected);
-        assert_eq!(items[4].task, Task::Traverse);
+        assert_eq!(items[4].task, RAYS.find("traverse").unwrap().task());
     }
 }

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use grader::exam_source::{ExamSource, ExamSourceError};
+use grader::handed_out::RAYS;
 use grader::policy::{self, Policy, PolicyError};
 
 use crate::bundle::crates::CratesError;
@@ -94,7 +95,7 @@ impl Course {
         let exam = match (seed, exam) {
             (Some(seed), _) => Some(crate::exams::final_exam_text(seed)?),
             (None, Some(path)) => {
-                ExamSource::File(path.to_owned()).load()?;
+                ExamSource::File(path.to_owned()).load(&RAYS)?;
                 Some(read(path)?)
             }
             (None, None) => None,

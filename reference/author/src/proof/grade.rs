@@ -1,7 +1,8 @@
 //! Grades mistakes and variants with an exam.
 
 use grader::score::{ItemScore, Score};
-use judging::exam::{Exam, Item, Task};
+use judging::assignment::Task;
+use judging::exam::{Exam, Item};
 use rayon::prelude::*;
 
 use crate::solutions::Solutions;

@@ -4,7 +4,8 @@
 use std::fmt::Write;
 
 use grader::score::ItemScore;
-use judging::exam::{Exam, Item, Task};
+use judging::assignment::{RAYS, Task};
+use judging::exam::{Exam, Item};
 
 use crate::exams;
 use crate::generated_file::GeneratedFile;
@@ -41,7 +42,7 @@ fn table(exam: &Exam, graded: &[GradedMistake]) -> GeneratedFile {
         graded.len(),
         exam.id
     );
-    for task in Task::ALL {
+    for task in RAYS.tasks() {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
         let of_task = graded.iter().filter(|graded| graded.mistake.task() == task);
         task_table(&mut text, task, &items, of_task).expect("writing to a String cannot fail");
@@ -55,7 +56,7 @@ fn task_table<'a>(
     items: &[&Item],
     graded: impl Iterator<Item = &'a GradedMistake<'a>>,
 ) -> std::fmt::Result {
-    writeln!(out, "\n## {}\n", task.title())?;
+    writeln!(out, "\n## {}\n", RAYS.info(task).title)?;
     for (number, item) in (1..).zip(items) {
         writeln!(out, "{number}. `{}`: {}", item.id, item.title)?;
     }

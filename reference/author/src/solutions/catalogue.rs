@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use judging::exam::Task;
+use judging::assignment::{RAYS, Task};
 use judging::section::Section;
 use serde::Deserialize;
 
@@ -100,7 +100,7 @@ pub fn mistakes(root: &Path) -> Result<Vec<Mistake>, CatalogueError> {
     }
 
     let mut all: Vec<Mistake> = Vec::new();
-    for task in Task::ALL {
+    for task in RAYS.tasks() {
         for path in files(&root.join("reference/mistakes").join(task.id()))? {
             let file: File =
                 toml::from_str(&read(&path)?).map_err(|source| CatalogueError::Toml {
@@ -138,7 +138,7 @@ impl Mistake {
     /// Returns the task that must lose points.
     pub fn task(&self) -> Task {
         let of = |task: &Task| self.id.split('.').next() == Some(task.id());
-        let task = Task::ALL.into_iter().find(of);
+        let task = RAYS.tasks().find(of);
         task.expect("ids were checked when they were read")
     }
 
@@ -150,14 +150,17 @@ impl Mistake {
             let of_task = |id: &String| id.split('.').next() == Some(task.id());
             *task == self.task() || self.fails.iter().any(of_task)
         };
-        Task::ALL.into_iter().filter(failed).collect()
+        RAYS.tasks().filter(failed).collect()
     }
 
     /// Returns the reference with this mistake.
     pub fn apply(&self, reference: &Sources) -> Result<Sources, CatalogueError> {
         let mut sources = reference.clone();
         for change in &self.changes {
-            let file = change.file.as_deref().unwrap_or(self.task().file());
+            let file = change
+                .file
+                .as_deref()
+                .unwrap_or(RAYS.info(self.task()).file);
             let text = sources.text(file).unwrap_or_default();
             let times = text.matches(&change.was).count();
             if times != 1 {

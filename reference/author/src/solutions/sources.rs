@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use grader::given_files::{TASK_FILES, TaskFile};
+use grader::handed_out::{RAYS, TaskFile};
 use grader::submission::Submission;
 
 use crate::text_file::{ReadError, read};
@@ -18,8 +18,9 @@ pub struct Sources {
 impl Sources {
     /// Reads the reference's files in the workspace at `root`.
     pub fn reference(root: &Path) -> Result<Self, ReadError> {
-        let text = |file: TaskFile| Ok((file, read(&root.join("reference/src").join(file.name))?));
-        let files: Result<_, _> = TASK_FILES.into_iter().map(text).collect();
+        let text =
+            |file: &TaskFile| Ok((*file, read(&root.join("reference/src").join(file.name))?));
+        let files: Result<_, _> = RAYS.files.iter().map(text).collect();
         Ok(Sources {
             files: files?,
             crates: Vec::new(),
@@ -58,6 +59,7 @@ impl Sources {
     pub fn to_submission(&self, name: &str) -> Submission {
         let files = self.files.iter();
         Submission {
+            handed_out: &RAYS,
             name: name.to_owned(),
             files: files
                 .map(|(file, text)| (*file, Ok(text.clone())))

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use judging::exam::Task;
+use judging::assignment::{RAYS, Task};
 use serde::Deserialize;
 
 use crate::solutions::sources::Sources;
@@ -75,8 +75,8 @@ impl Variant {
 
     /// Returns the tasks that its file solves.
     pub fn tasks(&self) -> Vec<Task> {
-        let of_file = |task: &Task| task.file() == self.file();
-        Task::ALL.into_iter().filter(of_file).collect()
+        let of_file = |task: &Task| RAYS.info(*task).file == self.file();
+        RAYS.tasks().filter(of_file).collect()
     }
 
     /// Returns the reference with one task file replaced by this variant.

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use grader::build::{Build, BuildError, Builder, NotCompiled};
+use grader::handed_out::RAYS;
 use grader::probe::{Budget, Fault, Launcher};
 use grader::run_exam::run_exam;
 use grader::score::Score;
@@ -61,8 +62,8 @@ impl Workbench {
         let workspace = Workspace::find()?;
         let builder =
             Builder::prepare(&workspace)?.with_cache(&workspace.output_folder().join("kept"))?;
-        let builder = match workspace.reference() {
-            Some(reference) => builder.with_reference(&reference, &workspace)?,
+        let builder = match workspace.reference(&RAYS) {
+            Some(reference) => builder.with_reference(&reference, &RAYS, &workspace)?,
             None => builder,
         };
         Ok(Workbench { workspace, builder })
@@ -138,7 +139,7 @@ impl BuiltSolution {
             id: exam.id.clone(),
             hash: String::new(),
         };
-        let mut score = pending_score(exam, name, &self.id);
+        let mut score = pending_score(exam, name, &self.id, &RAYS);
         run_exam(exam, &self.build, BUDGET, &mut score, |_, _| {
             Ok::<(), WorkbenchError>(())
         })?;

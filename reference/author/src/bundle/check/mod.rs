@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use grader::given_files::TASK_FILES;
+use grader::handed_out::RAYS;
 use serde::Deserialize;
 use zip::result::ZipError;
 
@@ -86,7 +86,7 @@ pub fn check(root: &Path, bundle: &Bundle) -> Result<Vec<String>, CheckError> {
     }
     check_points(0, "the starter", &folder, &mut problems);
 
-    for file in TASK_FILES {
+    for file in RAYS.files {
         let (from, to) = (root.join("reference/src"), folder.join("student/src"));
         fs::copy(from.join(file.name), to.join(file.name)).map_err(io_error(&to))?;
     }

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use grader::doctor::package;
+use grader::handed_out::RAYS;
 use serde_json::Value;
 
 use crate::bundle::{Bundle, archive};
@@ -36,7 +37,7 @@ const VARIABLES: [&str; 10] = [
 
 /// Runs the trial of the package in `folder`, and returns the problems found.
 pub fn check(workspace: &Path, folder: &Path) -> Result<Vec<String>, TrialError> {
-    let mut problems = package::problems(folder)?;
+    let mut problems = package::problems(folder, &RAYS)?;
     let workspace = &workspace.canonicalize().map_err(io_error(workspace))?;
     let packed = fs::read(folder.join("pathtracing.zip")).map_err(io_error(folder))?;
     let grader = archive::unzip(&packed)?;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use grader::given_files::TASK_FILES;
+use grader::handed_out::RAYS;
 
 use crate::bundle::{Bundle, archive};
 use crate::package::trial::runner::{Runner, StepResult};
@@ -69,7 +69,7 @@ fn replace_task_files(
 ) -> Result<(), TrialError> {
     let folder = &source.with_file_name("submission");
     submission.write_to(workspace, folder)?;
-    for file in TASK_FILES {
+    for file in RAYS.files {
         let (from, to) = (folder.join(file.name), source.join(file.name));
         fs::remove_file(&to).map_err(io_error(&to))?;
         if from.exists() {

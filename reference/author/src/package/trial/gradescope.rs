@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use grader::doctor::package;
+use grader::handed_out::RAYS;
 use serde::Deserialize;
 use zip::ZipArchive;
 
@@ -51,7 +52,7 @@ struct Test {
 
 /// Runs the trial of the package in the file `zip`, and returns the problems found.
 pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, TrialError> {
-    let mut problems = package::problems(zip)?;
+    let mut problems = package::problems(zip, &RAYS)?;
     let workspace = &workspace.canonicalize().map_err(io_error(workspace))?;
     let Some(machine) = Machine::create(&workspace.join(TRIAL_FOLDER))? else {
         return Ok(problems);

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use grader::given_files::TASK_FILES;
+use grader::handed_out::RAYS;
 
 use crate::package::trial::{TrialError, io_error, thief};
 
@@ -56,7 +56,7 @@ impl TrialSubmission {
                 return Ok(());
             }
         };
-        for file in TASK_FILES {
+        for file in RAYS.files {
             let from = from.join(file.name);
             fs::copy(&from, folder.join(file.name)).map_err(io_error(&from))?;
         }

@@ -128,7 +128,7 @@ fn keys(exam: &str) -> BTreeSet<String> {
 
 #[cfg(test)]
 mod tests {
-    use grader::given_files::TASK_FILES;
+    use grader::handed_out::RAYS;
 
     use super::*;
 
@@ -140,7 +140,8 @@ mod tests {
     fn all_five_files_attack() {
         let files = files(workspace()).unwrap();
         let names: Vec<&str> = files.iter().map(|(file, _)| *file).collect();
-        assert_eq!(names, TASK_FILES.map(|file| file.name));
+        let expected: Vec<&str> = RAYS.files.iter().map(|file| file.name).collect();
+        assert_eq!(names, expected);
     }
 
     #[test]

@@ -49,7 +49,8 @@ fn measure_all(item: &Item, answers: &Answers) -> Vec<Measurement> {
 mod tests {
     use glam::Vec3;
     use grader::probe::Crash;
-    use judging::exam::{ExamQuestion, Key, Task};
+    use judging::assignment::RAYS;
+    use judging::exam::{ExamQuestion, Key};
     use judging::signatures::MistakeSignatures;
     use protocol::{ElementOutcome, Interval, Question, Ray};
 
@@ -69,7 +70,7 @@ mod tests {
         Item {
             id: "bbox.through".to_owned(),
             title: String::new(),
-            task: Task::BBox,
+            task: RAYS.find("bbox").unwrap().task(),
             points: 1,
             look: String::new(),
             section: None,

@@ -6,7 +6,7 @@ use std::io;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use grader::given_files::{TASK_FILES, TaskFile};
+use grader::handed_out::{RAYS, TaskFile};
 use serde::Deserialize;
 
 use crate::solutions::mutants::list::{self, FileMutants, MutantList, UnnamedMutant};
@@ -83,14 +83,14 @@ fn run(root: &Path) -> io::Result<Output> {
     let mut cargo = Command::new("cargo");
     cargo.args(["mutants", "--list", "--json", "--no-config"]);
     cargo.args(["--package", "reference", "--dir"]).arg(root);
-    for file in TASK_FILES {
+    for file in RAYS.files {
         cargo.args(["--file", &path(file)]);
     }
     cargo.output()
 }
 
 /// Returns the path of a file as it is written in the list.
-fn path(file: TaskFile) -> String {
+fn path(file: &TaskFile) -> String {
     format!("reference/src/{}", file.name)
 }
 
@@ -104,7 +104,7 @@ fn parse_list(made_by: &str, json: &[u8], reference: &Sources) -> Result<MutantL
             .or_default()
             .push(listed.into_unnamed()?);
     }
-    let files = TASK_FILES.into_iter().map(|file| {
+    let files = RAYS.files.iter().map(|file| {
         let text = reference.text(file.name).unwrap_or_default();
         match by_file.remove(&path(file)) {
             Some(unnamed) => Ok(FileMutants::new(file.name, text, unnamed)),

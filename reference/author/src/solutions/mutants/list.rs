@@ -1,7 +1,7 @@
 //! The list of all mutants, `reference/mutants/list.json`. It is committed, so that the mutants can
 //! be graded without installing cargo-mutants.
 
-use grader::given_files::{TASK_FILES, TaskFile};
+use grader::handed_out::{RAYS, TaskFile};
 use serde::{Deserialize, Serialize};
 
 use crate::generated_file::GeneratedFile;
@@ -112,7 +112,7 @@ impl MutantList {
         reference: &Sources,
     ) -> Result<Vec<(&Mutant, Sources)>, OutdatedListError> {
         let mut solutions = Vec::new();
-        for TaskFile { name: file, .. } in TASK_FILES {
+        for &TaskFile { name: file, .. } in RAYS.files {
             let outdated = || OutdatedListError {
                 file: file.to_owned(),
             };
@@ -169,13 +169,13 @@ mod tests {
 
     /// Returns a list with one mutant per file, which replaces the first character.
     fn list(reference: &Sources) -> MutantList {
-        let of_file = |file: TaskFile| {
+        let of_file = |file: &TaskFile| {
             let text = reference.text(file.name).unwrap_or_default();
             FileMutants::new(file.name, text, vec![unnamed("replace", "1:1-1:2")])
         };
         MutantList {
             made_by: "hand".to_owned(),
-            files: TASK_FILES.into_iter().map(of_file).collect(),
+            files: RAYS.files.iter().map(of_file).collect(),
         }
     }
 
@@ -215,7 +215,7 @@ mod tests {
         let reference = reference();
         let list = list(&reference);
         for (mutant, sources) in list.solutions(&reference).expect("the list is up to date") {
-            for TaskFile { name, .. } in TASK_FILES {
+            for &TaskFile { name, .. } in RAYS.files {
                 let text = reference.text(name).unwrap_or_default();
                 let expected = if mutant.name.starts_with(name) {
                     format!("#{}", &text[1..])

@@ -1,0 +1,132 @@
+//! Assignments as data: the tasks of each, their files and their points. Everything that depends on
+//! the number, the order or the names of the tasks derives it from here.
+
+mod rays;
+
+use std::fmt;
+
+use arrayvec::ArrayString;
+use serde::{Deserialize, Serialize};
+
+pub use rays::RAYS;
+
+/// The maximum length of a task's id, in bytes.
+const MAX_ID_BYTES: usize = 24;
+
+/// A set of tasks worth 100 points.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Assignment {
+    /// The id that the command line and exam files use.
+    pub id: &'static str,
+    /// The title for people.
+    pub title: &'static str,
+    /// The folders of a submission that may have its files, in order of preference. The empty path
+    /// is the submission's top level.
+    pub folders: &'static [&'static str],
+    /// The tasks, in lecture order.
+    pub tasks: &'static [TaskInfo],
+}
+
+/// One task: a method to write.
+#[derive(Debug, PartialEq, Eq)]
+pub struct TaskInfo {
+    /// The id that the command line and files use.
+    pub id: &'static str,
+    /// The title for people.
+    pub title: &'static str,
+    /// The submission's file that contains the method.
+    pub file: &'static str,
+    /// The name of the method to write.
+    pub method: &'static str,
+    /// The total points of the task's items.
+    pub points: u32,
+}
+
+/// The id of a task, such as `sphere`. Its assignment resolves it to a [`TaskInfo`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Task(ArrayString<MAX_ID_BYTES>);
+
+impl Assignment {
+    /// Returns the ids of the tasks, in lecture order.
+    pub fn tasks(&self) -> impl Iterator<Item = Task> + Clone {
+        self.tasks.iter().map(TaskInfo::task)
+    }
+
+    /// Returns the task with this id, or `None` if the assignment has no such task.
+    pub fn find(&self, id: &str) -> Option<&'static TaskInfo> {
+        self.tasks.iter().find(|task| task.id == id)
+    }
+
+    /// Returns a task of this assignment.
+    ///
+    /// # Panics
+    ///
+    /// If the assignment has no such task. Ids in exam files are checked when the file is read.
+    pub fn info(&self, task: Task) -> &'static TaskInfo {
+        let info = self.find(task.id());
+        info.unwrap_or_else(|| panic!("the assignment {} has no task {task}", self.id))
+    }
+
+    /// Returns the tasks whose method is in this file.
+    pub fn tasks_in<'a>(&self, file: &'a str) -> impl Iterator<Item = Task> + use<'a> {
+        let tasks = self.tasks.iter().filter(move |task| task.file == file);
+        tasks.map(TaskInfo::task)
+    }
+}
+
+impl TaskInfo {
+    /// Returns the task's id.
+    pub fn task(&self) -> Task {
+        Task(ArrayString::from(self.id).expect("ids in the table are short"))
+    }
+}
+
+impl Task {
+    /// Returns the id as text.
+    pub fn id(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Display for Task {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Task {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Task".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({
+            "description": "The id of a task, such as `sphere`.",
+            "type": "string"
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tasks_of_rays_are_worth_100_points_and_have_different_ids() {
+        let points: u32 = RAYS.tasks.iter().map(|task| task.points).sum();
+        assert_eq!(points, 100);
+        let ids: std::collections::BTreeSet<_> = RAYS.tasks().collect();
+        assert_eq!(ids.len(), RAYS.tasks.len());
+    }
+
+    #[test]
+    fn finds_the_tasks_of_a_file() {
+        let tasks: Vec<Task> = RAYS.tasks_in("bvh.rs").collect();
+        assert_eq!(
+            tasks.iter().map(Task::id).collect::<Vec<_>>(),
+            ["build", "traverse"]
+        );
+    }
+}

@@ -1,0 +1,198 @@
+//! The files of an assignment as they are handed out, embedded in this program: the task files that
+//! students write, and the given files around them. Given files in a submission are compared with
+//! these, but never used.
+
+mod rays;
+
+use std::fmt;
+
+use judging::assignment::{Assignment, TaskInfo};
+
+pub use rays::RAYS;
+
+/// An assignment as it is handed out.
+pub struct HandedOut {
+    /// The assignment's tasks.
+    pub assignment: &'static Assignment,
+    /// The practice exam, as JSON.
+    pub practice_exam: &'static str,
+    /// The files that students write, in lecture order.
+    pub files: &'static [TaskFile],
+    /// The given files that are compiled with every submission. The first is the root of the crate.
+    pub given: &'static [GivenFile],
+    /// The given file that renders pictures. The grader does not use it.
+    pub main: GivenFile,
+    /// Source of the function `main` of a probe, which is appended to the root of the crate.
+    pub entry: &'static str,
+    /// The folder of students' own work, relative to the workspace.
+    pub student: &'static str,
+    /// The folder of the reference solution's files, relative to the workspace. Students do not have
+    /// it.
+    pub reference: &'static str,
+    /// The files that can be graded with the reference's parts.
+    pub substitutions: &'static [SubstitutedFile],
+}
+
+/// A file that students write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct TaskFile {
+    /// The file name, such as `sphere.rs`.
+    pub name: &'static str,
+    /// The text of the starter's file.
+    pub starter: &'static str,
+    /// Declarations that other files use. If one is missing, the compiler reports errors in those
+    /// files instead.
+    pub required_declarations: &'static [&'static str],
+}
+
+/// A file that students are given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GivenFile {
+    /// The file name, such as `world.rs`.
+    pub name: &'static str,
+    /// The file's text.
+    pub text: &'static str,
+}
+
+/// A task file that is graded with the reference's parts in place of the submission's other files,
+/// if an item that it depends on has failed. The sources that connect it to the parts are in the
+/// folder `substitution` beside the reference's `src`.
+#[derive(Debug, PartialEq, Eq)]
+pub struct SubstitutedFile {
+    /// The name of the task file.
+    pub file: &'static str,
+    /// The reference's files that make up the parts.
+    pub parts: &'static [&'static str],
+    /// The given files that are compiled with the file.
+    pub given: &'static [&'static str],
+}
+
+impl HandedOut {
+    /// Returns the task file with exactly this name. A similar name, such as `Bvh.rs`, is another
+    /// file.
+    pub fn task_file(&self, name: &str) -> Option<&'static TaskFile> {
+        self.files.iter().find(|file| file.name == name)
+    }
+
+    /// Returns the given file with this name.
+    pub fn given_file(&self, name: &str) -> Option<&GivenFile> {
+        let mut given = self.given.iter().chain([&self.main]);
+        given.find(|file| file.name == name)
+    }
+
+    /// Returns the names of the task files as a list for a sentence, such as `a.rs, b.rs and c.rs`.
+    pub fn file_list(&self) -> String {
+        let names: Vec<&str> = self.files.iter().map(|file| file.name).collect();
+        match names.split_last() {
+            Some((last, [])) => (*last).to_owned(),
+            Some((last, others)) => format!("{} and {last}", others.join(", ")),
+            None => String::new(),
+        }
+    }
+
+    /// Returns the methods that students write in this file.
+    fn methods_to_write<'a>(&self, file: &'a str) -> impl Iterator<Item = &'static str> + use<'a> {
+        let tasks = self.assignment.tasks.iter();
+        tasks
+            .filter(move |task| task.file == file)
+            .map(|task: &TaskInfo| task.method)
+    }
+
+    /// Returns the names of given methods of a task file that differ from the starter in `text`.
+    /// They are mentioned in a note.
+    pub fn changed_methods(&self, file: &TaskFile, text: &str) -> Vec<&'static str> {
+        let text = without_whitespace(text);
+        let to_write: Vec<&str> = self.methods_to_write(file.name).collect();
+        let given = methods(file.starter).into_iter();
+        given
+            .filter(|(name, _)| !to_write.contains(name))
+            .filter(|(_, method)| !text.contains(&without_whitespace(method)))
+            .map(|(name, _)| name)
+            .collect()
+    }
+}
+
+/// Two assignments are the same if their ids are.
+impl PartialEq for HandedOut {
+    fn eq(&self, other: &Self) -> bool {
+        self.assignment.id == other.assignment.id
+    }
+}
+
+impl Eq for HandedOut {}
+
+impl fmt::Debug for HandedOut {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.assignment.id)
+    }
+}
+
+/// Returns the methods that are complete in a starter file, as pairs of name and text. The text
+/// extends from the signature to the closing brace.
+fn methods(starter: &'static str) -> Vec<(&'static str, &'static str)> {
+    const END: &str = "\n    }\n";
+    let code = starter.split("#[cfg(test)]").next().unwrap_or(starter);
+    let starts = code
+        .match_indices("\n    pub fn ")
+        .map(|(start, _)| start + 1);
+    starts
+        .filter_map(|start| {
+            let method = &code[start..start + code[start..].find(END)? + END.len()];
+            let name = method.trim_start().strip_prefix("pub fn ")?;
+            let name = &name[..name.find('(')?];
+            Some((name, method))
+        })
+        .collect()
+}
+
+/// Removes white space, so that formatting does not count as a change.
+fn without_whitespace(text: &str) -> String {
+    text.split_whitespace().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn task_file(name: &str) -> &'static TaskFile {
+        RAYS.task_file(name).unwrap()
+    }
+
+    #[test]
+    fn finds_the_methods_of_a_file() {
+        let names = |file| -> Vec<&str> {
+            let methods = methods(task_file(file).starter);
+            methods.iter().map(|(name, _)| *name).collect()
+        };
+        assert_eq!(names("camera.rs"), ["new", "sample_ray"]);
+        assert_eq!(names("sphere.rs"), ["new", "bbox", "uv", "hit"]);
+    }
+
+    #[test]
+    fn reports_a_changed_given_method_but_not_a_stub() {
+        let sphere = task_file("sphere.rs");
+        let changed = |text: &str| RAYS.changed_methods(sphere, text);
+        assert!(changed(sphere.starter).is_empty());
+        assert!(changed(&sphere.starter.replace("    ", "  ")).is_empty());
+        assert!(changed(&sphere.starter.replace("todo!", "panic!")).is_empty());
+        assert_eq!(changed(&sphere.starter.replace("/ PI", "/ 3.0")), ["uv"]);
+    }
+
+    #[test]
+    fn starter_has_every_required_declaration() {
+        for file in RAYS.files {
+            let missing = file
+                .required_declarations
+                .iter()
+                .find(|part| !file.starter.contains(**part));
+            assert_eq!(missing, None, "{}", file.name);
+        }
+    }
+
+    #[test]
+    fn each_task_is_in_a_task_file() {
+        for task in RAYS.assignment.tasks {
+            assert!(RAYS.task_file(task.file).is_some(), "{}", task.id);
+        }
+    }
+}

@@ -14,13 +14,13 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2_from_tris;
 use obvhs::ray::RayHit;
 use obvhs::triangle::Triangle;
-use protocol::Ray;
+use protocol::{Ray, Trace};
 use reference::bvh::Bvh;
+use variants::bvh::{tuned, wide};
 
 use crate::embree::EmbreeScene;
-use crate::wide_bvh;
 
-/// The maximum number of primitives in a leaf of the reference and the variant.
+/// The maximum number of primitives in a leaf of the reference and the variants.
 pub const MAX_LEAF_SIZE: usize = 4;
 
 /// A tree over the triangles, which finds closest hits.
@@ -29,20 +29,31 @@ pub trait Contender {
     fn distances(&self, rays: &[Ray]) -> Vec<f32>;
 }
 
-/// The reference, which students can read. It computes the complete [`protocol::Trace`].
+/// The reference, which students can read. Like the variants, it computes the complete [`Trace`].
 impl Contender for Bvh {
     fn distances(&self, rays: &[Ray]) -> Vec<f32> {
-        let distance = |ray| black_box(self.hit(ray)).map_or(f32::INFINITY, |trace| trace.distance);
-        rays.iter().map(distance).collect()
+        trace_distances(rays, |ray| self.hit(ray))
     }
 }
 
-/// The eight-wide variant. It also computes the complete [`protocol::Trace`].
-impl Contender for wide_bvh::Bvh {
+/// The variant with the reference's algorithms, tuned for speed.
+impl Contender for tuned::Bvh {
     fn distances(&self, rays: &[Ray]) -> Vec<f32> {
-        let distance = |ray| black_box(self.hit(ray)).map_or(f32::INFINITY, |trace| trace.distance);
-        rays.iter().map(distance).collect()
+        trace_distances(rays, |ray| self.hit(ray))
     }
+}
+
+/// The eight-wide variant.
+impl Contender for wide::Bvh {
+    fn distances(&self, rays: &[Ray]) -> Vec<f32> {
+        trace_distances(rays, |ray| self.hit(ray))
+    }
+}
+
+/// Returns the distances of complete hits, which the compiler cannot reduce to their distances.
+fn trace_distances(rays: &[Ray], hit: impl Fn(&Ray) -> Option<Trace>) -> Vec<f32> {
+    let distance = |ray| black_box(hit(ray)).map_or(f32::INFINITY, |trace| trace.distance);
+    rays.iter().map(distance).collect()
 }
 
 impl Contender for EmbreeScene<'_> {

@@ -1,6 +1,6 @@
-//! Measures closest hits per second and build times of the reference, the eight-wide variant, the
-//! crates `obvhs` and `bvh`, and Embree, if its library is available. These contenders take turns
-//! on one thread, and must find the same hits. Only CPU time counts. ../README.md describes how to
+//! Measures closest hits per second and build times of the reference, the variants `tuned` and
+//! `wide`, the crates `obvhs` and `bvh`, and Embree, if its library is available. These contenders
+//! take turns on one thread, and must find the same hits. Only CPU time counts. ../README.md describes how to
 //! run this benchmark, and lists the results.
 
 use std::rc::Rc;
@@ -8,8 +8,7 @@ use std::time::Duration;
 
 use reference::bvh::Bvh;
 use reference::primitive::Primitive;
-// The variant's file uses these modules from the crate root.
-use reference::{bbox, primitive, triangle};
+use variants::bvh::{tuned, wide};
 
 use crate::contenders::{
     Contender, CrateBvhTree, FullTraversal, MAX_LEAF_SIZE, NearestTraversal, Obvhs,
@@ -26,11 +25,6 @@ mod embree;
 mod mesh;
 mod rays;
 mod report;
-
-// The variant's unchanged file, compiled with the reference's other four files.
-#[path = "../../variants/bvh/wide.rs"]
-#[allow(dead_code, reason = "not everything in it is measured")]
-mod wide_bvh;
 
 /// The default number of rounds, in each of which every contender builds its tree and traces all
 /// rays; the variable `ROUNDS` overrides it.
@@ -95,12 +89,17 @@ fn build_trees<'a>(
     let mut trees = None;
     for _ in 0..rounds {
         drop(trees.take());
-        let (ours, wides) = (primitives.clone(), primitives.clone());
-        let (reference, time) = timed(|| Bvh::build(ours, MAX_LEAF_SIZE));
+        let input = primitives.clone();
+        let (reference, time) = timed(|| Bvh::build(input, MAX_LEAF_SIZE));
         let mut round = vec![("reference", time)];
         let mut others: Vec<(&'static str, Box<dyn Contender>)> = Vec::new();
 
-        let (tree, time) = timed(|| wide_bvh::Bvh::build(wides, MAX_LEAF_SIZE));
+        let input = primitives.clone();
+        let (tree, time) = timed(|| tuned::Bvh::build(input, MAX_LEAF_SIZE));
+        others.push(("tuned", Box::new(tree)));
+        round.push(("tuned", time));
+        let input = primitives.clone();
+        let (tree, time) = timed(|| wide::Bvh::build(input, MAX_LEAF_SIZE));
         others.push(("wide", Box::new(tree)));
         round.push(("wide", time));
         let (tree, time) = timed(|| Obvhs::build(&triangles));

@@ -104,6 +104,8 @@ impl fmt::Display for Report {
         for (name, others) in [
             ("reference", &["obvhs"][..]),
             ("reference", &["bvh, nearest", "bvh, all"]),
+            ("tuned", &["obvhs"]),
+            ("tuned", &["reference"]),
             ("wide", &["reference"]),
             ("wide", &["Embree"]),
         ] {

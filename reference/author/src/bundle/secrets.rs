@@ -120,7 +120,7 @@ impl Secrets {
                 let name = entry.map_err(io_error)?.file_name();
                 self.read(root, &format!("{path}/{}", name.to_string_lossy()))?;
             }
-        } else if !path.ends_with(".md") {
+        } else if !path.ends_with(".md") && !path.ends_with("Cargo.toml") {
             let text = fs::read_to_string(&full_path).map_err(io_error)?;
             self.add(path, &text);
         }

@@ -7,28 +7,15 @@ use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 
-use crate::bvh::{Bvh, Node};
+use reference::bvh::{Bvh, Node};
+use reference::primitive::Primitive;
+
 use crate::count::count_tests;
 use crate::plot::plot;
 
 mod count;
 mod mesh;
 mod plot;
-
-// The reference's unchanged `bvh.rs`, compiled with boxes and primitives that count tests.
-#[path = "count/bbox.rs"]
-mod bbox;
-#[path = "../../src/bvh.rs"]
-#[allow(dead_code, unused_imports, reason = "its tests are not run here")]
-mod bvh;
-#[path = "count/primitive.rs"]
-mod primitive;
-#[path = "../../src/sphere.rs"]
-#[allow(dead_code, unused_imports, reason = "only triangles are counted here")]
-mod sphere;
-#[path = "../../src/triangle.rs"]
-#[allow(dead_code, unused_imports, reason = "its tests are not run here")]
-mod triangle;
 
 const UPDATE_COMMAND: &str = "cargo bench -p benches --bench scaling";
 /// The number of rays per mesh.
@@ -79,14 +66,9 @@ fn main() -> ExitCode {
 
 fn measure(pieces: u32) -> Row {
     let shapes = mesh::bumpy_ball(pieces);
-    let primitives = shapes.iter().map(primitive::Primitive::new).collect();
+    let primitives = shapes.iter().map(Primitive::new).collect();
     let bvh = Bvh::build(primitives, MAX_LEAF_SIZE);
-    let rays = mesh::rays(RAYS);
-    let ((), count) = count_tests(|| {
-        for ray in &rays {
-            bvh.hit(ray);
-        }
-    });
+    let count = count_tests(&bvh, &mesh::rays(RAYS));
     let row = Row {
         triangles: shapes.len(),
         boxes: count.boxes as f64 / RAYS as f64,

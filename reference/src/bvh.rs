@@ -105,17 +105,12 @@ impl Bvh {
         // starter: let _ = max_leaf_size;
         // starter: Bvh::from_nodes(primitives, Vec::new(), 0)
         let mut builder = Builder {
-            items: (0..)
-                .zip(&primitives)
-                .map(|(index, primitive)| Item::new(index, primitive.bbox()))
-                .collect(),
-            nodes: Vec::with_capacity(2 * primitives.len()),
+            items: (0..).zip(&primitives).map(Item::new).collect(),
+            nodes: Vec::new(),
             max_leaf_size: max_leaf_size.max(1),
-            buckets: Buckets::default(),
         };
         if !primitives.is_empty() {
-            let root = builder.reserve_node();
-            builder.build_node(root, 0, primitives.len());
+            builder.build_node(0, primitives.len());
         }
         let ordered = builder.items.iter().map(|item| primitives[item.index]);
         Bvh::from_nodes(ordered.collect(), builder.nodes, 0)
@@ -152,7 +147,7 @@ impl Bvh {
     // starter:
     // starter: // Add your own methods here.
 
-    /// Finds the closest hit below `node`, whose box the ray is known to hit.
+    /// Finds the closest hit below `node`, whose box the ray hits.
     fn traverse(&self, node: &Node, ray: &mut Ray, closest: &mut Option<Trace>) {
         if node.is_leaf() {
             for primitive in &self.primitives[node.start..node.start + node.size] {
@@ -169,29 +164,18 @@ impl Bvh {
             (None, None) => {}
             (Some(_), None) => self.traverse(l, ray, closest),
             (None, Some(_)) => self.traverse(r, ray, closest),
-            (Some(in_l), Some(in_r)) if in_l.min <= in_r.min => {
-                self.traverse_both(l, r, in_r.min, ray, closest);
+            (Some(in_l), Some(in_r)) => {
+                let (first, second, second_begins) = if in_l.min <= in_r.min {
+                    (l, r, in_r.min)
+                } else {
+                    (r, l, in_l.min)
+                };
+                self.traverse(first, ray, closest);
+                // The first child may have a hit in front of the second child's box.
+                if second_begins <= ray.range.max {
+                    self.traverse(second, ray, closest);
+                }
             }
-            (Some(in_l), Some(_)) => self.traverse_both(r, l, in_l.min, ray, closest),
-        }
-    }
-
-    /// Finds the closest hit below two nodes whose boxes the ray hits. Skips the second node if its
-    /// box begins beyond the closest hit.
-    ///
-    /// Two call sites instead of a swap: the branch predictor can guess which child is nearer,
-    /// while a swap would stall until both boxes are loaded.
-    fn traverse_both(
-        &self,
-        first: &Node,
-        second: &Node,
-        second_begins: f32,
-        ray: &mut Ray,
-        closest: &mut Option<Trace>,
-    ) {
-        self.traverse(first, ray, closest);
-        if second_begins <= ray.range.max {
-            self.traverse(second, ray, closest);
         }
     }
     // end solution
@@ -199,238 +183,153 @@ impl Bvh {
 
 // solution
 // starter: // Add your own types here.
-/// A box with each corner in one SIMD register. Building spends most of its time joining boxes.
-#[derive(Clone, Copy)]
-struct Bounds {
-    min: glam::Vec3A,
-    max: glam::Vec3A,
-}
-
-impl Bounds {
-    const EMPTY: Bounds = Bounds {
-        min: glam::Vec3A::INFINITY,
-        max: glam::Vec3A::NEG_INFINITY,
-    };
-
-    fn of(bbox: BBox) -> Self {
-        Bounds {
-            min: bbox.min.to_vec3a(),
-            max: bbox.max.to_vec3a(),
-        }
-    }
-
-    fn enclose(&mut self, other: Bounds) {
-        self.min = self.min.min(other.min);
-        self.max = self.max.max(other.max);
-    }
-
-    fn enclose_point(&mut self, point: glam::Vec3A) {
-        self.min = self.min.min(point);
-        self.max = self.max.max(point);
-    }
-
-    fn bbox(self) -> BBox {
-        BBox::new(self.min.to_vec3(), self.max.to_vec3())
-    }
-}
-
-/// A primitive's index, box and centre, which are all that building needs.
+/// A primitive's index, its box and the centre of the box, which are all that building needs.
 struct Item {
     index: usize,
-    bounds: Bounds,
-    center: glam::Vec3A,
+    bbox: BBox,
+    center: glam::Vec3,
 }
 
 impl Item {
-    fn new(index: usize, bbox: BBox) -> Self {
-        let center = bbox.center().to_vec3a();
+    fn new((index, primitive): (usize, &Primitive)) -> Self {
+        let bbox = primitive.bbox();
         Item {
             index,
-            bounds: Bounds::of(bbox),
-            center,
+            bbox,
+            center: bbox.center(),
         }
     }
 }
 
-/// The items of a node whose centres are in the same slice along an axis.
+/// The tree while it is built.
+struct Builder {
+    items: Vec<Item>,
+    nodes: Vec<Node>,
+    max_leaf_size: usize,
+}
+
+impl Builder {
+    /// Builds the node over `items[start..end]`, which is not empty, and everything below. Returns
+    /// the node's index.
+    fn build_node(&mut self, start: usize, end: usize) -> usize {
+        let items = &mut self.items[start..end];
+        let mut bbox = BBox::EMPTY;
+        for item in items.iter() {
+            bbox.enclose(item.bbox);
+        }
+
+        let index = self.nodes.len();
+        self.nodes.push(Node::leaf(bbox, start, end - start));
+        if end - start > self.max_leaf_size {
+            let middle = start + partition(items);
+            let l = self.build_node(start, middle);
+            let r = self.build_node(middle, end);
+            self.nodes[index] = Node::interior(bbox, l, r);
+        }
+        index
+    }
+}
+
+/// Partitions the items in place by the cheapest split; returns the size of the left side.
+fn partition(items: &mut [Item]) -> usize {
+    let mut centers = BBox::EMPTY;
+    for item in items.iter() {
+        centers.enclose_point(item.center);
+    }
+    let Some(split) = cheapest_split(items, &centers) else {
+        return items.len() / 2; // All centres coincide.
+    };
+
+    // Like `std::partition`: swap each item of the left side to the end of that side.
+    let mut left_size = 0;
+    for i in 0..items.len() {
+        if compute_bucket(&items[i], split.axis, &centers) < split.plane {
+            items.swap(left_size, i);
+            left_size += 1;
+        }
+    }
+    left_size
+}
+
+/// A partition: the items in buckets below `plane` along `axis` go to the left side.
+struct Split {
+    axis: usize,
+    plane: usize,
+    cost: f32,
+}
+
+/// Returns the cheapest of all partitions, or `None` if all centres coincide.
+///
+/// This is binned SAH: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007,
+/// section 3. The partitions of one node differ only in the term S_A · N_A + S_B · N_B of
+/// C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect.
+fn cheapest_split(items: &[Item], centers: &BBox) -> Option<Split> {
+    let mut best: Option<Split> = None;
+    for axis in 0..3 {
+        if centers.min[axis] == centers.max[axis] {
+            continue; // No plane separates the centres.
+        }
+
+        let mut buckets = [Bucket::EMPTY; BUCKETS];
+        for item in items {
+            buckets[compute_bucket(item, axis, centers)].add(item.bbox, 1);
+        }
+
+        // From the right: the cost of the right side of each plane.
+        let mut right = Bucket::EMPTY;
+        let mut right_costs = [0.0; BUCKETS];
+        for plane in (1..BUCKETS).rev() {
+            right.add(buckets[plane].bbox, buckets[plane].count);
+            right_costs[plane] = right.cost();
+        }
+
+        // From the left: the cost of both sides. Neither is empty, since the first and the last bucket
+        // never are.
+        let mut left = Bucket::EMPTY;
+        for plane in 1..BUCKETS {
+            left.add(buckets[plane - 1].bbox, buckets[plane - 1].count);
+            let cost = left.cost() + right_costs[plane];
+            if best.as_ref().is_none_or(|best| cost < best.cost) {
+                best = Some(Split { axis, plane, cost });
+            }
+        }
+    }
+    best
+}
+
+/// The number of buckets along each axis.
+const BUCKETS: usize = 16;
+
+/// Returns the index of an item's bucket. The buckets divide the box of all centres along `axis`
+/// into slices of equal width.
+fn compute_bucket(item: &Item, axis: usize, centers: &BBox) -> usize {
+    let (min, max) = (centers.min[axis], centers.max[axis]);
+    let fraction = (item.center[axis] - min) / (max - min);
+    // The largest centre, at fraction 1, belongs to the last bucket.
+    ((fraction * BUCKETS as f32) as usize).min(BUCKETS - 1)
+}
+
+/// The items of a bucket, or of all buckets on one side of a plane.
 #[derive(Clone, Copy)]
 struct Bucket {
-    bounds: Bounds,
+    bbox: BBox,
     count: usize,
 }
 
 impl Bucket {
     const EMPTY: Bucket = Bucket {
-        bounds: Bounds::EMPTY,
+        bbox: BBox::EMPTY,
         count: 0,
     };
 
-    fn join(&mut self, other: Bucket) {
-        self.bounds.enclose(other.bounds);
-        self.count += other.count;
+    fn add(&mut self, bbox: BBox, count: usize) {
+        self.bbox.enclose(bbox);
+        self.count += count;
     }
 
     /// Returns this side's contribution to the cost, without the constants: S · N.
     fn cost(&self) -> f32 {
-        self.bounds.bbox().surface_area() * self.count as f32
-    }
-}
-
-/// A partition: the items in buckets below `bucket` along `axis` go to the left side.
-struct Split {
-    axis: usize,
-    bucket: usize,
-    cost: f32,
-}
-
-/// Slices of equal width along one axis, over the range of the items' centres.
-struct Slices {
-    axis: usize,
-    min: f32,
-    scale: f32,
-    count: usize,
-}
-
-impl Slices {
-    const MIN_COUNT: usize = 8;
-    const MAX_COUNT: usize = 64;
-    /// The number of slices grows by one for every so many items.
-    const ITEMS_PER_SLICE: usize = 32;
-
-    /// Returns the slices along `axis`, or `None` if all centres coincide along it.
-    ///
-    /// Small nodes get few slices: most nodes are small, and comparing partitions takes longer
-    /// there than filling the buckets. In large nodes the comparison costs almost nothing, and
-    /// their splits matter most for traversal.
-    fn new(centers: &Bounds, axis: usize, items: usize) -> Option<Self> {
-        let (min, max) = (centers.min[axis], centers.max[axis]);
-        let count = (Self::MIN_COUNT + items / Self::ITEMS_PER_SLICE).min(Self::MAX_COUNT);
-        let scale = count as f32 / (max - min);
-        // The scale overflows if the extent is tiny; then the centres count as coinciding.
-        (max > min && scale.is_finite()).then_some(Slices {
-            axis,
-            min,
-            scale,
-            count,
-        })
-    }
-
-    /// Returns the index of an item's bucket. Both filling the buckets and partitioning the items
-    /// call this function, because they must agree.
-    fn bucket(&self, item: &Item) -> usize {
-        let slice = (item.center[self.axis] - self.min) * self.scale;
-        // `as u8` saturates at 255, and takes a third of the time of `as usize`.
-        usize::from(slice as u8).min(self.count - 1)
-    }
-}
-
-struct Builder {
-    items: Vec<Item>,
-    nodes: Vec<Node>,
-    max_leaf_size: usize,
-    buckets: Buckets,
-}
-
-impl Builder {
-    /// Appends a placeholder node and returns its index.
-    fn reserve_node(&mut self) -> usize {
-        self.nodes.push(Node::leaf(BBox::EMPTY, 0, 0));
-        self.nodes.len() - 1
-    }
-
-    /// Builds the node at `index` over `items[start..end]`, which is not empty, and everything
-    /// below.
-    fn build_node(&mut self, index: usize, start: usize, end: usize) {
-        let mut bounds = Bounds::EMPTY;
-        let mut centers = Bounds::EMPTY;
-        for item in &self.items[start..end] {
-            bounds.enclose(item.bounds);
-            centers.enclose_point(item.center);
-        }
-        let bbox = bounds.bbox();
-
-        self.nodes[index] = Node::leaf(bbox, start, end - start);
-        if end - start > self.max_leaf_size {
-            let middle = start + self.partition(start, end, &centers);
-            // Adjacent in memory, because traversal tests both boxes together.
-            let (l, r) = (self.reserve_node(), self.reserve_node());
-            self.build_node(l, start, middle);
-            self.build_node(r, middle, end);
-            self.nodes[index] = Node::interior(bbox, l, r);
-        }
-    }
-
-    /// Partitions `items[start..end]` in place by the cheapest split; returns the size of the left
-    /// side.
-    fn partition(&mut self, start: usize, end: usize, centers: &Bounds) -> usize {
-        let (items, buckets) = (&mut self.items[start..end], &mut self.buckets);
-        let splits = (0..3).filter_map(|axis| buckets.cheapest_split(items, centers, axis));
-        let Some(split) = splits.min_by(|a, b| a.cost.total_cmp(&b.cost)) else {
-            return items.len() / 2; // All centres coincide.
-        };
-        let slices = Slices::new(centers, split.axis, items.len());
-        let slices = slices.expect("the split is along an axis with an extent");
-
-        // Like `std::partition`: swap each item of the left side to the end of that side.
-        let mut first = 0;
-        for i in 0..items.len() {
-            if slices.bucket(&items[i]) < split.bucket {
-                items.swap(first, i);
-                first += 1;
-            }
-        }
-        first
-    }
-}
-
-/// The buckets of one node along one axis. The vectors are reused for the next axis or node, to
-/// save allocations.
-#[derive(Default)]
-struct Buckets {
-    all: Vec<Bucket>,
-    /// For each bucket, the cost of a child that holds this bucket and all to its right.
-    right_costs: Vec<f32>,
-}
-
-impl Buckets {
-    /// Returns the cheapest partition along one axis, or `None` if all centres coincide along it.
-    ///
-    /// This is binned SAH: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
-    /// 2007, section 3. The partitions of one node differ only in the term S_A · N_A + S_B · N_B of
-    /// C = C_trav + S_A/S_N · N_A · C_isect + S_B/S_N · N_B · C_isect.
-    fn cheapest_split(&mut self, items: &[Item], centers: &Bounds, axis: usize) -> Option<Split> {
-        let slices = Slices::new(centers, axis, items.len())?;
-        let Buckets {
-            all: buckets,
-            right_costs,
-        } = self;
-
-        buckets.clear();
-        buckets.resize(slices.count, Bucket::EMPTY);
-        for item in items {
-            buckets[slices.bucket(item)].join(Bucket {
-                bounds: item.bounds,
-                count: 1,
-            });
-        }
-
-        // Sweep from the right: the costs of the right child.
-        right_costs.resize(slices.count, 0.0);
-        let mut right = Bucket::EMPTY;
-        for i in (1..slices.count).rev() {
-            right.join(buckets[i]);
-            right_costs[i] = right.cost();
-        }
-
-        // Sweep from the left: the costs of the left child. The first and the last bucket are never
-        // empty, so neither child is empty.
-        let mut left = Bucket::EMPTY;
-        let costs = (1..slices.count).map(|bucket| {
-            left.join(buckets[bucket - 1]);
-            let cost = left.cost() + right_costs[bucket];
-            Split { axis, bucket, cost }
-        });
-        costs.min_by(|a, b| a.cost.total_cmp(&b.cost))
+        self.bbox.surface_area() * self.count as f32
     }
 }
 // end solution

@@ -39,8 +39,8 @@ fn a_wrong_traversal_with_a_wrong_box_test_costs_both() {
     let graded = without_swap()
         .with_replaced(
             "bvh.rs",
-            "if in_l.min <= in_r.min =>",
-            "if in_l.min > in_r.min =>",
+            "if in_l.min <= in_r.min {",
+            "if in_l.min > in_r.min {",
         )
         .grade_with_reference();
     let points = graded.points();
@@ -82,8 +82,8 @@ fn keeps_the_first_result_if_substitution_does_not_compile() {
         )
         .with_replaced(
             "bvh.rs",
-            "if in_l.min <= in_r.min =>",
-            "if in_l.min <= in_r.min + crate::sphere::ZERO =>",
+            "if in_l.min <= in_r.min {",
+            "if in_l.min <= in_r.min + crate::sphere::ZERO {",
         )
         .grade_with_reference();
     assert!(graded.points()[TRAVERSE] < FULL_POINTS[TRAVERSE]);

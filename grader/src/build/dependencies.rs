@@ -22,12 +22,18 @@ use crate::workspace::Workspace;
 
 /// The crates that a submission may import.
 const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
-/// Cargo arguments that build `framework` with the probe's features, and so also `glam` and
-/// `protocol`, on which it depends.
-const FRAMEWORK_PACKAGE: [&str; 3] = ["--package", "framework", "--no-default-features"];
-/// Version of the build commands. It is part of the cache key, so change it whenever the commands
-/// change.
-const RECIPE_VERSION: &str = "4";
+/// Cargo arguments for the package that depends on all of them, with the probe's features, and for
+/// the package with the features that crates have in the grader.
+const FRAMEWORK_PACKAGES: [&str; 5] = [
+    "--package",
+    "framework",
+    "--package",
+    "unified",
+    "--no-default-features",
+];
+/// Version of the way in which the dependencies are compiled. Change it when the same sources are
+/// to be compiled differently.
+const RECIPE_VERSION: &str = "5";
 
 /// Locations of the compiled dependencies.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -74,7 +80,7 @@ impl Dependencies {
             eprintln!(
                 "Compiling the dependencies of submissions, which takes a few seconds and is done only once."
             );
-            let libraries = build(&FRAMEWORK_PACKAGE, workspace, toolchain)?;
+            let libraries = build(&FRAMEWORK_PACKAGES, workspace, toolchain)?;
             copy(libraries, &EXTERNS, &cache.join("crates"))
         })
     }
@@ -93,7 +99,7 @@ impl Dependencies {
             names.join("-")
         ));
         prepare_once(&cache, || {
-            let mut libraries = build(&FRAMEWORK_PACKAGE, workspace, toolchain)?;
+            let mut libraries = build(&FRAMEWORK_PACKAGES, workspace, toolchain)?;
             let packages: Vec<&str> = names.iter().flat_map(|name| ["--package", name]).collect();
             libraries.extend(build(&packages, workspace, toolchain)?);
             let names = names.iter().map(String::as_str);
@@ -154,7 +160,8 @@ fn cache_key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, Dep
     let mut hasher = blake2b_simd::State::new();
     hasher.update(RECIPE_VERSION.as_bytes());
     hasher.update(toolchain.fingerprint().as_bytes());
-    let mut files = vec![workspace.root().join("Cargo.lock")];
+    let files = ["Cargo.lock", "grader/unified/Cargo.toml"];
+    let mut files: Vec<PathBuf> = files.map(|file| workspace.root().join(file)).into();
     for folder in ["protocol", "framework"] {
         let folder = workspace.root().join("student").join(folder);
         files.push(folder.join("Cargo.toml"));

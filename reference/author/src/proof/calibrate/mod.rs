@@ -1,8 +1,8 @@
 //! Measures how far the exam's thresholds are from correct and from wrong answers.
 //!
 //! Every variant is correct, so all of its answers must be well within the thresholds. Every
-//! mistake must be well beyond a threshold in each item that it must fail. The deviations are those
-//! that the judge computes for grading.
+//! mistake must be well beyond a threshold in at least one of the items that it must fail. The
+//! deviations are those that the judge computes for grading.
 
 mod deviations;
 pub mod margins;
@@ -146,11 +146,14 @@ impl<'a> BuiltSolutions<'a> {
         for ((mistake, _), solution) in mistakes.filter(|_| with_mistakes) {
             let must_fail = |id: &String| mistake.fails.contains(id);
             let items = exam.items.iter().filter(|item| must_fail(&item.id));
-            for item in items {
-                let answers = solution.answers(item).map_err(WorkbenchError::from)?;
-                let deviation = deviations::of_mistake(item, &answers);
-                margins.add_mistake(sample(deviation, &mistake.id, &item.id));
-            }
+            let samples: Result<Vec<_>, ProofError> = items
+                .map(|item| {
+                    let answers = solution.answers(item).map_err(WorkbenchError::from)?;
+                    let deviation = deviations::of_mistake(item, &answers);
+                    Ok(sample(deviation, &mistake.id, &item.id))
+                })
+                .collect();
+            margins.add_mistake_of_exam(samples?);
         }
         Ok(margins)
     }

@@ -75,6 +75,8 @@ fn header(calibration: &Calibration) -> String {
          - For the cost of a tree, only the excess over the exact sweep's tree is measured: a tree \
          with the same cost has the value 0. Correct builders that do not use the surface area \
          heuristic are left out.\n\
+         - If an item catches a mistake by less than that margin and another item of the same exam \
+         catches it clearly, only the latter is measured.\n\
          - Hits and misses, panics, and the structure of trees have no threshold. The limits of \
          partial credit are not measured, since they only distinguish between wrong answers.\n\n\
          | threshold | value | defined in | worst correct answer | margin | mildest mistake | margin |\n\
@@ -150,7 +152,7 @@ mod tests {
         };
         let mut margins = Margins::default();
         margins.add_correct(sample("sphere.geometric", 0.25));
-        margins.add_mistake(sample("sphere.u_shifted", 12.3));
+        margins.add_mistake_of_exam(vec![sample("sphere.u_shifted", 12.3)]);
         Calibration {
             seeds: 0..200,
             mistake_seeds: 0..3,

@@ -80,8 +80,17 @@ pub enum Command {
         #[arg(long)]
         check: bool,
     },
-    /// Write the table that shows which items of the practice exam each known mistake fails
-    Mistakes(CheckArgs),
+    /// Write the items that each known mistake fails with every seed, and the table that shows which
+    /// items of the practice exam it fails
+    Mistakes {
+        /// The number of seeds to grade the mistakes with, counting from 0; the default is 100, or 1
+        /// with `--check`
+        #[arg(long, value_name = "N")]
+        seeds: Option<u64>,
+        /// Whether to write or to check the lists and the table.
+        #[command(flatten)]
+        check: CheckArgs,
+    },
     /// Measure how well the practice exam's hints recognise known and unknown mistakes
     Hints,
     /// List the mutants that cargo-mutants generates from the reference, and grade each of them

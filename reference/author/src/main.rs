@@ -11,10 +11,11 @@ use author::cli::{Cli, Command};
 use author::generated_file::{GeneratedFile, Mode, write_or_check};
 use author::package::{self, Course, Platform, trial};
 use author::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, calibrate, table};
-use author::proof::matrix;
 use author::proof::mutants::{self, MutantSelection};
 use author::proof::prove::prove;
 use author::proof::recognition::recognise;
+use author::proof::{failures, matrix};
+use author::solutions::failed_items::FailedItems;
 use author::solutions::workbench::Workbench;
 use author::solutions::{Solutions, SolutionsError};
 use author::{exams, handout, scenes, starter};
@@ -64,9 +65,7 @@ fn run(command: Command) -> CommandResult {
             let package = package::collect(root, platform, course)?;
             write_package(root, platform, &package, &out, check)
         }
-        Command::Mistakes(check) => {
-            generate(&[matrix::generated_file()?], check.mode(), "mistakes")
-        }
+        Command::Mistakes { seeds, check } => run_mistakes(root, seeds, check.mode()),
         Command::Mutants { fast, check } => {
             run_mutants(root, MutantSelection::new(fast), check.mode())
         }
@@ -218,6 +217,36 @@ fn write_package(
             }
         }
     }
+}
+
+/// Writes the lists of the items that each mistake fails and the table of the practice exam, or
+/// checks them.
+fn run_mistakes(root: &Path, seeds: Option<u64>, mode: Mode) -> CommandResult {
+    let mut solutions = solutions()?;
+    let practice = exams::load_practice(root)?;
+    let default = match mode {
+        Mode::Write => failures::MANY_SEEDS,
+        Mode::Check => failures::FEW_SEEDS,
+    };
+    let failed = failures::failed_items(&solutions, &practice, seeds.unwrap_or(default))?;
+    let committed = FailedItems::load(root)?;
+    if mode == Mode::Check {
+        let problems = failures::problems(&committed, &failed);
+        let line = format!("seeds {}, mistakes {}", failed.seeds, failed.fails.len());
+        report(&problems, &line)?;
+    }
+    // A check with as many seeds must find the same lists.
+    if mode == Mode::Write || failed.seeds == committed.seeds {
+        generate(&[failed.generated_file()?], mode, "mistakes")?;
+    }
+    if mode == Mode::Write {
+        solutions.set_failed_items(&failed);
+    }
+    generate(
+        &[matrix::generated_file(&solutions, &practice)?],
+        mode,
+        "mistakes",
+    )
 }
 
 fn run_mutants(root: &Path, selection: MutantSelection, mode: Mode) -> CommandResult {

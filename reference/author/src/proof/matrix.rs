@@ -7,27 +7,24 @@ use grader::score::ItemScore;
 use judging::assignment::{RAYS, Task};
 use judging::exam::{Exam, Item};
 
-use crate::exams;
 use crate::generated_file::GeneratedFile;
 use crate::proof::ProofError;
 use crate::proof::grade::{GradedMistake, grade_mistakes};
 use crate::solutions::Solutions;
-use crate::solutions::workbench::Workbench;
+use crate::solutions::catalogue::Mistake;
 
 /// The path of the table, relative to the workspace's root.
 const PATH: &str = "reference/mistakes/matrix.md";
 
-/// Builds the table for the committed practice exam. Returns an error if a mistake does not lose
-/// the points that it must lose.
-pub fn generated_file() -> Result<GeneratedFile, ProofError> {
-    let solutions = Solutions::load(Workbench::open()?)?;
-    let exam = exams::load_practice(solutions.workbench.root())?;
-    let graded = grade_mistakes(&solutions, &exam)?;
+/// Builds the table for the practice exam. Returns an error if a mistake does not lose the
+/// points that it must lose.
+pub fn generated_file(solutions: &Solutions, exam: &Exam) -> Result<GeneratedFile, ProofError> {
+    let graded = grade_mistakes(solutions, exam)?;
     let problems: Vec<String> = graded.iter().flat_map(GradedMistake::problems).collect();
     if !problems.is_empty() {
         return Err(ProofError::Problems(problems));
     }
-    Ok(table(&exam, &graded))
+    Ok(table(exam, &graded))
 }
 
 /// Builds the table for one exam.
@@ -35,8 +32,8 @@ fn table(exam: &Exam, graded: &[GradedMistake]) -> GeneratedFile {
     let mut text = format!(
         "# Which mistake fails which item\n\n\
          Written by `cargo author mistakes` for {} known mistakes, each a change to the reference, \
-         and the {} exam. ● means that all of the item's points are lost, ◐ that some are lost. If \
-         an item of another task would fail because of a mistake, it is graded with the \
+         and the {} exam. ● means that all of the item's points are lost, ◐ that some are lost. \
+         Parentheses mean that the mistake passes the item in some other exams. If an item of another task would fail because of a mistake, it is graded with the \
          reference's part (see `handout/src/grading.md`), so that a mistake costs points in its \
          own task only.\n",
         graded.len(),
@@ -73,7 +70,7 @@ fn task_table<'a>(
         let lost: u32 = lines.iter().map(|line| line.max_points - line.points).sum();
         let cells: String = lines
             .iter()
-            .map(|line| format!(" {} |", cell(line)))
+            .map(|line| format!(" {} |", cell(line, mistake)))
             .collect();
         let name = mistake.id.split('.').nth(1).unwrap_or_default();
         writeln!(out, "| `{name}` | {} | {lost} |{cells}", mistake.title)?;
@@ -81,10 +78,14 @@ fn task_table<'a>(
     Ok(())
 }
 
-fn cell(line: &ItemScore) -> &'static str {
-    match line.points {
-        points if points == line.max_points => "",
-        0 => "●",
-        _ => "◐",
+fn cell(line: &ItemScore, mistake: &Mistake) -> &'static str {
+    // The lists of failed items do not include items that are graded with the reference's parts.
+    let is_certain = line.carried_forward || mistake.fails.contains(&line.id);
+    match (line.points, is_certain) {
+        (points, _) if points == line.max_points => "",
+        (0, true) => "●",
+        (0, false) => "(●)",
+        (_, true) => "◐",
+        (_, false) => "(◐)",
     }
 }

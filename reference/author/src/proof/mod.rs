@@ -2,6 +2,7 @@
 //! grading many [solutions](crate::solutions).
 
 pub mod calibrate;
+pub mod failures;
 pub mod grade;
 pub mod matrix;
 pub mod mutants;
@@ -43,6 +44,9 @@ pub enum ProofError {
         .0.join("\n")
     )]
     Problems(Vec<String>),
+    /// The lists of failed items cannot be written as text.
+    #[error("cannot write the lists of failed items: {0}")]
+    FailedItems(#[from] toml::ser::Error),
     /// Results cannot be saved.
     #[error("cannot write {}: {source}", path.display())]
     Write {

@@ -8,6 +8,7 @@ use judging::assignment::{RAYS, Task};
 use judging::section::Section;
 use serde::Deserialize;
 
+use crate::solutions::failed_items::{FailedItems, FailedItemsError};
 use crate::solutions::sources::Sources;
 use crate::text_file::{ReadError, read};
 
@@ -31,7 +32,12 @@ pub struct Mistake {
     /// that fail.
     #[serde(default)]
     pub section: Option<Section>,
-    /// The items that fail with every seed.
+    /// The tasks in addition to its own that may lose points, for two combined mistakes that hide
+    /// each other.
+    #[serde(default)]
+    pub other_tasks: Vec<Task>,
+    /// The items that fail with every seed, from the generated list.
+    #[serde(skip)]
     pub fails: Vec<String>,
     /// The changes to the reference. Nearly always, there is only one.
     #[serde(rename = "change")]
@@ -64,6 +70,9 @@ pub enum CatalogueError {
         /// The parse error, with its line and column.
         source: toml::de::Error,
     },
+    /// The list of failed items cannot be used.
+    #[error(transparent)]
+    FailedItems(#[from] FailedItemsError),
     /// An id does not begin with the id of its task, or is used twice.
     #[error(
         "{}: the id `{id}` must be unique and begin with the id of its task and a dot, such as \
@@ -99,6 +108,7 @@ pub fn mistakes(root: &Path) -> Result<Vec<Mistake>, CatalogueError> {
         mistake: Vec<Mistake>,
     }
 
+    let failed = FailedItems::load(root)?;
     let mut all: Vec<Mistake> = Vec::new();
     for task in RAYS.tasks() {
         for path in files(&root.join("reference/mistakes").join(task.id()))? {
@@ -107,7 +117,8 @@ pub fn mistakes(root: &Path) -> Result<Vec<Mistake>, CatalogueError> {
                     path: path.clone(),
                     source,
                 })?;
-            for mistake in file.mistake {
+            for mut mistake in file.mistake {
+                mistake.fails = failed.of_mistake(&mistake.id).to_vec();
                 let known = all.iter().any(|other| other.id == mistake.id);
                 if known || !mistake.id.starts_with(&format!("{task}.")) {
                     let id = mistake.id;
@@ -142,15 +153,10 @@ impl Mistake {
         task.expect("ids were checked when they were read")
     }
 
-    /// Returns the tasks that may lose points: the mistake's own, and the tasks of the items that
-    /// must fail. The latter can be other tasks if an entry combines two mistakes that hide each
-    /// other.
+    /// Returns the tasks that may lose points: the mistake's own, and the others that it declares.
     pub fn tasks(&self) -> Vec<Task> {
-        let failed = |task: &Task| {
-            let of_task = |id: &String| id.split('.').next() == Some(task.id());
-            *task == self.task() || self.fails.iter().any(of_task)
-        };
-        RAYS.tasks().filter(failed).collect()
+        let may_lose = |task: &Task| *task == self.task() || self.other_tasks.contains(task);
+        RAYS.tasks().filter(may_lose).collect()
     }
 
     /// Returns the reference with this mistake.

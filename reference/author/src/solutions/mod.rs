@@ -7,6 +7,7 @@
 //! solutions, and the proof grades them.
 
 pub mod catalogue;
+pub mod failed_items;
 pub mod mutants;
 pub mod recording;
 pub mod sources;
@@ -14,6 +15,7 @@ pub mod variants;
 pub mod workbench;
 
 use crate::solutions::catalogue::{CatalogueError, Mistake, mistakes};
+use crate::solutions::failed_items::FailedItems;
 use crate::solutions::recording::{Recorder, RecordingError};
 use crate::solutions::sources::Sources;
 use crate::solutions::variants::{Variant, VariantsError, variants};
@@ -81,6 +83,13 @@ impl Solutions {
             recorder: Recorder::open(&workbench)?,
             workbench,
         })
+    }
+
+    /// Replaces the lists of the items that each mistake fails with every seed.
+    pub fn set_failed_items(&mut self, failed: &FailedItems) {
+        for (mistake, _) in &mut self.mistakes {
+            mistake.fails = failed.of_mistake(&mistake.id).to_vec();
+        }
     }
 
     /// Keeps one variant, and drops all others and the mistakes.

@@ -133,6 +133,28 @@ impl BuiltSolution {
         Ok(probe.ask(questions, BUDGET))
     }
 
+    /// Runs the solution, and returns its answers to each item. As in grading, one process answers
+    /// all items of a task, and after a fault a new one is started: mistakes that keep state from
+    /// one call to the next show only in later items.
+    pub fn answers_to_each(
+        &self,
+        items: &[&Item],
+    ) -> std::io::Result<Vec<Result<Vec<Answer>, Fault>>> {
+        let mut running = None;
+        let mut all = Vec::new();
+        for item in items {
+            let mut probe = match running.take() {
+                Some(probe) => probe,
+                None => self.launcher.start(BUDGET)?,
+            };
+            let questions = item.questions.iter().map(|question| &question.question);
+            let answers = probe.ask(questions, BUDGET);
+            running = answers.is_ok().then_some(probe);
+            all.push(answers);
+        }
+        Ok(all)
+    }
+
     /// Grades the solution with an exam.
     pub fn score(&self, exam: &Exam) -> Result<Score, WorkbenchError> {
         let name = ExamName {

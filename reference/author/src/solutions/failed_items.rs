@@ -1,0 +1,96 @@
+//! The items that each known mistake fails with every seed: `reference/mistakes/fails.toml`. The
+//! file is generated, since people cannot tell which items fail only by luck of the seed.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::generated_file::GeneratedFile;
+use crate::text_file::{ReadError, read};
+
+/// The path of the file, relative to the workspace's root.
+pub const PATH: &str = "reference/mistakes/fails.toml";
+
+/// The items that each known mistake fails with every seed.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FailedItems {
+    /// The number of seeds, from 0, whose exams the mistakes failed, in addition to the practice
+    /// exam.
+    pub seeds: u64,
+    /// The ids of the failed items, in the order of the exam, by the id of the mistake.
+    pub fails: BTreeMap<String, Vec<String>>,
+}
+
+/// The reason why the file cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum FailedItemsError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The file is invalid.
+    #[error("{}: {source}; run `cargo author mistakes`", path.display())]
+    Toml {
+        /// The file.
+        path: PathBuf,
+        /// The parse error, with its line and column.
+        source: toml::de::Error,
+    },
+}
+
+impl FailedItems {
+    /// Reads the file of the workspace at `root`. A missing file lists no items, so that it can be
+    /// generated again.
+    pub fn load(root: &Path) -> Result<Self, FailedItemsError> {
+        let path = root.join(PATH);
+        if !path.exists() {
+            return Ok(FailedItems::default());
+        }
+        toml::from_str(&read(&path)?).map_err(|source| FailedItemsError::Toml { path, source })
+    }
+
+    /// Returns the items that a mistake fails, or none if the mistake is not in the file.
+    pub fn of_mistake(&self, id: &str) -> &[String] {
+        self.fails.get(id).map_or(&[], Vec::as_slice)
+    }
+
+    /// Returns the file, with one item per line, so that a diff shows which items changed.
+    pub fn generated_file(&self) -> Result<GeneratedFile, toml::ser::Error> {
+        let lists = toml::to_string_pretty(self)?;
+        let text = format!(
+            "# Written by `cargo author mistakes`: the items that each mistake fails in the \
+             practice exam\n# and in the exams of this many seeds, from 0. Do not edit.\n{lists}"
+        );
+        Ok(GeneratedFile::new(PATH, text))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_generated_file_is_read_back() {
+        let fails = [
+            ("bbox.none".to_owned(), vec!["bbox.through".to_owned()]),
+            ("sphere.hidden".to_owned(), Vec::new()),
+        ];
+        let failed = FailedItems {
+            seeds: 100,
+            fails: fails.into(),
+        };
+        let file = failed.generated_file().unwrap();
+        let root = tempfile::tempdir().unwrap();
+        assert_eq!(
+            FailedItems::load(root.path()).unwrap(),
+            FailedItems::default()
+        );
+        let path = root.path().join(&file.path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, file.contents).unwrap();
+        assert_eq!(FailedItems::load(root.path()).unwrap(), failed);
+        assert_eq!(failed.of_mistake("bbox.none"), ["bbox.through"]);
+        assert_eq!(failed.of_mistake("bbox.new"), [""; 0]);
+    }
+}

@@ -33,9 +33,9 @@ fn table(exam: &Exam, graded: &[GradedMistake]) -> GeneratedFile {
         "# Which mistake fails which item\n\n\
          Written by `cargo author mistakes` for {} known mistakes, each a change to the reference, \
          and the {} exam. ● means that all of the item's points are lost, ◐ that some are lost. \
-         Parentheses mean that the mistake passes the item in some other exams. If an item of another task would fail because of a mistake, it is graded with the \
-         reference's part (see `handout/src/grading.md`), so that a mistake costs points in its \
-         own task only.\n",
+         Parentheses mean that the mistake passes the item in some other exams. If an item of \
+         another task would fail because of a mistake, it is graded with the reference's part (see \
+         `handout/src/grading.md`), so that a mistake costs points in its own task only.\n",
         graded.len(),
         exam.id
     );

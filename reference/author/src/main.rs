@@ -89,6 +89,9 @@ fn run(command: Command) -> CommandResult {
                 let record = summary.record(&today(), &commit(root)?);
                 generate(&[record], Mode::Write, "prove")?;
             }
+            for note in summary.notes() {
+                eprintln!("{note}");
+            }
             report(&summary.problems(), &summary.summary_line())
         }
         Command::Calibrate {

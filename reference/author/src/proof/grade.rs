@@ -71,6 +71,22 @@ pub struct GradedMistake<'a> {
 impl GradedMistake<'_> {
     /// Returns the differences between the expected and the actual loss of points.
     pub fn problems(&self) -> Vec<String> {
+        let id = &self.mistake.id;
+        let passed = self.passed_items().into_iter();
+        let passed = passed.map(|item| format!("{id} does not fail {item}"));
+        self.task_problems().into_iter().chain(passed).collect()
+    }
+
+    /// Returns the listed items that the mistake passes.
+    pub fn passed_items(&self) -> Vec<String> {
+        let is_passed = |id: &&String| !self.lost_items().any(|item| item.id == **id);
+        let listed = self.mistake.fails.iter();
+        listed.filter(is_passed).cloned().collect()
+    }
+
+    /// Returns the differences that are problems with any seed: no loss in the mistake's own task,
+    /// or a loss in a task that it does not declare.
+    pub fn task_problems(&self) -> Vec<String> {
         let mistake = self.mistake;
         let tasks = mistake.tasks();
         let mut problems = Vec::new();
@@ -90,11 +106,6 @@ impl GradedMistake<'_> {
                 "{} costs points in {}, an item of another task",
                 mistake.id, item.id
             ));
-        }
-        for id in &mistake.fails {
-            if !self.lost_items().any(|item| item.id == *id) {
-                problems.push(format!("{} does not fail {id}", mistake.id));
-            }
         }
         problems
     }

@@ -16,14 +16,19 @@ use crate::proof::ProofError;
 use crate::proof::grade::{grade_mistake, variant_losses};
 use crate::proof::summary::{ProofSummary, SeedResult};
 use crate::seed::Seed;
-use crate::solutions::Solutions;
+use crate::solutions::catalogue::CatalogueError;
+use crate::solutions::failed_items::FailedItems;
+use crate::solutions::{Solutions, SolutionsError};
 use crate::text_file::ReadError;
 
-/// Grades all solutions with the exam of one seed.
+/// Grades all solutions with the exam of one seed. With a seed from which the lists of failed items
+/// come, a mistake must fail all of its items. With any other seed, one of them can pass by luck:
+/// an item that one exam in 200 does not catch is likely to be in a list from 100 seeds.
 fn prove_seed(
     solutions: &Solutions,
     seed: u64,
     with_mistakes: bool,
+    is_listed: bool,
 ) -> Result<SeedResult, ProofError> {
     let exam = exams::generate("proof", Seed(seed), &solutions.recorder)?;
     let mut result = SeedResult {
@@ -38,9 +43,18 @@ fn prove_seed(
         }
     }
     for (mistake, sources) in solutions.mistakes.iter().filter(|_| with_mistakes) {
-        let problems = grade_mistake(&solutions.workbench, mistake, sources, &exam)?.problems();
+        let graded = grade_mistake(&solutions.workbench, mistake, sources, &exam)?;
+        let passed = graded.passed_items();
+        let problems = if is_listed {
+            graded.problems()
+        } else {
+            graded.task_problems()
+        };
         if !problems.is_empty() {
             result.uncaught.insert(mistake.id.clone(), problems);
+        }
+        if !is_listed && !passed.is_empty() {
+            result.passed.insert(mistake.id.clone(), passed);
         }
     }
     Ok(result)
@@ -53,11 +67,15 @@ pub fn prove(
     seeds: Range<u64>,
     with_mistakes: u64,
 ) -> Result<ProofSummary, ProofError> {
+    let listed_seeds = FailedItems::load(solutions.workbench.root())
+        .map_err(CatalogueError::from)
+        .map_err(SolutionsError::from)?
+        .seeds;
     let path = solutions
         .workbench
         .scratch()
         .join("proofs")
-        .join(format!("{}.jsonl", cache_key(solutions)?));
+        .join(format!("{}.jsonl", cache_key(solutions, listed_seeds)?));
     let cache = ProofCache::open(&path).map_err(|source| ProofError::Write {
         path: path.clone(),
         source,
@@ -76,7 +94,8 @@ pub fn prove(
             match cached.filter(|result| result.with_mistakes || !wants_mistakes(seed)) {
                 Some(result) => Ok(result.clone()),
                 None => {
-                    let result = prove_seed(solutions, seed, wants_mistakes(seed))?;
+                    let result =
+                        prove_seed(solutions, seed, wants_mistakes(seed), seed < listed_seeds)?;
                     cache.append(&result).map_err(|source| ProofError::Write {
                         path: path.clone(),
                         source,
@@ -125,8 +144,9 @@ impl ProofCache {
     }
 }
 
-/// Returns a hash of everything that a proof depends on: this program and all solutions.
-fn cache_key(solutions: &Solutions) -> Result<String, ReadError> {
+/// Returns a hash of everything that a proof depends on: this program, all solutions, and the lists
+/// of failed items.
+fn cache_key(solutions: &Solutions, listed_seeds: u64) -> Result<String, ReadError> {
     let program = std::env::current_exe().unwrap_or_default();
     let bytes = fs::read(&program).map_err(|source| ReadError {
         path: program,
@@ -134,6 +154,7 @@ fn cache_key(solutions: &Solutions) -> Result<String, ReadError> {
     })?;
     let mut hasher = blake2b_simd::State::new();
     hasher.update(&bytes);
+    hasher.update(&listed_seeds.to_le_bytes());
     for (mistake, sources) in &solutions.mistakes {
         hasher.update(format!("{mistake:?}{sources:?}").as_bytes());
     }

@@ -6,6 +6,7 @@ use std::ops::Range;
 use serde::{Deserialize, Serialize};
 
 use crate::generated_file::GeneratedFile;
+use crate::solutions::failed_items;
 
 /// The result of a proof for one seed.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -18,6 +19,10 @@ pub struct SeedResult {
     pub false_fails: BTreeMap<String, Vec<String>>,
     /// The mistakes that did not lose the points that they must lose, each with the problems found.
     pub uncaught: BTreeMap<String, Vec<String>>,
+    /// The mistakes that passed items which they fail with all seeds of `fails.toml`, each with
+    /// these items. They are caught nevertheless.
+    #[serde(default)]
+    pub passed: BTreeMap<String, Vec<String>>,
 }
 
 /// The results of a proof for all seeds.
@@ -84,6 +89,23 @@ impl ProofSummary {
         lines
     }
 
+    /// Returns what is worth knowing and no problem, one line each.
+    pub fn notes(&self) -> Vec<String> {
+        let results = self.results.iter();
+        let notes = results.flat_map(|result| {
+            let passed = result.passed.iter();
+            passed.map(|(id, items)| {
+                format!(
+                    "note: seed {}: {id} does not fail {}, which it fails with every seed of {}",
+                    result.seed,
+                    items.join(", "),
+                    failed_items::PATH
+                )
+            })
+        });
+        notes.collect()
+    }
+
     fn names(&self, of: impl Fn(&SeedResult) -> &BTreeMap<String, Vec<String>>) -> Vec<&String> {
         let mut names: Vec<&String> = self
             .results
@@ -112,5 +134,35 @@ impl ProofSummary {
             text.extend(self.problems().iter().map(|line| format!("- {line}\n")));
         }
         GeneratedFile::new("reference/variants/proof.md", text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_item_passed_by_luck_is_a_note_and_no_problem() {
+        let passed = [("bbox.a".to_owned(), vec!["bbox.flat".to_owned()])];
+        let summary = ProofSummary {
+            seeds: 5000..5001,
+            results: vec![SeedResult {
+                seed: 5000,
+                with_mistakes: true,
+                passed: passed.into(),
+                ..SeedResult::default()
+            }],
+            mistakes: 1,
+            variants: 0,
+        };
+        assert!(summary.is_proven());
+        assert_eq!(summary.problems(), [""; 0]);
+        assert_eq!(
+            summary.notes(),
+            [
+                "note: seed 5000: bbox.a does not fail bbox.flat, which it fails with every seed of \
+                 reference/mistakes/fails.toml"
+            ]
+        );
     }
 }

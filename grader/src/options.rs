@@ -29,7 +29,7 @@ pub struct GradeOptions {
     pub policy: Option<PathBuf>,
     /// Gradescope's `submission_metadata.json`, which has the submission time.
     pub gradescope_metadata: Option<PathBuf>,
-    /// What to do with items that depend on a failed task.
+    /// The treatment of items that depend on a failed task.
     pub dependents: Dependents,
     /// The requested isolation of the submission's code.
     pub isolation: IsolationRequest,
@@ -62,7 +62,7 @@ impl Default for GradeOptions {
     }
 }
 
-/// What to do with items that depend on a failed task.
+/// The treatment of items that depend on a failed task.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Dependents {
     /// Grade them with the reference's parts, if the reference is in the workspace.

@@ -45,13 +45,13 @@ pub fn run_exam<E: From<io::Error>>(
             score.update_totals();
             progress(score, &report_answers)?;
         }
+        let spent = sessions.spent();
+        score.timings.stages.asking.push((task, spent.asking));
         if let Some(scores) = score.tasks.iter_mut().find(|scores| scores.id == task) {
-            let spent = sessions.spent();
             let started_at = Instant::now();
             scores.printed = sessions.finish(exam, &mut scores.items);
             let stages = &mut score.timings.stages;
             stages.start += spent.start;
-            stages.asking.push((task, spent.asking));
             stages.judging += spent.judging + started_at.elapsed();
         }
     }

@@ -20,7 +20,7 @@ use crate::report_files::ReportFiles;
 const UNCHANGED_NOTICE: &str =
     "  Nothing has changed since this was graded; use `--fresh` to grade it again.\n\n";
 
-/// What to print besides the report, and what to do after printing it.
+/// Options for printing a report, and for what follows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PrintOptions {
     /// Whether to grade again even if nothing has changed.

@@ -1,4 +1,4 @@
-//! What an output format consists of. Each format's file declares its [`FormatSpec`].
+//! The description of an output format. Each format's file declares its [`FormatSpec`].
 
 use std::collections::BTreeMap;
 use std::fmt;

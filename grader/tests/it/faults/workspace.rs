@@ -19,7 +19,10 @@ impl WorkspaceCopy {
             folder: TempDir::new().unwrap(),
         };
         let original = harness::workspace().canonicalize().unwrap();
-        symlink(original.join("student"), copy.path().join("student")).unwrap();
+        fs::create_dir(copy.path().join("grader")).unwrap();
+        for folder in ["student", "grader/unified"] {
+            symlink(original.join(folder), copy.path().join(folder)).unwrap();
+        }
         fs::copy(original.join("Cargo.lock"), copy.path().join("Cargo.lock")).unwrap();
         copy
     }

@@ -78,7 +78,7 @@ pub struct ClassArguments {
 }
 
 /// Options for grading each submission, with the meaning that they have in `cargo grade`.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct GradingArguments {
     /// Exam file; default: the practice exam
     #[arg(long, value_name = "FILE")]

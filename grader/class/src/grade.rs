@@ -41,9 +41,12 @@ pub enum Completion {
 }
 
 /// Reads the input, grades the submissions without a valid result, and writes the class's files.
-pub fn grade_class(arguments: &ClassArguments) -> Result<Completion, Error> {
+/// Each submission is graded with `options`.
+pub fn grade_class(
+    arguments: &ClassArguments,
+    options: &GradeOptions,
+) -> Result<Completion, Error> {
     check_lists(&arguments.lists)?;
-    let options = arguments.grading.resolve();
     let workspace = Workspace::find().map_err(GraderError::from)?;
     let path = arguments.input.as_deref().unwrap_or(Path::new("."));
     let input = Input::open(
@@ -68,9 +71,9 @@ pub fn grade_class(arguments: &ClassArguments) -> Result<Completion, Error> {
         return Ok(Completion::Complete);
     };
 
-    let grader = Grader::for_many(&options)?;
+    let grader = Grader::for_many(options)?;
     let store = Store::new(out);
-    let settings = settings(&grader, &options)?;
+    let settings = settings(&grader, options)?;
     let policy = policy_text(options.policy.as_deref())?;
     if store.read_run()?.is_some_and(|run| run.policy != policy) {
         anstream::eprintln!("the policy differs from the last run's, so final points may change");

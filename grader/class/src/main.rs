@@ -26,6 +26,6 @@ fn main() -> ExitCode {
 fn run(cli: &Cli) -> Result<Completion, Error> {
     match &cli.command {
         Some(Command::Merge(arguments)) => merge_shards(arguments),
-        None => grade_class(&cli.class),
+        None => grade_class(&cli.class, &cli.class.grading.resolve()),
     }
 }

@@ -1,0 +1,320 @@
+//! A second assignment fits in without a changed line: a table with two files, three tasks and one
+//! substitution goes through grading, a class and the check of a package.
+
+use std::fs;
+use std::path::Path;
+use std::sync::LazyLock;
+
+use class::cli::{ClassArguments, GradingArguments, Lists};
+use class::grade::{Completion, grade_class};
+use glam::{Vec2, Vec3};
+use grader::doctor::package;
+use grader::grade::grade;
+use grader::handed_out::{GivenFile, HandedOut, SubstitutedFile, TaskFile};
+use grader::options::{Dependents, GradeOptions};
+use grader::sandbox::Isolation;
+use grader::score::Score;
+use grader::select_isolation::IsolationRequest;
+use judging::assignment::{Assignment, TaskInfo};
+use judging::drawing_data::DrawingData;
+use judging::exam::{Exam, ExamQuestion, ExpectedHit, HitCheck, Item, Key};
+use judging::signatures::MistakeSignatures;
+use protocol::{Interval, Question, Ray, Rays, Shape, TreeNode};
+use serde_json::Value;
+use tempfile::TempDir;
+
+static TASKS: Assignment = Assignment {
+    id: "toy",
+    title: "A toy",
+    folders: &["", "work"],
+    tasks: &[
+        TaskInfo {
+            id: "ball",
+            title: "Task 1: a ball",
+            file: "ball.rs",
+            method: "hit",
+            points: 40,
+        },
+        TaskInfo {
+            id: "slab",
+            title: "Task 2: a slab",
+            file: "slab.rs",
+            method: "hit",
+            points: 20,
+        },
+        TaskInfo {
+            id: "nearest",
+            title: "Task 3: the nearest ball",
+            file: "slab.rs",
+            method: "nearest",
+            points: 40,
+        },
+    ],
+};
+
+/// Creates a given file of the toy's starter.
+macro_rules! given {
+    ($name:literal) => {
+        GivenFile {
+            name: $name,
+            text: include_str!(concat!("toy/starter/", $name)),
+        }
+    };
+}
+
+static TOY: LazyLock<HandedOut> = LazyLock::new(|| HandedOut {
+    assignment: &TASKS,
+    practice_exam: exam_text().leak(),
+    files: &[
+        TaskFile {
+            name: "ball.rs",
+            starter: include_str!("toy/starter/ball.rs"),
+            required_declarations: &["struct Ball", "fn hit"],
+        },
+        TaskFile {
+            name: "slab.rs",
+            starter: include_str!("toy/starter/slab.rs"),
+            required_declarations: &["struct Slab", "fn hit", "fn nearest"],
+        },
+    ],
+    given: &[given!("lib.rs"), given!("world.rs")],
+    main: GivenFile {
+        name: "main.rs",
+        text: "",
+    },
+    entry: "
+fn main() -> std::process::ExitCode {
+    framework::probe::main(&world::Student)
+}
+",
+    student: "student",
+    reference: concat!(env!("CARGO_MANIFEST_DIR"), "/tests/toy/solved/src"),
+    substitutions: &[SubstitutedFile {
+        file: "slab.rs",
+        parts: &["ball.rs"],
+        given: &["world.rs"],
+    }],
+});
+
+/// Returns rays along the x axis: one that hits balls around it, and one that misses.
+fn rays() -> Rays {
+    let hit = Ray::new(Vec3::new(-5.0, 0.0, 0.0), Vec3::X);
+    let miss = Ray::new(Vec3::new(-5.0, 9.0, 0.0), Vec3::X);
+    Rays::List(vec![hit, miss])
+}
+
+fn ball(x: f32) -> Shape {
+    Shape::Sphere {
+        center: Vec3::new(x, 0.0, 0.0),
+        radius: 1.0,
+        material: 0,
+    }
+}
+
+/// Returns the key of [`rays`] for a first hit at this x coordinate.
+fn hits_at(x: f32) -> Key {
+    let hit = ExpectedHit {
+        distance: x + 5.0,
+        position: Vec3::new(x, 0.0, 0.0),
+        normal: Vec3::NEG_X,
+        uv: Vec2::ZERO,
+        material: 0,
+    };
+    Key::Hits {
+        checks: vec![HitCheck::Distance, HitCheck::Normal],
+        hits: vec![Some(hit), None],
+    }
+}
+
+fn item(id: &str, points: u32, needs: &[&str], question: Question, key: Key) -> Item {
+    let task = id.split('.').next().and_then(|task| TASKS.find(task));
+    Item {
+        id: id.to_owned(),
+        title: "it works".to_owned(),
+        task: task.unwrap().task(),
+        points,
+        look: "Look at the formula.".to_owned(),
+        section: None,
+        needs: needs.iter().map(|id| (*id).to_owned()).collect(),
+        questions: vec![ExamQuestion {
+            question,
+            key,
+            drawing_data: DrawingData::None,
+        }],
+        signatures: MistakeSignatures::default(),
+    }
+}
+
+fn exam_text() -> String {
+    let shapes = vec![ball(0.0)];
+    let ball_item = item(
+        "ball.near_side",
+        40,
+        &[],
+        Question::Shapes {
+            shapes,
+            rays: rays(),
+        },
+        hits_at(-1.0),
+    );
+    let times = Interval::new(0.0, 100.0);
+    let (inside, outside) = (Interval::new(4.0, 6.0), Interval::new(50.0, 60.0));
+    let ray = Ray::new(Vec3::new(-5.0, 0.0, 0.0), Vec3::X);
+    let slab_item = item(
+        "slab.clipped",
+        20,
+        &[],
+        Question::BBox {
+            min: Vec3::NEG_ONE,
+            max: Vec3::ONE,
+            queries: vec![(ray, times), (ray, outside)],
+        },
+        Key::Spans {
+            spans: vec![Some(inside), None],
+        },
+    );
+    let leaf = TreeNode::new(Vec3::splat(-9.0), Vec3::splat(9.0), 0, 2, 0, 0);
+    let nearest_item = item(
+        "nearest.of_two",
+        40,
+        &["ball.near_side"],
+        Question::Traverse {
+            shapes: vec![ball(3.0), ball(-1.0)],
+            nodes: vec![leaf],
+            root: 0,
+            rays: rays(),
+        },
+        hits_at(-2.0),
+    );
+    let exam = Exam {
+        schema: 1,
+        assignment: TASKS.id.to_owned(),
+        id: "practice".to_owned(),
+        mistakes: Vec::new(),
+        items: vec![ball_item, slab_item, nearest_item],
+    };
+    serde_json::to_string(&exam).unwrap()
+}
+
+fn text(path: &str) -> String {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/toy");
+    fs::read_to_string(folder.join(path)).unwrap()
+}
+
+/// Writes a submission with these texts in the folder `NAME/work`.
+fn write_submission(class: &Path, name: &str, ball: &str, slab: &str) {
+    let work = class.join(name).join("work");
+    fs::create_dir_all(&work).unwrap();
+    fs::write(work.join("ball.rs"), ball).unwrap();
+    fs::write(work.join("slab.rs"), slab).unwrap();
+}
+
+fn options() -> GradeOptions {
+    GradeOptions {
+        handed_out: &TOY,
+        isolation: IsolationRequest::Level(Isolation::None),
+        ..GradeOptions::default()
+    }
+}
+
+/// Grades the submission with these texts.
+fn grade_texts(ball: &str, slab: &str, dependents: Dependents) -> Score {
+    let folder = TempDir::new().unwrap();
+    write_submission(folder.path(), "any", ball, slab);
+    let graded = grade(&GradeOptions {
+        submission: Some(folder.path().join("any")),
+        out: Some(folder.path().join("out")),
+        dependents,
+        ..options()
+    });
+    graded.unwrap().score
+}
+
+fn points(score: &Score) -> Vec<u32> {
+    score.tasks.iter().map(|task| task.points).collect()
+}
+
+#[test]
+fn the_toy_is_graded_like_any_assignment() {
+    let (solved_ball, solved_slab) = (text("solved/src/ball.rs"), text("solved/src/slab.rs"));
+    let with_reference = Dependents::SubstituteReference;
+
+    let solved = grade_texts(&solved_ball, &solved_slab, with_reference);
+    assert_eq!(points(&solved), [40, 20, 40]);
+    assert_eq!((solved.points, solved.max_points), (100, 100));
+
+    let starter = grade_texts(
+        &text("starter/ball.rs"),
+        &text("starter/slab.rs"),
+        with_reference,
+    );
+    assert_eq!(starter.points, 0);
+
+    // A file that does not compile costs its own tasks only.
+    let broken = grade_texts(
+        &solved_ball,
+        "struct Slab; fn hit() { fn nearest }",
+        with_reference,
+    );
+    assert_eq!(points(&broken), [40, 0, 0]);
+    assert_eq!(broken.build.not_compiled[0].file, "slab.rs");
+
+    // A wrong ball costs the first task only, thanks to the reference's ball.
+    let far_side = solved_ball.replace("middle - half", "middle + half");
+    let wrong_ball = grade_texts(&far_side, &solved_slab, with_reference);
+    assert_eq!(points(&wrong_ball), [0, 20, 40]);
+    let blocked = grade_texts(&far_side, &solved_slab, Dependents::Block);
+    assert_eq!(points(&blocked), [0, 20, 0]);
+}
+
+#[test]
+fn a_class_of_toys_is_graded() {
+    let folder = TempDir::new().unwrap();
+    let class = folder.path().join("class");
+    let (solved_ball, solved_slab) = (text("solved/src/ball.rs"), text("solved/src/slab.rs"));
+    write_submission(&class, "ann", &solved_ball, &solved_slab);
+    write_submission(&class, "bob", &solved_ball, &text("starter/slab.rs"));
+    let out = folder.path().join("out");
+    let arguments = ClassArguments {
+        input: Some(class),
+        out: Some(out.clone()),
+        dry_run: false,
+        regrade: false,
+        shard: None,
+        jobs: Some(1),
+        grading: GradingArguments::default(),
+        lists: Lists::default(),
+    };
+    let completion = grade_class(&arguments, &options()).unwrap();
+    assert_eq!(completion, Completion::Complete);
+    let points = |who: &str| {
+        let file = out.join("students").join(who).join("score.json");
+        let score: Value = serde_json::from_slice(&fs::read(file).unwrap()).unwrap();
+        score["points"].as_u64().unwrap()
+    };
+    assert_eq!((points("ann"), points("bob")), (100, 40));
+}
+
+#[test]
+fn an_exam_of_another_assignment_is_refused() {
+    let folder = TempDir::new().unwrap();
+    let exam = folder.path().join("toy.json");
+    fs::write(&exam, exam_text()).unwrap();
+    let rays = GradeOptions {
+        exam: grader::exam_source::ExamSource::File(exam),
+        ..GradeOptions::default()
+    };
+    let error = grade(&rays).unwrap_err().to_string();
+    assert!(error.contains("it is for the assignment `toy`"), "{error}");
+}
+
+#[test]
+fn a_template_of_the_toy_needs_its_own_files() {
+    let folder = TempDir::new().unwrap();
+    let workflow = folder.path().join(".github/workflows");
+    fs::create_dir_all(&workflow).unwrap();
+    fs::write(workflow.join("grade.yml"), "").unwrap();
+    let problems = package::problems(folder.path(), &TOY).unwrap().join("\n");
+    assert!(problems.contains("student/src/ball.rs"), "{problems}");
+    assert!(!problems.contains("camera.rs"), "{problems}");
+}

@@ -1,0 +1,10 @@
+//! The probe for a submission's `slab.rs` that is graded with the reference's `ball.rs`.
+
+use parts::ball;
+
+mod slab;
+mod world;
+
+fn main() -> std::process::ExitCode {
+    framework::probe::main(&world::Student)
+}

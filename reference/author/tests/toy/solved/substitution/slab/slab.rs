@@ -1,0 +1,3 @@
+//! The submission's `slab.rs`.
+
+pub use submission::slab::{Slab, nearest};

@@ -1,0 +1,5 @@
+//! A toy assignment: two files, three tasks.
+
+pub mod ball;
+pub mod slab;
+pub mod world;

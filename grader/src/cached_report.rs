@@ -17,7 +17,7 @@ use crate::exam_source::ExamSource;
 use crate::options::GradeOptions;
 use crate::report::atomic_write;
 use crate::report_files::ReportFiles;
-use crate::score::{Score, Verdict};
+use crate::score::{Score, Verdict, VerdictKind};
 use crate::select_isolation::IsolationRequest;
 use crate::submission::Submission;
 
@@ -164,18 +164,12 @@ fn content_hashes(files: &ReportFiles) -> Vec<String> {
 
 /// Returns whether grading again would give the same verdict.
 fn is_reproducible(verdict: &Verdict) -> bool {
-    match verdict {
-        Verdict::Pass
-        | Verdict::Partial
-        | Verdict::Wrong
-        | Verdict::Panicked
-        | Verdict::Unimplemented
-        | Verdict::NotCompiled
-        | Verdict::Blocked { .. } => true,
-        Verdict::TimedOut
-        | Verdict::OutOfMemory
-        | Verdict::Crashed
-        | Verdict::Protocol
-        | Verdict::Pending => false,
+    match verdict.kind() {
+        VerdictKind::Passed
+        | VerdictKind::Failed
+        | VerdictKind::Unwritten
+        | VerdictKind::NotCompiled
+        | VerdictKind::Blocked => true,
+        VerdictKind::NoAnswer | VerdictKind::Pending => false,
     }
 }

@@ -7,7 +7,7 @@ use judging::exam::Item;
 use judging::picture;
 use protocol::Answer;
 
-use crate::score::{ItemScore, Verdict};
+use crate::score::{ItemScore, VerdictKind};
 
 /// The answers to items, by item id.
 #[derive(Clone, Debug, Default)]
@@ -16,17 +16,10 @@ pub struct ReportAnswers(BTreeMap<String, Vec<Answer>>);
 impl ReportAnswers {
     /// Keeps the answers to an item if the report has something to draw from them.
     pub fn record(&mut self, item: &Item, line: &ItemScore, answers: Vec<Answer>) {
-        let is_judged = match line.verdict {
-            Verdict::Pass | Verdict::Partial | Verdict::Wrong | Verdict::Panicked => true,
-            Verdict::Unimplemented
-            | Verdict::TimedOut
-            | Verdict::OutOfMemory
-            | Verdict::Crashed
-            | Verdict::Protocol
-            | Verdict::NotCompiled
-            | Verdict::Blocked { .. }
-            | Verdict::Pending => false,
-        };
+        let is_judged = matches!(
+            line.verdict.kind(),
+            VerdictKind::Passed | VerdictKind::Failed
+        );
         let is_shown =
             line.evidence.is_some() || item.questions.iter().any(picture::asks_for_picture);
         if is_judged && is_shown {

@@ -13,7 +13,7 @@ use protocol::Answer;
 use crate::build::{Build, SubstitutedProgram};
 use crate::probe::{Budget, Crash, Fault, Launcher, Probe, TimeLimit, culprit};
 use crate::report_answers::ReportAnswers;
-use crate::score::{ItemScore, Score, Verdict};
+use crate::score::{ItemScore, Score, Verdict, VerdictKind};
 use crate::verdict::{
     ItemOutcome, add_hints, blocked_score, blocking_item, item_score, substituted_score,
 };
@@ -139,19 +139,15 @@ impl<'a> TaskSessions<'a> {
 /// Returns whether a hint is possible: there is a wrong answer, or a known reason why there is no
 /// answer.
 fn can_have_hint(verdict: &Verdict) -> bool {
-    match verdict {
-        Verdict::Partial
-        | Verdict::Wrong
-        | Verdict::Panicked
-        | Verdict::TimedOut
-        | Verdict::OutOfMemory
-        | Verdict::Crashed => true,
-        Verdict::Pass
-        | Verdict::Unimplemented
-        | Verdict::Protocol
-        | Verdict::NotCompiled
-        | Verdict::Blocked { .. }
-        | Verdict::Pending => false,
+    match verdict.kind() {
+        VerdictKind::Failed => true,
+        // Invalid answers say nothing about the mistake.
+        VerdictKind::NoAnswer => *verdict != Verdict::Protocol,
+        VerdictKind::Passed
+        | VerdictKind::Unwritten
+        | VerdictKind::NotCompiled
+        | VerdictKind::Blocked
+        | VerdictKind::Pending => false,
     }
 }
 

@@ -193,7 +193,41 @@ pub enum Verdict {
     Pending,
 }
 
+/// The kind of a verdict, for code that treats several verdicts alike.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VerdictKind {
+    /// All points.
+    Passed,
+    /// An answer is wrong, or the code panicked: there is a mistake to find.
+    Failed,
+    /// The code is not written yet.
+    Unwritten,
+    /// The program ended, or had to be stopped, before it gave valid answers.
+    NoAnswer,
+    /// The file does not compile, or is missing.
+    NotCompiled,
+    /// The item depends on an item of another task that earned no points.
+    Blocked,
+    /// Not graded yet.
+    Pending,
+}
+
 impl Verdict {
+    /// Returns the kind of the verdict.
+    pub fn kind(&self) -> VerdictKind {
+        match self {
+            Verdict::Pass => VerdictKind::Passed,
+            Verdict::Partial | Verdict::Wrong | Verdict::Panicked => VerdictKind::Failed,
+            Verdict::Unimplemented => VerdictKind::Unwritten,
+            Verdict::TimedOut | Verdict::OutOfMemory | Verdict::Crashed | Verdict::Protocol => {
+                VerdictKind::NoAnswer
+            }
+            Verdict::NotCompiled => VerdictKind::NotCompiled,
+            Verdict::Blocked { .. } => VerdictKind::Blocked,
+            Verdict::Pending => VerdictKind::Pending,
+        }
+    }
+
     /// Returns a human-readable label.
     pub fn label(&self) -> &'static str {
         match self {

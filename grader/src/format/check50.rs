@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use crate::format::item_text::{item_message, item_text};
 use crate::format::{FormatContext, FormatSpec, StudentView};
-use crate::score::{ItemScore, Verdict};
+use crate::score::{ItemScore, Verdict, VerdictKind};
 
 /// The format.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -42,19 +42,10 @@ fn result(view: &StudentView, item: &ItemScore, context: &FormatContext) -> Valu
         Some(true) => Value::Null,
         Some(false) | None => json!({ "rationale": rationale, "help": help }),
     };
-    let dependency = match &item.verdict {
-        Verdict::Blocked { by } => Some(by),
-        Verdict::Pass
-        | Verdict::Partial
-        | Verdict::Wrong
-        | Verdict::Panicked
-        | Verdict::Unimplemented
-        | Verdict::TimedOut
-        | Verdict::OutOfMemory
-        | Verdict::Crashed
-        | Verdict::Protocol
-        | Verdict::NotCompiled
-        | Verdict::Pending => None,
+    let dependency = if let Verdict::Blocked { by } = &item.verdict {
+        Some(by)
+    } else {
+        None
     };
     json!({
         "name": item.id,
@@ -68,17 +59,12 @@ fn result(view: &StudentView, item: &ItemScore, context: &FormatContext) -> Valu
 }
 
 fn passed(verdict: &Verdict) -> Option<bool> {
-    match verdict {
-        Verdict::Pass => Some(true),
-        Verdict::Partial | Verdict::Wrong | Verdict::Panicked | Verdict::Unimplemented => {
-            Some(false)
-        }
-        Verdict::TimedOut
-        | Verdict::OutOfMemory
-        | Verdict::Crashed
-        | Verdict::Protocol
-        | Verdict::NotCompiled
-        | Verdict::Blocked { .. }
-        | Verdict::Pending => None,
+    match verdict.kind() {
+        VerdictKind::Passed => Some(true),
+        VerdictKind::Failed | VerdictKind::Unwritten => Some(false),
+        VerdictKind::NoAnswer
+        | VerdictKind::NotCompiled
+        | VerdictKind::Blocked
+        | VerdictKind::Pending => None,
     }
 }

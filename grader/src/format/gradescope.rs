@@ -11,7 +11,7 @@ use crate::format::item_text::{build_report, headline, item_text};
 use crate::format::size::{fit, truncate};
 use crate::format::{FormatContext, ItemView, StudentView};
 use crate::policy::Visibility;
-use crate::score::Verdict;
+use crate::score::{Verdict, VerdictKind};
 
 /// The format.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -115,19 +115,14 @@ fn test(
 
 /// Returns Gradescope's status, or `None` for an item that is not graded yet.
 fn status(verdict: &Verdict) -> Option<&'static str> {
-    match verdict {
-        Verdict::Pass => Some("passed"),
-        Verdict::Pending => None,
-        Verdict::Partial
-        | Verdict::Wrong
-        | Verdict::Panicked
-        | Verdict::Unimplemented
-        | Verdict::TimedOut
-        | Verdict::OutOfMemory
-        | Verdict::Crashed
-        | Verdict::Protocol
-        | Verdict::NotCompiled
-        | Verdict::Blocked { .. } => Some("failed"),
+    match verdict.kind() {
+        VerdictKind::Passed => Some("passed"),
+        VerdictKind::Pending => None,
+        VerdictKind::Failed
+        | VerdictKind::Unwritten
+        | VerdictKind::NoAnswer
+        | VerdictKind::NotCompiled
+        | VerdictKind::Blocked => Some("failed"),
     }
 }
 

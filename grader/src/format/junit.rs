@@ -8,7 +8,7 @@ use maud::{Markup, PreEscaped, html};
 
 use crate::format::item_text::{item_message, item_text};
 use crate::format::{FormatContext, FormatSpec, StudentView};
-use crate::score::{ItemScore, TaskScore, Verdict};
+use crate::score::{ItemScore, TaskScore, Verdict, VerdictKind};
 
 /// The format.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -97,17 +97,11 @@ impl Status {
     /// Maps a verdict: a wrong answer becomes a failure, a missing answer an error, and an item
     /// that was not graded a skipped test case.
     fn from_verdict(verdict: &Verdict) -> Self {
-        match verdict {
-            Verdict::Pass => Status::Passed,
-            Verdict::Partial | Verdict::Wrong | Verdict::Panicked | Verdict::Unimplemented => {
-                Status::Failed
-            }
-            Verdict::TimedOut
-            | Verdict::OutOfMemory
-            | Verdict::Crashed
-            | Verdict::Protocol
-            | Verdict::NotCompiled => Status::Error,
-            Verdict::Blocked { .. } | Verdict::Pending => Status::Skipped,
+        match verdict.kind() {
+            VerdictKind::Passed => Status::Passed,
+            VerdictKind::Failed | VerdictKind::Unwritten => Status::Failed,
+            VerdictKind::NoAnswer | VerdictKind::NotCompiled => Status::Error,
+            VerdictKind::Blocked | VerdictKind::Pending => Status::Skipped,
         }
     }
 }

@@ -134,19 +134,10 @@ fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemSc
 /// points.
 fn redact_to_points(item: ItemScore) -> ItemScore {
     ItemScore {
-        verdict: match item.verdict {
-            Verdict::Pending => Verdict::Pending,
-            Verdict::Pass
-            | Verdict::Partial
-            | Verdict::Wrong
-            | Verdict::Panicked
-            | Verdict::Unimplemented
-            | Verdict::TimedOut
-            | Verdict::OutOfMemory
-            | Verdict::Crashed
-            | Verdict::Protocol
-            | Verdict::NotCompiled
-            | Verdict::Blocked { .. } => verdict_from_points(item.points, item.max_points),
+        verdict: if item.verdict == Verdict::Pending {
+            Verdict::Pending
+        } else {
+            verdict_from_points(item.points, item.max_points)
         },
         message: String::new(),
         at: None,

@@ -14,20 +14,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::generated_file::GeneratedFile;
+use grader::handed_out::RAYS;
 
-/// The files of a submission's crate: the five task files and four given files.
-const FILES: [&str; 9] = [
-    "bbox.rs",
-    "bvh.rs",
-    "camera.rs",
-    "lib.rs",
-    "main.rs",
-    "primitive.rs",
-    "sphere.rs",
-    "triangle.rs",
-    "world.rs",
-];
+use crate::generated_file::GeneratedFile;
 
 /// The folders that the starter is written to: the one that students edit, and the copy that is
 /// embedded in the grader.
@@ -81,7 +70,8 @@ pub enum MarkError {
 /// Generates every file of the starter, for each target folder, from the reference below `root`.
 pub fn generated_files(root: &Path) -> Result<Vec<GeneratedFile>, StarterError> {
     let mut generated = Vec::new();
-    for file in FILES {
+    let given = RAYS.given.iter().chain([&RAYS.main]).map(|file| file.name);
+    for file in RAYS.files.iter().map(|file| file.name).chain(given) {
         let path = root.join(SOURCE_FOLDER).join(file);
         let source = fs::read_to_string(&path)
             .map_err(|source| StarterError::Unreadable { path, source })?;

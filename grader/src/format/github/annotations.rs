@@ -4,7 +4,7 @@ use crate::format::github::commands::command;
 use crate::format::item_text::item_message;
 use crate::format::size::truncate;
 use crate::format::{FormatContext, StudentView};
-use crate::score::{FileReport, ItemScore, TaskScore, Verdict};
+use crate::score::{FileReport, ItemScore, TaskScore, Verdict, VerdictKind};
 
 /// The maximum number of annotations of one kind that GitHub shows per step.
 const MAX_ANNOTATIONS: usize = 10;
@@ -55,15 +55,11 @@ fn checkout_path(file: &str, context: &FormatContext) -> String {
 
 /// Returns whether a verdict means that the task's own file compiles and has something to fix.
 fn is_annotated(verdict: &Verdict) -> bool {
-    match verdict {
-        Verdict::Partial
-        | Verdict::Wrong
-        | Verdict::Panicked
-        | Verdict::Unimplemented
-        | Verdict::TimedOut
-        | Verdict::OutOfMemory
-        | Verdict::Crashed
-        | Verdict::Protocol => true,
-        Verdict::Pass | Verdict::NotCompiled | Verdict::Blocked { .. } | Verdict::Pending => false,
+    match verdict.kind() {
+        VerdictKind::Failed | VerdictKind::Unwritten | VerdictKind::NoAnswer => true,
+        VerdictKind::Passed
+        | VerdictKind::NotCompiled
+        | VerdictKind::Blocked
+        | VerdictKind::Pending => false,
     }
 }

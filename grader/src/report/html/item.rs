@@ -10,7 +10,7 @@ use super::prose::prose;
 use crate::drawing;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
-use crate::score::{ItemScore, Verdict};
+use crate::score::{ItemScore, Verdict, VerdictKind};
 
 /// Renders an item that lost points: what happened, where to look, and how to run the item again.
 pub(super) fn failing(
@@ -59,17 +59,11 @@ pub(super) fn passed(score: &ItemScore, item: Option<&Item>, answers: &ReportAns
 
 /// Renders the verdict, both as a symbol and as text.
 fn verdict(score: &ItemScore) -> Markup {
-    let (class, sign) = match score.verdict {
-        Verdict::Pass => ("good", "✓"),
-        Verdict::Partial => ("part", "◐"),
-        Verdict::Wrong
-        | Verdict::Panicked
-        | Verdict::TimedOut
-        | Verdict::OutOfMemory
-        | Verdict::Crashed
-        | Verdict::Protocol
-        | Verdict::NotCompiled => ("bad", "✗"),
-        Verdict::Unimplemented | Verdict::Blocked { .. } | Verdict::Pending => ("none", "–"),
+    let (class, sign) = match score.verdict.kind() {
+        VerdictKind::Passed => ("good", "✓"),
+        VerdictKind::Failed if score.verdict == Verdict::Partial => ("part", "◐"),
+        VerdictKind::Failed | VerdictKind::NoAnswer | VerdictKind::NotCompiled => ("bad", "✗"),
+        VerdictKind::Unwritten | VerdictKind::Blocked | VerdictKind::Pending => ("none", "–"),
     };
     html! {
         span class=(format!("verdict {class}")) { (sign) " " (score.verdict.label()) }

@@ -6,7 +6,7 @@ use super::elements::{command, plain_text};
 use super::prose::prose;
 use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
-use crate::score::{ItemScore, Score, TaskScore, Verdict};
+use crate::score::{ItemScore, Score, TaskScore, VerdictKind};
 use crate::svg::number;
 
 /// Renders the name of the submission, the exam, and the points per task.
@@ -106,15 +106,14 @@ fn first_failure(item: &ItemScore, rerun: Option<&RerunCommand>) -> Markup {
             a href=(link) { (plain_text(&item.title)) }
             " (" code { (plain_text(&item.id)) } ")"
         }
-        @match &item.verdict {
-            Verdict::Pending => p { "This item was not graded yet." },
-            Verdict::Unimplemented => p { "Write this method first: " (plain_text(&item.message)) "." },
-            Verdict::NotCompiled => {
+        @match item.verdict.kind() {
+            VerdictKind::Pending => p { "This item was not graded yet." },
+            VerdictKind::Unwritten => p { "Write this method first: " (plain_text(&item.message)) "." },
+            VerdictKind::NotCompiled => {
                 p { "Fix the file first: " (plain_text(&item.message)) ". " a href="#files" { "See the compiler’s message" } }
             },
-            Verdict::Pass | Verdict::Partial | Verdict::Wrong | Verdict::Panicked
-            | Verdict::TimedOut | Verdict::OutOfMemory | Verdict::Crashed | Verdict::Protocol
-            | Verdict::Blocked { .. } => p { (plain_text(&item.message)) },
+            VerdictKind::Passed | VerdictKind::Failed | VerdictKind::NoAnswer
+            | VerdictKind::Blocked => p { (plain_text(&item.message)) },
         }
         @if let Some(look) = &item.look {
             p { (prose(look)) }

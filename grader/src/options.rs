@@ -15,7 +15,7 @@ use crate::select_isolation::IsolationRequest;
 ///
 /// Code that depends on all options, such as a cache key, destructures this type without `..`, so
 /// that an option that is added later cannot be forgotten there.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct GradeOptions {
     /// The assignment.
     pub handed_out: &'static HandedOut,

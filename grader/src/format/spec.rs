@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 use judging::assignment::Task;
 
-use crate::format::{FORMATS, StudentView, json};
+use crate::format::{FORMATS, StudentView};
 use crate::report::text::HintDetail;
 
 /// An output format, named after the platform that reads it.
@@ -62,7 +62,7 @@ impl FormatContext {
 }
 
 /// A format and an optional path, such as `gradescope` or `github=summary.md`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct OutputSpec {
     /// The format.
     pub format: &'static FormatSpec,
@@ -88,14 +88,6 @@ impl fmt::Debug for FormatSpec {
     }
 }
 
-impl PartialEq for FormatSpec {
-    fn eq(&self, other: &Self) -> bool {
-        self.id == other.id
-    }
-}
-
-impl Eq for FormatSpec {}
-
 impl FromStr for OutputSpec {
     type Err = String;
 
@@ -110,7 +102,7 @@ impl FromStr for OutputSpec {
             format!("the formats are {known}; append =PATH to choose the file")
         })?;
         match path {
-            Some(path) if *format == json::FORMAT || path.as_os_str().is_empty() => {
+            Some(path) if format.render.is_none() || path.as_os_str().is_empty() => {
                 Err("expected a path after `=`; score.json always goes to --out".to_owned())
             }
             path => Ok(OutputSpec { format, path }),

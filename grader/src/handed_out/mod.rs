@@ -11,6 +11,7 @@ use judging::assignment::{Assignment, TaskInfo};
 pub use rays::RAYS;
 
 /// An assignment as it is handed out.
+#[derive(PartialEq, Eq)]
 pub struct HandedOut {
     /// The assignment's tasks.
     pub assignment: &'static Assignment,
@@ -111,15 +112,6 @@ impl HandedOut {
             .collect()
     }
 }
-
-/// Two assignments are the same if their ids are.
-impl PartialEq for HandedOut {
-    fn eq(&self, other: &Self) -> bool {
-        self.assignment.id == other.assignment.id
-    }
-}
-
-impl Eq for HandedOut {}
 
 impl fmt::Debug for HandedOut {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {

@@ -92,9 +92,16 @@ fn to_text(exam: &Exam) -> Result<String, serde_json::Error> {
         .map(serde_json::to_string)
         .collect::<Result<_, _>>()?;
     let schema = exam.schema;
+    let assignment = serde_json::to_string(&exam.assignment)?;
+    // As in the format itself, `rays` is not written, so that its exams stay the same.
+    let assignment = if exam.assignment == RAYS.assignment.id {
+        String::new()
+    } else {
+        format!("\"assignment\":{assignment},")
+    };
     let (mistakes, items) = (mistakes.join(",\n"), items.join(",\n"));
     Ok(format!(
-        "{{\"schema\":{schema},\"id\":{id},\"mistakes\":[\n{mistakes}\n],\"items\":[\n{items}\n]}}\n"
+        "{{\"schema\":{schema},{assignment}\"id\":{id},\"mistakes\":[\n{mistakes}\n],\"items\":[\n{items}\n]}}\n"
     ))
 }
 
@@ -108,7 +115,7 @@ mod tests {
     fn text_parses_back_to_the_exam() {
         let exam = Exam {
             schema: SCHEMA,
-            assignment: RAYS.assignment.id.to_owned(),
+            assignment: "another".to_owned(),
             id: "a \"test\"".to_owned(),
             mistakes: vec![KnownMistake {
                 id: "bbox.none".to_owned(),

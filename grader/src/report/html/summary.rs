@@ -6,7 +6,7 @@ use super::elements::{command, plain_text};
 use super::prose::prose;
 use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
-use crate::score::{ItemScore, Score, TaskScore, VerdictKind};
+use crate::score::{ItemScore, Score, TaskScore, Verdict, VerdictKind};
 use crate::svg::number;
 
 /// Renders the name of the submission, the exam, and the points per task.

@@ -3,13 +3,15 @@
 
 use insta::assert_snapshot;
 
-use crate::formats::{FORMATS, grade_in_all_formats, hostile_submission, models, small_exam};
+use crate::formats::{
+    grade_in_all_formats, hostile_submission, models, small_exam, student_formats,
+};
 use crate::harness::Submission;
 
 fn assert_snapshots(case: &str, submission: &Submission, arguments: &[&str]) {
     let written = grade_in_all_formats(submission, &small_exam("practice"), arguments);
-    for (format, _) in FORMATS {
-        models::check(format, &written[format]);
+    for format in student_formats() {
+        models::check(format.id, &written[format.id]);
     }
     let mut settings = insta::Settings::clone_current();
     settings.set_prepend_module_to_snapshot(false);
@@ -18,7 +20,10 @@ fn assert_snapshots(case: &str, submission: &Submission, arguments: &[&str]) {
     settings.add_filter(r#""isolation": "[a-z-]+""#, r#""isolation": "as reached""#);
     settings.bind(|| {
         // Other tests check the contents of the page; here it is only checked against its model.
-        for (format, _) in FORMATS.into_iter().filter(|(format, _)| *format != "html") {
+        for format in student_formats().map(|format| format.id) {
+            if format == "html" {
+                continue;
+            }
             let text = models::readable(format, &written[format]);
             assert_snapshot!(format!("{format}-{case}"), text);
         }

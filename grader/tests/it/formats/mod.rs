@@ -9,23 +9,17 @@ mod unfinished;
 use std::collections::BTreeMap;
 use std::fs;
 
+use grader::format::{FORMATS, FormatSpec};
 use serde_json::Value;
 use tempfile::TempDir;
 
 use crate::harness::{Submission, grader, workspace};
 
-/// All formats except the score file, with their file names.
-pub const FORMATS: [(&str, &str); 9] = [
-    ("text", "report.txt"),
-    ("html", "feedback.html"),
-    ("gradescope", "gradescope.json"),
-    ("classroom50", "classroom50.json"),
-    ("junit", "junit.xml"),
-    ("github", "github.md"),
-    ("github-classroom", "github-classroom.txt"),
-    ("check50", "check50.json"),
-    ("prairielearn", "prairielearn.json"),
-];
+/// Returns all formats that students can read, which is all except the score file.
+pub fn student_formats() -> impl Iterator<Item = &'static FormatSpec> {
+    let formats = FORMATS.into_iter();
+    formats.filter(|format| format.render.is_some())
+}
 
 /// The environment variables of classroom50's runner.
 const RUNNER_VARIABLES: [(&str, &str); 9] = [
@@ -81,7 +75,7 @@ pub fn grade_in_all_formats(
     let folder = TempDir::new().unwrap();
     let (out, exam_file) = (folder.path().join("out"), folder.path().join("exam.json"));
     fs::write(&exam_file, exam).unwrap();
-    let formats = FORMATS.map(|(format, _)| format);
+    let formats = student_formats().map(|format| format.id);
     let output = grader()
         .current_dir(submission.path().parent().unwrap())
         .arg(submission.path())
@@ -101,9 +95,10 @@ pub fn grade_in_all_formats(
         .unwrap();
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{error}");
-    let files = FORMATS.into_iter().chain([("json", "score.json")]);
-    let mut written: FormatTexts = files
-        .map(|(format, file)| (format, fs::read_to_string(out.join(file)).unwrap()))
+    let text = |format: &FormatSpec| fs::read_to_string(out.join(format.file)).unwrap();
+    let mut written: FormatTexts = FORMATS
+        .into_iter()
+        .map(|format| (format.id, text(format)))
         .collect();
     written.insert("log", String::from_utf8(output.stdout).unwrap());
     written

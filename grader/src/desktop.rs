@@ -6,10 +6,10 @@ use std::{env, io};
 /// Reasons why a file was not opened.
 #[derive(Debug, thiserror::Error)]
 enum OpenError {
-    /// There is no desktop on which the user would see the file.
-    #[error("there is no desktop")]
+    /// There is no desktop session in which the user would see the file.
+    #[error("no desktop session is available")]
     NoDesktop,
-    /// No program opens such files, or the program does not start.
+    /// No program is associated with this type of file, or the program does not start.
     #[error("no program can open the page ({0})")]
     NoProgram(#[from] io::Error),
 }
@@ -29,9 +29,9 @@ fn open(file: &Path) -> Result<(), OpenError> {
     Ok(open::that_detached(file)?)
 }
 
-/// Returns whether there is a desktop. Windows and macOS always have one. On other systems there
-/// may be none, for example over a plain ssh connection, and the program would then start and fail
-/// without the user noticing.
+/// Returns whether there is a desktop session. Windows and macOS always have one. On other systems
+/// there may be none, for example over a plain ssh connection, and the program would then start and
+/// fail without the user noticing.
 fn has_desktop() -> bool {
     let is_set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
     cfg!(any(windows, target_os = "macos"))

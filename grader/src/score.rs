@@ -251,7 +251,7 @@ impl Verdict {
 #[derive(Clone, Debug, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct BuildReport {
-    /// Files that were replaced by the starter's.
+    /// Files that could not be used, and were replaced with the starter's versions.
     pub not_compiled: Vec<FileReport>,
     /// Notes that do not affect points.
     pub notes: Vec<String>,

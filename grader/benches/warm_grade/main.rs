@@ -24,8 +24,8 @@ use watch::WatchProcess;
 
 const ROUNDS: usize = 15;
 
-/// The measured quantities, in the order of a round, with the baselines that they are compared
-/// with.
+/// The measured quantities, in the order in which each round measures them, and the baseline with
+/// which each is compared.
 const ROWS: [Row; 7] = [
     Row::new("bare rustc of the five files (F)", "F", TimeKind::Cpu),
     Row::new("the same up to type checking (T)", "F", TimeKind::Cpu),

@@ -15,10 +15,11 @@ use crate::layout::{self, METADATA, RecognisedClass, UnmatchedPath};
 use crate::listing::{Node, hidden_names, list_folder};
 use crate::unpack::{CLASS_FOLDER, unpack};
 
-/// The entries of a class. If the files were unpacked, dropping this value deletes them.
+/// The submissions of a class, before their files are read. If they were unpacked from an archive,
+/// dropping this value deletes the unpacked files.
 #[derive(Debug)]
 pub struct Input {
-    /// The entries found in the input.
+    /// The class recognised in the input: its layout, its submissions and the unmatched files.
     pub class: RecognisedClass,
     /// The class's folder, which may contain lists as well as submissions.
     pub root: Node,

@@ -6,8 +6,8 @@ use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
 use crate::table::{Table, TableError};
 
-/// Column names that platforms and people use for a person's full name. The lists below are the
-/// same for the other fields.
+/// Column names that platforms and people use for a person's full name. The lists below contain
+/// the column names of the other fields.
 const NAME: [&str; 4] = ["name", "full name", "student", "student name"];
 const FIRST: [&str; 3] = ["first name", "first_name", "given name"];
 const LAST: [&str; 4] = ["last name", "last_name", "surname", "family name"];

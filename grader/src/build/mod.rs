@@ -99,7 +99,8 @@ impl Builder {
         })
     }
 
-    /// Returns a builder that can also substitute parts of this reference.
+    /// Returns a builder that can also compile a submission's file with parts of this reference in
+    /// place of the submission's other files.
     pub fn with_reference(
         self,
         reference: &Path,

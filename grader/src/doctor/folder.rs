@@ -70,7 +70,8 @@ fn classroom50_problems(path: &Path, handed_out: &HandedOut) -> Vec<String> {
     problems
 }
 
-/// Returns a message for each problem with the grader's zip, which runs the practice exam.
+/// Returns a message for each problem with the grader's zip. Its policy is checked against the
+/// practice exam, because that is the exam with which classroom50 grades.
 fn grader_zip_problems(contents: &PackageContents, handed_out: &HandedOut) -> Vec<String> {
     let mut problems = contents.damage_problems();
     problems.extend(contents.empty_folder_problems(&REQUIRED_FOLDERS, "classroom50"));

@@ -16,7 +16,7 @@ pub struct FormatSpec {
     pub id: &'static str,
     /// The default file name.
     pub file: &'static str,
-    /// The environment variables that the file copies. All of them must be set.
+    /// The environment variables whose values are copied into the file. All of them must be set.
     pub variables: &'static [&'static str],
     /// The environment variable with the path of a file that the platform shares between commands.
     /// If it is set, the text is appended to that file unless another path is requested.

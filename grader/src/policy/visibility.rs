@@ -19,11 +19,11 @@ pub enum Visibility {
     Feedback,
     /// Title and points.
     Points,
-    /// Nothing before the late due date.
+    /// Hidden until the late due date.
     AfterDue,
-    /// Nothing before grades are published.
+    /// Hidden until grades are published.
     AfterPublished,
-    /// Nothing at any time.
+    /// Always hidden.
     Hidden,
 }
 

@@ -15,7 +15,7 @@ pub(super) const LAUNCH_FLAG: &str = "--launch-confined";
 /// program.
 pub(super) const READY: u8 = b'+';
 
-/// The access to the system that a program is granted. All other access is refused.
+/// The system access that is granted to a program. All other access is denied.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Profile {
     /// A submission's program: it computes, and communicates through the pipes that it inherits.

@@ -2,11 +2,11 @@
 //! before and after it, and nothing may be forged, leaked or left behind.
 //!
 //! ```text
-//! cargo test -p grader --test hostile                  runs the quick entries
-//! cargo test -p grader --test hostile -- --all         runs all entries: bombs take minutes
-//! cargo test -p grader --test hostile -- C02 flood     runs entries whose names contain these
-//! ... -- --full --seccomp-only                         at these levels, not at the best one here
-//! ... -- --contained                                   as in a container: no namespaces, no mounts
+//! cargo test -p grader --test hostile                runs the quick entries
+//! cargo test -p grader --test hostile -- --all       runs all entries: bombs take minutes
+//! cargo test -p grader --test hostile -- C02 flood   runs entries whose names contain these
+//! ... -- --full --seccomp-only                       at these isolation levels (default: the best)
+//! ... -- --contained                                 as in a container: no namespaces, no mounts
 //! ```
 //!
 //! `entries/ID-NAME/expect.toml` describes each entry and its permitted results. `README.md` lists

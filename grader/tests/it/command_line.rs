@@ -187,7 +187,10 @@ fn without_a_desktop_prints_the_path_of_the_page_and_succeeds() {
     assert_eq!(output.status.code(), Some(0), "{error}");
     let page = out.join("report.html");
     assert!(page.is_file());
-    let line = format!("there is no desktop: open {} yourself", page.display());
+    let line = format!(
+        "no desktop session is available: open {} yourself",
+        page.display()
+    );
     assert!(error.contains(&line), "{error}");
     let report = String::from_utf8(output.stdout).unwrap();
     assert!(

@@ -1,10 +1,10 @@
 //! The reference's algorithms, tuned for speed.
 //!
-//! - Boxes are in SIMD registers while the tree is built, and vectors are reused for all nodes.
+//! - Building a tree computes boxes with SIMD, and reuses its vectors for all nodes.
 //! - Small nodes have 8 buckets along each axis and large ones up to 64. Most nodes are small, and
 //!   there the buckets cost more than the primitives; in large nodes more buckets cost almost
 //!   nothing, and their splits matter most for traversal.
-//! - Both children of a node are adjacent in memory.
+//! - The two children of a node are next to each other in memory.
 //! - Traversal computes the inverse of the ray's direction once, and tests boxes with it.
 
 use glam::{Vec3, Vec3A};

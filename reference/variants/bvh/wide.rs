@@ -261,8 +261,8 @@ enum HitPrimitive {
     Sphere {
         index: u32,
     },
-    /// A triangle, given by the first line of its pack and its lane in the pack, with the weights
-    /// of two corners.
+    /// A triangle, given by the index of its pack's first cache line and by its lane in the pack.
+    /// `u` and `v` are the barycentric weights of its second and third corners.
     Triangle {
         pack: u32,
         lane: usize,
@@ -415,7 +415,8 @@ impl WideRay {
 #[repr(align(64))]
 struct CacheLine([f32x8; 2]);
 
-/// The bit that marks a child as a pack, in the number of the child's first line.
+/// The bit that marks a child as a leaf, which is stored as a pack. It is set in the index of the
+/// child's first cache line.
 const LEAF: u32 = 1 << 31;
 
 /// A node with up to eight children: for each axis, a line with the lower and upper planes of all
@@ -622,7 +623,8 @@ impl<'a> Pack<'a> {
     }
 }
 
-/// A hit of a triangle in a pack, with the weights of two corners.
+/// A hit on a triangle in a pack. `u` and `v` are the barycentric weights of its second and third
+/// corners.
 struct PackHit {
     distance: f32,
     lane: usize,

@@ -16,8 +16,8 @@ const INVALID_COLOUR: Vec3 = Vec3::new(1.0, 0.0, 1.0);
 /// Factor by which differences are amplified.
 pub(super) const DIFFERENCE_GAIN: f32 = 4.0;
 
-/// One quantity of the expected and the submitted picture. The colour of a pixel is the mean over
-/// its positions.
+/// A comparison of the expected and the submitted picture in one quantity, such as depth. The
+/// colour of a pixel is the mean over its sample positions.
 #[derive(Clone, Debug)]
 pub struct LayerComparison {
     /// Human-readable name.
@@ -31,7 +31,7 @@ pub struct LayerComparison {
     pub difference: Vec<Colour>,
 }
 
-/// One quantity of a submitted picture.
+/// A submitted picture of one quantity, such as depth.
 #[derive(Clone, Debug)]
 pub struct Layer {
     /// Human-readable name.
@@ -46,7 +46,7 @@ impl Layer {
     }
 }
 
-/// One quantity of the expected and the submitted picture, with a colour for each position.
+/// The expected and the submitted picture of one quantity, with a colour for each sample position.
 struct LayerSamples {
     name: &'static str,
     wanted: Vec<Vec3>,

@@ -1,4 +1,4 @@
-//! The positions of a tree's nodes in a drawing by levels.
+//! Lays out the nodes of a tree for a drawing with one row per level.
 
 use judging::drawing_data::{LevelNode, Sweep};
 use judging::judge::tree::reached_nodes::ReachedNode;

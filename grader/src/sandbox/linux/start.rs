@@ -54,7 +54,7 @@ impl Program {
         }
     }
 
-    /// Creates a program from a command, with another path to its executable.
+    /// Creates a program from a command, replacing the path to its executable with `path`.
     pub(super) fn with_path(command: Command, path: PathBuf) -> Self {
         let mut moved = Command::new(&path);
         moved.args(command.get_args());

@@ -46,8 +46,8 @@ pub enum ArchiveError {
     /// A member is encrypted.
     #[error("the file {0} in it is password-protected: create the archive without a password")]
     Encrypted(String),
-    /// A member is compressed with an unusual method.
-    #[error("the file {0} in it is compressed with an unusual method: create a plain .zip")]
+    /// A member is compressed with an unsupported method.
+    #[error("the file {0} in it is compressed with an unsupported method: create a plain .zip")]
     UnsupportedCompression(String),
     /// Two Rust files have the same path, at least on some file systems.
     #[error("{0} is in it twice, or is the same file as {1} on some systems: pack it again")]

@@ -40,8 +40,8 @@ pub fn camera_along(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> ExamCa
     }
 }
 
-/// Creates a question that asks for a picture of these shapes. It calls the `hit` of every shape,
-/// without a tree.
+/// Creates a question that asks for a picture of these shapes. The expected picture is computed by
+/// testing the shapes one by one, without a tree.
 pub fn picture_question(camera: ExamCamera, shapes: Vec<Shape>) -> ExamQuestion {
     let scan = Scan::new(&shapes);
     let key = first_hits_key(&camera, |ray64| scan.closest_hit(ray64));

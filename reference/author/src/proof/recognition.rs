@@ -13,7 +13,8 @@ use crate::solutions::Solutions;
 use crate::solutions::sources::Sources;
 use crate::solutions::workbench::WorkbenchError;
 
-/// The results of recognising all known mistakes, by their ids.
+/// The ids of the known mistakes, grouped by whether the exam recognises each mistake and gives its
+/// hint.
 #[derive(Debug, Default)]
 pub struct Recognition {
     /// Mistakes that are recognised: their hint is given, possibly together with other hints that

@@ -31,7 +31,7 @@ pub enum TrialError {
     Unsupported(String),
     /// The starter no longer has a method that an attack is inserted into, or has it more than
     /// once.
-    #[error("{file} must contain `{signature}` exactly once: adapt trial/thief.rs")]
+    #[error("expected exactly one `{signature}` in {file}: adapt trial/thief.rs to the starter")]
     MissingAttackPoint {
         /// The name of the starter's file.
         file: &'static str,

@@ -10,7 +10,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use grader::handed_out::RAYS;
+use grader::handed_out::{RAYS, SubstitutedFile};
 use judging::exam::Exam;
 
 use crate::bundle::Bundle;
@@ -19,12 +19,10 @@ use crate::solutions::sources::Sources;
 use crate::text_file::ReadError;
 
 /// The files and folders whose lines are secret.
-const SECRET_PATHS: [&str; 4] = [
-    "reference/src",
-    "reference/substitution/bvh/bvh.rs",
-    "reference/mutants",
-    "reference/variants",
-];
+const SECRET_PATHS: [&str; 3] = ["reference/src", "reference/mutants", "reference/variants"];
+/// The folder with the sources around the files that are graded with the reference's parts. The
+/// source with the name of such a file replaces some of its functions.
+const SUBSTITUTION_FOLDER: &str = "reference/substitution";
 /// The folder of the oracles, which solve the tasks in double precision. Only their formulas are
 /// secret: other lines, such as the conversion of a ray to `f64`, can occur in any code.
 const ORACLE_FOLDER: &str = "reference/author/src/oracle";
@@ -90,6 +88,10 @@ impl Secrets {
         secrets.lines.retain(|line, _| is_formula(line));
         for path in SECRET_PATHS {
             secrets.read(root, path)?;
+        }
+        for SubstitutedFile { file, .. } in RAYS.substitutions {
+            let module = file.trim_end_matches(".rs");
+            secrets.read(root, &format!("{SUBSTITUTION_FOLDER}/{module}/{file}"))?;
         }
         let reference = Sources::reference(root)?;
         for mistake in mistakes(root)? {

@@ -68,6 +68,13 @@ pub struct SubstitutedFile {
     pub given: &'static [&'static str],
 }
 
+impl TaskFile {
+    /// Returns whether this is the starter's text, apart from white space.
+    pub fn is_starter(&self, text: &str) -> bool {
+        without_whitespace(text) == without_whitespace(self.starter)
+    }
+}
+
 impl HandedOut {
     /// Returns the task file with exactly this name. A similar name, such as `Bvh.rs`, is another
     /// file.
@@ -168,6 +175,13 @@ mod tests {
         assert!(changed(&sphere.starter.replace("    ", "  ")).is_empty());
         assert!(changed(&sphere.starter.replace("todo!", "panic!")).is_empty());
         assert_eq!(changed(&sphere.starter.replace("/ PI", "/ 3.0")), ["uv"]);
+    }
+
+    #[test]
+    fn recognises_the_starter_after_formatting_but_not_after_a_change() {
+        let sphere = task_file("sphere.rs");
+        assert!(sphere.is_starter(&sphere.starter.replace('\n', "\r\n")));
+        assert!(!sphere.is_starter(&sphere.starter.replace("todo!", "panic!")));
     }
 
     #[test]

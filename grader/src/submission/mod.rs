@@ -151,6 +151,13 @@ impl Submission {
         })
     }
 
+    /// Returns whether the assignment has not been started: every task file is the starter's, apart
+    /// from white space.
+    pub fn is_as_handed_out(&self) -> bool {
+        let mut files = self.files.iter();
+        files.all(|(file, text)| text.as_ref().is_ok_and(|text| file.is_starter(text)))
+    }
+
     /// Reads a submission from single files, listed by submitted name and path on disk.
     pub fn from_files(
         name: &str,

@@ -100,6 +100,9 @@ fn describe_files(entry: &Entry, handed_out: &'static HandedOut) -> Result<Strin
         .collect();
     let count = submission.files.len();
     Ok(match missing.as_slice() {
+        [] if submission.is_as_handed_out() => {
+            format!("all {count} files, as they were handed out")
+        }
         [] => format!("all {count} files"),
         missing => format!(
             "{} of {count} files; {}",

@@ -310,3 +310,14 @@ fn rejects_a_single_submission() {
         "{error}"
     );
 }
+
+#[test]
+fn the_preview_says_who_has_not_started() {
+    let class = TestClass::named("class")
+        .with_reference("ann")
+        .with_starter("bob");
+    let preview = class.preview();
+    assert!(preview.contains("ann: all 5 files\n"), "{preview}");
+    let unstarted = "bob: all 5 files, as they were handed out\n";
+    assert!(preview.contains(unstarted), "{preview}");
+}

@@ -22,7 +22,7 @@ fn cpu_time() -> Duration {
 
 /// Returns the wall time on other systems. It is meaningful only if the machine is otherwise idle.
 #[cfg(not(unix))]
-fn used() -> Duration {
+fn cpu_time() -> Duration {
     use std::sync::LazyLock;
     use std::time::Instant;
 

@@ -160,11 +160,7 @@ impl Arguments {
             task: self.task,
             policy: self.policy,
             gradescope_metadata: self.gradescope_metadata,
-            dependents: if self.no_reference {
-                Dependents::Block
-            } else {
-                Dependents::SubstituteReference
-            },
+            dependents: Dependents::new(self.no_reference),
             isolation,
             budget: Budget::from_seconds(self.cpu_limit),
             hints: if self.hints {
@@ -205,14 +201,7 @@ fn format_help() -> String {
 }
 
 fn parse_task(text: &str) -> Result<Task, String> {
-    let tasks = RAYS.assignment.tasks;
-    let known = || {
-        tasks
-            .iter()
-            .map(|task| task.id)
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
-    let task = RAYS.assignment.find(text).map(TaskInfo::task);
-    task.ok_or_else(|| format!("unknown task; the tasks are {}", known()))
+    let assignment = RAYS.assignment;
+    let task = assignment.find(text).map(TaskInfo::task);
+    task.ok_or_else(|| format!("unknown task; the tasks are {}", assignment.id_list()))
 }

@@ -71,3 +71,14 @@ pub enum Dependents {
     /// Block them, as on a student's machine.
     Block,
 }
+
+impl Dependents {
+    /// Returns the treatment that the flag `--no-reference` selects.
+    pub fn new(no_reference: bool) -> Self {
+        if no_reference {
+            Dependents::Block
+        } else {
+            Dependents::SubstituteReference
+        }
+    }
+}

@@ -153,11 +153,7 @@ impl GradingArguments {
         GradeOptions {
             exam: ExamSource::from_option(self.exam.clone()),
             policy: self.policy.clone(),
-            dependents: if self.no_reference {
-                Dependents::Block
-            } else {
-                Dependents::SubstituteReference
-            },
+            dependents: Dependents::new(self.no_reference),
             isolation: self
                 .isolation
                 .map_or(IsolationRequest::Untrusted, IsolationRequest::Level),

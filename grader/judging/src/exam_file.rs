@@ -128,11 +128,10 @@ fn unknown_task(item: &Item, assignment: &Assignment) -> Option<String> {
     if assignment.find(item.task.id()).is_some() {
         return None;
     }
-    let known: Vec<&str> = assignment.tasks.iter().map(|task| task.id).collect();
     Some(format!(
         "there is no task `{}`; the tasks are {}",
         item.task,
-        known.join(", ")
+        assignment.id_list()
     ))
 }
 

@@ -81,7 +81,7 @@ impl ReferenceParts {
         let parts: Vec<(&str, &str)> = iter::zip(spec.parts.iter().copied(), &texts)
             .map(|(name, text)| (name, text.as_str()))
             .collect();
-        let scaffold = reference.join("../substitution").join(module(spec.file));
+        let scaffold = reference.join("..").join(spec.folder());
         let root = parts_root(spec);
         let parts_folder = cache.join(cache_key(&parts, &root, rustc));
         let parts_of_file = ReferenceParts {

@@ -56,8 +56,8 @@ pub struct GivenFile {
 }
 
 /// A task file that is graded with the reference's parts in place of the submission's other files,
-/// if an item that it depends on has failed. The sources that connect it to the parts are in the
-/// folder `substitution` beside the reference's `src`.
+/// if an item that it depends on has failed. The sources that connect it to the parts are in
+/// [`SubstitutedFile::folder`].
 #[derive(Debug, PartialEq, Eq)]
 pub struct SubstitutedFile {
     /// The name of the task file.
@@ -66,6 +66,14 @@ pub struct SubstitutedFile {
     pub parts: &'static [&'static str],
     /// The given files that are compiled with the file.
     pub given: &'static [&'static str],
+}
+
+impl SubstitutedFile {
+    /// Returns the folder of the sources that connect the file to the parts, relative to the parent
+    /// of the reference's `src`.
+    pub fn folder(&self) -> String {
+        format!("substitution/{}", self.file.trim_end_matches(".rs"))
+    }
 }
 
 impl TaskFile {

@@ -5,6 +5,7 @@ use std::path::Path;
 use grader::exam_source::{ExamSource, ExamSourceError};
 use grader::handed_out::RAYS;
 use judging::exam::Exam;
+use serde::Serialize;
 
 use crate::drawing_data::with_drawing_data;
 use crate::generated_file::GeneratedFile;
@@ -80,29 +81,25 @@ pub fn assemble(id: &str, seed: Seed, recorded: RecordedPicture) -> Exam {
 
 /// Writes the exam as JSON with one item per line, so that a diff shows which items changed.
 fn to_text(exam: &Exam) -> Result<String, serde_json::Error> {
-    let items: Vec<String> = exam
-        .items
-        .iter()
-        .map(serde_json::to_string)
-        .collect::<Result<_, _>>()?;
-    let id = serde_json::to_string(&exam.id)?;
-    let mistakes: Vec<String> = exam
-        .mistakes
-        .iter()
-        .map(serde_json::to_string)
-        .collect::<Result<_, _>>()?;
-    let schema = exam.schema;
-    let assignment = serde_json::to_string(&exam.assignment)?;
-    // As in the format itself, `rays` is not written, so that its exams stay the same.
-    let assignment = if exam.assignment == RAYS.assignment.id {
-        String::new()
-    } else {
-        format!("\"assignment\":{assignment},")
+    let (mistakes, items) = (json_lines(&exam.mistakes)?, json_lines(&exam.items)?);
+    // The fields before the two lists are written as the format defines them.
+    let empty = Exam {
+        mistakes: Vec::new(),
+        ..exam.filter_items(|_| false)
     };
-    let (mistakes, items) = (mistakes.join(",\n"), items.join(",\n"));
+    let empty = serde_json::to_string(&empty)?;
+    let head = empty
+        .strip_suffix("\"items\":[]}")
+        .expect("the items are the last field");
     Ok(format!(
-        "{{\"schema\":{schema},{assignment}\"id\":{id},\"mistakes\":[\n{mistakes}\n],\"items\":[\n{items}\n]}}\n"
+        "{head}\"mistakes\":[\n{mistakes}\n],\"items\":[\n{items}\n]}}\n"
     ))
+}
+
+/// Returns the elements of a JSON list, one per line.
+fn json_lines(values: &[impl Serialize]) -> Result<String, serde_json::Error> {
+    let lines = values.iter().map(serde_json::to_string);
+    Ok(lines.collect::<Result<Vec<String>, _>>()?.join(",\n"))
 }
 
 #[cfg(test)]

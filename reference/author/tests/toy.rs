@@ -127,11 +127,10 @@ fn hits_at(x: f32) -> Key {
 }
 
 fn item(id: &str, points: u32, needs: &[&str], question: Question, key: Key) -> Item {
-    let task = id.split('.').next().and_then(|task| TASKS.find(task));
     Item {
         id: id.to_owned(),
         title: "it works".to_owned(),
-        task: task.unwrap().task(),
+        task: TASKS.task_of(id).unwrap(),
         points,
         look: "Look at the formula.".to_owned(),
         section: None,

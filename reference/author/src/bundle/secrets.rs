@@ -10,7 +10,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use grader::handed_out::{RAYS, SubstitutedFile};
+use grader::handed_out::RAYS;
 use judging::exam::Exam;
 
 use crate::bundle::Bundle;
@@ -20,9 +20,6 @@ use crate::text_file::ReadError;
 
 /// The files and folders whose lines are secret.
 const SECRET_PATHS: [&str; 3] = ["reference/src", "reference/mutants", "reference/variants"];
-/// The folder with the sources around the files that are graded with the reference's parts. The
-/// source with the name of such a file replaces some of its functions.
-const SUBSTITUTION_FOLDER: &str = "reference/substitution";
 /// The folder of the oracles, which solve the tasks in double precision. Only their formulas are
 /// secret: other lines, such as the conversion of a ray to `f64`, can occur in any code.
 const ORACLE_FOLDER: &str = "reference/author/src/oracle";
@@ -89,9 +86,10 @@ impl Secrets {
         for path in SECRET_PATHS {
             secrets.read(root, path)?;
         }
-        for SubstitutedFile { file, .. } in RAYS.substitutions {
-            let module = file.trim_end_matches(".rs");
-            secrets.read(root, &format!("{SUBSTITUTION_FOLDER}/{module}/{file}"))?;
+        // The source with the name of the file replaces some of the file's functions.
+        for substituted in RAYS.substitutions {
+            let (folder, file) = (substituted.folder(), substituted.file);
+            secrets.read(root, &format!("reference/{folder}/{file}"))?;
         }
         let reference = Sources::reference(root)?;
         for mistake in mistakes(root)? {

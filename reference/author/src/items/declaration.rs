@@ -78,9 +78,8 @@ pub(super) fn item(declaration: Declaration, questions: Vec<ExamQuestion>) -> De
 }
 
 fn task(id: &str) -> Task {
-    let of = |task: &Task| id.split('.').next() == Some(task.id());
-    let task = RAYS.tasks().find(of);
-    task.expect("the id of an item begins with its task")
+    RAYS.task_of(id)
+        .expect("the id of an item begins with its task")
 }
 
 /// Returns the items, each with the ids of all items in the groups that it needs.

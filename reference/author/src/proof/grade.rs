@@ -1,7 +1,7 @@
 //! Grades mistakes and variants with an exam.
 
 use grader::score::{ItemScore, Score};
-use judging::assignment::Task;
+use judging::assignment::{RAYS, Task};
 use judging::exam::{Exam, Item};
 use rayon::prelude::*;
 
@@ -52,10 +52,7 @@ pub fn variant_losses(
 
 /// Returns the exam with only the items of these tasks and the items that depend on one of them.
 pub fn tasks_and_dependents(exam: &Exam, tasks: &[Task]) -> Exam {
-    let of_tasks = |id: &String| {
-        let task = id.split('.').next();
-        tasks.iter().any(|other| Some(other.id()) == task)
-    };
+    let of_tasks = |id: &String| RAYS.task_of(id).is_some_and(|task| tasks.contains(&task));
     exam.filter_items(|item: &Item| of_tasks(&item.id) || item.needs.iter().any(of_tasks))
 }
 

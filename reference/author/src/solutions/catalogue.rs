@@ -148,9 +148,8 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, ReadError> {
 impl Mistake {
     /// Returns the task that must lose points.
     pub fn task(&self) -> Task {
-        let of = |task: &Task| self.id.split('.').next() == Some(task.id());
-        let task = RAYS.tasks().find(of);
-        task.expect("ids were checked when they were read")
+        RAYS.task_of(&self.id)
+            .expect("ids were checked when they were read")
     }
 
     /// Returns the tasks that may lose points: the mistake's own, and the others that it declares.

@@ -27,6 +27,8 @@ pub struct HandedOut {
     pub entry: &'static str,
     /// The folder of students' own work, relative to the workspace.
     pub student: &'static str,
+    /// The folder of the starter that is embedded in this program, relative to the workspace.
+    pub starter: &'static str,
     /// The folder of the reference solution's files, relative to the workspace. Students do not have
     /// it.
     pub reference: &'static str,
@@ -84,6 +86,12 @@ impl TaskFile {
 }
 
 impl HandedOut {
+    /// Returns the folder of the assignment's solutions, relative to the workspace: the parent of
+    /// the reference's `src`.
+    pub fn solutions(&self) -> &'static str {
+        self.reference.trim_end_matches("/src")
+    }
+
     /// Returns the task file with exactly this name. A similar name, such as `Bvh.rs`, is another
     /// file.
     pub fn task_file(&self, name: &str) -> Option<&'static TaskFile> {

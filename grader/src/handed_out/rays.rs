@@ -62,6 +62,7 @@ fn main() -> std::process::ExitCode {
 }
 ",
     student: "student",
+    starter: "grader/starter",
     reference: "reference/src",
     substitutions: &[SubstitutedFile {
         file: "bvh.rs",

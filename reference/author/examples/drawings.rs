@@ -13,6 +13,7 @@ use author::exams;
 use author::solutions::Solutions;
 use author::solutions::workbench::Workbench;
 use grader::drawing::{self, Drawing};
+use grader::handed_out::RAYS;
 use judging::exam::Item;
 use judging::judge::{Credit, judge};
 use protocol::Answer;
@@ -46,7 +47,7 @@ fn run() -> Result<(), Box<dyn error::Error>> {
         .nth(1)
         .ok_or("name the page to write, such as target/drawings.html")?;
     let word = env::args().nth(2).unwrap_or_default();
-    let solutions = Solutions::load(Workbench::open()?)?;
+    let solutions = Solutions::load(Workbench::open(&RAYS)?)?;
     let exam = exams::load_practice(Path::new(ROOT))?;
     let figures = solutions
         .mistakes

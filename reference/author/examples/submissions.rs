@@ -28,9 +28,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let workspace = Workspace::find()?;
     let root = workspace.root();
 
-    let reference = Sources::reference(root)?;
+    let reference = Sources::reference(root, &RAYS)?;
     let mut solutions = Vec::new();
-    for mistake in mistakes(root)? {
+    for mistake in mistakes(root, &RAYS)? {
         solutions.push((mistake.id.clone(), mistake.apply(&reference)?));
     }
     for variant in variants(root)? {

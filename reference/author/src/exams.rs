@@ -56,7 +56,7 @@ pub fn final_exam_text(seed: u64) -> Result<String, ExamGenerationError> {
 }
 
 fn exam_text(id: &str, seed: Seed) -> Result<String, ExamGenerationError> {
-    let solutions = Solutions::load(Workbench::open().map_err(SolutionsError::from)?)?;
+    let solutions = Solutions::load(Workbench::open(&RAYS).map_err(SolutionsError::from)?)?;
     let exam = generate(id, seed, &solutions.recorder).map_err(SolutionsError::from)?;
     Ok(to_text(&with_drawing_data(with_hints(exam, &solutions)?))?)
 }

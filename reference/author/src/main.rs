@@ -20,6 +20,7 @@ use author::solutions::workbench::Workbench;
 use author::solutions::{Solutions, SolutionsError};
 use author::{exams, handout, scenes, starter};
 use clap::Parser;
+use grader::handed_out::RAYS;
 
 /// The workspace's root. The paths of generated files are relative to it.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
@@ -39,9 +40,11 @@ type CommandResult = Result<(), Box<dyn std::error::Error>>;
 fn run(command: Command) -> CommandResult {
     let root = Path::new(ROOT);
     match command {
-        Command::Starter(check) => {
-            generate(&starter::generated_files(root)?, check.mode(), "starter")
-        }
+        Command::Starter(check) => generate(
+            &starter::generated_files(root, &RAYS)?,
+            check.mode(),
+            "starter",
+        ),
         Command::Exams(check) => generate(&exams::generated_files()?, check.mode(), "exams"),
         Command::Exam { seed } => {
             let exam = exams::final_exam_text(seed)?;
@@ -50,7 +53,7 @@ fn run(command: Command) -> CommandResult {
         Command::Scenes(check) => generate(&scenes::generated_files(), check.mode(), "scenes"),
         Command::Handout { check, book } => make_handout(root, check.mode(), book.as_deref()),
         Command::Bundle { out, book, check } => {
-            let bundle = Bundle::collect(root, book.as_deref())?;
+            let bundle = Bundle::collect(root, &RAYS, book.as_deref())?;
             write_bundle(root, &bundle, out.as_deref(), check)
         }
         Command::Package {
@@ -61,8 +64,8 @@ fn run(command: Command) -> CommandResult {
             policy,
             check,
         } => {
-            let course = Course::new(exam_seed, exam.as_deref(), policy.as_deref())?;
-            let package = package::collect(root, platform, course)?;
+            let course = Course::new(&RAYS, exam_seed, exam.as_deref(), policy.as_deref())?;
+            let package = package::collect(root, &RAYS, platform, course)?;
             write_package(root, platform, &package, &out, check)
         }
         Command::Mistakes { seeds, check } => run_mistakes(root, seeds, check.mode()),
@@ -146,16 +149,16 @@ fn make_book(_: &Path, _: &Path) -> CommandResult {
 }
 
 fn solutions() -> Result<Solutions, SolutionsError> {
-    Solutions::load(Workbench::open()?)
+    Solutions::load(Workbench::open(&RAYS)?)
 }
 
 /// Writes the students' bundle. Fails if the bundle contains a secret.
 fn write_bundle(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -> CommandResult {
-    let secrets = Secrets::gather(root, bundle)?;
+    let secrets = Secrets::gather(root, &RAYS, bundle)?;
     let leaks = secrets.search(bundle);
     let mut problems: Vec<String> = leaks.iter().map(ToString::to_string).collect();
     if check && leaks.is_empty() {
-        problems = bundle::check::check(root, bundle)?;
+        problems = bundle::check::check(root, &RAYS, bundle)?;
     }
     let (count, size) = (bundle.files.len(), bundle.size() / 1000);
     let line = format!("{count} files, {size} kB, searched for {secrets}");
@@ -232,7 +235,7 @@ fn run_mistakes(root: &Path, seeds: Option<u64>, mode: Mode) -> CommandResult {
         Mode::Check => failures::FEW_SEEDS,
     };
     let failed = failures::failed_items(&solutions, &practice, seeds.unwrap_or(default))?;
-    let committed = FailedItems::load(root)?;
+    let committed = FailedItems::load(root, &RAYS)?;
     if mode == Mode::Check {
         let problems = failures::problems(&committed, &failed);
         let line = format!("seeds {}, mistakes {}", failed.seeds, failed.fails.len());
@@ -240,7 +243,7 @@ fn run_mistakes(root: &Path, seeds: Option<u64>, mode: Mode) -> CommandResult {
     }
     // A check with as many seeds must find the same lists.
     if mode == Mode::Write || failed.seeds == committed.seeds {
-        generate(&[failed.generated_file()?], mode, "mistakes")?;
+        generate(&[failed.generated_file(&RAYS)?], mode, "mistakes")?;
     }
     if mode == Mode::Write {
         solutions.set_failed_items(&failed);

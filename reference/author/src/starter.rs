@@ -14,16 +14,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 
 use crate::generated_file::GeneratedFile;
-
-/// The folders that the starter is written to: the one that students edit, and the copy that is
-/// embedded in the grader.
-const TARGET_FOLDERS: [&str; 2] = ["student/src", "grader/starter"];
-
-/// The folder of the marked files.
-const SOURCE_FOLDER: &str = "reference/src";
 
 /// The reason why the starter cannot be generated.
 #[derive(Debug, thiserror::Error)]
@@ -37,10 +30,10 @@ pub enum StarterError {
         source: io::Error,
     },
     /// A mark in a file of the reference is wrong.
-    #[error("{SOURCE_FOLDER}/{file}:{line}: {error}")]
+    #[error("{}:{line}: {error}", path.display())]
     Mark {
-        /// The name of the file.
-        file: &'static str,
+        /// The path of the file.
+        path: PathBuf,
         /// The number of the line with the mark, counted from 1.
         line: usize,
         /// The problem on that line.
@@ -67,17 +60,28 @@ pub enum MarkError {
     NoStarterLine,
 }
 
-/// Generates every file of the starter, for each target folder, from the reference below `root`.
-pub fn generated_files(root: &Path) -> Result<Vec<GeneratedFile>, StarterError> {
+/// Generates every file of an assignment's starter from its reference in the workspace at `root`:
+/// for the folder that students edit, and for the copy that is embedded in the grader.
+pub fn generated_files(
+    root: &Path,
+    handed_out: &HandedOut,
+) -> Result<Vec<GeneratedFile>, StarterError> {
+    let folders = [
+        format!("{}/src", handed_out.student),
+        handed_out.starter.to_owned(),
+    ];
     let mut generated = Vec::new();
-    let given = RAYS.given.iter().chain([&RAYS.main]).map(|file| file.name);
-    for file in RAYS.files.iter().map(|file| file.name).chain(given) {
-        let path = root.join(SOURCE_FOLDER).join(file);
-        let source = fs::read_to_string(&path)
-            .map_err(|source| StarterError::Unreadable { path, source })?;
+    let given = handed_out.given.iter().chain([&handed_out.main]);
+    let given = given.map(|file| file.name);
+    for file in handed_out.files.iter().map(|file| file.name).chain(given) {
+        let path = root.join(handed_out.reference).join(file);
+        let source = match fs::read_to_string(&path) {
+            Ok(source) => source,
+            Err(source) => return Err(StarterError::Unreadable { path, source }),
+        };
         let starter =
-            project(&source).map_err(|(line, error)| StarterError::Mark { file, line, error })?;
-        for folder in TARGET_FOLDERS {
+            project(&source).map_err(|(line, error)| StarterError::Mark { path, line, error })?;
+        for folder in &folders {
             generated.push(GeneratedFile::new(format!("{folder}/{file}"), &*starter));
         }
     }

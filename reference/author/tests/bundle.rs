@@ -14,6 +14,7 @@ use author::bundle::archive::{unzip, zip};
 use author::bundle::secrets::{Leak, Secrets};
 use author::bundle::{Bundle, archive};
 use author::exams;
+use grader::handed_out::RAYS;
 use tempfile::TempDir;
 
 fn root() -> PathBuf {
@@ -25,10 +26,10 @@ fn text(path: &str) -> String {
 }
 
 /// The bundle, collected once for all tests.
-static BUNDLE: LazyLock<Bundle> = LazyLock::new(|| Bundle::collect(&root(), None).unwrap());
+static BUNDLE: LazyLock<Bundle> = LazyLock::new(|| Bundle::collect(&root(), &RAYS, None).unwrap());
 
 fn secrets() -> Secrets {
-    Secrets::gather(&root(), &BUNDLE).unwrap()
+    Secrets::gather(&root(), &RAYS, &BUNDLE).unwrap()
 }
 
 /// Runs `cargo author bundle --out OUT`.
@@ -144,7 +145,7 @@ fn a_built_book_is_added_beside_its_sources() {
         "<title>Path tracing</title>\n",
     )
     .unwrap();
-    let bundle = Bundle::collect(&root(), Some(book.path())).unwrap();
+    let bundle = Bundle::collect(&root(), &RAYS, Some(book.path())).unwrap();
     assert!(bundle.files.contains_key("handout/book/index.html"));
     assert_eq!(bundle.files.len(), BUNDLE.files.len() + 1);
 }

@@ -13,7 +13,7 @@ use grader::handed_out::RAYS;
 /// A course with a substitute for a final exam: the practice exam with another id.
 static FINAL: LazyLock<Course> = LazyLock::new(|| {
     let exam = std::fs::read_to_string(root().join("grader/exams/practice.json")).unwrap();
-    let mut course = Course::new(None, None, None).unwrap();
+    let mut course = Course::new(&RAYS, None, None, None).unwrap();
     course.exam = Some(exam.replacen("\"practice\"", "\"final\"", 1));
     course
 });
@@ -23,12 +23,12 @@ fn root() -> PathBuf {
 }
 
 fn without_exam() -> Course {
-    Course::new(None, None, None).unwrap()
+    Course::new(&RAYS, None, None, None).unwrap()
 }
 
 #[test]
 fn the_gradescope_zip_is_complete_and_has_no_needless_files() {
-    let package = collect(&root(), Platform::Gradescope, FINAL.clone()).unwrap();
+    let package = collect(&root(), &RAYS, Platform::Gradescope, FINAL.clone()).unwrap();
     let folder = tempfile::TempDir::new().unwrap();
     let zip = folder.path().join("gradescope.zip");
     std::fs::write(&zip, archive::zip_with_prefix(&package, "").unwrap()).unwrap();
@@ -50,16 +50,16 @@ fn the_gradescope_zip_is_complete_and_has_no_needless_files() {
 #[test]
 fn packages_that_students_can_read_hold_no_solution_and_no_final_exam() {
     for platform in [Platform::Classroom50, Platform::Github] {
-        let refused = collect(&root(), platform, FINAL.clone());
+        let refused = collect(&root(), &RAYS, platform, FINAL.clone());
         assert!(
             matches!(refused, Err(PackageError::ExamNotSecret(_))),
             "{platform:?}"
         );
     }
-    let package = collect(&root(), Platform::Classroom50, without_exam()).unwrap();
+    let package = collect(&root(), &RAYS, Platform::Classroom50, without_exam()).unwrap();
     let unpacked = archive::unzip(&package.files["pathtracing.zip"]).unwrap();
-    let students = Bundle::collect(&root(), None).unwrap();
-    let secrets = Secrets::gather(&root(), &students).unwrap();
+    let students = Bundle::collect(&root(), &RAYS, None).unwrap();
+    let secrets = Secrets::gather(&root(), &RAYS, &students).unwrap();
     assert_eq!(secrets.search(&unpacked), []);
     let size: usize = package.files.values().map(Vec::len).sum();
     assert!(size < 10 << 20, "classroom50 takes 10 MiB: {size}");
@@ -82,6 +82,6 @@ fn written_folders_are_complete() {
 
 #[test]
 fn a_gradescope_package_needs_a_final_exam() {
-    let refused = collect(&root(), Platform::Gradescope, without_exam());
+    let refused = collect(&root(), &RAYS, Platform::Gradescope, without_exam());
     assert!(matches!(refused, Err(PackageError::MissingExam)));
 }

@@ -18,7 +18,7 @@ use grader::handed_out::RAYS;
 use judging::exam::Exam;
 
 static SOLUTIONS: LazyLock<Solutions> = LazyLock::new(|| {
-    let workbench = Workbench::open().expect("there are a toolchain and a workspace");
+    let workbench = Workbench::open(&RAYS).expect("there are a toolchain and a workspace");
     Solutions::load(workbench).expect("every mistake applies to the reference")
 });
 
@@ -117,7 +117,7 @@ fn reports_a_mistake_that_no_longer_applies() {
     let error = mistake.apply(SOLUTIONS.recorder.reference()).unwrap_err();
     let expected = format!(
         "{} no longer applies: its `was` occurs 0 times in reference/src/camera.rs instead of \
-         once; adapt it in reference/mistakes",
+         once; adapt it in the catalogue of mistakes",
         mistake.id
     );
     assert_eq!(error.to_string(), expected);

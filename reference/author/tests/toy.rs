@@ -1,14 +1,18 @@
 //! A second assignment fits in without a changed line: a table with two files, three tasks and one
-//! substitution goes through grading, a class and the check of a package.
+//! substitution goes through the starter, the bundle, a package, grading and a class.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
+use author::bundle::secrets::{Leak, Secrets};
+use author::bundle::{Bundle, archive};
+use author::package::{self, Course, Platform};
+use author::starter;
 use class::cli::{ClassArguments, GradingArguments, Lists};
 use class::grade::{Completion, grade_class};
 use glam::{Vec2, Vec3};
-use grader::doctor::package;
+use grader::doctor::package::problems;
 use grader::grade::grade;
 use grader::handed_out::{GivenFile, HandedOut, SubstitutedFile, TaskFile};
 use grader::options::{Dependents, GradeOptions};
@@ -52,12 +56,12 @@ static TASKS: Assignment = Assignment {
     ],
 };
 
-/// Creates a given file of the toy's starter.
+/// Creates a given file of the toy, which is the same in the starter and in the solution.
 macro_rules! given {
     ($name:literal) => {
         GivenFile {
             name: $name,
-            text: include_str!(concat!("toy/starter/", $name)),
+            text: include_str!(concat!("toy/solved/src/", $name)),
         }
     };
 }
@@ -78,16 +82,14 @@ static TOY: LazyLock<HandedOut> = LazyLock::new(|| HandedOut {
         },
     ],
     given: &[given!("lib.rs"), given!("world.rs")],
-    main: GivenFile {
-        name: "main.rs",
-        text: "",
-    },
+    main: given!("main.rs"),
     entry: "
 fn main() -> std::process::ExitCode {
     framework::probe::main(&world::Student)
 }
 ",
     student: "student",
+    starter: "grader/starter",
     reference: concat!(env!("CARGO_MANIFEST_DIR"), "/tests/toy/solved/src"),
     substitutions: &[SubstitutedFile {
         file: "slab.rs",
@@ -193,6 +195,11 @@ fn exam_text() -> String {
         items: vec![ball_item, slab_item, nearest_item],
     };
     serde_json::to_string(&exam).unwrap()
+}
+
+/// Returns the root of the workspace, which the bundle takes everything else from.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
 fn text(path: &str) -> String {
@@ -307,13 +314,55 @@ fn an_exam_of_another_assignment_is_refused() {
     assert!(error.contains("it is for the assignment `toy`"), "{error}");
 }
 
+/// Returns how many lines of the bundle are lines of the toy's solution.
+fn toy_leaks(secrets: &Secrets, bundle: &Bundle) -> usize {
+    let leaks = secrets.search(bundle);
+    let of_toy =
+        |leak: &&Leak| matches!(leak, Leak::Line { source, .. } if source.contains("/toy/"));
+    leaks.iter().filter(of_toy).count()
+}
+
+#[test]
+fn the_starter_of_the_toy_is_a_projection_of_its_solution() {
+    for file in starter::generated_files(&root(), &TOY).unwrap() {
+        let name = file.path.rsplit('/').next().unwrap();
+        let task_file = TOY.task_file(name).map(|file| file.starter);
+        let given_file = TOY.given_file(name).map(|file| file.text);
+        assert_eq!(Some(&*file.contents), task_file.or(given_file), "{name}");
+    }
+}
+
+#[test]
+fn the_bundle_and_the_package_of_the_toy_hold_its_starter_and_no_solution() {
+    let bundle = Bundle::collect(&root(), &TOY, None).unwrap();
+    let secrets = Secrets::gather(&root(), &TOY, &bundle).unwrap();
+    assert_eq!(toy_leaks(&secrets, &bundle), 0);
+    assert_eq!(
+        bundle.text("student/src/slab.rs"),
+        Some(&*text("starter/slab.rs"))
+    );
+    assert_eq!(bundle.text("student/src/camera.rs"), None);
+
+    let mut leaking = bundle.clone();
+    leaking.insert("handout/src/notes.md", text("solved/src/slab.rs"));
+    assert!(toy_leaks(&secrets, &leaking) > 3);
+
+    let course = Course::new(&TOY, None, None, None).unwrap();
+    let package = package::collect(&root(), &TOY, Platform::Classroom50, course).unwrap();
+    let archive = archive::unzip(&package.files["pathtracing.zip"]).unwrap();
+    assert_eq!(
+        archive.text("student/src/ball.rs"),
+        Some(&*text("starter/ball.rs"))
+    );
+}
+
 #[test]
 fn a_template_of_the_toy_needs_its_own_files() {
     let folder = TempDir::new().unwrap();
     let workflow = folder.path().join(".github/workflows");
     fs::create_dir_all(&workflow).unwrap();
     fs::write(workflow.join("grade.yml"), "").unwrap();
-    let problems = package::problems(folder.path(), &TOY).unwrap().join("\n");
-    assert!(problems.contains("student/src/ball.rs"), "{problems}");
-    assert!(!problems.contains("camera.rs"), "{problems}");
+    let found = problems(folder.path(), &TOY).unwrap().join("\n");
+    assert!(found.contains("student/src/ball.rs"), "{found}");
+    assert!(!found.contains("camera.rs"), "{found}");
 }

@@ -61,8 +61,8 @@ impl Assignment {
     /// Returns the task of an item or a mistake, whose id begins with the task's id and a dot.
     /// `None` if the assignment has no such task.
     pub fn task_of(&self, id: &str) -> Option<Task> {
-        let (task, _) = id.split_once('.')?;
-        self.find(task).map(TaskInfo::task)
+        let task = Task::in_id(id)?;
+        self.find(task.id()).map(TaskInfo::task)
     }
 
     /// Returns the ids of the tasks as a list for a message, such as `a, b, c`.
@@ -96,6 +96,13 @@ impl TaskInfo {
 }
 
 impl Task {
+    /// Returns the task that the id of an item or a mistake begins with, before the first dot,
+    /// whether an assignment has it or not.
+    pub fn in_id(id: &str) -> Option<Task> {
+        let (task, _) = id.split_once('.')?;
+        ArrayString::from(task).ok().map(Task)
+    }
+
     /// Returns the id as text.
     pub fn id(&self) -> &str {
         &self.0

@@ -17,6 +17,8 @@ mod test_modules;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use grader::handed_out::HandedOut;
+
 use crate::bundle::folders::FoldersError;
 use crate::bundle::lock::LockError;
 use crate::bundle::manifests::ManifestError;
@@ -59,8 +61,13 @@ pub enum BundleError {
 }
 
 impl Bundle {
-    /// Collects the bundle of the workspace at `root`, including the built book if one is given.
-    pub fn collect(root: &Path, book: Option<&Path>) -> Result<Self, BundleError> {
+    /// Collects the bundle of an assignment in the workspace at `root`, including the built book if
+    /// one is given.
+    pub fn collect(
+        root: &Path,
+        handed_out: &HandedOut,
+        book: Option<&Path>,
+    ) -> Result<Self, BundleError> {
         let mut bundle = Bundle::default();
         folders::copy(root, &mut bundle)?;
         test_modules::remove(&mut bundle);
@@ -71,7 +78,7 @@ impl Bundle {
             bundle.insert(path, text);
         }
         // Generated instead of read from `student/src`, where staff may have solved the assignment.
-        for file in starter::generated_files(root)? {
+        for file in starter::generated_files(root, handed_out)? {
             bundle.insert(file.path, file.contents);
         }
         manifests::add_trimmed(root, &mut bundle)?;

@@ -10,7 +10,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 use judging::exam::Exam;
 
 use crate::bundle::Bundle;
@@ -18,8 +18,8 @@ use crate::solutions::catalogue::{CatalogueError, mistakes};
 use crate::solutions::sources::Sources;
 use crate::text_file::ReadError;
 
-/// The files and folders whose lines are secret.
-const SECRET_PATHS: [&str; 3] = ["reference/src", "reference/mutants", "reference/variants"];
+/// The folders of solutions that an assignment may have beside the reference's `src`.
+const OTHER_SOLUTIONS: [&str; 2] = ["mutants", "variants"];
 /// The folder of the oracles, which solve the tasks in double precision. Only their formulas are
 /// secret: other lines, such as the conversion of a ray to `f64`, can occur in any code.
 const ORACLE_FOLDER: &str = "reference/author/src/oracle";
@@ -75,26 +75,35 @@ pub enum SecretsError {
 }
 
 impl Secrets {
-    /// Collects the secrets of the workspace at `root`, except lines that also occur in the
-    /// bundle's given files.
-    pub fn gather(root: &Path, bundle: &Bundle) -> Result<Self, SecretsError> {
+    /// Collects the secrets of an assignment in the workspace at `root`, except lines that also occur
+    /// in the bundle's given files.
+    pub fn gather(
+        root: &Path,
+        handed_out: &'static HandedOut,
+        bundle: &Bundle,
+    ) -> Result<Self, SecretsError> {
         let mut secrets = Secrets {
             lines: HashMap::new(),
         };
         secrets.read(root, ORACLE_FOLDER)?;
         secrets.lines.retain(|line, _| is_formula(line));
-        for path in SECRET_PATHS {
-            secrets.read(root, path)?;
+        secrets.read(root, handed_out.reference)?;
+        let solutions = handed_out.solutions();
+        for name in OTHER_SOLUTIONS {
+            let folder = format!("{solutions}/{name}");
+            if root.join(&folder).is_dir() {
+                secrets.read(root, &folder)?;
+            }
         }
         // The source with the name of the file replaces some of the file's functions.
-        for substituted in RAYS.substitutions {
+        for substituted in handed_out.substitutions {
             let (folder, file) = (substituted.folder(), substituted.file);
-            secrets.read(root, &format!("reference/{folder}/{file}"))?;
+            secrets.read(root, &format!("{solutions}/{folder}/{file}"))?;
         }
-        let reference = Sources::reference(root)?;
-        for mistake in mistakes(root)? {
+        let reference = Sources::reference(root, handed_out)?;
+        for mistake in mistakes(root, handed_out)? {
             let wrong = mistake.apply(&reference)?;
-            for file in RAYS.files {
+            for file in handed_out.files {
                 let source = format!("the mistake {}, {}", mistake.id, file.name);
                 secrets.add(&source, wrong.text(file.name).unwrap_or_default());
             }

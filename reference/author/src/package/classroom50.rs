@@ -3,6 +3,8 @@
 
 use std::path::Path;
 
+use grader::handed_out::HandedOut;
+
 use crate::bundle::{Bundle, archive};
 use crate::package::{PackageError, grader_files};
 
@@ -13,8 +15,12 @@ const ENTRY_POINT: (&str, &str) = (
 );
 
 /// Collects all files of the folder.
-pub(super) fn package(root: &Path, policy: &str) -> Result<Bundle, PackageError> {
-    let students = Bundle::collect(root, None)?;
+pub(super) fn package(
+    root: &Path,
+    handed_out: &HandedOut,
+    policy: &str,
+) -> Result<Bundle, PackageError> {
+    let students = Bundle::collect(root, handed_out, None)?;
     let mut grader = Bundle::default();
     for (path, contents) in grader_files(&students) {
         grader.insert(path, contents.clone());

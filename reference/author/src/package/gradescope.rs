@@ -3,6 +3,8 @@
 
 use std::path::Path;
 
+use grader::handed_out::HandedOut;
+
 use crate::bundle::folders::copy_tree;
 use crate::bundle::{Bundle, crates};
 use crate::package::{PackageError, grader_files, package_path};
@@ -19,17 +21,21 @@ const SCRIPTS: [(&str, &str); 3] = [
         include_str!("templates/gradescope/grade"),
     ),
 ];
-/// The folders from which the grader takes substituted parts.
-const REFERENCE: [&str; 2] = ["reference/src", "reference/substitution"];
-
 /// Collects all files of the zip.
-pub(super) fn package(root: &Path, exam: &str, policy: &str) -> Result<Bundle, PackageError> {
-    let students = Bundle::collect(root, None)?;
+pub(super) fn package(
+    root: &Path,
+    handed_out: &HandedOut,
+    exam: &str,
+    policy: &str,
+) -> Result<Bundle, PackageError> {
+    let students = Bundle::collect(root, handed_out, None)?;
     let mut package = Bundle::default();
     for (path, contents) in grader_files(&students) {
         package.insert(package_path(path), contents.clone());
     }
-    for part in REFERENCE {
+    // The grader takes substituted parts from here.
+    let substitution = format!("{}/substitution", handed_out.solutions());
+    for part in [handed_out.reference, &substitution] {
         copy_tree(&root.join(part), &package_path(part), &mut package)?;
     }
     let lock = students.text("Cargo.lock").unwrap_or_default();

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use grader::exam_source::{ExamSource, ExamSourceError};
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 use grader::policy::{self, Policy, PolicyError};
 
 use crate::bundle::crates::CratesError;
@@ -88,6 +88,7 @@ impl Course {
     /// Generates the exam from a seed or reads its file, if either is given. Reads the policy file,
     /// or uses the default policy.
     pub fn new(
+        handed_out: &HandedOut,
         seed: Option<u64>,
         exam: Option<&Path>,
         policy: Option<&Path>,
@@ -95,7 +96,7 @@ impl Course {
         let exam = match (seed, exam) {
             (Some(seed), _) => Some(crate::exams::final_exam_text(seed)?),
             (None, Some(path)) => {
-                ExamSource::File(path.to_owned()).load(&RAYS)?;
+                ExamSource::File(path.to_owned()).load(handed_out)?;
                 Some(read(path)?)
             }
             (None, None) => None,
@@ -118,13 +119,20 @@ fn read(path: &Path) -> Result<String, PackageError> {
     })
 }
 
-/// Collects the files of a platform's package from the workspace at `root`.
-pub fn collect(root: &Path, platform: Platform, course: Course) -> Result<Bundle, PackageError> {
+/// Collects the files of an assignment's package for a platform from the workspace at `root`.
+pub fn collect(
+    root: &Path,
+    handed_out: &HandedOut,
+    platform: Platform,
+    course: Course,
+) -> Result<Bundle, PackageError> {
     match (platform, course.exam) {
-        (Platform::Gradescope, Some(exam)) => gradescope::package(root, &exam, &course.policy),
+        (Platform::Gradescope, Some(exam)) => {
+            gradescope::package(root, handed_out, &exam, &course.policy)
+        }
         (Platform::Gradescope, None) => Err(PackageError::MissingExam),
-        (Platform::Classroom50, None) => classroom50::package(root, &course.policy),
-        (Platform::Github, None) => Ok(Bundle::collect(root, None)?),
+        (Platform::Classroom50, None) => classroom50::package(root, handed_out, &course.policy),
+        (Platform::Github, None) => Ok(Bundle::collect(root, handed_out, None)?),
         (Platform::Classroom50, Some(_)) => {
             Err(PackageError::ExamNotSecret("classroom50's folder"))
         }

@@ -110,7 +110,7 @@ fn is_failed(item: &Item, answers: &Result<Vec<Answer>, Fault>) -> bool {
 /// with fewer seeds finds longer lists, so only items that a mistake passes are reported.
 pub fn problems(committed: &FailedItems, found: &FailedItems) -> Vec<String> {
     let command = "run `cargo author mistakes`";
-    let path = failed_items::PATH;
+    let path = failed_items::FILE;
     let unlisted = found
         .fails
         .keys()
@@ -158,10 +158,10 @@ mod tests {
         assert_eq!(
             problems(&committed, &found),
             [
-                "reference/mistakes/fails.toml does not list bbox.new: run `cargo author mistakes`",
-                "reference/mistakes/fails.toml lists bbox.old, which does not exist: run `cargo \
+                "mistakes/fails.toml does not list bbox.new: run `cargo author mistakes`",
+                "mistakes/fails.toml lists bbox.old, which does not exist: run `cargo \
                  author mistakes`",
-                "reference/mistakes/fails.toml: bbox.a does not fail bbox.flat: run `cargo author \
+                "mistakes/fails.toml: bbox.a does not fail bbox.flat: run `cargo author \
                  mistakes`",
             ]
         );

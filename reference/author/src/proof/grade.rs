@@ -85,7 +85,7 @@ impl GradedMistake<'_> {
     /// or a loss in a task that it does not declare.
     pub fn task_problems(&self) -> Vec<String> {
         let mistake = self.mistake;
-        let tasks = mistake.tasks();
+        let tasks: Vec<_> = mistake.tasks().collect();
         let mut problems = Vec::new();
         if !self
             .lost_items()

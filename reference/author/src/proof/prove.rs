@@ -67,7 +67,8 @@ pub fn prove(
     seeds: Range<u64>,
     with_mistakes: u64,
 ) -> Result<ProofSummary, ProofError> {
-    let listed_seeds = FailedItems::load(solutions.workbench.root())
+    let workbench = &solutions.workbench;
+    let listed_seeds = FailedItems::load(workbench.root(), workbench.handed_out())
         .map_err(CatalogueError::from)
         .map_err(SolutionsError::from)?
         .seeds;

@@ -99,7 +99,7 @@ impl ProofSummary {
                     "note: seed {}: {id} does not fail {}, which it fails with every seed of {}",
                     result.seed,
                     items.join(", "),
-                    failed_items::PATH
+                    failed_items::FILE
                 )
             })
         });
@@ -161,7 +161,7 @@ mod tests {
             summary.notes(),
             [
                 "note: seed 5000: bbox.a does not fail bbox.flat, which it fails with every seed of \
-                 reference/mistakes/fails.toml"
+                 mistakes/fails.toml"
             ]
         );
     }

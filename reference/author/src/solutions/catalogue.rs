@@ -1,10 +1,11 @@
 //! The catalogue of known mistakes, which are small changes to the reference:
-//! `reference/mistakes/TASK/*.toml`.
+//! `mistakes/TASK/*.toml` in the folder of an assignment's solutions.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use judging::assignment::{RAYS, Task};
+use grader::handed_out::HandedOut;
+use judging::assignment::Task;
 use judging::section::Section;
 use serde::Deserialize;
 
@@ -87,31 +88,33 @@ pub enum CatalogueError {
     },
     /// The text that a mistake changes no longer occurs exactly once in the reference.
     #[error(
-        "{id} no longer applies: its `was` occurs {count} times in reference/src/{file} instead of \
-         once; adapt it in reference/mistakes"
+        "{id} no longer applies: its `was` occurs {count} times in {file} instead of once; adapt it in \
+         the catalogue of mistakes"
     )]
     DoesNotApply {
         /// The id of the mistake.
         id: String,
-        /// The file that it changes.
+        /// The path of the file that it changes.
         file: String,
         /// The number of occurrences.
         count: usize,
     },
 }
 
-/// Reads all known mistakes of the workspace at `root`, ordered by task and then by file.
-pub fn mistakes(root: &Path) -> Result<Vec<Mistake>, CatalogueError> {
+/// Reads all known mistakes of an assignment in the workspace at `root`, ordered by task and then
+/// by file. A task without a folder has none.
+pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>, CatalogueError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct File {
         mistake: Vec<Mistake>,
     }
 
-    let failed = FailedItems::load(root)?;
+    let folder = root.join(handed_out.solutions()).join("mistakes");
+    let failed = FailedItems::load(root, handed_out)?;
     let mut all: Vec<Mistake> = Vec::new();
-    for task in RAYS.tasks() {
-        for path in files(&root.join("reference/mistakes").join(task.id()))? {
+    for task in handed_out.assignment.tasks() {
+        for path in files(&folder.join(task.id()))? {
             let file: File =
                 toml::from_str(&read(&path)?).map_err(|source| CatalogueError::Toml {
                     path: path.clone(),
@@ -132,6 +135,9 @@ pub fn mistakes(root: &Path) -> Result<Vec<Mistake>, CatalogueError> {
 }
 
 fn files(folder: &Path) -> Result<Vec<PathBuf>, ReadError> {
+    if !folder.exists() {
+        return Ok(Vec::new());
+    }
     let entries = fs::read_dir(folder).map_err(|source| ReadError {
         path: folder.to_owned(),
         source,
@@ -148,30 +154,26 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, ReadError> {
 impl Mistake {
     /// Returns the task that must lose points.
     pub fn task(&self) -> Task {
-        RAYS.task_of(&self.id)
-            .expect("ids were checked when they were read")
+        Task::in_id(&self.id).expect("ids were checked when they were read")
     }
 
     /// Returns the tasks that may lose points: the mistake's own, and the others that it declares.
-    pub fn tasks(&self) -> Vec<Task> {
-        let may_lose = |task: &Task| *task == self.task() || self.other_tasks.contains(task);
-        RAYS.tasks().filter(may_lose).collect()
+    pub fn tasks(&self) -> impl Iterator<Item = Task> {
+        std::iter::once(self.task()).chain(self.other_tasks.iter().copied())
     }
 
     /// Returns the reference with this mistake.
     pub fn apply(&self, reference: &Sources) -> Result<Sources, CatalogueError> {
         let mut sources = reference.clone();
         for change in &self.changes {
-            let file = change
-                .file
-                .as_deref()
-                .unwrap_or(RAYS.info(self.task()).file);
+            let own_file = reference.handed_out().assignment.info(self.task()).file;
+            let file = change.file.as_deref().unwrap_or(own_file);
             let text = sources.text(file).unwrap_or_default();
             let times = text.matches(&change.was).count();
             if times != 1 {
                 return Err(CatalogueError::DoesNotApply {
                     id: self.id.clone(),
-                    file: file.to_owned(),
+                    file: format!("{}/{file}", reference.handed_out().reference),
                     count: times,
                 });
             }

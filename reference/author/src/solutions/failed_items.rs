@@ -1,16 +1,18 @@
-//! The items that each known mistake fails with every seed: `reference/mistakes/fails.toml`. The
-//! file is generated, since people cannot tell which items fail only by luck of the seed.
+//! The items that each known mistake fails with every seed: `fails.toml` in the folder of the
+//! mistakes. The file is generated, since people cannot tell which items fail only by luck of the
+//! seed.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use grader::handed_out::HandedOut;
 use serde::{Deserialize, Serialize};
 
 use crate::generated_file::GeneratedFile;
 use crate::text_file::{ReadError, read};
 
-/// The path of the file, relative to the workspace's root.
-pub const PATH: &str = "reference/mistakes/fails.toml";
+/// The path of the file, relative to the folder of an assignment's solutions.
+pub const FILE: &str = "mistakes/fails.toml";
 
 /// The items that each known mistake fails with every seed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -40,10 +42,10 @@ pub enum FailedItemsError {
 }
 
 impl FailedItems {
-    /// Reads the file of the workspace at `root`. A missing file lists no items, so that it can be
-    /// generated again.
-    pub fn load(root: &Path) -> Result<Self, FailedItemsError> {
-        let path = root.join(PATH);
+    /// Reads the file of an assignment in the workspace at `root`. A missing file lists no items, so
+    /// that it can be generated again.
+    pub fn load(root: &Path, handed_out: &HandedOut) -> Result<Self, FailedItemsError> {
+        let path = root.join(path(handed_out));
         if !path.exists() {
             return Ok(FailedItems::default());
         }
@@ -56,18 +58,28 @@ impl FailedItems {
     }
 
     /// Returns the file, with one item per line, so that a diff shows which items changed.
-    pub fn generated_file(&self) -> Result<GeneratedFile, toml::ser::Error> {
+    pub fn generated_file(
+        &self,
+        handed_out: &HandedOut,
+    ) -> Result<GeneratedFile, toml::ser::Error> {
         let lists = toml::to_string_pretty(self)?;
         let text = format!(
             "# Written by `cargo author mistakes`: the items that each mistake fails in the \
              practice exam\n# and in the exams of this many seeds, from 0. Do not edit.\n{lists}"
         );
-        Ok(GeneratedFile::new(PATH, text))
+        Ok(GeneratedFile::new(path(handed_out), text))
     }
+}
+
+/// Returns the path of an assignment's file, relative to the workspace's root.
+fn path(handed_out: &HandedOut) -> String {
+    format!("{}/{FILE}", handed_out.solutions())
 }
 
 #[cfg(test)]
 mod tests {
+    use grader::handed_out::RAYS;
+
     use super::*;
 
     #[test]
@@ -80,16 +92,16 @@ mod tests {
             seeds: 100,
             fails: fails.into(),
         };
-        let file = failed.generated_file().unwrap();
+        let file = failed.generated_file(&RAYS).unwrap();
         let root = tempfile::tempdir().unwrap();
         assert_eq!(
-            FailedItems::load(root.path()).unwrap(),
+            FailedItems::load(root.path(), &RAYS).unwrap(),
             FailedItems::default()
         );
         let path = root.path().join(&file.path);
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         std::fs::write(path, file.contents).unwrap();
-        assert_eq!(FailedItems::load(root.path()).unwrap(), failed);
+        assert_eq!(FailedItems::load(root.path(), &RAYS).unwrap(), failed);
         assert_eq!(failed.of_mistake("bbox.none"), ["bbox.through"]);
         assert_eq!(failed.of_mistake("bbox.new"), [""; 0]);
     }

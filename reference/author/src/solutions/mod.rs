@@ -62,8 +62,9 @@ impl Solutions {
     /// Reads all mistakes and variants, and applies them to the reference.
     pub fn load(workbench: Workbench) -> Result<Self, SolutionsError> {
         let root = workbench.root();
-        let reference = Sources::reference(root)?;
-        let mistakes: Result<Vec<_>, CatalogueError> = mistakes(root)?
+        let handed_out = workbench.handed_out();
+        let reference = Sources::reference(root, handed_out)?;
+        let mistakes: Result<Vec<_>, CatalogueError> = mistakes(root, handed_out)?
             .into_iter()
             .map(|mistake| {
                 let sources = mistake.apply(&reference)?;

@@ -52,7 +52,7 @@ impl Recorder {
     /// Reads the scene and the reference's files, and builds the reference.
     pub fn open(workbench: &Workbench) -> Result<Self, RecordingError> {
         let scene = read(&workbench.root().join(SCENE))?;
-        let sources = Sources::reference(workbench.root())?;
+        let sources = Sources::reference(workbench.root(), workbench.handed_out())?;
         let reference = workbench.build(&sources, "reference")?;
         Ok(Recorder {
             scene,

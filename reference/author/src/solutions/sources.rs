@@ -2,29 +2,36 @@
 
 use std::path::Path;
 
-use grader::handed_out::{RAYS, TaskFile};
+use grader::handed_out::{HandedOut, TaskFile};
 use grader::submission::Submission;
 
 use crate::text_file::{ReadError, read};
 
-/// The five task files of a solution, in lecture order.
+/// The task files of a solution of an assignment, in lecture order.
 #[derive(Clone, Debug)]
 pub struct Sources {
+    handed_out: &'static HandedOut,
     files: Vec<(TaskFile, String)>,
     /// The crates that the files use in addition to those that submissions may use.
     crates: Vec<String>,
 }
 
 impl Sources {
-    /// Reads the reference's files in the workspace at `root`.
-    pub fn reference(root: &Path) -> Result<Self, ReadError> {
-        let text =
-            |file: &TaskFile| Ok((*file, read(&root.join("reference/src").join(file.name))?));
-        let files: Result<_, _> = RAYS.files.iter().map(text).collect();
+    /// Reads the files of an assignment's reference in the workspace at `root`.
+    pub fn reference(root: &Path, handed_out: &'static HandedOut) -> Result<Self, ReadError> {
+        let folder = root.join(handed_out.reference);
+        let text = |file: &TaskFile| Ok((*file, read(&folder.join(file.name))?));
+        let files: Result<_, _> = handed_out.files.iter().map(text).collect();
         Ok(Sources {
+            handed_out,
             files: files?,
             crates: Vec::new(),
         })
+    }
+
+    /// Returns the assignment that the files solve.
+    pub fn handed_out(&self) -> &'static HandedOut {
+        self.handed_out
     }
 
     /// Returns the text of one of the files.
@@ -59,7 +66,7 @@ impl Sources {
     pub fn to_submission(&self, name: &str) -> Submission {
         let files = self.files.iter();
         Submission {
-            handed_out: &RAYS,
+            handed_out: self.handed_out,
             name: name.to_owned(),
             files: files
                 .map(|(file, text)| (*file, Ok(text.clone())))

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use grader::build::{Build, BuildError, Builder, NotCompiled};
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 use grader::probe::{Budget, Fault, Launcher};
 use grader::run_exam::run_exam;
 use grader::score::Score;
@@ -26,9 +26,10 @@ const BUDGET: Budget = Budget {
     cpu: Duration::from_secs(2),
 };
 
-/// Builds solutions in a workspace.
+/// Builds solutions of an assignment in a workspace.
 #[derive(Debug)]
 pub struct Workbench {
+    handed_out: &'static HandedOut,
     workspace: Workspace,
     builder: Builder,
 }
@@ -58,15 +59,24 @@ pub enum WorkbenchError {
 impl Workbench {
     /// Opens the workspace. Solutions are built as on an instructor's machine: if there is a
     /// reference, its parts substitute for wrong ones.
-    pub fn open() -> Result<Self, WorkbenchError> {
+    pub fn open(handed_out: &'static HandedOut) -> Result<Self, WorkbenchError> {
         let workspace = Workspace::find()?;
         let builder =
             Builder::prepare(&workspace)?.with_cache(&workspace.output_folder().join("kept"))?;
-        let builder = match workspace.reference(&RAYS) {
-            Some(reference) => builder.with_reference(&reference, &RAYS, &workspace)?,
+        let builder = match workspace.reference(handed_out) {
+            Some(reference) => builder.with_reference(&reference, handed_out, &workspace)?,
             None => builder,
         };
-        Ok(Workbench { workspace, builder })
+        Ok(Workbench {
+            handed_out,
+            workspace,
+            builder,
+        })
+    }
+
+    /// Returns the assignment.
+    pub fn handed_out(&self) -> &'static HandedOut {
+        self.handed_out
     }
 
     /// Returns the workspace's folder.
@@ -94,6 +104,7 @@ impl Workbench {
         match build.probe.clone() {
             Some(program) => Ok(BuiltSolution {
                 id,
+                handed_out: self.handed_out,
                 launcher: build.launcher(&program),
                 build,
             }),
@@ -116,6 +127,7 @@ fn compile_error(not_compiled: &BTreeMap<&'static str, NotCompiled>) -> Option<S
 pub struct BuiltSolution {
     /// The solution's id.
     pub id: String,
+    handed_out: &'static HandedOut,
     build: Build,
     launcher: Launcher,
 }
@@ -161,7 +173,7 @@ impl BuiltSolution {
             id: exam.id.clone(),
             hash: String::new(),
         };
-        let mut score = pending_score(exam, name, &self.id, &RAYS);
+        let mut score = pending_score(exam, name, &self.id, self.handed_out);
         run_exam(exam, &self.build, BUDGET, &mut score, |_, _| {
             Ok::<(), WorkbenchError>(())
         })?;

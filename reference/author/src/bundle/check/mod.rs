@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 use serde::Deserialize;
 use zip::result::ZipError;
 
@@ -59,8 +59,13 @@ struct CommandRun {
     stderr: String,
 }
 
-/// Checks the archive of a bundle of the workspace at `root`, and returns the problems found.
-pub fn check(root: &Path, bundle: &Bundle) -> Result<Vec<String>, CheckError> {
+/// Checks the archive of an assignment's bundle, made from the workspace at `root`, and returns the
+/// problems found.
+pub fn check(
+    root: &Path,
+    handed_out: &HandedOut,
+    bundle: &Bundle,
+) -> Result<Vec<String>, CheckError> {
     let unpacked = archive::unzip(&archive::zip(bundle)?)?;
     if unpacked != *bundle {
         return Ok(vec![
@@ -86,8 +91,9 @@ pub fn check(root: &Path, bundle: &Bundle) -> Result<Vec<String>, CheckError> {
     }
     check_points(0, "the starter", &folder, &mut problems);
 
-    for file in RAYS.files {
-        let (from, to) = (root.join("reference/src"), folder.join("student/src"));
+    let from = root.join(handed_out.reference);
+    let to = folder.join(handed_out.student).join("src");
+    for file in handed_out.files {
         fs::copy(from.join(file.name), to.join(file.name)).map_err(io_error(&to))?;
     }
     for run in run_commands(&commands, &home, &folder)? {

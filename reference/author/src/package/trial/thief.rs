@@ -4,6 +4,8 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use grader::handed_out::RAYS;
+
 use crate::bundle::Bundle;
 use crate::bundle::secrets::Secrets;
 use crate::package::trial::{TrialError, io_error};
@@ -95,7 +97,11 @@ impl ProtectedData {
     /// Collects the lines of the reference and the keys of the exam.
     pub fn collect(workspace: &Path, exam: &str) -> Result<Self, TrialError> {
         Ok(ProtectedData {
-            solutions: Secrets::gather(workspace, &Bundle::collect(workspace, None)?)?,
+            solutions: Secrets::gather(
+                workspace,
+                &RAYS,
+                &Bundle::collect(workspace, &RAYS, None)?,
+            )?,
             keys: keys(exam),
         })
     }
@@ -128,8 +134,6 @@ fn keys(exam: &str) -> BTreeSet<String> {
 
 #[cfg(test)]
 mod tests {
-    use grader::handed_out::RAYS;
-
     use super::*;
 
     fn workspace() -> &'static Path {

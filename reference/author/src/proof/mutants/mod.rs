@@ -6,6 +6,7 @@ pub mod findings;
 use std::path::Path;
 
 use grader::exam_source::ExamSourceError;
+use grader::handed_out::RAYS;
 use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
 use judging::exam::Exam;
 use rayon::prelude::*;
@@ -103,7 +104,7 @@ pub fn list(root: &Path, mode: Mode) -> Result<MutantList, MutantsError> {
             committed_list(root)
         }
         (Some(version), Mode::Check | Mode::Write) => {
-            let reference = Sources::reference(root)?;
+            let reference = Sources::reference(root, &RAYS)?;
             Ok(cargo_mutants::list(&version, root, &reference)?)
         }
     }
@@ -115,10 +116,10 @@ fn committed_list(root: &Path) -> Result<MutantList, MutantsError> {
 
 /// Builds the selected mutants, and grades each with the practice exam.
 pub fn run(list: &MutantList, selection: MutantSelection) -> Result<Findings, MutantsError> {
-    let workbench = Workbench::open()?;
+    let workbench = Workbench::open(&RAYS)?;
     let root = workbench.root();
     let exam = exams::load_practice(root)?;
-    let reference = Sources::reference(root)?;
+    let reference = Sources::reference(root, &RAYS)?;
     if outcome(&workbench, &reference, "reference", &exam)? != MutantOutcome::Survived {
         return Err(MutantsError::Reference);
     }

@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     fn reference() -> Sources {
-        Sources::reference(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."))
+        Sources::reference(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."), &RAYS)
             .expect("the reference can be read")
     }
 

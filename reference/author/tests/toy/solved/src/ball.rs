@@ -1,6 +1,9 @@
-//! Task 1, solved.
+//! Task 1: a ball.
 
+// solution
+// starter: use glam::Vec3;
 use glam::{Vec2, Vec3};
+// end solution
 use protocol::{Ray, Trace};
 
 /// A ball.
@@ -12,6 +15,8 @@ pub struct Ball {
 impl Ball {
     /// Returns the first point of the ball along the ray.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        // solution
+        // starter: todo!("task 1: where does {ray:?} hit the ball?")
         let to_center = self.center - ray.origin;
         let middle = to_center.dot(ray.dir);
         let half = (middle * middle - to_center.length_squared() + self.radius * self.radius).sqrt();
@@ -27,5 +32,6 @@ impl Ball {
                 material: 0,
             }
         })
+        // end solution
     }
 }

@@ -1,0 +1,3 @@
+//! Renders nothing: a toy has no pictures.
+
+fn main() {}

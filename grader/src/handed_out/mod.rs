@@ -3,10 +3,13 @@
 //! these, but never used.
 
 mod rays;
+mod tokens;
 
 use std::fmt;
 
 use judging::assignment::{Assignment, TaskInfo};
+
+use tokens::{contains, tokens};
 
 pub use rays::RAYS;
 
@@ -79,9 +82,9 @@ impl SubstitutedFile {
 }
 
 impl TaskFile {
-    /// Returns whether this is the starter's text, apart from white space.
+    /// Returns whether this is the starter's text, token for token.
     pub fn is_starter(&self, text: &str) -> bool {
-        without_whitespace(text) == without_whitespace(self.starter)
+        tokens(text) == tokens(self.starter)
     }
 }
 
@@ -125,12 +128,12 @@ impl HandedOut {
     /// Returns the names of given methods of a task file that differ from the starter in `text`.
     /// They are mentioned in a note.
     pub fn changed_methods(&self, file: &TaskFile, text: &str) -> Vec<&'static str> {
-        let text = without_whitespace(text);
+        let text = tokens(text);
         let to_write: Vec<&str> = self.methods_to_write(file.name).collect();
         let given = methods(file.starter).into_iter();
         given
             .filter(|(name, _)| !to_write.contains(name))
-            .filter(|(_, method)| !text.contains(&without_whitespace(method)))
+            .filter(|(_, method)| !contains(&text, &tokens(method)))
             .map(|(name, _)| name)
             .collect()
     }
@@ -158,11 +161,6 @@ fn methods(starter: &'static str) -> Vec<(&'static str, &'static str)> {
             Some((name, method))
         })
         .collect()
-}
-
-/// Removes white space, so that formatting does not count as a change.
-fn without_whitespace(text: &str) -> String {
-    text.split_whitespace().collect()
 }
 
 #[cfg(test)]
@@ -196,6 +194,7 @@ mod tests {
     #[test]
     fn recognises_the_starter_after_formatting_but_not_after_a_change() {
         let sphere = task_file("sphere.rs");
+        assert!(sphere.is_starter(&sphere.starter.replace("todo!", "// Later.\n        todo!")));
         assert!(sphere.is_starter(&sphere.starter.replace('\n', "\r\n")));
         assert!(!sphere.is_starter(&sphere.starter.replace("todo!", "panic!")));
     }

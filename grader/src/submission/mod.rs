@@ -151,8 +151,8 @@ impl Submission {
         })
     }
 
-    /// Returns whether the assignment has not been started: every task file is the starter's, apart
-    /// from white space.
+    /// Returns whether the assignment has not been started: every task file is the starter's, token
+    /// for token.
     pub fn is_as_handed_out(&self) -> bool {
         let mut files = self.files.iter();
         files.all(|(file, text)| text.as_ref().is_ok_and(|text| file.is_starter(text)))

@@ -1,0 +1,53 @@
+//! The tokens of source code, so that neither formatting nor a comment counts as a change.
+
+use ra_ap_rustc_lexer::{FrontmatterAllowed, TokenKind, tokenize};
+
+/// Returns the texts of the tokens of Rust source code, without white space and comments. Works on
+/// any text: what is no token of Rust is kept as it is.
+pub(super) fn tokens(text: &str) -> Vec<&str> {
+    let mut rest = text;
+    let mut found = Vec::new();
+    for token in tokenize(text, FrontmatterAllowed::No) {
+        let (this, after) = rest.split_at(token.len as usize);
+        rest = after;
+        let is_code = !matches!(
+            token.kind,
+            TokenKind::Whitespace | TokenKind::LineComment { .. } | TokenKind::BlockComment { .. }
+        );
+        if is_code {
+            found.push(this);
+        }
+    }
+    found
+}
+
+/// Returns whether these tokens are among others, without a gap.
+pub(super) fn contains(all: &[&str], part: &[&str]) -> bool {
+    part.is_empty() || all.windows(part.len()).any(|window| window == part)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn formatting_and_comments_are_no_tokens_but_the_text_of_a_string_is() {
+        let plain = tokens("fn f(){let x=\"a  // b\";}");
+        let formatted = "/// Text.\nfn f() {\r\n    let x = \"a  // b\"; // why\n    /* or */\n}\n";
+        assert_eq!(tokens(formatted), plain);
+        assert_ne!(tokens(&formatted.replace("a  //", "a //")), plain);
+        assert_ne!(tokens(&formatted.replace("let x", "letx")), plain);
+    }
+
+    proptest! {
+        #[test]
+        fn any_text_has_tokens_and_contains_each_run_of_them(text: String, from: usize, to: usize) {
+            let all = tokens(&text);
+            let from = from % (all.len() + 1);
+            let to = from + to % (all.len() - from + 1);
+            prop_assert!(contains(&all, &all[from..to]));
+        }
+    }
+}

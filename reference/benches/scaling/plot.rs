@@ -2,7 +2,7 @@
 //! a linear vertical axis, so that counts that grow with the logarithm of the number of triangles
 //! are straight lines.
 
-use std::fmt::Write as _;
+use maud::{Markup, html};
 
 use crate::Row;
 
@@ -27,34 +27,23 @@ const HANDLED: Curve = ("#8a5a00", "build calls per triangle", |row| row.handled
 
 /// Returns the plot as SVG.
 pub fn plot(rows: &[Row]) -> String {
-    let mut svg = String::from(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 880 380\" width=\"880\" \
-         height=\"380\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#222\">\n\
-         <title>Work for each ray and each triangle, against the number of triangles</title>\n\
-         <rect width=\"880\" height=\"380\" fill=\"#fff\"/>\n",
-    );
     let log = |value: f64| value.max(1.0).log10() / 6.0;
     let linear = |value: f64| value / MAX_COUNT;
-    frame(
-        &mut svg,
-        LEFT[0],
-        "Tests for one ray",
-        (0..=6).map(|decade| (f64::from(decade) / 6.0, power(decade))),
-    );
-    frame(
-        &mut svg,
-        LEFT[1],
-        "Tests for one ray, and build calls",
-        (0..=6).map(|tenth| (f64::from(tenth) / 6.0, format!("{}", 10 * tenth))),
-    );
-    for line in [BRUTE, BOXES, PRIMITIVES] {
-        curve(&mut svg, LEFT[0], rows, line, log);
-    }
-    for line in [BOXES, PRIMITIVES, HANDLED] {
-        curve(&mut svg, LEFT[1], rows, line, linear);
-    }
-    svg.push_str("</svg>\n");
-    svg
+    let decades = (0..=6).map(|decade| (f64::from(decade) / 6.0, power(decade)));
+    let tens = (0..=6).map(|ten| (f64::from(ten) / 6.0, format!("{}", 10 * ten)));
+    let markup = html! {
+        svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 880 380" width="880" height="380"
+            font-family="sans-serif" font-size="13" fill="#222" {
+            title { "Work for each ray and each triangle, against the number of triangles" }
+            rect width="880" height="380" fill="#fff" {}
+            (frame(LEFT[0], "Tests for one ray", decades))
+            (frame(LEFT[1], "Tests for one ray, and build calls", tens))
+            @for line in [BRUTE, BOXES, PRIMITIVES] { (curve(LEFT[0], rows, line, log)) }
+            @for line in [BOXES, PRIMITIVES, HANDLED] { (curve(LEFT[1], rows, line, linear)) }
+        }
+    };
+    // One element per line, so that a diff shows what moved.
+    markup.into_string().replace("><", ">\n<") + "\n"
 }
 
 fn power(decade: i32) -> String {
@@ -62,41 +51,29 @@ fn power(decade: i32) -> String {
     format!("10{}", digits[decade as usize])
 }
 
+/// Formats a coordinate.
+fn number(value: f64) -> String {
+    format!("{value:.1}")
+}
+
 /// Draws a panel with its axes. Each mark on the vertical axis consists of a height, from 0 to 1,
 /// and a label.
-fn frame(svg: &mut String, left: f64, title: &str, marks: impl Iterator<Item = (f64, String)>) {
+fn frame(left: f64, title: &str, marks: impl Iterator<Item = (f64, String)>) -> Markup {
     let (right, bottom) = (left + WIDTH, TOP + HEIGHT);
-    _ = writeln!(
-        svg,
-        "<text x=\"{left}\" y=\"{}\" font-size=\"15\">{title}</text>",
-        TOP - 20.0
-    );
-    for (height, text) in marks {
-        let y = bottom - HEIGHT * height;
-        _ = writeln!(svg, "<path d=\"M{left} {y:.1}H{right}\" stroke=\"#ddd\"/>");
-        _ = writeln!(
-            svg,
-            "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{text}</text>",
-            left - 8.0,
-            y + 4.5
-        );
+    html! {
+        text x=(left) y=(TOP - 20.0) font-size="15" { (title) }
+        @for (height, label) in marks {
+            @let y = bottom - HEIGHT * height;
+            path d={ "M" (left) " " (number(y)) "H" (right) } stroke="#ddd" {}
+            text x=(left - 8.0) y=(number(y + 4.5)) text-anchor="end" { (label) }
+        }
+        @for decade in DECADES {
+            @let x = number(left + WIDTH * x_fraction(10f64.powi(decade)));
+            path d={ "M" (x) " " (bottom) "v5" } stroke="#888" {}
+            text x=(x) y=(bottom + 20.0) text-anchor="middle" { (power(decade)) }
+        }
+        text x=(left + WIDTH / 2.0) y=(bottom + 42.0) text-anchor="middle" { "triangles" }
     }
-    for decade in DECADES {
-        let x = left + WIDTH * x_fraction(10f64.powi(decade));
-        _ = writeln!(svg, "<path d=\"M{x:.1} {bottom}v5\" stroke=\"#888\"/>");
-        _ = writeln!(
-            svg,
-            "<text x=\"{x:.1}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
-            bottom + 20.0,
-            power(decade)
-        );
-    }
-    let middle = left + WIDTH / 2.0;
-    _ = writeln!(
-        svg,
-        "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">triangles</text>",
-        bottom + 42.0
-    );
 }
 
 /// Returns where a triangle count is on the logarithmic x axis, from 0 (left) to 1 (right).
@@ -105,33 +82,29 @@ fn x_fraction(triangles: f64) -> f64 {
     (triangles.log10() - first) / (last - first)
 }
 
-fn curve(svg: &mut String, left: f64, rows: &[Row], line: Curve, height: impl Fn(f64) -> f64) {
+/// Draws one curve, with a label above its end.
+fn curve(left: f64, rows: &[Row], line: Curve, height: impl Fn(f64) -> f64) -> Markup {
     let (colour, name, value) = line;
     let point = |row: &Row| {
         let x = left + WIDTH * x_fraction(row.triangles as f64);
         (x, TOP + HEIGHT * (1.0 - height(value(row))))
     };
-    let mut path = String::new();
-    for (i, (x, y)) in rows.iter().map(point).enumerate() {
-        _ = write!(path, "{}{x:.1} {y:.1}", if i == 0 { 'M' } else { 'L' });
-        _ = writeln!(
-            svg,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{colour}\"/>"
-        );
-    }
-    _ = writeln!(
-        svg,
-        "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.5\"/>"
-    );
-    if let Some(last) = rows.last() {
-        // Above the end of the curve, within the panel.
-        let (x, y) = point(last);
-        _ = writeln!(
-            svg,
-            "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"end\" fill=\"{colour}\">{name}: {}</text>",
-            y - 9.0,
-            format_count(value(last))
-        );
+    let points: Vec<String> = rows
+        .iter()
+        .map(point)
+        .map(|(x, y)| format!("{x:.1} {y:.1}"))
+        .collect();
+    html! {
+        @for (x, y) in rows.iter().map(point) {
+            circle cx=(number(x)) cy=(number(y)) r="3" fill=(colour) {}
+        }
+        path d={ "M" (points.join("L")) } fill="none" stroke=(colour) stroke-width="1.5" {}
+        @if let Some(last) = rows.last() {
+            @let (x, y) = point(last);
+            text x=(number(x)) y=(number(y - 9.0)) text-anchor="end" fill=(colour) {
+                (name) ": " (format_count(value(last)))
+            }
+        }
     }
 }
 

@@ -107,9 +107,14 @@ impl HandedOut {
         given.find(|file| file.name == name)
     }
 
+    /// Returns the names of the task files, in lecture order.
+    pub fn file_names(&self) -> impl Iterator<Item = &'static str> + use<> {
+        self.files.iter().map(|file| file.name)
+    }
+
     /// Returns the names of the task files as a list for a sentence, such as `a.rs, b.rs and c.rs`.
     pub fn file_list(&self) -> String {
-        let names: Vec<&str> = self.files.iter().map(|file| file.name).collect();
+        let names: Vec<&str> = self.file_names().collect();
         match names.split_last() {
             Some((last, [])) => (*last).to_owned(),
             Some((last, others)) => format!("{} and {last}", others.join(", ")),

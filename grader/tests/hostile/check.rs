@@ -183,10 +183,7 @@ fn check_points(entry: &Entry, score: &Value, found: &mut impl FnMut(ViolationKi
     for task in tasks.into_iter().flatten() {
         let id = task["id"].as_str().unwrap_or_default();
         let points = task["points"].as_u64().unwrap_or_default();
-        let expected = entry
-            .base_points()
-            .into_iter()
-            .find(|(task, _)| *task == id);
+        let expected = entry.base_points().find(|(task, _)| *task == id);
         let expected = expected.map_or(0, |(_, points)| points);
         match entry.expect.points.get(id) {
             None if points > expected => {

@@ -5,13 +5,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use grader::handed_out::RAYS;
 use grader::sandbox::Isolation;
 use serde::Deserialize;
 
 use crate::canary::Canaries;
 use crate::packaging::{Packaging, pack};
 
-const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 /// The name of the file whose text is appended to a task file. All other files of an entry are put
 /// beside the task files, or replace them.
 const ATTACK_FILE: &str = "attack.rs";
@@ -129,19 +129,13 @@ impl Entry {
     }
 
     /// Returns the points of each task without the attack.
-    pub fn base_points(&self) -> [(&'static str, u64); 6] {
-        let tasks = [
-            ("camera", 15),
-            ("triangle", 20),
-            ("sphere", 15),
-            ("bbox", 10),
-            ("build", 20),
-            ("traverse", 20),
-        ];
-        match self.expect.base {
-            Base::Reference => tasks,
-            Base::Starter => tasks.map(|(task, _)| (task, 0)),
-        }
+    pub fn base_points(&self) -> impl Iterator<Item = (&'static str, u64)> {
+        let full = |points| match self.expect.base {
+            Base::Reference => u64::from(points),
+            Base::Starter => 0,
+        };
+        let tasks = RAYS.assignment.tasks.iter();
+        tasks.map(move |task| (task.id, full(task.points)))
     }
 
     /// Writes the submission into a new folder, and returns the path to submit. Placeholders
@@ -161,7 +155,7 @@ impl Entry {
             Base::Starter => project.join("grader/starter"),
         };
         fs::create_dir_all(target).expect("the folder can be created");
-        for file in TASK_FILES {
+        for file in RAYS.file_names() {
             fs::copy(base.join(file), target.join(file)).expect("the file can be copied");
         }
         let Some(folder) = &self.folder else {

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 
 use crate::harness::{FULL_POINTS, Submission, grader};
@@ -86,7 +87,7 @@ fn an_unknown_task_lists_the_known_ones() {
 fn finds_the_task_files_at_the_top_in_src_and_in_student_src() {
     for folder in ["src", "student/src"] {
         let mut submission = Submission::reference("checkout");
-        for file in crate::harness::TASK_FILES {
+        for file in RAYS.file_names() {
             let text = fs::read(submission.path().join(file)).unwrap();
             submission = submission
                 .without(file)
@@ -106,7 +107,7 @@ fn exits_with_1_below_the_required_points() {
     assert_eq!(graded.exit_code(), 1);
     assert!(graded.score.is_some());
     let graded = Submission::reference("full").grade_with(&["--require", "100"]);
-    assert_eq!(graded.points(), FULL_POINTS);
+    assert_eq!(graded.points(), *FULL_POINTS);
 }
 
 #[test]

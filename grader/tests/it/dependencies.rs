@@ -3,6 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
+use grader::handed_out::RAYS;
+
 use crate::harness::workspace;
 
 /// Returns all dependencies of packages in this format, direct and indirect, except
@@ -140,7 +142,7 @@ fn student_manifests_inherit_nothing_from_the_workspace() {
 
 #[test]
 fn starters_contain_no_solution_markers() {
-    for file in crate::harness::TASK_FILES {
+    for file in RAYS.file_names() {
         for folder in ["student/src", "grader/starter"] {
             let path = workspace().join(folder).join(file);
             let text = std::fs::read_to_string(path).unwrap();

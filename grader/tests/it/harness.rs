@@ -3,14 +3,17 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 
+use grader::handed_out::RAYS;
 use serde_json::Value;
 use tempfile::TempDir;
 
-pub const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
-
-/// The full points of camera, triangle, sphere, bbox, build and traverse.
-pub const FULL_POINTS: [u64; 6] = [15, 20, 15, 10, 20, 20];
+/// The full points of each task, in lecture order.
+pub static FULL_POINTS: LazyLock<Vec<u64>> = LazyLock::new(|| {
+    let tasks = RAYS.assignment.tasks.iter();
+    tasks.map(|task| u64::from(task.points)).collect()
+});
 
 /// Returns the root folder of the workspace.
 pub fn workspace() -> PathBuf {
@@ -51,7 +54,7 @@ impl Submission {
             name: name.to_owned(),
         };
         fs::create_dir(submission.path()).unwrap();
-        for file in TASK_FILES {
+        for file in RAYS.file_names() {
             fs::copy(source.join(file), submission.path().join(file)).unwrap();
         }
         submission

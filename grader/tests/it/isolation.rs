@@ -89,7 +89,7 @@ fn assert_blocked(attempt: &str) {
     for level in LEVELS.into_iter().filter(|level| is_available(level)) {
         let graded = grade_at(&submission, level);
         assert_eq!(camera_output(&graded), "", "{level}");
-        assert_eq!(graded.points(), FULL_POINTS, "{level}");
+        assert_eq!(graded.points(), *FULL_POINTS, "{level}");
         assert_eq!(graded.score()["isolation"], level);
     }
 }
@@ -171,7 +171,7 @@ fn untrusted_code_is_graded_at_the_best_level_and_the_report_says_so() {
         return;
     }
     let graded = Submission::reference("alice").grade_with(&["--untrusted"]);
-    assert_eq!(graded.points(), FULL_POINTS);
+    assert_eq!(graded.points(), *FULL_POINTS);
     assert_eq!(graded.score()["isolation"], "full");
     assert!(
         graded.report().contains("isolation: full"),

@@ -1,9 +1,10 @@
 //! Guarantees about the score file.
 
+use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 use serde_json::Value;
 
-use crate::harness::{FULL_POINTS, Submission, TASK_FILES, grader, workspace};
+use crate::harness::{FULL_POINTS, Submission, grader, workspace};
 
 #[test]
 fn the_reference_gets_full_points() {
@@ -18,12 +19,12 @@ fn windows_line_endings_and_byte_order_marks_change_nothing() {
     let windows = |text: String| format!("\u{feff}{}", text.replace('\n', "\r\n"));
     let read = |path: &str| std::fs::read_to_string(workspace().join(path)).unwrap();
     let mut submission = Submission::reference("windows");
-    for file in TASK_FILES {
+    for file in RAYS.file_names() {
         submission = submission.with(file, windows(read(&format!("reference/src/{file}"))));
     }
     let world = read("grader/starter/world.rs").replace('\n', "\r\n");
     let graded = submission.with("world.rs", world).grade();
-    assert_eq!(graded.points(), FULL_POINTS);
+    assert_eq!(graded.points(), *FULL_POINTS);
     assert_eq!(graded.score()["build"]["notes"], serde_json::json!([]));
 }
 

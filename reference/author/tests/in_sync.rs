@@ -4,6 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use grader::handed_out::RAYS;
+
 fn author(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_author"))
         .args(arguments)
@@ -58,7 +60,8 @@ fn the_scenes_are_in_sync() {
 #[test]
 fn the_starter_has_nine_files_per_folder_and_no_marks() {
     let files = starter_files();
-    assert_eq!(files.len(), 18, "{files:?}");
+    let with_main = RAYS.files.len() + RAYS.given.len() + 1;
+    assert_eq!(files.len(), 2 * with_main, "{files:?}");
     for file in files {
         let text = fs::read_to_string(&file).unwrap();
         for mark in ["// solution", "// end solution", "// starter:"] {

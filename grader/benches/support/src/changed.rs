@@ -5,9 +5,6 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
-const GIVEN_FILES: [&str; 2] = ["lib.rs", "primitive.rs"];
-
 /// Returns a new folder with the reference's files.
 pub fn submission(root: &Path) -> TempDir {
     let folder = TempDir::new().expect("a folder can be created");
@@ -27,9 +24,9 @@ pub fn baseline(root: &Path) -> TempDir {
 
 /// Copies the reference's files to a folder.
 pub fn copy(root: &Path, folder: &Path) {
-    for file in TASK_FILES.into_iter().chain(GIVEN_FILES) {
-        let source = root.join("reference/src").join(file);
-        fs::copy(source, folder.join(file)).expect("the reference can be read");
+    let files = fs::read_dir(root.join("reference/src")).expect("there is a reference");
+    for file in files.flatten() {
+        fs::copy(file.path(), folder.join(file.file_name())).expect("the reference can be read");
     }
 }
 

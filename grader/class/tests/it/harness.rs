@@ -5,10 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use grader::handed_out::RAYS;
 use serde_json::Value;
 use tempfile::TempDir;
-
-pub const TASK_FILES: [&str; 5] = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs", "bvh.rs"];
 
 /// Returns the root folder of the repository.
 pub fn workspace() -> PathBuf {
@@ -51,7 +50,7 @@ impl TestClass {
 
     /// Adds a minimal submission, for tests that never compile it.
     pub fn with_minimal_submission(self, folder: &str) -> Self {
-        TASK_FILES.iter().fold(self, |class, file| {
+        RAYS.file_names().fold(self, |class, file| {
             let path = match folder {
                 "" => (*file).to_owned(),
                 folder => format!("{folder}/{file}"),
@@ -71,7 +70,7 @@ impl TestClass {
     }
 
     fn with_files_of(self, source: &str, folder: &str) -> Self {
-        TASK_FILES.iter().fold(self, |class, file| {
+        RAYS.file_names().fold(self, |class, file| {
             let text = fs::read(workspace().join(source).join(file)).unwrap();
             class.with(&format!("{folder}/{file}"), text)
         })

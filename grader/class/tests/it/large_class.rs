@@ -14,9 +14,10 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 use std::{env, fs, thread};
 
+use grader::handed_out::RAYS;
 use tempfile::TempDir;
 
-use crate::harness::{TASK_FILES, class_command, comparable_files, successful_stdout, workspace};
+use crate::harness::{class_command, comparable_files, successful_stdout, workspace};
 
 const KILLS: u32 = 20;
 
@@ -57,7 +58,7 @@ fn a_large_class_killed_twenty_times_gives_the_same_results() {
     let one = fs::read_dir(&input).unwrap().next().unwrap().unwrap();
     let small = folder.path().join("small");
     fs::create_dir_all(small.join("one")).unwrap();
-    for file in TASK_FILES {
+    for file in RAYS.file_names() {
         fs::copy(one.path().join(file), small.join("one").join(file)).unwrap();
     }
     successful_stdout(&run(&small, &folder.path().join("warm")).output().unwrap());

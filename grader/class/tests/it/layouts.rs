@@ -4,16 +4,17 @@ use std::fs::File;
 use std::io::Write;
 use std::path::Path;
 
+use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-use crate::harness::{TASK_FILES, TestClass};
+use crate::harness::TestClass;
 
 /// Returns an archive with the five task files in a subfolder.
 fn archive() -> Vec<u8> {
     let mut writer = ZipWriter::new(std::io::Cursor::new(Vec::new()));
-    for file in TASK_FILES {
+    for file in RAYS.file_names() {
         let path = format!("my work/src/{file}");
         writer
             .start_file(path, SimpleFileOptions::default())
@@ -120,7 +121,7 @@ fn unusual_files_of_one_student_do_not_affect_the_others() {
         writer.start_file(path, plain).unwrap();
         writer.write_all(bytes).unwrap();
     };
-    for five in TASK_FILES {
+    for five in RAYS.file_names() {
         write(&format!("class/fine/{five}"), b"text");
     }
     write("class/long/camera.rs", &[b' '; (1 << 20) + 1]);

@@ -147,10 +147,11 @@ fn submission_hash(submission: &Submission) -> String {
         handed_out,
         name,
         files,
+        ignored_copies,
         notes,
     } = submission;
-    let files = files.iter().map(|(file, text)| (file.name, text));
-    let all = format!("{:?}", (handed_out, name, files.collect::<Vec<_>>(), notes));
+    let files: Vec<_> = files.iter().map(|(file, text)| (file.name, text)).collect();
+    let all = format!("{:?}", (handed_out, name, files, ignored_copies, notes));
     ContentHash::default().with(all.as_bytes()).hex()
 }
 

@@ -118,11 +118,6 @@ impl EntryInfo {
     }
 }
 
-/// Returns the reason for not grading a submission with several archives.
-pub fn several_archives_message(count: usize) -> String {
-    format!("{count} archives were handed in: keep the one that counts")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

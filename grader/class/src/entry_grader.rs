@@ -170,7 +170,7 @@ fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
             Err(why) => part(format!("no text: {why}").as_bytes()),
         }
     }
-    for note in &submission.notes {
+    for note in submission.ignored_copies.iter().chain(&submission.notes) {
         part(note.as_bytes());
     }
     hasher.finalize().to_hex()[..32].to_owned()

@@ -2,14 +2,14 @@
 //! folder.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use grader::build::build_dir::{BuildDir, remove_abandoned};
 use grader::handed_out::HandedOut;
-use grader::submission::{Submission, SubmissionError};
+use grader::submission::{Submission, SubmissionError, listed, places};
 use judging::sanitize::sanitize;
 
-use crate::entry::{Entry, Source, several_archives_message};
+use crate::entry::{Entry, Source};
 use crate::input_error::ClassInputError;
 use crate::layout::{self, METADATA, RecognisedClass, UnmatchedPath};
 use crate::listing::{Node, hidden_names, list_folder};
@@ -85,14 +85,8 @@ pub fn collect_submission(
 ) -> Result<Submission, String> {
     let mut submission = match &entry.source {
         Source::Path(path) => collect_path(path, handed_out)?,
-        Source::Files(files) => {
-            let submission = Submission::from_files(&entry.id, files, handed_out);
-            if submission.files.iter().any(|(_, text)| text.is_ok()) {
-                submission
-            } else {
-                return Err(no_task_file_message(files));
-            }
-        }
+        Source::Files(files) => Submission::from_files(&entry.id, files, handed_out)
+            .map_err(|error| error_message(&error, Path::new("")))?,
         Source::Missing(why) => return Err(why.clone()),
     };
     submission.name.clone_from(&entry.id);
@@ -100,40 +94,12 @@ pub fn collect_submission(
 }
 
 fn collect_path(path: &Path, handed_out: &'static HandedOut) -> Result<Submission, String> {
-    match Submission::collect(path, handed_out) {
-        Err(SubmissionError::NoTaskFiles { path: folder, .. }) if folder.is_dir() => {
-            collect_single_archive(&folder, handed_out)
-        }
-        other => other.map_err(|error| error_message(&error, path)),
-    }
-}
-
-/// Reads a folder that contains a single archive: platforms often create a folder for each
-/// submission.
-fn collect_single_archive(
-    folder: &Path,
-    handed_out: &'static HandedOut,
-) -> Result<Submission, String> {
-    let listed = list_folder(folder).map_err(|error| error.to_string())?;
-    let archives: Vec<&Node> = listed
-        .children()
-        .iter()
-        .filter(|n| n.is_archive())
-        .collect();
-    match archives.as_slice() {
-        // The link could lead to another student's archive.
-        [only] if only.is_link => Err(format!(
-            "{} is a link, and links are not followed",
-            sanitize(&only.name, 200)
-        )),
-        [only] => Submission::collect(&only.path, handed_out)
-            .map_err(|error| error_message(&error, folder)),
-        [] if listed.children().is_empty() => {
-            Err("nothing was handed in: the folder is empty".into())
-        }
-        [] => Err("none of the task files was handed in".to_owned()),
-        several => Err(several_archives_message(several.len())),
-    }
+    let submission = if path.is_dir() {
+        Submission::collect_with_archives(path, handed_out)
+    } else {
+        Submission::collect(path, handed_out)
+    };
+    submission.map_err(|error| error_message(&error, path))
 }
 
 /// Returns the error's message without the path, which may be different in the next run.
@@ -148,22 +114,28 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
         SubmissionError::NotFound(_) | SubmissionError::NotFileOrFolder(_) => {
             "it no longer exists".to_owned()
         }
-        SubmissionError::NoTaskFiles { .. } => "none of the task files was handed in".to_owned(),
-        SubmissionError::Ambiguous { folders, .. } => {
-            let folders = sanitize(&folders.join(", "), 200);
-            format!("it contains several submissions, in {folders}: keep the one that counts")
+        SubmissionError::NoTaskFiles { found, .. } if found.is_empty() => {
+            "nothing was handed in".to_owned()
+        }
+        SubmissionError::NoTaskFiles { found, .. } => {
+            let found = sanitize(&listed(found), 200);
+            format!("none of the task files was handed in, only {found}")
+        }
+        SubmissionError::Ambiguous { copies, .. } => {
+            let copies = sanitize(&places(copies), 200);
+            format!("it has task files that differ, in {copies}: keep only the ones that count")
+        }
+        SubmissionError::TooManyFiles(_) => {
+            "it has too many files and folders: keep the task files without the rest".to_owned()
         }
         SubmissionError::Link { link, .. } => {
             format!("{link} is a link, and links are not followed")
         }
-        SubmissionError::Io { why, .. } => format!("the folder or file cannot be read: {why}"),
+        SubmissionError::Io { path, why } if path == input => {
+            format!("the folder or file cannot be read: {why}")
+        }
+        SubmissionError::Io { path, why } => format!("{} cannot be read: {why}", path.display()),
         SubmissionError::Archive { path, why } if path == input => why.to_string(),
         SubmissionError::Archive { path, why } => format!("{}: {why}", sanitize(&name(path), 200)),
     }
-}
-
-fn no_task_file_message(files: &[(String, PathBuf)]) -> String {
-    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-    let names = sanitize(&names.join(", "), 200);
-    format!("none of the task files was handed in, only {names}")
 }

@@ -4,6 +4,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use grader::submission::is_archive_name;
+
 /// The number of levels of subfolders that are listed.
 const MAX_DEPTH: usize = 3;
 /// The names of folders that are skipped: they contain nothing that a student has written.
@@ -44,13 +46,6 @@ impl Node {
     pub fn is_archive(&self) -> bool {
         !self.is_folder() && is_archive_name(&self.name)
     }
-}
-
-/// Returns whether this is the name of an archive, even if the format is not supported.
-pub fn is_archive_name(name: &str) -> bool {
-    let lower = name.to_lowercase();
-    let ends = [".zip", ".tar", ".tar.gz", ".tgz", ".rar", ".7z"];
-    ends.iter().any(|end| lower.ends_with(end))
 }
 
 /// Lists a folder. Hidden and skipped files and folders are left out, and invalid Unicode in names
@@ -96,7 +91,8 @@ fn list_children(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
         } else if kind.is_dir() {
             Some(match depth {
                 0 => Vec::new(),
-                _ => list_children(&entry.path(), depth - 1)?,
+                // Reading the submission reports the error, for this student only.
+                _ => list_children(&entry.path(), depth - 1).unwrap_or_default(),
             })
         } else if kind.is_file() {
             None

@@ -8,11 +8,10 @@ use std::io::{self, ErrorKind};
 use std::path::{Component, Path};
 
 use grader::build::build_dir::BuildDir;
-use grader::submission::{Archive, ArchiveError, Member};
+use grader::submission::{Archive, ArchiveError, Member, is_archive_name};
 
 use crate::input_error::ClassInputError;
 use crate::layout::{CLASSROOM50_SCORES, METADATA, UnmatchedPath};
-use crate::listing::is_archive_name;
 
 /// The maximum size of a student's archive or a platform's list, in bytes.
 const MAX_FILE_BYTES: u64 = 256 << 20;

@@ -20,7 +20,8 @@ pub(super) fn build_report(submission: &Submission, build: &Build) -> BuildRepor
 
 /// Returns notes on the submission's files that do not affect points.
 fn notes(submission: &Submission, build: &Build) -> Vec<String> {
-    let mut notes = submission.notes.clone();
+    let mut notes = submission.ignored_copies.clone();
+    notes.extend(submission.notes.iter().cloned());
     let compiled = submission
         .files
         .iter()

@@ -82,6 +82,7 @@ mod tests {
                 handed_out: &RAYS,
                 name: name.to_owned(),
                 files: Vec::new(),
+                ignored_copies: Vec::new(),
                 notes: Vec::new(),
             };
             let folder = default_folder(&workspace, &submission);

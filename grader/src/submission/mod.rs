@@ -3,8 +3,8 @@
 //! An archive is read in memory and never unpacked. Files are selected by their exact names.
 
 mod archive;
+mod choice;
 mod folder;
-mod source_folder;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,13 +13,18 @@ use judging::sanitize::sanitize;
 
 use crate::handed_out::{HandedOut, TaskFile};
 
-pub use archive::{Archive, ArchiveError, Listing, Member};
+use choice::AmbiguousSource;
+use folder::Search;
+
+pub use archive::{Archive, ArchiveError, Listing, Member, is_archive_name};
 
 /// The maximum length of a file that is read, in bytes. The reference's files are about 10,000
 /// bytes long.
 const MAX_FILE_BYTES: u64 = 1 << 20;
 /// The maximum number of notes about other files in a report.
 const MAX_NOTES: usize = 20;
+/// The maximum number of names in a message about a submission without task files.
+const MAX_NAMES: usize = 10;
 /// The maximum length of a printed name, in characters.
 const MAX_NAME_CHARS: usize = 200;
 
@@ -32,6 +37,8 @@ pub struct Submission {
     pub name: String,
     /// The text of each task file, or the reason why it has none, in lecture order.
     pub files: Vec<(TaskFile, Result<String, TaskFileError>)>,
+    /// Notes about copies of the task files that differ from the graded ones.
+    pub ignored_copies: Vec<String>,
     /// Notes about other files that were found, which are not graded.
     pub notes: Vec<String>,
 }
@@ -77,14 +84,14 @@ pub enum SubmissionError {
     #[error("{0} is neither a folder nor a file: name the folder with the task files")]
     NotFileOrFolder(PathBuf),
     /// The folder or archive has none of the task files.
-    #[error("{} has none of {files}, and neither does any of its folders {folders}", path.display())]
+    #[error("{} has none of {files} in any of its folders; it has {}", path.display(), listed(found))]
     NoTaskFiles {
         /// The path of the folder or archive.
         path: PathBuf,
         /// The names of the task files.
         files: String,
-        /// The other folders that were searched.
-        folders: String,
+        /// The names of the files and folders in it.
+        found: Vec<String>,
     },
     /// One of the files or folders to read is a link.
     #[error(
@@ -104,17 +111,20 @@ pub enum SubmissionError {
         /// The system's message.
         why: String,
     },
-    /// The folder or archive has several folders with task files.
+    /// Several copies of the task files differ, and each could be the one that is meant.
     #[error(
-        "{path} has several submissions, in {}: pass the path of one of them",
-        folders.join(", ")
+        "{path} has task files that differ, in {}: keep only the ones that count",
+        places(copies)
     )]
     Ambiguous {
         /// The path of the folder or archive.
         path: PathBuf,
-        /// The folders that have task files.
-        folders: Vec<String>,
+        /// Two of the folders or files. The empty path is the top level.
+        copies: Vec<String>,
     },
+    /// The folder has more files, or folders inside each other, than are searched.
+    #[error("{0} has too many files and folders: hand in the task files without the rest")]
+    TooManyFiles(PathBuf),
     /// The path is a file, but not an archive that can be read.
     #[error("{path}: {why}")]
     Archive {
@@ -126,29 +136,88 @@ pub enum SubmissionError {
 }
 
 impl Submission {
-    /// Reads the task files from the top level of a folder or archive, or else from its `src/` or
-    /// `student/src/`. If none of these three folders has any, looks in the same three folders of
-    /// each subfolder; only one subfolder may have task files.
+    /// Reads the task files of a folder or archive, at any depth. The folder in it with most of the
+    /// task files counts; copies that are ignored are named in a note.
     pub fn collect(path: &Path, handed_out: &'static HandedOut) -> Result<Self, SubmissionError> {
         if path.is_dir() {
-            return Ok(Submission::from_contents(
-                folder_name(path),
-                folder::read(path, handed_out)?,
-                handed_out,
-            ));
+            let search = folder::search(path, handed_out)?;
+            return Submission::choose(&folder_name(path), path, search, handed_out);
         }
         if path.is_file() {
-            let contents = archive::read(path, handed_out)?;
-            return Ok(Submission::from_contents(
-                archive::without_extension(&folder_name(path)),
-                contents,
-                handed_out,
-            ));
+            let search = Search::in_archive(path, handed_out)?;
+            let name = archive::without_extension(&folder_name(path));
+            return Submission::choose(&name, path, search, handed_out);
         }
         Err(match path.symlink_metadata() {
             Ok(_) => SubmissionError::NotFileOrFolder(path.to_owned()),
             Err(_) => SubmissionError::NotFound(path.to_owned()),
         })
+    }
+
+    /// Reads the task files of a folder that a platform has made, like [`Submission::collect`], but
+    /// also from the archives in it.
+    pub fn collect_with_archives(
+        path: &Path,
+        handed_out: &'static HandedOut,
+    ) -> Result<Self, SubmissionError> {
+        let mut search = folder::search(path, handed_out)?;
+        search.add_archives(path, handed_out);
+        Submission::choose(&folder_name(path), path, search, handed_out)
+    }
+
+    /// Reads the task files among these files, each given by its submitted name and its path on
+    /// disk, and in the archives among them.
+    pub fn from_files(
+        name: &str,
+        files: &[(String, PathBuf)],
+        handed_out: &'static HandedOut,
+    ) -> Result<Self, SubmissionError> {
+        let path = Path::new(name);
+        let search = folder::search_files(path, files, handed_out)?;
+        Submission::choose(name, path, search, handed_out)
+    }
+
+    /// Chooses the folder that is graded.
+    fn choose(
+        name: &str,
+        path: &Path,
+        search: Search,
+        handed_out: &'static HandedOut,
+    ) -> Result<Self, SubmissionError> {
+        let link = |link: &String| SubmissionError::Link {
+            path: path.to_owned(),
+            link: display_name(link),
+        };
+        let choice = choice::choose(search.candidates, handed_out);
+        let choice = choice.map_err(|error| ambiguous(path, error))?;
+        let mut errors = search.errors.into_iter();
+        let Some(choice) = choice else {
+            let error = errors.next().or_else(|| search.links.first().map(link));
+            return Err(error.unwrap_or_else(|| no_task_files(path, &search.names, handed_out)));
+        };
+        // A link could lead to another person's files.
+        let files = handed_out.file_names();
+        let mut paths = files.map(|file| choice::join(&choice.chosen.folder, file));
+        if let Some(path) = paths.find(|path| search.links.contains(path)) {
+            return Err(link(&path));
+        }
+        // What cannot be read could have the files that are missing.
+        if !choice.is_complete {
+            let mut links = search.links.iter();
+            let leads_to_files = |path: &&String| may_lead_to_files(path, handed_out);
+            let error = errors
+                .next()
+                .or_else(|| links.find(leads_to_files).map(link));
+            if let Some(error) = error {
+                return Err(error);
+            }
+        }
+        Ok(Submission::from_contents(
+            name.to_owned(),
+            choice.chosen.files,
+            choice.notes,
+            handed_out,
+        ))
     }
 
     /// Returns whether the assignment has not been started: every task file is the starter's, token
@@ -158,19 +227,10 @@ impl Submission {
         files.all(|(file, text)| text.as_ref().is_ok_and(|text| file.is_starter(text)))
     }
 
-    /// Reads a submission from single files, listed by submitted name and path on disk.
-    pub fn from_files(
-        name: &str,
-        files: &[(String, PathBuf)],
-        handed_out: &'static HandedOut,
-    ) -> Self {
-        let contents = folder::read_files(files, handed_out);
-        Submission::from_contents(name.to_owned(), contents, handed_out)
-    }
-
     fn from_contents(
         name: String,
         mut contents: SubmissionFiles,
+        ignored_copies: Vec<String>,
         handed_out: &'static HandedOut,
     ) -> Self {
         let mut text = |file: TaskFile| {
@@ -186,6 +246,7 @@ impl Submission {
             handed_out,
             name,
             files: files.collect(),
+            ignored_copies,
             notes: notes(&contents.other_files, handed_out),
         }
     }
@@ -200,16 +261,49 @@ struct SubmissionFiles {
     other_files: BTreeMap<String, Vec<u8>>,
 }
 
-/// Returns the error for a folder or archive without task files.
-fn no_task_files(path: &Path, handed_out: &HandedOut) -> SubmissionError {
-    let folders = handed_out.assignment.folders.iter();
-    let folders = folders.filter(|folder| !folder.is_empty());
-    let folders: Vec<String> = folders.map(|folder| format!("{folder}/")).collect();
+/// Returns the error for a folder or archive without task files, given the names in it.
+fn no_task_files(path: &Path, names: &[String], handed_out: &HandedOut) -> SubmissionError {
     SubmissionError::NoTaskFiles {
         path: path.to_owned(),
         files: handed_out.file_list(),
-        folders: folders.join(" and "),
+        found: names.to_vec(),
     }
+}
+
+/// Lists the first few of these names for a message.
+pub fn listed(names: &[String]) -> String {
+    let some = names.iter().take(MAX_NAMES).map(|name| display_name(name));
+    let some = some.collect::<Vec<_>>().join(", ");
+    match names.len() {
+        0 => "no files".to_owned(),
+        count if count > MAX_NAMES => format!("{some} and {} more", count - MAX_NAMES),
+        _ => some,
+    }
+}
+
+/// Returns the error for copies of which each could be meant.
+fn ambiguous(path: &Path, AmbiguousSource(copies): AmbiguousSource) -> SubmissionError {
+    SubmissionError::Ambiguous {
+        path: path.to_owned(),
+        copies: copies.iter().map(|copy| display_name(copy)).collect(),
+    }
+}
+
+/// Lists the folders and files of [`SubmissionError::Ambiguous`] for a message.
+pub fn places(paths: &[String]) -> String {
+    let name = |path: &String| match path.as_str() {
+        "" => "its top level".to_owned(),
+        path => path.to_owned(),
+    };
+    paths.iter().map(name).collect::<Vec<_>>().join(" and ")
+}
+
+/// Returns whether a link has the name of a task file, or of a folder that people hand in.
+fn may_lead_to_files(link: &str, handed_out: &HandedOut) -> bool {
+    let name = link.rsplit('/').next().unwrap_or(link);
+    let mut folders = handed_out.assignment.folders.iter();
+    handed_out.task_file(name).is_some()
+        || folders.any(|folder| folder.split('/').any(|part| part == name))
 }
 
 /// Returns a name that is safe to print: shortened, and with control characters escaped.

@@ -59,6 +59,7 @@ mod tests {
             handed_out: &RAYS,
             name: "student".to_owned(),
             files: vec![(RAYS.files[0], Ok(text.to_owned()))],
+            ignored_copies: Vec::new(),
             notes: Vec::new(),
         })
     }

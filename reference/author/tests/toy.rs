@@ -31,6 +31,7 @@ static TASKS: Assignment = Assignment {
     id: "toy",
     title: "A toy",
     folders: &["", "work"],
+    other_folders: &[],
     tasks: &[
         TaskInfo {
             id: "ball",

@@ -120,28 +120,18 @@ pub(super) fn read(root: &Node, handed_out: &HandedOut) -> LayoutContents {
 fn entry_of_files(mut files: Vec<(CanvasName, &Node)>, handed_out: &HandedOut) -> Entry {
     files.sort_by_key(|(name, _)| name.attachment);
     let (last, newest) = files.last().expect("every user has a file");
-    let is_task_file = |(name, _): &(CanvasName, &Node)| {
-        let name = original_name(&name.file, handed_out);
-        handed_out.task_file(&name).is_some()
-    };
+    // Of several archives, the newest counts. Files that were handed in again come later in the list.
     let archive = files.iter().rfind(|(_, node)| node.is_archive());
-    // Task files that are not packed take precedence over an archive, as in a folder.
-    let archive = archive.filter(|_| !files.iter().any(is_task_file));
-    let source = match archive {
-        Some((_, archive)) => Source::Path(archive.path.clone()),
-        // Files that were handed in again come later in the list. Of several files with the same
-        // name, the last one counts.
-        None => Source::Files(
-            files
-                .iter()
-                .map(|(name, node)| (original_name(&name.file, handed_out), node.path.clone()))
-                .collect(),
-        ),
+    let counts = |(_, node): &&(CanvasName, &Node)| {
+        !node.is_archive() || archive.is_some_and(|(_, newest)| newest.path == node.path)
     };
-    let from = match (archive, files.len()) {
-        (Some((_, archive)), _) => archive.name.clone(),
-        (None, 1) => newest.name.clone(),
-        (None, count) => format!("{} and {} more", newest.name, count - 1),
+    let name_and_path = |(name, node): &(CanvasName, &Node)| {
+        (original_name(&name.file, handed_out), node.path.clone())
+    };
+    let source = Source::Files(files.iter().filter(counts).map(name_and_path).collect());
+    let from = match files.len() {
+        1 => newest.name.clone(),
+        count => format!("{} and {} more", newest.name, count - 1),
     };
     entry(last, files.iter().any(|(name, _)| name.late), from, source)
 }

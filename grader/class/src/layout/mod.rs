@@ -82,7 +82,7 @@ pub fn recognise(
     } else if is_majority(root, |node| canvas::is_name(&node.name)) {
         (Layout::Canvas, canvas::read(root, handed_out))
     } else if is_majority(root, |node| moodle::parse(&node.name).is_some()) {
-        (Layout::Moodle, moodle::read(root, handed_out))
+        (Layout::Moodle, moodle::read(root))
     } else if github::prefix(root).is_some() {
         (Layout::GitHub, github::read(root))
     } else {

@@ -4,10 +4,8 @@
 
 use std::collections::BTreeMap;
 
-use grader::handed_out::HandedOut;
-
 use super::{LayoutContents, unmatched_path};
-use crate::entry::{Entry, EntryInfo, Person, Source, several_archives_message};
+use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
 
 const MARK: &str = "_assignsubmission_";
@@ -42,7 +40,7 @@ pub(super) fn parse(name: &str) -> Option<MoodleName<'_>> {
     })
 }
 
-pub(super) fn read(root: &Node, handed_out: &HandedOut) -> LayoutContents {
+pub(super) fn read(root: &Node) -> LayoutContents {
     let mut people: BTreeMap<&str, Vec<(MoodleName, &Node)>> = BTreeMap::new();
     let mut others = Vec::new();
     for node in root.children() {
@@ -65,39 +63,23 @@ pub(super) fn read(root: &Node, handed_out: &HandedOut) -> LayoutContents {
         }
         let beside = |(_, node): &(MoodleName, &Node)| unmatched_path(node, TEXT_BESIDE_FILES);
         others.extend(texts.iter().map(beside));
-        let (first, source) = choose_source(&files, handed_out);
-        entries.push(entry(first, source));
+        let (first, files) = source(&files);
+        entries.push(entry(first, files));
     }
     (entries, others)
 }
 
-/// Chooses which of a participant's files to grade, by the same rules as in a folder. Also returns
-/// the file whose name identifies the entry.
-fn choose_source<'f, 'n>(
+/// Returns a participant's files. Also returns the file whose name identifies the entry.
+fn source<'f, 'n>(
     files: &'f [(MoodleName<'n>, &'n Node)],
-    handed_out: &HandedOut,
 ) -> (&'f (MoodleName<'n>, &'n Node), Source) {
-    let path = |(_, node): &(MoodleName, &Node)| Source::Path(node.path.clone());
     if let Some(folder) = files.iter().find(|(_, node)| node.is_folder()) {
-        return (folder, path(folder));
+        return (folder, Source::Path(folder.1.path.clone()));
     }
-    let is_task_file = |(name, _): &&(MoodleName, &Node)| handed_out.task_file(name.file).is_some();
-    let archives: Vec<_> = files.iter().filter(|(_, node)| node.is_archive()).collect();
-    match (files.iter().find(is_task_file), archives.as_slice()) {
-        (None, [only]) => (only, path(only)),
-        (None, [first, ..]) => (
-            first,
-            Source::Missing(several_archives_message(archives.len())),
-        ),
-        (Some(_), _) | (None, []) => {
-            let name_and_path =
-                |(name, node): &(MoodleName, &Node)| (name.file.to_owned(), node.path.clone());
-            (
-                &files[0],
-                Source::Files(files.iter().map(name_and_path).collect()),
-            )
-        }
-    }
+    let name_and_path =
+        |(name, node): &(MoodleName, &Node)| (name.file.to_owned(), node.path.clone());
+    let source = Source::Files(files.iter().map(name_and_path).collect());
+    (&files[0], source)
 }
 
 fn entry((name, node): &(MoodleName, &Node), source: Source) -> Entry {

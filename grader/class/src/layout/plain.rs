@@ -32,7 +32,10 @@ pub(super) fn read(root: &Node) -> LayoutContents {
 /// Returns the name without the archive's extension.
 fn strip_archive_extension(name: &str) -> &str {
     let lower = name.to_ascii_lowercase();
-    let ends = [".tar.gz", ".tgz", ".tar", ".zip", ".rar", ".7z"];
+    let ends = [
+        ".tar.gz", ".tar.xz", ".tar.bz2", ".tar.zst", ".tgz", ".txz", ".tar", ".zip", ".rar",
+        ".7z", ".gz", ".xz",
+    ];
     let end = ends.iter().find(|end| lower.ends_with(**end));
     &name[..name.len() - end.map_or(0, |end| end.len())]
 }

@@ -99,7 +99,7 @@ fn describe_files(entry: &Entry, handed_out: &'static HandedOut) -> Result<Strin
         .filter_map(|(_, text)| text.as_ref().err().map(ToString::to_string))
         .collect();
     let count = submission.files.len();
-    Ok(match missing.as_slice() {
+    let mut text = match missing.as_slice() {
         [] if submission.is_as_handed_out() => {
             format!("all {count} files, as they were handed out")
         }
@@ -109,7 +109,12 @@ fn describe_files(entry: &Entry, handed_out: &'static HandedOut) -> Result<Strin
             count - missing.len(),
             missing.join("; ")
         ),
-    })
+    };
+    for note in &submission.ignored_copies {
+        text += "; ";
+        text += note;
+    }
+    Ok(text)
 }
 
 /// Returns the pairs of entries that belong to the same person.

@@ -119,7 +119,7 @@ fn links_are_listed_with_the_reason_and_never_followed() {
     assert!(line("alice,").contains("graded"));
     for (id, link) in [
         ("linked-source,", "student/src"),
-        ("linked-folder,", "student/src"),
+        ("linked-folder,", "student"),
         ("linked-file,", "camera.rs"),
         ("linked-student,", "linked-student"),
         ("linked-archive,", "work.zip"),
@@ -129,4 +129,39 @@ fn links_are_listed_with_the_reason_and_never_followed() {
         assert!(line.contains(&why), "{line}");
     }
     assert!(class.preview().contains(".hidden"), "{}", class.preview());
+}
+
+/// A file mode stops everybody but root, so root skips this test.
+#[cfg(unix)]
+#[test]
+fn an_unreadable_folder_is_listed_with_the_reason() {
+    use std::fs::{self, Permissions};
+    use std::os::unix::fs::PermissionsExt;
+
+    let class = TestClass::named("class")
+        .with_reference("alice")
+        .with_folder("locked")
+        .with_reference("partly locked/old")
+        .with_folder("partly locked/src");
+    let locked = [
+        class.input().join("locked"),
+        class.input().join("partly locked/src"),
+    ];
+    let set_mode = |mode| {
+        for folder in &locked {
+            fs::set_permissions(folder, Permissions::from_mode(mode)).unwrap();
+        }
+    };
+    set_mode(0o000);
+    let is_root = fs::read_dir(&locked[0]).is_ok();
+    let preview = class.preview();
+    set_mode(0o755);
+    if is_root {
+        eprintln!("SKIPPED: root can read every folder");
+        return;
+    }
+    let line = "locked: nothing to grade: the folder or file cannot be read: permission denied";
+    assert!(preview.contains(line), "{preview}");
+    assert!(preview.contains("alice: all 5 files"), "{preview}");
+    assert!(preview.contains("partly locked: all 5 files"), "{preview}");
 }

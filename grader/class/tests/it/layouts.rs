@@ -292,7 +292,51 @@ fn reads_a_plain_folder_and_lists_everything_it_cannot_use() {
         .with("evil\u{202e}.zip", &archive()[..100])
         .with("grades.xlsx", "text")
         .with_minimal_submission("two/a")
-        .with_minimal_submission("two/b");
+        .with_minimal_submission("two/b")
+        .with("two/b/bvh.rs", "other")
+        .with("eve.tar.xz", [0xfd, b'7', b'z', b'X', b'Z', 0, 0, 0]);
+    assert_snapshot!(class.preview());
+}
+
+/// Each of these hides or loses files if only the top level is looked at.
+#[test]
+fn nothing_that_was_handed_in_is_chosen_or_lost_silently() {
+    let class = TestClass::named("class")
+        .with_minimal_submission("a stray copy/student/src")
+        .with("a stray copy/bvh.rs", "old")
+        .with_starter("b starter at the top")
+        .with_minimal_submission("b starter at the top/solution")
+        .with("c file beside an archive/camera.rs", "text")
+        .with("c file beside an archive/hw.zip", archive())
+        .with("d other file beside an archive/camera.rs", "newer")
+        .with("d other file beside an archive/hw.zip", archive())
+        .with_minimal_submission("e deep/my/own/folder/of/work")
+        .with_starter("f whole project/grader/starter")
+        .with_minimal_submission("f whole project/student/src")
+        .with(
+            "f whole project/student/framework/src/scene/camera.rs",
+            "given",
+        )
+        .with_minimal_submission("f whole project/target/package/src")
+        .with_minimal_submission("g two versions/final")
+        .with_minimal_submission("g two versions/final2")
+        .with("g two versions/final2/bvh.rs", "newer")
+        .with("h browser copies/bvh (1).rs", "text")
+        .with("i two browser copies/bvh (1).rs", "text")
+        .with("i two browser copies/bvh (2).rs", "other")
+        .with("j damaged archive beside a file/bvh.rs", "text")
+        .with("j damaged archive beside a file/hw.zip", &archive()[..100])
+        .with("k something else/report.pdf", "text");
+    assert_snapshot!(class.preview());
+}
+
+#[test]
+fn loose_files_and_an_archive_of_one_canvas_user_are_taken_together() {
+    let class = TestClass::named("submissions")
+        .with("doejane_7001_9001_hw.zip", archive())
+        .with("doejane_7001_9002_camera.rs", "text")
+        .with("leeann_7002_9003_hw.zip", archive())
+        .with("leeann_7002_9004_camera.rs", "newer");
     assert_snapshot!(class.preview());
 }
 

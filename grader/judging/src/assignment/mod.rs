@@ -20,9 +20,11 @@ pub struct Assignment {
     pub id: &'static str,
     /// The title for people.
     pub title: &'static str,
-    /// The folders of a submission that may have its files, in order of preference. The empty path
-    /// is the submission's top level.
+    /// The folders in which people are expected to hand in the files, in order of preference. The
+    /// empty path is the submission's top level.
     pub folders: &'static [&'static str],
+    /// Names of the project's other folders. Files in them, at any depth, are never handed in.
+    pub other_folders: &'static [&'static str],
     /// The tasks, in lecture order.
     pub tasks: &'static [TaskInfo],
 }

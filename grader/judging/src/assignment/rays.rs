@@ -7,6 +7,14 @@ pub static RAYS: Assignment = Assignment {
     id: "rays",
     title: "Rays and a BVH",
     folders: &["", "src", "student/src"],
+    other_folders: &[
+        "grader",
+        "framework",
+        "protocol",
+        "reference",
+        "author",
+        "substitution",
+    ],
     tasks: &[
         TaskInfo {
             id: "camera",

@@ -6,17 +6,15 @@ mod limited_reader;
 mod tarball;
 mod zip_reader;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
 use unicode_normalization::UnicodeNormalization;
 
-use super::source_folder::{self, AmbiguousSource};
-use super::{
-    MAX_FILE_BYTES, SubmissionError, SubmissionFiles, TaskFileError, display_name, no_task_files,
-};
+use super::choice::{self, Candidate, join};
+use super::{MAX_FILE_BYTES, SubmissionError, TaskFileError, ambiguous, display_name};
 use crate::handed_out::{HandedOut, TaskFile};
 
 use limited_reader::LimitedReader;
@@ -25,6 +23,9 @@ use zip_reader::ZipReader;
 
 /// The maximum number of files in an archive. A checkout with its `target/` has several thousand.
 pub const MAX_MEMBERS: usize = 50_000;
+
+/// The maximum number of folders with task files in an archive.
+const MAX_FOLDERS: usize = 32;
 
 /// Reasons for rejecting an archive.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
@@ -175,62 +176,91 @@ impl Archive {
     }
 }
 
-/// Reads the task files of an archive, and the Rust files beside them.
-pub(super) fn read(
+/// Reads the folders of an archive that have task files, with the Rust files beside them. `name` is
+/// put in front of their paths. Also returns the names at the archive's top level.
+pub(super) fn candidates(
     path: &Path,
+    name: &str,
     handed_out: &'static HandedOut,
-) -> Result<SubmissionFiles, SubmissionError> {
+) -> Result<(Vec<Candidate>, Vec<String>), SubmissionError> {
     let rejected = |why| SubmissionError::Archive {
         path: path.to_owned(),
         why,
     };
     let mut archive = Archive::open(path).map_err(rejected)?;
     let members = archive.members().map_err(rejected)?;
-    let paths = members.iter().map(|member| member.path.as_str());
-    let source = source_folder::find(paths, handed_out);
-    let source = source.map_err(|AmbiguousSource(folders)| SubmissionError::Ambiguous {
-        path: path.to_owned(),
-        folders: folders.iter().map(|folder| display_name(folder)).collect(),
-    })?;
-    let source = source.ok_or_else(|| no_task_files(path, handed_out))?;
-
-    let name = |member: &Member| {
+    let mut folders: BTreeMap<&str, Vec<(&str, &Member)>> = BTreeMap::new();
+    for member in &members {
         let (folder, name) = member.path.rsplit_once('/').unwrap_or(("", &member.path));
-        (folder == source).then(|| name.to_owned())
-    };
-    let here: Vec<(String, &Member)> = members
-        .iter()
-        .filter_map(|member| Some((name(member)?, member)))
-        .collect();
-    let is_read = |(name, _): &&(String, &Member)| {
-        handed_out.task_file(name).is_some() || handed_out.given_file(name).is_some()
-    };
-    let (read, others): (Vec<_>, Vec<_>) = here.iter().partition(is_read);
-    let requested: Vec<&Member> = read.iter().map(|(_, member)| *member).collect();
-
-    let mut contents = SubmissionFiles::default();
-    let bytes = archive.read(&requested, MAX_FILE_BYTES).map_err(rejected)?;
-    for ((name, _), bytes) in read.iter().zip(bytes) {
-        match handed_out.task_file(name) {
-            Some(TaskFile { name, .. }) => {
-                let is_too_long = bytes.len() as u64 > MAX_FILE_BYTES;
-                let bytes = if is_too_long {
-                    Err(TaskFileError::TooLong(name))
-                } else {
-                    Ok(bytes)
-                };
-                contents.task_files.insert(name, bytes);
-            }
-            None => {
-                contents.other_files.insert(name.clone(), bytes);
-            }
+        let is_skipped = folder
+            .split('/')
+            .any(|name| choice::is_skipped(name, handed_out));
+        if name.ends_with(".rs") && !is_skipped {
+            folders.entry(folder).or_default().push((name, member));
         }
     }
-    let others = others.iter().filter(|(name, _)| name.ends_with(".rs"));
-    contents
-        .other_files
-        .extend(others.map(|(name, _)| (name.clone(), Vec::new())));
-    Ok(contents)
+    let mut candidates = Vec::new();
+    // The members to read, with the indices of their folders and their names in the candidate.
+    let mut requested: Vec<(&Member, usize, &str)> = Vec::new();
+    for (folder, files) in folders {
+        let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+        let found = choice::task_files(&names, handed_out);
+        let found = found.map_err(|error| ambiguous(path, error))?;
+        if found.is_empty() {
+            continue;
+        }
+        let mut candidate = Candidate {
+            folder: join(name, folder),
+            ..Candidate::default()
+        };
+        for (name, member) in files {
+            let task_file = found.iter().find(|(_, used)| **used == name);
+            if let Some((task_file, _)) = task_file {
+                requested.push((member, candidates.len(), task_file));
+            } else if handed_out.given_file(name).is_some() {
+                requested.push((member, candidates.len(), name));
+            } else {
+                candidate
+                    .files
+                    .other_files
+                    .insert(name.to_owned(), Vec::new());
+            }
+        }
+        candidates.push(candidate);
+    }
+    if candidates.len() > MAX_FOLDERS {
+        return Err(rejected(ArchiveError::TooManyFiles));
+    }
+    let wanted: Vec<&Member> = requested.iter().map(|(member, ..)| *member).collect();
+    let contents = archive.read(&wanted, MAX_FILE_BYTES).map_err(rejected)?;
+    for ((_, index, name), bytes) in requested.into_iter().zip(contents) {
+        let files = &mut candidates[index].files;
+        match handed_out.task_file(name) {
+            Some(TaskFile { name, .. }) if bytes.len() as u64 > MAX_FILE_BYTES => {
+                files
+                    .task_files
+                    .insert(name, Err(TaskFileError::TooLong(name)));
+            }
+            Some(TaskFile { name, .. }) => _ = files.task_files.insert(name, Ok(bytes)),
+            None => _ = files.other_files.insert(name.to_owned(), bytes),
+        }
+    }
+    let names = members.iter().map(|member| {
+        let (top, _) = member.path.split_once('/').unwrap_or((&member.path, ""));
+        top.to_owned()
+    });
+    let names: BTreeSet<String> = names.collect();
+    Ok((candidates, names.into_iter().collect()))
+}
+
+/// Returns whether this is the name of an archive, even if its kind is not supported.
+pub fn is_archive_name(name: &str) -> bool {
+    const ENDINGS: [&str; 12] = [
+        ".zip", ".tar", ".tar.gz", ".tgz", ".rar", ".7z", ".tar.xz", ".txz", ".tar.bz2",
+        ".tar.zst", ".gz", ".xz",
+    ];
+    let lower = name.to_lowercase();
+    ENDINGS.iter().any(|ending| lower.ends_with(ending))
 }
 
 /// Returns the archive's name without its extension.

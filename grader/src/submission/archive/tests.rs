@@ -244,7 +244,7 @@ fn reports_what_is_wrong_with_an_unusable_archive() {
         Err(SubmissionError::NoTaskFiles { .. })
     ));
     assert!(matches!(
-        collect("a.zip", &zip(&[("a/bvh.rs", b""), ("b/bvh.rs", b"")])),
+        collect("a.zip", &zip(&[("a/bvh.rs", b""), ("b/bvh.rs", b"x")])),
         Err(SubmissionError::Ambiguous { .. })
     ));
 }

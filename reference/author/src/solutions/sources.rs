@@ -71,6 +71,7 @@ impl Sources {
             files: files
                 .map(|(file, text)| (*file, Ok(text.clone())))
                 .collect(),
+            ignored_copies: Vec::new(),
             notes: Vec::new(),
         }
     }

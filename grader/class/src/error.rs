@@ -96,6 +96,18 @@ pub enum Error {
         /// The output folder of the other shard.
         other: PathBuf,
     },
+    /// The merged results would be written into the results of a shard.
+    #[error(
+        "{} is, or is in, the results of the shard {}: choose another folder for --out",
+        out.display(),
+        shard.display()
+    )]
+    MergeIntoShard {
+        /// The output folder of the merge.
+        out: PathBuf,
+        /// The output folder of the shard.
+        shard: PathBuf,
+    },
 }
 
 impl Error {
@@ -112,7 +124,8 @@ impl Error {
             | Error::IncompatibleShards { .. }
             | Error::MissingShards(_)
             | Error::DifferentPolicies { .. }
-            | Error::DuplicateEntry { .. } => 2,
+            | Error::DuplicateEntry { .. }
+            | Error::MergeIntoShard { .. } => 2,
             Error::Store(_) | Error::Isolation(_) => 3,
             Error::Grader(error) => error.exit_code(),
         }

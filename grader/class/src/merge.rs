@@ -21,6 +21,7 @@ use crate::store::{Store, StoreError};
 
 /// Copies the shards' results into one folder, and writes the class's files.
 pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
+    check_out(arguments)?;
     let shards: Result<Vec<(&PathBuf, Run)>, Error> = arguments
         .shards
         .iter()
@@ -65,6 +66,7 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     let people = rows.iter_mut().flat_map(|row| &mut row.info.people);
     let mut missing = roster::join(&arguments.lists, &mut people.collect::<Vec<_>>())?;
     let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
+    roster::set_submission_times(&arguments.lists, &mut infos)?;
     groups::add_group_members(&arguments.lists, &mut infos, &mut missing)?;
     let class = GradedClass {
         exam: run.settings.exam.clone(),
@@ -81,6 +83,24 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
         0 => Completion::Complete,
         _ => Completion::Incomplete,
     })
+}
+
+/// Rejects an output folder in the results of a shard: each entry would be replaced while it is
+/// copied.
+fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
+    // The output folder may not exist yet.
+    let mut existing = arguments.out.ancestors();
+    let Some(out) = existing.find_map(|folder| folder.canonicalize().ok()) else {
+        return Ok(());
+    };
+    let holds_out = |shard: &&PathBuf| shard.canonicalize().is_ok_and(|s| out.starts_with(s));
+    match arguments.shards.iter().find(holds_out) {
+        Some(shard) => Err(Error::MergeIntoShard {
+            out: arguments.out.clone(),
+            shard: shard.clone(),
+        }),
+        None => Ok(()),
+    }
 }
 
 /// Returns the policy that the arguments select, or else the one that all shards were graded with.

@@ -62,6 +62,14 @@ fn merged_shards_equal_an_unsharded_run() {
     };
     refused(&[one, two, one], "were both given the same --shard?");
     refused(&[one], "results are missing for 2/2");
+    for out in [one.to_owned(), format!("{two}/merged")] {
+        let before = comparable_files(Path::new(one));
+        let merged = merge(&[one, two], Path::new(&out));
+        let (code, error) = exit_code_and_stderr(&merged);
+        assert_eq!(code, 2);
+        assert!(error.contains("choose another folder for --out"), "{error}");
+        assert_eq!(comparable_files(Path::new(one)), before);
+    }
     let other = class.write_beside("other.toml", "[points]\nout_of = 8\n");
     grade_shard(&class, &exam, "2/2", &["--policy", &other]);
     refused(&[one, two], "different policies");

@@ -26,8 +26,11 @@ pub struct GradedClass {
 pub struct ClassRow {
     /// The result of grading the submission.
     pub result: EntryResult,
-    /// The final points, after the policy has been applied; `None` if there is no score.
+    /// The final points, after the policy has been applied; `None` if there is no score, or if the
+    /// submission time is unclear.
     pub counted: Option<CountedPoints>,
+    /// The reason why a score has no final points: a submission time that cannot be read.
+    pub unclear_time: Option<String>,
     /// Whether the submission counts as on time because its submission time is unknown.
     pub is_undated: bool,
 }
@@ -50,13 +53,17 @@ impl GradedClass {
 impl ClassRow {
     /// Creates the row of a result, and applies the policy to its points.
     pub fn new(result: EntryResult, policy: &Policy) -> Self {
-        let counted = result
-            .score()
-            .map(|score| apply_policy(policy, &result.info, score));
+        let score = result.score();
+        let counted = score.map(|score| apply_policy(policy, &result.info, score));
+        let (counted, unclear_time) = match counted.transpose() {
+            Ok(counted) => (counted, None),
+            Err(unclear) => (None, Some(unclear.to_string())),
+        };
         let is_undated = counted.is_some() && is_undated(policy, &result.info);
         ClassRow {
             result,
             counted,
+            unclear_time,
             is_undated,
         }
     }
@@ -64,16 +71,18 @@ impl ClassRow {
     /// Returns the status, as it is shown in tables.
     pub fn status(&self) -> &'static str {
         match &self.result.outcome {
+            EntryOutcome::Graded(_) if self.unclear_time.is_some() => "time unclear",
             EntryOutcome::Graded(_) => "graded",
             EntryOutcome::NothingToGrade(_) => "nothing to grade",
             EntryOutcome::Fault(_) => "not graded",
         }
     }
 
-    /// Returns the reason why there is no score, or an empty string if there is a score.
+    /// Returns the reason why there is no score or no final points, or an empty string if there are
+    /// both.
     pub fn why(&self) -> &str {
         match &self.result.outcome {
-            EntryOutcome::Graded(_) => "",
+            EntryOutcome::Graded(_) => self.unclear_time.as_deref().unwrap_or_default(),
             EntryOutcome::NothingToGrade(why) | EntryOutcome::Fault(why) => why,
         }
     }

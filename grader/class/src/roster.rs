@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use grader::policy::read_time;
+use jiff::tz::TimeZone;
+
 use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
 use crate::table::{Table, TableError};
@@ -31,7 +34,13 @@ const LOGIN: [&str; 7] = [
     "login_id",
 ];
 /// The names of the column with the submission times, in classroom50 and in GitHub Classroom.
-const SUBMISSION_TIME: [&str; 2] = ["datetime", "submission_timestamp"];
+const SUBMISSION_TIME: [&str; 4] = [
+    "datetime",
+    "submission_timestamp",
+    // Gradescope's and Moodle's own lists.
+    "submission time",
+    "last modified (submission)",
+];
 const GROUP: [&str; 4] = ["group", "group name", "group_name", "team"];
 
 /// Names in Canvas's gradebook that do not belong to people.
@@ -82,23 +91,30 @@ impl Member {
     }
 }
 
-/// Sets unknown submission times to those in the roster.
+/// Sets unknown submission times to those in the roster, Gradescope's list or Moodle's worksheet.
 pub fn set_submission_times(
     lists: &Lists,
     entries: &mut [&mut EntryInfo],
 ) -> Result<(), TableError> {
-    let Some(path) = &lists.roster else {
-        return Ok(());
-    };
-    let members = read_members(path)?;
+    let mut members = Vec::new();
+    for path in [&lists.roster, &lists.gradescope, &lists.moodle]
+        .into_iter()
+        .flatten()
+    {
+        members.extend(read_members(path)?);
+    }
     for info in entries.iter_mut().filter(|info| info.submitted.is_none()) {
         let theirs = members.iter().filter(|member| {
             let mut people = info.people.iter();
             !member.submitted.is_empty() && people.any(|person| member.matches(person))
         });
-        // If there are several submissions, the last one was cloned. Times in ISO 8601 can be
-        // compared as text.
-        if let Some(last) = theirs.max_by_key(|member| &member.submitted) {
+        // If there are several submissions, the last one was cloned. A time that cannot be read is
+        // taken before all others, so that it is reported; which one is last is then unknown.
+        let is_unknown_or_time = |member: &&Member| {
+            let time = read_time(&member.submitted, Some(&TimeZone::UTC)).ok();
+            (time.is_none(), time)
+        };
+        if let Some(last) = theirs.max_by_key(is_unknown_or_time) {
             info.submitted = Some(last.submitted.clone());
             info.late = last.late;
         }
@@ -158,7 +174,10 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
         Member {
             person,
             group: cell(group),
-            submitted: cell(submitted),
+            // Moodle writes a dash for a participant who handed in nothing.
+            submitted: Some(cell(submitted))
+                .filter(|time| time != "-")
+                .unwrap_or_default(),
             late: cell(late).eq_ignore_ascii_case("true"),
             has_namesake: false,
         }

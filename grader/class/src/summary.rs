@@ -35,6 +35,8 @@ pub struct ClassSummary {
     pub missing: usize,
     /// The number of submissions that count as on time because their time is unknown.
     pub undated: usize,
+    /// The number of submissions without final points because their submission time is unclear.
+    pub unclear_times: usize,
     /// The distribution of the total points; `None` if there are no scores.
     pub points: Option<Distribution>,
     /// The distribution of each task's points, in lecture order.
@@ -105,6 +107,11 @@ impl ClassSummary {
             nothing_to_grade: class.rows.len() - scores.len() - not_graded,
             not_graded,
             missing: class.missing.len(),
+            unclear_times: class
+                .rows
+                .iter()
+                .filter(|row| row.unclear_time.is_some())
+                .count(),
             undated: class.rows.iter().filter(|row| row.is_undated).count(),
             tasks: tasks(&scores),
             failed_most: failed_most(&scores),
@@ -187,6 +194,7 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
     });
     let why = |row: &ClassRow| match row.result.score() {
         None => Some(format!("{}: {}", row.status(), row.why())),
+        Some(_) if row.counted.is_none() => Some(format!("{}: {}", row.status(), row.why())),
         Some(score) if score.items().all(|item| item.verdict == "not_compiled") => {
             Some("0 points: nothing compiles".to_owned())
         }

@@ -7,16 +7,19 @@ mod late;
 mod read;
 mod submission_time;
 mod visibility;
+mod written_time;
 
 use std::collections::BTreeMap;
 
 use jiff::Timestamp;
+use jiff::tz::TimeZone;
 use serde::Deserialize;
 
 pub use late::{CountedPoints, Lateness};
 pub use read::PolicyError;
 pub use submission_time::{SubmissionTime, SubmissionTimeError};
 pub use visibility::Visibility;
+pub use written_time::{TimeError, read_time};
 
 /// The default policy, as a file with comments on every key.
 pub const DEFAULT: &str = include_str!("default.toml");
@@ -63,6 +66,9 @@ pub struct LatePolicy {
     /// The due time. If there is none, the platform's due time is used.
     #[serde(deserialize_with = "read::due_time")]
     pub due: Option<Timestamp>,
+    /// The time zone of submission times without an offset from UTC.
+    #[serde(deserialize_with = "read::time_zone")]
+    pub timezone: Option<TimeZone>,
     /// Grace period after the due time, in minutes.
     pub grace_minutes: u32,
     /// Number of late days that cost nothing.
@@ -105,6 +111,7 @@ impl Default for LatePolicy {
     fn default() -> Self {
         LatePolicy {
             due: None,
+            timezone: None,
             grace_minutes: 0,
             free_days: 0,
             percent_per_day: 0,

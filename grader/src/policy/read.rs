@@ -6,6 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
+use jiff::tz::TimeZone;
 use judging::exam::Exam;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
@@ -130,6 +131,16 @@ pub(super) fn due_time<'de, D: Deserializer<'de>>(
         D::Error::custom(
             "must be a date and time with an offset, such as 2026-11-20T23:59:59+01:00",
         )
+    })
+}
+
+/// Reads the name of a time zone.
+pub(super) fn time_zone<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<TimeZone>, D::Error> {
+    let name = String::deserialize(deserializer)?;
+    TimeZone::get(&name).map(Some).map_err(|_| {
+        D::Error::custom("must be the name of a time zone, such as America/New_York or UTC")
     })
 }
 

@@ -11,6 +11,7 @@ use serde::Deserialize;
 
 use crate::policy::Policy;
 use crate::policy::late::Lateness;
+use crate::policy::written_time::read_time;
 
 /// The times at which a submission was made and due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,8 +81,7 @@ impl SubmissionTime {
 }
 
 fn parse_time(text: &str) -> Result<Timestamp, String> {
-    text.parse()
-        .map_err(|_| format!("{text:?} is not a date and time"))
+    read_time(text, None).map_err(|why| format!("{text:?}: {why}"))
 }
 
 impl Policy {
@@ -122,7 +122,11 @@ mod tests {
     fn reports_an_invalid_time() {
         assert_eq!(
             parse_with_due(r#""tomorrow""#),
-            Err("\"tomorrow\" is not a date and time".to_owned())
+            Err(
+                "\"tomorrow\": it is not a date and time in a known form, such as 2026-11-20 \
+                 23:59:59 +0100"
+                    .to_owned()
+            )
         );
         assert!(
             SubmissionTime::parse("{}")

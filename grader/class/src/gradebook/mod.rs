@@ -110,7 +110,9 @@ fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
         let locked = is_locked(&table.rows[row_index]);
         let cell = &mut table.rows[row_index][target];
         let Some(counted) = class_row.counted else {
-            warnings.push(format!("{who}: {}; left unchanged", class_row.status()));
+            let why = class_row.unclear_time.as_deref();
+            let why = why.unwrap_or(class_row.status());
+            warnings.push(format!("{who}: {why}; left unchanged"));
             continue;
         };
         if has_two_submissions(&warnings, &who) {

@@ -215,15 +215,17 @@ fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
 
 fn score_cells(row: &ClassRow, score: &ScoreSummary, who: Markup) -> Markup {
     let late = row.counted.map_or(0, |counted| counted.late_days);
-    let counts = row.counted.map_or(0, |counted| counted.points);
+    let counts = row.counted.map(|counted| counted.points.to_string());
     html! {
         th scope="row" { a href=(report_link(&row.result.id)) { (who) } }
-        td .number { strong { (counts) } }
+        td .number { strong { (counts.as_deref().unwrap_or("–")) } }
         td .number { (score.points) }
         @for task in &score.tasks {
             td .number .less[task.points < task.max_points] { (task.points) }
         }
-        td { @if late == 1 { "1 late day" } @else if late > 1 { (late) " late days" } }
+        td {
+            @if row.counted.is_none() { strong { (row.status()) } ": " (sanitized(row.why())) }
+            @else if late == 1 { "1 late day" } @else if late > 1 { (late) " late days" } }
     }
 }
 

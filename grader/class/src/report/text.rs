@@ -39,6 +39,10 @@ fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
         ),
         (summary.missing, "on a roster, but submitted nothing"),
         (
+            summary.unclear_times,
+            "without final points, since their submission time cannot be read: see class.html",
+        ),
+        (
             summary.undated,
             "counted as on time, since their submission time is unknown",
         ),

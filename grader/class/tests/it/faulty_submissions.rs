@@ -88,6 +88,68 @@ fn late_days_cost_what_the_policy_says() {
     );
 }
 
+/// All but `in_time` were handed in on the third day after the due time. A time that cannot be read
+/// counts neither as late nor as on time.
+#[test]
+fn a_time_counts_in_every_form_or_stops_that_students_grade() {
+    let times = [
+        ("a", "2026-11-22 23:10:00 -0800"),
+        ("b", "2026-11-23 10:00"),
+        ("c", "Monday, 23 November 2026, 10:00 AM"),
+        ("d", "23.11.2026 10:00"),
+        ("in_time", "2026-11-20 12:00"),
+        ("unreadable", "yesterday"),
+        ("ambiguous", "11/12/2026 10:00"),
+    ];
+    let class = TestClass::named("class");
+    let class = times
+        .iter()
+        .fold(class, |class, (who, _)| class.with_reference(who));
+    let rows = times.map(|(who, time)| format!("{who},{who},\"{time}\"\n"));
+    let roster = format!("name,username,submission time\n{}", rows.concat());
+    let roster = class.write_beside("roster.csv", &roster);
+    let exam = class.small_exam(&ITEMS);
+    let due = "[points]\nout_of = 100\n[late]\ndue = 2026-11-20T23:59:59Z\npercent_per_day = 10\n";
+    let grade = |policy: &str| {
+        let policy = class.write_beside("policy.toml", policy);
+        successful_stdout(&class.grade(&exam, &["--policy", &policy, "--roster", &roster]))
+    };
+    let row = |who: &str| {
+        let grades = class.read("grades.csv");
+        let line = grades
+            .lines()
+            .find(|line| line.starts_with(&format!("{who},")));
+        line.unwrap_or_else(|| panic!("{who}: {grades}")).to_owned()
+    };
+
+    // Without a time zone, only the time with an offset can be used.
+    grade(due);
+    assert!(row("a,a").contains(",graded,70,"), "{}", row("a,a"));
+    let why = "it has no time zone: set `timezone` under [late] in the policy";
+    assert!(row("b,b").contains(",time unclear,,"), "{}", row("b,b"));
+    assert!(row("b,b").contains(why), "{}", row("b,b"));
+
+    let printed = grade(&format!("{due}timezone = \"Europe/Berlin\"\n"));
+    for who in ["a,a", "b,b", "c,c", "d,d"] {
+        assert!(row(who).contains(",graded,70,"), "{}", row(who));
+    }
+    assert!(
+        row("in_time").contains(",graded,100,"),
+        "{}",
+        row("in_time")
+    );
+    let page = class.read("class.html");
+    for (who, text) in [
+        ("unreadable", "yesterday"),
+        ("ambiguous", "11/12/2026 10:00"),
+    ] {
+        assert!(row(who).contains(",time unclear,,"), "{}", row(who));
+        assert!(row(who).contains(text), "{}", row(who));
+        assert!(page.contains(text), "{page}");
+    }
+    assert!(printed.contains("2 without final points"), "{printed}");
+}
+
 /// Grades a class that contains links. Anyone can put a link into a clone or a shared folder, and
 /// another student's files must not be graded as the work of the person who linked to them.
 #[cfg(unix)]

@@ -36,6 +36,14 @@ pub enum Error {
     /// The question to replay does not exist.
     #[error("{0}")]
     Replay(String),
+    /// More points are required than there are.
+    #[error("--require {points} cannot be met: the assignment has {most} points")]
+    RequiredPoints {
+        /// The required points.
+        points: u32,
+        /// The points of the assignment.
+        most: u32,
+    },
     /// The workspace cannot be found.
     #[error(transparent)]
     Workspace(#[from] WorkspaceError),
@@ -67,7 +75,8 @@ impl Error {
             | Error::Policy(_)
             | Error::Package(_)
             | Error::Output(OutputError::MissingVariable { .. })
-            | Error::Replay(_) => 2,
+            | Error::Replay(_)
+            | Error::RequiredPoints { .. } => 2,
             Error::Workspace(_)
             | Error::SubmissionTime(_)
             | Error::Build(_)

@@ -36,6 +36,11 @@ pub struct PrintOptions {
 /// Prints the report of a submission, cached or new. Returns exit code 1 if the points are below
 /// the required ones.
 pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<ExitCode, Error> {
+    let most = options.handed_out.assignment.points();
+    if print.require > most {
+        let points = print.require;
+        return Err(Error::RequiredPoints { points, most });
+    }
     // A cached report has no timings.
     let may_reuse = !print.fresh && !print.timings;
     let cached = may_reuse.then(|| find_cached_report(options)).transpose()?;

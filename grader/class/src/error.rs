@@ -148,6 +148,7 @@ impl From<GraderError> for Error {
             | GraderError::Package(_)
             | GraderError::Output(_)
             | GraderError::Replay(_)
+            | GraderError::RequiredPoints { .. }
             | GraderError::Workspace(_)
             | GraderError::Build(_)
             | GraderError::Report { .. }

@@ -108,6 +108,11 @@ fn exits_with_1_below_the_required_points() {
     assert!(graded.score.is_some());
     let graded = Submission::reference("full").grade_with(&["--require", "100"]);
     assert_eq!(graded.points(), *FULL_POINTS);
+
+    let refused = Submission::starter("refused").grade_with(&["--require", "101"]);
+    assert_eq!(refused.exit_code(), 2);
+    let why = "--require 101 cannot be met: the assignment has 100 points";
+    assert!(refused.error().contains(why), "{}", refused.error());
 }
 
 #[test]

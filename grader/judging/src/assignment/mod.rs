@@ -55,6 +55,11 @@ impl Assignment {
         self.tasks.iter().map(TaskInfo::task)
     }
 
+    /// Returns the points of all tasks.
+    pub fn points(&self) -> u32 {
+        self.tasks.iter().map(|task| task.points).sum()
+    }
+
     /// Returns the task with this id, or `None` if the assignment has no such task.
     pub fn find(&self, id: &str) -> Option<&'static TaskInfo> {
         self.tasks.iter().find(|task| task.id == id)
@@ -137,8 +142,7 @@ mod tests {
 
     #[test]
     fn tasks_of_rays_are_worth_100_points_and_have_different_ids() {
-        let points: u32 = RAYS.tasks.iter().map(|task| task.points).sum();
-        assert_eq!(points, 100);
+        assert_eq!(RAYS.points(), 100);
         let ids: std::collections::BTreeSet<_> = RAYS.tasks().collect();
         assert_eq!(ids.len(), RAYS.tasks.len());
     }

@@ -10,9 +10,10 @@ use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use judging::content_hash::ContentHash;
 use serde::{Deserialize, Serialize};
 
-use crate::build::{ContentHash, file_fingerprint};
+use crate::build::file_fingerprint;
 use crate::exam_source::ExamSource;
 use crate::options::GradeOptions;
 use crate::report::atomic_write;

@@ -5,6 +5,7 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use judging::content_hash::file_hash;
 use judging::exam_file::{self, ExamError, ExamFile};
 
 use crate::handed_out::HandedOut;
@@ -75,7 +76,7 @@ impl ExamSource {
 
     /// Returns the hash of the exam's bytes, which need not be a valid exam.
     pub fn hash(&self, handed_out: &HandedOut) -> Result<String, ExamSourceError> {
-        Ok(exam_file::hash(&self.bytes(handed_out)?))
+        Ok(file_hash(&self.bytes(handed_out)?))
     }
 
     fn bytes(&self, handed_out: &HandedOut) -> Result<Cow<'static, [u8]>, ExamSourceError> {

@@ -10,6 +10,7 @@ use grader::report::html::Reload;
 use grader::report::json;
 use grader::report_files::ReportFiles;
 use grader::submission::Submission;
+use judging::content_hash::ContentHash;
 use judging::sanitize::sanitize;
 
 use crate::entry::Entry;
@@ -153,11 +154,8 @@ impl EntryGrader<'_> {
 /// only part of the policy that it covers is what students may see, since no other rule affects
 /// these files.
 fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
-    let mut hasher = blake2b_simd::State::new();
-    let mut part = |bytes: &[u8]| {
-        hasher.update(&(bytes.len() as u64).to_le_bytes());
-        hasher.update(bytes);
-    };
+    let mut hash = ContentHash::default();
+    let mut part = |bytes: &[u8]| hash.add(bytes);
     let settings = serde_json::to_vec(&run.settings).expect("settings can be serialised");
     part(&settings);
     part(&run.round.to_le_bytes());
@@ -173,5 +171,5 @@ fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
     for note in submission.ignored_copies.iter().chain(&submission.notes) {
         part(note.as_bytes());
     }
-    hasher.finalize().to_hex()[..32].to_owned()
+    hash.hex()
 }

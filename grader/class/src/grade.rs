@@ -11,6 +11,7 @@ use grader::grade::Grader;
 use grader::options::GradeOptions;
 use grader::policy::PolicyError;
 use grader::workspace::Workspace;
+use judging::content_hash::file_hash;
 
 use crate::cli::{ClassArguments, Lists};
 use crate::drift::{Drift, compare_scores};
@@ -141,7 +142,7 @@ fn settings(grader: &Grader, options: &GradeOptions) -> Result<Settings, Error> 
     Ok(Settings {
         exam: exam.id.clone(),
         exam_hash: exam.hash.clone(),
-        grader: blake2b_simd::blake2b(&program).to_hex()[..32].to_owned(),
+        grader: file_hash(&program),
         built_with: grader.builder_identity(),
         isolation: grader.isolation().to_string(),
         options: options_of_scores(options),

@@ -8,6 +8,7 @@ use protocol::Question;
 use serde::Serialize;
 
 use crate::assignment::Assignment;
+use crate::content_hash::file_hash;
 use crate::exam::{Exam, Item, Key};
 
 /// Version of the file format that this grader reads.
@@ -69,11 +70,6 @@ pub enum ExamError {
     },
 }
 
-/// Returns the hash of an exam file's bytes, which need not be a valid exam.
-pub fn hash(bytes: &[u8]) -> String {
-    blake2b_simd::blake2b(bytes).to_hex()[..32].to_owned()
-}
-
 /// Parses and validates the bytes of an exam file for an assignment. `path` is used in error
 /// messages only.
 pub fn parse(path: &Path, bytes: &[u8], assignment: &Assignment) -> Result<ExamFile, ExamError> {
@@ -89,7 +85,7 @@ pub fn parse(path: &Path, bytes: &[u8], assignment: &Assignment) -> Result<ExamF
     }
     Ok(ExamFile {
         exam,
-        hash: hash(bytes),
+        hash: file_hash(bytes),
     })
 }
 

@@ -12,9 +12,10 @@
 //! | comparison | [`judge`] |
 //! | text | [`describe`] |
 //! | exam files | [`exam_file`] |
-//! | data | [`exam`], [`assignment`], [`signatures`], [`drawing_data`], [`section`]; [`sanitize`] |
+//! | data | [`exam`], [`assignment`], [`signatures`], [`drawing_data`], [`section`]; [`content_hash`], [`sanitize`] |
 
 pub mod assignment;
+pub mod content_hash;
 pub mod describe;
 pub mod drawing_data;
 pub mod exam;

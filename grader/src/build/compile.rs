@@ -4,7 +4,8 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use crate::build::program_cache::ContentHash;
+use judging::content_hash::ContentHash;
+
 use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
 use crate::handed_out::HandedOut;
 

@@ -13,6 +13,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use judging::content_hash::ContentHash;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -157,9 +158,9 @@ fn read(record: &Path) -> Option<Dependencies> {
 /// Returns a hash of everything that the compiled dependencies depend on: the compiler, the lock
 /// file and the sources.
 fn cache_key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, DependenciesError> {
-    let mut hasher = blake2b_simd::State::new();
-    hasher.update(RECIPE_VERSION.as_bytes());
-    hasher.update(toolchain.fingerprint().as_bytes());
+    let mut hash = ContentHash::default()
+        .with(RECIPE_VERSION.as_bytes())
+        .with(toolchain.fingerprint().as_bytes());
     let files = ["Cargo.lock", "grader/unified/Cargo.toml"];
     let mut files: Vec<PathBuf> = files.map(|file| workspace.root().join(file)).into();
     for folder in ["protocol", "framework"] {
@@ -169,12 +170,10 @@ fn cache_key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, Dep
     }
     for file in files {
         let name = file.strip_prefix(workspace.root()).unwrap_or(&file);
-        hasher.update(name.as_os_str().as_encoded_bytes());
-        let text = fs::read(&file).map_err(io_error(&file))?;
-        hasher.update(&(text.len() as u64).to_le_bytes());
-        hasher.update(&text);
+        hash.add(name.as_os_str().as_encoded_bytes());
+        hash.add(&fs::read(&file).map_err(io_error(&file))?);
     }
-    Ok(hasher.finalize().to_hex().to_string())
+    Ok(hash.hex())
 }
 
 fn list_sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), DependenciesError> {

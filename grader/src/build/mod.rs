@@ -22,6 +22,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use judging::content_hash::ContentHash;
+
 use crate::build::blame::{blame, blame_all, unusable_files};
 use crate::build::build_dir::{BuildDir, remove_abandoned};
 use crate::build::compile::compile;
@@ -36,7 +38,6 @@ use crate::submission::{Submission, TaskFileError};
 use crate::workspace::Workspace;
 
 pub use crate::build::blame::NotCompiled;
-pub use crate::build::program_cache::ContentHash;
 pub use crate::build::programs::{Build, SubstitutedProgram};
 pub use crate::build::self_test::SelfTestError;
 pub use crate::build::toolchain::file_fingerprint;

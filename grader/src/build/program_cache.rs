@@ -5,28 +5,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use judging::content_hash::ContentHash;
+
 /// A folder of compiled programs.
 #[derive(Clone, Debug)]
 pub struct ProgramCache {
     folder: PathBuf,
-}
-
-/// A hash of a program's inputs.
-#[derive(Debug, Default)]
-pub struct ContentHash(blake2b_simd::State);
-
-impl ContentHash {
-    /// Adds an input to the hash.
-    pub fn with(mut self, part: &[u8]) -> Self {
-        self.0.update(&(part.len() as u64).to_le_bytes());
-        self.0.update(part);
-        self
-    }
-
-    /// Returns the hash in hexadecimal.
-    pub fn hex(&self) -> String {
-        self.0.finalize().to_hex()[..32].to_owned()
-    }
 }
 
 impl ProgramCache {

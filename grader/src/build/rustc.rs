@@ -8,12 +8,14 @@ use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use judging::content_hash::ContentHash;
+
 use crate::build::compiler_sandbox;
 use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::{self, Diagnostic};
 use crate::build::linker;
 use crate::build::machine_fault::MachineFault;
-use crate::build::program_cache::{ContentHash, ProgramCache};
+use crate::build::program_cache::ProgramCache;
 use crate::build::toolchain::Toolchain;
 use crate::build::verified_copy;
 use crate::capture::Capture;

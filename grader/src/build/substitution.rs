@@ -13,9 +13,9 @@ use std::iter;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use judging::content_hash::ContentHash;
 use tempfile::TempDir;
 
-use crate::build::program_cache::ContentHash;
 use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
 use crate::handed_out::{HandedOut, SubstitutedFile, TaskFile};
 use crate::sandbox::Sandbox;

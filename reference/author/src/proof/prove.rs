@@ -9,6 +9,7 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
+use judging::content_hash::ContentHash;
 use rayon::prelude::*;
 
 use crate::exams;
@@ -153,14 +154,14 @@ fn cache_key(solutions: &Solutions, listed_seeds: u64) -> Result<String, ReadErr
         path: program,
         source,
     })?;
-    let mut hasher = blake2b_simd::State::new();
-    hasher.update(&bytes);
-    hasher.update(&listed_seeds.to_le_bytes());
+    let mut hash = ContentHash::default()
+        .with(&bytes)
+        .with(&listed_seeds.to_le_bytes());
     for (mistake, sources) in &solutions.mistakes {
-        hasher.update(format!("{mistake:?}{sources:?}").as_bytes());
+        hash.add(format!("{mistake:?}{sources:?}").as_bytes());
     }
     for (variant, sources) in &solutions.variants {
-        hasher.update(format!("{variant:?}{sources:?}").as_bytes());
+        hash.add(format!("{variant:?}{sources:?}").as_bytes());
     }
-    Ok(hasher.finalize().to_hex()[..16].to_owned())
+    Ok(hash.hex())
 }

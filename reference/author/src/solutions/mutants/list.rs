@@ -2,6 +2,7 @@
 //! be graded without installing cargo-mutants.
 
 use grader::handed_out::{RAYS, TaskFile};
+use judging::content_hash::file_hash;
 use serde::{Deserialize, Serialize};
 
 use crate::generated_file::GeneratedFile;
@@ -102,7 +103,7 @@ impl FileMutants {
 }
 
 fn hash(text: &str) -> String {
-    blake2b_simd::blake2b(text.as_bytes()).to_hex()[..16].to_owned()
+    file_hash(text.as_bytes())[..16].to_owned()
 }
 
 impl MutantList {

@@ -57,7 +57,10 @@ pub fn builder(options: &GradeOptions, workspace: &Workspace) -> Result<Builder,
 /// Reads the submission that the options name.
 pub fn collect(options: &GradeOptions, workspace: &Workspace) -> Result<Submission, Error> {
     let path = submission_path(options, workspace);
-    Ok(Submission::collect(&path, options.handed_out)?)
+    Ok(match &options.submission {
+        Some(_) => Submission::collect(&path, options.handed_out)?,
+        None => Submission::collect_package(&path, options.handed_out)?,
+    })
 }
 
 /// Returns the path of the submission that the options name.

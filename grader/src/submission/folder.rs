@@ -30,7 +30,7 @@ pub(super) struct Search {
     pub(super) names: Vec<String>,
     /// The paths of links below the folder, with `/`.
     pub(super) links: Vec<String>,
-    /// Folders and archives that cannot be read.
+    /// Folders and archives that cannot be read, or are below too many others.
     pub(super) errors: Vec<SubmissionError>,
     /// The number of files and folders that were listed.
     entries: usize,
@@ -44,6 +44,27 @@ pub(super) fn search(
     let folder = Folder::open(path).map_err(|error| unreadable(path, &error))?;
     let mut search = Search::default();
     search.visit(&folder, path, "", handed_out)?;
+    Ok(search)
+}
+
+/// Looks for task files in a folder, and not below it.
+pub(super) fn search_one(
+    path: &Path,
+    handed_out: &'static HandedOut,
+) -> Result<Search, SubmissionError> {
+    let io = |error: io::Error| unreadable(path, &error);
+    let folder = Folder::open(path).map_err(io)?;
+    let names = folder.names().map_err(io)?;
+    let mut search = Search {
+        names: names
+            .into_iter()
+            .filter_map(|n| n.into_string().ok())
+            .collect(),
+        ..Search::default()
+    };
+    let names = search.names.clone();
+    let open = |name: &str| folder.file(&OsString::from(name));
+    search.add_candidate(path, "", &names, open, handed_out)?;
     Ok(search)
 }
 
@@ -148,7 +169,9 @@ impl Search {
         handed_out: &'static HandedOut,
     ) -> Result<(), SubmissionError> {
         if path.matches('/').count() >= MAX_DEPTH {
-            return Err(SubmissionError::TooManyFiles(submission.to_owned()));
+            let too_deep = SubmissionError::TooManyFiles(submission.to_owned());
+            self.errors.push(too_deep);
+            return Ok(());
         }
         let name = path.rsplit('/').next().unwrap_or(path);
         match folder.subfolder(OsStr::new(name)) {

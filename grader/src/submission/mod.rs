@@ -154,6 +154,22 @@ impl Submission {
         })
     }
 
+    /// Reads the task files in the folder `src` of the package that students work in: the files that
+    /// Cargo compiles, whatever copies are in other folders. Without such a folder, looks for the
+    /// files like [`Submission::collect`].
+    pub fn collect_package(
+        path: &Path,
+        handed_out: &'static HandedOut,
+    ) -> Result<Self, SubmissionError> {
+        let source = path.join("src");
+        let mut files = handed_out.file_names().map(|file| source.join(file));
+        if files.any(|file| file.is_file()) {
+            let search = folder::search_one(&source, handed_out)?;
+            return Submission::choose(&folder_name(path), path, search, handed_out);
+        }
+        Submission::collect(path, handed_out)
+    }
+
     /// Reads the task files of a folder that a platform has made, like [`Submission::collect`], but
     /// also from the archives in it.
     pub fn collect_with_archives(
@@ -350,4 +366,54 @@ fn notes(other_files: &BTreeMap<String, Vec<u8>>, handed_out: &HandedOut) -> Vec
         .filter_map(note)
         .take(MAX_NOTES)
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::handed_out::RAYS;
+
+    fn write_files(folder: &Path, text: &str) {
+        fs::create_dir_all(folder).unwrap();
+        for file in RAYS.file_names() {
+            fs::write(folder.join(file), text).unwrap();
+        }
+    }
+
+    #[test]
+    fn copies_in_other_folders_do_not_stop_students_at_their_own_work() {
+        let package = tempfile::tempdir().unwrap();
+        write_files(&package.path().join("src"), "new");
+        write_files(&package.path().join("src/yesterday"), "old");
+        let own = Submission::collect_package(package.path(), &RAYS).unwrap();
+        assert!(
+            own.files
+                .iter()
+                .all(|(_, text)| text.as_deref() == Ok("new"))
+        );
+        // Of what is handed in, nobody knows which copy is meant.
+        let handed_in = Submission::collect(package.path(), &RAYS);
+        assert!(matches!(
+            handed_in,
+            Err(SubmissionError::Ambiguous { copies, .. }) if copies == ["src", "src/yesterday"]
+        ));
+    }
+
+    #[test]
+    fn the_files_of_a_workspace_without_a_package_are_found_as_well() {
+        let folder = tempfile::tempdir().unwrap();
+        write_files(&folder.path().join("my/work"), "new");
+        let found = Submission::collect_package(folder.path(), &RAYS).unwrap();
+        assert!(found.files.iter().all(|(_, text)| text.is_ok()));
+    }
+
+    #[test]
+    fn folders_without_end_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir_all(folder.path().join("a/".repeat(40))).unwrap();
+        let refused = Submission::collect(folder.path(), &RAYS);
+        assert!(matches!(refused, Err(SubmissionError::TooManyFiles(_))));
+    }
 }

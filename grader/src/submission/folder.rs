@@ -8,9 +8,8 @@ use std::path::{Path, PathBuf};
 
 use super::archive::{self, is_archive_name};
 use super::choice::{self, Candidate, join};
-use super::{
-    MAX_FILE_BYTES, SubmissionError, SubmissionFiles, TaskFileError, ambiguous, display_name,
-};
+use super::error::ambiguous;
+use super::{MAX_FILE_BYTES, SubmissionError, SubmissionFiles, TaskFileError, display_name};
 use crate::handed_out::HandedOut;
 use crate::system::{self, EntryKind, Folder};
 

@@ -4,6 +4,7 @@
 
 mod archive;
 mod choice;
+mod error;
 mod folder;
 
 use std::collections::BTreeMap;
@@ -13,18 +14,17 @@ use judging::sanitize::sanitize;
 
 use crate::handed_out::{HandedOut, TaskFile};
 
-use choice::AmbiguousSource;
+use error::{ambiguous, no_task_files};
 use folder::Search;
 
 pub use archive::{Archive, ArchiveError, Listing, Member, is_archive_name};
+pub use error::{SubmissionError, TaskFileError, listed, places};
 
 /// The maximum length of a file that is read, in bytes. The reference's files are about 10,000
 /// bytes long.
 const MAX_FILE_BYTES: u64 = 1 << 20;
 /// The maximum number of notes about other files in a report.
 const MAX_NOTES: usize = 20;
-/// The maximum number of names in a message about a submission without task files.
-const MAX_NAMES: usize = 10;
 /// The maximum length of a printed name, in characters.
 const MAX_NAME_CHARS: usize = 200;
 
@@ -41,98 +41,6 @@ pub struct Submission {
     pub ignored_copies: Vec<String>,
     /// Notes about other files that were found, which are not graded.
     pub notes: Vec<String>,
-}
-
-/// Reasons why a task file cannot be graded. The tasks of such a file score nothing; the other
-/// files are graded.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum TaskFileError {
-    /// The file does not exist.
-    #[error("{0} is missing")]
-    Missing(&'static str),
-    /// The path is a folder, a link or a device.
-    #[error("{0} is not a regular file")]
-    NotRegular(&'static str),
-    /// The file is longer than any reasonable solution.
-    #[error("{0} is longer than 1 MiB")]
-    TooLong(&'static str),
-    /// The file is not valid UTF-8.
-    #[error("{name} is not UTF-8 text: byte {byte} is invalid")]
-    NotText {
-        /// The name of the task file.
-        name: &'static str,
-        /// The position of the first invalid byte, counted from 1.
-        byte: usize,
-    },
-    /// The system cannot read the file.
-    #[error("cannot read {name}: {why}")]
-    Io {
-        /// The name of the task file.
-        name: &'static str,
-        /// The system's message.
-        why: String,
-    },
-}
-
-/// Reasons why a path has no submission to grade. These are usage errors.
-#[derive(Debug, thiserror::Error)]
-pub enum SubmissionError {
-    /// The path does not exist.
-    #[error("there is no {0}: name the folder with the task files, such as `student`")]
-    NotFound(PathBuf),
-    /// The path is a device, a pipe or a socket.
-    #[error("{0} is neither a folder nor a file: name the folder with the task files")]
-    NotFileOrFolder(PathBuf),
-    /// The folder or archive has none of the task files.
-    #[error("{} has none of {files} in any of its folders; it has {}", path.display(), listed(found))]
-    NoTaskFiles {
-        /// The path of the folder or archive.
-        path: PathBuf,
-        /// The names of the task files.
-        files: String,
-        /// The names of the files and folders in it.
-        found: Vec<String>,
-    },
-    /// One of the files or folders to read is a link.
-    #[error(
-        "{path}: {link} is a link, and links are not followed: replace it with the actual file or folder"
-    )]
-    Link {
-        /// The path of the submission's folder.
-        path: PathBuf,
-        /// The path of the link itself, relative to the submission's folder.
-        link: String,
-    },
-    /// The system cannot read the folder.
-    #[error("cannot read {path}: {why}")]
-    Io {
-        /// The path of the folder.
-        path: PathBuf,
-        /// The system's message.
-        why: String,
-    },
-    /// Several copies of the task files differ, and each could be the one that is meant.
-    #[error(
-        "{path} has task files that differ, in {}: keep only the ones that count",
-        places(copies)
-    )]
-    Ambiguous {
-        /// The path of the folder or archive.
-        path: PathBuf,
-        /// Two of the folders or files. The empty path is the top level.
-        copies: Vec<String>,
-    },
-    /// The folder has more files, or folders inside each other, than are searched.
-    #[error("{0} has too many files and folders: hand in the task files without the rest")]
-    TooManyFiles(PathBuf),
-    /// The path is a file, but not an archive that can be read.
-    #[error("{path}: {why}")]
-    Archive {
-        /// The path of the file.
-        path: PathBuf,
-        /// The reason why the archive is rejected.
-        why: ArchiveError,
-    },
 }
 
 impl Submission {
@@ -275,43 +183,6 @@ struct SubmissionFiles {
     task_files: BTreeMap<&'static str, Result<Vec<u8>, TaskFileError>>,
     /// Other Rust files by name, with their bytes if they are to be compared with given files.
     other_files: BTreeMap<String, Vec<u8>>,
-}
-
-/// Returns the error for a folder or archive without task files, given the names in it.
-fn no_task_files(path: &Path, names: &[String], handed_out: &HandedOut) -> SubmissionError {
-    SubmissionError::NoTaskFiles {
-        path: path.to_owned(),
-        files: handed_out.file_list(),
-        found: names.to_vec(),
-    }
-}
-
-/// Lists the first few of these names for a message.
-pub fn listed(names: &[String]) -> String {
-    let some = names.iter().take(MAX_NAMES).map(|name| display_name(name));
-    let some = some.collect::<Vec<_>>().join(", ");
-    match names.len() {
-        0 => "no files".to_owned(),
-        count if count > MAX_NAMES => format!("{some} and {} more", count - MAX_NAMES),
-        _ => some,
-    }
-}
-
-/// Returns the error for copies of which each could be meant.
-fn ambiguous(path: &Path, AmbiguousSource(copies): AmbiguousSource) -> SubmissionError {
-    SubmissionError::Ambiguous {
-        path: path.to_owned(),
-        copies: copies.iter().map(|copy| display_name(copy)).collect(),
-    }
-}
-
-/// Lists the folders and files of [`SubmissionError::Ambiguous`] for a message.
-pub fn places(paths: &[String]) -> String {
-    let name = |path: &String| match path.as_str() {
-        "" => "its top level".to_owned(),
-        path => path.to_owned(),
-    };
-    paths.iter().map(name).collect::<Vec<_>>().join(" and ")
 }
 
 /// Returns whether a link has the name of a task file, or of a folder that people hand in.

@@ -2,20 +2,21 @@
 //! never unpacked. The sizes and counts in its headers are not trusted: limits apply to the bytes
 //! that are actually read and inflated.
 
+mod candidates;
 mod limited_reader;
 mod tarball;
 mod zip_reader;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
 use unicode_normalization::UnicodeNormalization;
 
-use super::choice::{self, Candidate, join};
-use super::{MAX_FILE_BYTES, SubmissionError, TaskFileError, ambiguous, display_name};
-use crate::handed_out::{HandedOut, TaskFile};
+use super::display_name;
+
+pub(super) use candidates::candidates;
 
 use limited_reader::LimitedReader;
 use tarball::Tarball;
@@ -23,9 +24,6 @@ use zip_reader::ZipReader;
 
 /// The maximum number of files in an archive. A checkout with its `target/` has several thousand.
 pub const MAX_MEMBERS: usize = 50_000;
-
-/// The maximum number of folders with task files in an archive.
-const MAX_FOLDERS: usize = 32;
 
 /// Reasons for rejecting an archive.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
@@ -174,83 +172,6 @@ impl Archive {
             ArchiveReader::Tar(_) => MAX_MEMBERS,
         }
     }
-}
-
-/// Reads the folders of an archive that have task files, with the Rust files beside them. `name` is
-/// put in front of their paths. Also returns the names at the archive's top level.
-pub(super) fn candidates(
-    path: &Path,
-    name: &str,
-    handed_out: &'static HandedOut,
-) -> Result<(Vec<Candidate>, Vec<String>), SubmissionError> {
-    let rejected = |why| SubmissionError::Archive {
-        path: path.to_owned(),
-        why,
-    };
-    let mut archive = Archive::open(path).map_err(rejected)?;
-    let members = archive.members().map_err(rejected)?;
-    let mut folders: BTreeMap<&str, Vec<(&str, &Member)>> = BTreeMap::new();
-    for member in &members {
-        let (folder, name) = member.path.rsplit_once('/').unwrap_or(("", &member.path));
-        let is_skipped = folder
-            .split('/')
-            .any(|name| choice::is_skipped(name, handed_out));
-        if name.ends_with(".rs") && !is_skipped {
-            folders.entry(folder).or_default().push((name, member));
-        }
-    }
-    let mut candidates = Vec::new();
-    // The members to read, with the indices of their folders and their names in the candidate.
-    let mut requested: Vec<(&Member, usize, &str)> = Vec::new();
-    for (folder, files) in folders {
-        let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
-        let found = choice::task_files(&names, handed_out);
-        let found = found.map_err(|error| ambiguous(path, error))?;
-        if found.is_empty() {
-            continue;
-        }
-        let mut candidate = Candidate {
-            folder: join(name, folder),
-            ..Candidate::default()
-        };
-        for (name, member) in files {
-            let task_file = found.iter().find(|(_, used)| **used == name);
-            if let Some((task_file, _)) = task_file {
-                requested.push((member, candidates.len(), task_file));
-            } else if handed_out.given_file(name).is_some() {
-                requested.push((member, candidates.len(), name));
-            } else {
-                candidate
-                    .files
-                    .other_files
-                    .insert(name.to_owned(), Vec::new());
-            }
-        }
-        candidates.push(candidate);
-    }
-    if candidates.len() > MAX_FOLDERS {
-        return Err(rejected(ArchiveError::TooManyFiles));
-    }
-    let wanted: Vec<&Member> = requested.iter().map(|(member, ..)| *member).collect();
-    let contents = archive.read(&wanted, MAX_FILE_BYTES).map_err(rejected)?;
-    for ((_, index, name), bytes) in requested.into_iter().zip(contents) {
-        let files = &mut candidates[index].files;
-        match handed_out.task_file(name) {
-            Some(TaskFile { name, .. }) if bytes.len() as u64 > MAX_FILE_BYTES => {
-                files
-                    .task_files
-                    .insert(name, Err(TaskFileError::TooLong(name)));
-            }
-            Some(TaskFile { name, .. }) => _ = files.task_files.insert(name, Ok(bytes)),
-            None => _ = files.other_files.insert(name.to_owned(), bytes),
-        }
-    }
-    let names = members.iter().map(|member| {
-        let (top, _) = member.path.split_once('/').unwrap_or((&member.path, ""));
-        top.to_owned()
-    });
-    let names: BTreeSet<String> = names.collect();
-    Ok((candidates, names.into_iter().collect()))
 }
 
 /// Returns whether this is the name of an archive, even if its kind is not supported.

@@ -12,7 +12,7 @@ use zip::{CompressionMethod, ZipWriter};
 
 use super::*;
 use crate::handed_out::RAYS;
-use crate::submission::Submission;
+use crate::submission::{Submission, SubmissionError, TaskFileError};
 
 type Files<'a> = &'a [(&'a str, &'a [u8])];
 

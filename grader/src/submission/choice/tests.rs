@@ -1,0 +1,132 @@
+//! Tests of the choice, with listings made by hand and at random.
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::handed_out::RAYS;
+
+/// Returns a folder with these task files, each given by its number and its text. An empty text
+/// stands for the starter's.
+fn candidate(folder: &str, files: &[(usize, &str)]) -> Candidate {
+    let mut candidate = Candidate {
+        folder: folder.to_owned(),
+        ..Candidate::default()
+    };
+    for (index, text) in files {
+        let file = RAYS.files[*index];
+        let text = if text.is_empty() { file.starter } else { text };
+        let bytes = Ok(text.as_bytes().to_vec());
+        candidate.files.task_files.insert(file.name, bytes);
+    }
+    candidate
+}
+
+fn all(text: &str) -> Vec<(usize, &str)> {
+    (0..RAYS.files.len()).map(|index| (index, text)).collect()
+}
+
+/// Returns the chosen folder and the notes, or the folders that could be meant.
+fn choice(candidates: Vec<Candidate>) -> Result<(String, Vec<String>), Vec<String>> {
+    match choose(candidates, &RAYS) {
+        Ok(choice) => Ok(choice
+            .map(|c| (c.chosen.folder, c.notes))
+            .unwrap_or_default()),
+        Err(AmbiguousSource(folders)) => Err(folders),
+    }
+}
+
+#[test]
+fn a_stray_copy_is_ignored_with_a_note() {
+    let found = choice(vec![
+        candidate("", &[(4, "old")]),
+        candidate("student/src", &all("new")),
+    ]);
+    let note = "bvh.rs differs from student/src/bvh.rs, and is ignored";
+    assert_eq!(found, Ok(("student/src".to_owned(), vec![note.to_owned()])));
+}
+
+#[test]
+fn files_as_handed_out_count_as_absent() {
+    let found = choice(vec![
+        candidate("", &all("")),
+        candidate("my/deep/solution", &[(0, "new"), (1, ""), (2, "new")]),
+    ]);
+    assert_eq!(found, Ok(("my/deep/solution".to_owned(), vec![])));
+}
+
+#[test]
+fn equal_copies_are_no_choice_and_the_assignments_folder_is_preferred() {
+    let found = choice(vec![
+        candidate("backup", &all("new")),
+        candidate("a/student/src", &all("new")),
+        candidate("student/src", &all("new")),
+    ]);
+    assert_eq!(found, Ok(("student/src".to_owned(), vec![])));
+}
+
+#[test]
+fn two_complete_sets_that_differ_are_ambiguous() {
+    let found = choice(vec![
+        candidate("src", &all("new")),
+        candidate("old", &all("old")),
+    ]);
+    assert_eq!(found, Err(vec!["src".to_owned(), "old".to_owned()]));
+}
+
+#[test]
+fn a_file_that_only_the_smaller_folder_has_is_ambiguous() {
+    let found = choice(vec![
+        candidate("src", &[(0, "a"), (1, "b"), (2, "")]),
+        candidate("", &[(2, "c")]),
+    ]);
+    assert_eq!(found, Err(vec!["src".to_owned(), String::new()]));
+}
+
+#[test]
+fn a_single_numbered_copy_counts() {
+    let names = ["bvh (1).rs", "camera.rs", "camera (2).rs", "sphere (x).rs"];
+    let found = task_files(&names, &RAYS).unwrap();
+    let expected = [("bvh.rs", "bvh (1).rs"), ("camera.rs", "camera.rs")];
+    assert_eq!(found, expected.into());
+    assert!(task_files(&["bvh (1).rs", "bvh (2).rs"], &RAYS).is_err());
+}
+
+prop_compose! {
+    fn any_candidates()(folders in prop::collection::btree_map(
+        "(|src|student/src|[a-c](/[a-c]){0,2})",
+        prop::collection::btree_map(0usize..5, "(|x|y)", 1..=5),
+        0..5,
+    )) -> Vec<(String, Vec<(usize, String)>)> {
+        folders.into_iter().map(|(folder, files)| (folder, files.into_iter().collect())).collect()
+    }
+}
+
+fn built(folders: &[(String, Vec<(usize, String)>)]) -> Vec<Candidate> {
+    let one = |(folder, files): &(String, Vec<(usize, String)>)| {
+        let files: Vec<_> = files.iter().map(|(i, text)| (*i, text.as_str())).collect();
+        candidate(folder, &files)
+    };
+    folders.iter().map(one).collect()
+}
+
+proptest! {
+    #[test]
+    fn the_order_of_the_listing_does_not_matter(folders in any_candidates(), from in 0usize..5) {
+        let mut turned = folders.clone();
+        turned.rotate_left(from.min(folders.len()));
+        prop_assert_eq!(choice(built(&folders)), choice(built(&turned)));
+    }
+
+    #[test]
+    fn no_written_file_is_lost_silently(folders in any_candidates()) {
+        let Ok(Some(choice)) = choose(built(&folders), &RAYS) else { return Ok(()) };
+        for other in built(&folders) {
+            for (name, text) in other.written(&RAYS) {
+                let is_used = choice.chosen.files.task_files.get(name) == Some(text);
+                let path = format!("{} differs", other.path_of(name));
+                let is_noted = choice.notes.iter().any(|note| note.starts_with(&path));
+                prop_assert!(is_used || is_noted, "{}", path);
+            }
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! The reasons why a submission, or one of its files, cannot be graded.
+
+use std::path::{Path, PathBuf};
+
+use super::archive::ArchiveError;
+use super::choice::AmbiguousSource;
+use super::display_name;
+use crate::handed_out::HandedOut;
+
+/// The maximum number of names in a message about a submission without task files.
+const MAX_NAMES: usize = 10;
+
+/// Reasons why a task file cannot be graded. The tasks of such a file score nothing; the other
+/// files are graded.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TaskFileError {
+    /// The file does not exist.
+    #[error("{0} is missing")]
+    Missing(&'static str),
+    /// The path is a folder, a link or a device.
+    #[error("{0} is not a regular file")]
+    NotRegular(&'static str),
+    /// The file is longer than any reasonable solution.
+    #[error("{0} is longer than 1 MiB")]
+    TooLong(&'static str),
+    /// The file is not valid UTF-8.
+    #[error("{name} is not UTF-8 text: byte {byte} is invalid")]
+    NotText {
+        /// The name of the task file.
+        name: &'static str,
+        /// The position of the first invalid byte, counted from 1.
+        byte: usize,
+    },
+    /// The system cannot read the file.
+    #[error("cannot read {name}: {why}")]
+    Io {
+        /// The name of the task file.
+        name: &'static str,
+        /// The system's message.
+        why: String,
+    },
+}
+
+/// Reasons why a path has no submission to grade. These are usage errors.
+#[derive(Debug, thiserror::Error)]
+pub enum SubmissionError {
+    /// The path does not exist.
+    #[error("there is no {0}: name the folder with the task files, such as `student`")]
+    NotFound(PathBuf),
+    /// The path is a device, a pipe or a socket.
+    #[error("{0} is neither a folder nor a file: name the folder with the task files")]
+    NotFileOrFolder(PathBuf),
+    /// The folder or archive has none of the task files.
+    #[error("{} has none of {files} in any of its folders; it has {}", path.display(), listed(found))]
+    NoTaskFiles {
+        /// The path of the folder or archive.
+        path: PathBuf,
+        /// The names of the task files.
+        files: String,
+        /// The names of the files and folders in it.
+        found: Vec<String>,
+    },
+    /// One of the files or folders to read is a link.
+    #[error(
+        "{path}: {link} is a link, and links are not followed: replace it with the actual file or folder"
+    )]
+    Link {
+        /// The path of the submission's folder.
+        path: PathBuf,
+        /// The path of the link itself, relative to the submission's folder.
+        link: String,
+    },
+    /// The system cannot read the folder.
+    #[error("cannot read {path}: {why}")]
+    Io {
+        /// The path of the folder.
+        path: PathBuf,
+        /// The system's message.
+        why: String,
+    },
+    /// Several copies of the task files differ, and each could be the one that is meant.
+    #[error(
+        "{path} has task files that differ, in {}: keep only the ones that count",
+        places(copies)
+    )]
+    Ambiguous {
+        /// The path of the folder or archive.
+        path: PathBuf,
+        /// Two of the folders or files. The empty path is the top level.
+        copies: Vec<String>,
+    },
+    /// The folder has more files, or folders inside each other, than are searched.
+    #[error("{0} has too many files and folders: hand in the task files without the rest")]
+    TooManyFiles(PathBuf),
+    /// The path is a file, but not an archive that can be read.
+    #[error("{path}: {why}")]
+    Archive {
+        /// The path of the file.
+        path: PathBuf,
+        /// The reason why the archive is rejected.
+        why: ArchiveError,
+    },
+}
+
+/// Returns the error for a folder or archive without task files, given the names in it.
+pub(super) fn no_task_files(
+    path: &Path,
+    names: &[String],
+    handed_out: &HandedOut,
+) -> SubmissionError {
+    SubmissionError::NoTaskFiles {
+        path: path.to_owned(),
+        files: handed_out.file_list(),
+        found: names.to_vec(),
+    }
+}
+
+/// Lists the first few of these names for a message.
+pub fn listed(names: &[String]) -> String {
+    let some = names.iter().take(MAX_NAMES).map(|name| display_name(name));
+    let some = some.collect::<Vec<_>>().join(", ");
+    match names.len() {
+        0 => "no files".to_owned(),
+        count if count > MAX_NAMES => format!("{some} and {} more", count - MAX_NAMES),
+        _ => some,
+    }
+}
+
+/// Returns the error for copies of which each could be meant.
+pub(super) fn ambiguous(path: &Path, AmbiguousSource(copies): AmbiguousSource) -> SubmissionError {
+    SubmissionError::Ambiguous {
+        path: path.to_owned(),
+        copies: copies.iter().map(|copy| display_name(copy)).collect(),
+    }
+}
+
+/// Lists the folders and files of [`SubmissionError::Ambiguous`] for a message.
+pub fn places(paths: &[String]) -> String {
+    let name = |path: &String| match path.as_str() {
+        "" => "its top level".to_owned(),
+        path => path.to_owned(),
+    };
+    paths.iter().map(name).collect::<Vec<_>>().join(" and ")
+}

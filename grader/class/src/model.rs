@@ -68,6 +68,35 @@ impl ClassRow {
         }
     }
 
+    /// Returns a sentence about what the score counts towards the grade, or `None` if it counts as
+    /// it is.
+    pub fn counted_text(&self) -> Option<String> {
+        if let Some(why) = &self.unclear_time {
+            return Some(format!("No points count yet: {why}."));
+        }
+        let (counted, score) = (self.counted?, self.result.score()?);
+        let CountedPoints {
+            points,
+            max_points,
+            late_days,
+            is_closed,
+        } = counted;
+        let when = match late_days {
+            0 => "handed in on time",
+            1 => "handed in 1 day late",
+            _ => &format!("handed in {late_days} days late"),
+        };
+        let end = if is_closed {
+            ", after the last day"
+        } else {
+            ""
+        };
+        let is_unchanged = (points, max_points) == (score.points, score.max_points);
+        (!is_unchanged || late_days > 0).then(|| {
+            format!("{points} of {max_points} points count towards the grade: {when}{end}.")
+        })
+    }
+
     /// Returns the status, as it is shown in tables.
     pub fn status(&self) -> &'static str {
         match &self.result.outcome {

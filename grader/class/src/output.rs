@@ -27,6 +27,9 @@ pub fn write_results(
     changes: Option<&RegradeChanges>,
 ) -> Result<(), Error> {
     let summary = ClassSummary::new(class);
+    for row in &class.rows {
+        store.write_counted(&row.result.id, row.counted_text().as_deref())?;
+    }
     store.write("class.json", &json(&summary))?;
     store.write("class.html", &page::render_page(class, &summary))?;
     store.write("grades.csv", &grades::grades_table(class).to_csv())?;

@@ -7,6 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use grader::report::atomic_write;
+use grader::report::html::with_counted;
 
 use crate::entry::Entry;
 use crate::outcome::{EntryOutcome, EntryResult, EntryState, ScoreSummary, Stamp};
@@ -149,6 +150,26 @@ impl Store {
     pub fn save_feedback(&self, id: &str, page: &str) -> Result<(), StoreError> {
         let path = self.entry_folder(id).join(FEEDBACK);
         atomic_write::write(page, &path).map_err(|source| io_error(&path, source))
+    }
+
+    /// Puts a text about what the score counts towards the grade into the entry's pages.
+    pub fn write_counted(&self, id: &str, text: Option<&str>) -> Result<(), StoreError> {
+        for name in [REPORT, FEEDBACK] {
+            let path = self.entry_folder(id).join(name);
+            match fs::read_to_string(&path) {
+                Ok(page) => {
+                    let updated = with_counted(&page, text);
+                    if updated != page {
+                        let written = atomic_write::write(&updated, &path);
+                        written.map_err(|source| io_error(&path, source))?;
+                    }
+                }
+                // A shard's older results may lack a page.
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+                Err(error) => return Err(io_error(&path, error)),
+            }
+        }
+        Ok(())
     }
 
     /// Removes the stamp of an entry, before its other files change.

@@ -78,6 +78,14 @@ fn late_days_cost_what_the_policy_says() {
         "{grades}"
     );
 
+    let page = |id: &str, name: &str| class.read(&format!("students/{id}/{name}.html"));
+    for name in ["feedback", "report"] {
+        let late = "45 of 50 points count towards the grade: handed in 1 day late.";
+        assert!(page("submission_1", name).contains(late), "{name}");
+        let early = "50 of 50 points count towards the grade: handed in on time.";
+        assert!(page("submission_2", name).contains(early), "{name}");
+    }
+
     // A run that is resumed without the policy prints a warning.
     let again = class.grade(&exam, &[]);
     successful_stdout(&again);
@@ -86,6 +94,8 @@ fn late_days_cost_what_the_policy_says() {
         error.contains("the policy differs from the last run's"),
         "{error}"
     );
+    // Without a due time, the pages say nothing about the grade.
+    assert!(!page("submission_1", "feedback").contains("count towards the grade"));
 }
 
 /// All but `in_time` were handed in on the third day after the due time. A time that cannot be read

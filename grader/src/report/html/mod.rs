@@ -5,6 +5,7 @@
 //! control characters, and the content security policy allows only the page's own script and style,
 //! by their hashes.
 
+mod counted;
 mod elements;
 mod item;
 mod mask;
@@ -22,6 +23,8 @@ use crate::score::Score;
 
 use elements::plain_text;
 use judging::exam::Exam;
+
+pub use counted::with_counted;
 
 /// The id of the exam that students have.
 const PRACTICE: &str = "practice";

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::counted;
 use super::elements::{command, plain_text};
 use super::prose::prose;
 use crate::rerun_command::RerunCommand;
@@ -21,6 +22,7 @@ pub(super) fn header(score: &Score) -> Markup {
                     ", isolation: " (score.isolation.name())
                 }
             }
+            (counted::marks())
             @if !score.complete {
                 p .unfinished {
                     strong { "Not finished." }

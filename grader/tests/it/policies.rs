@@ -25,6 +25,7 @@ fn rejects_invalid_policies_with_line_and_remedy() {
         "[late]\nfree_days = -1",
         "[late]\nmost_percent = 120",
         "[late]\ndue = 2026-11-20",
+        "[late]\ntimezone = 'Berlin'",
         "[late\n",
         "[visibility.items]\nbuild = 'secret'",
         "[visibility.items]\n'sphere.inside_out' = 'hidden'",

@@ -1,5 +1,5 @@
-//! What a score counts towards the grade. A course's policy can change after grading, so this is put
-//! into a finished page, at a mark that the page has for it.
+//! Puts the points that a score counts towards the grade into a page. A course's policy can change
+//! after grading, so they are put into a finished page, at a mark that the page has for them.
 
 use maud::{Markup, PreEscaped, html};
 

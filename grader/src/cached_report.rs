@@ -115,7 +115,7 @@ fn cacheable_options(options: &GradeOptions) -> Option<String> {
         handed_out,
         submission,
         exam,
-        task,
+        tasks,
         policy,
         gradescope_metadata,
         dependents,
@@ -125,7 +125,7 @@ fn cacheable_options(options: &GradeOptions) -> Option<String> {
         out,
         formats,
     } = options;
-    let is_whole_exam = task.is_none();
+    let is_whole_exam = tasks.is_all();
     let is_default_policy = policy.is_none() && gradescope_metadata.is_none();
     let is_default_output = out.is_none() && formats.is_empty();
     // Standard input can be read only once.

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::{Parser, value_parser};
-use judging::assignment::{Task, TaskInfo};
 
 use crate::exam_source::ExamSource;
 use crate::format::{FORMATS, OutputSpec};
@@ -14,6 +13,7 @@ use crate::question_ref::QuestionRef;
 use crate::report::text::HintDetail;
 use crate::sandbox::Isolation;
 use crate::select_isolation::IsolationRequest;
+use crate::task_selection::TaskSelection;
 use crate::terminal::PrintOptions;
 
 /// The heading of the options that students do not need.
@@ -54,12 +54,13 @@ pub struct Arguments {
     /// student/src/); default: student
     pub submission: Option<PathBuf>,
 
-    /// Grade one task only, and write no score
-    #[arg(long, value_name = "TASK", value_parser = parse_task)]
-    pub task: Option<Task>,
+    /// Grade one task only, such as sphere, or all tasks of a file, such as bvh; writes no score
+    #[arg(long, value_name = "TASK", value_parser = parse_tasks)]
+    pub task: Option<TaskSelection>,
 
-    /// Run one question again, such as sphere.from_inside#7, and show the whole answer
-    #[arg(long, value_name = "ITEM#N", conflicts_with_all = ["task", "require", "out"])]
+    /// Run one question again, such as sphere.from_inside#7, and show the whole answer; without a
+    /// number, the first wrong question of the item
+    #[arg(long, value_name = "ITEM[#N]", conflicts_with_all = ["task", "require", "out"])]
     pub replay: Option<QuestionRef>,
 
     /// If a known mistake is recognised, show its full hint instead of a nudge
@@ -157,7 +158,7 @@ impl Arguments {
             handed_out: &RAYS,
             submission: self.submission,
             exam: ExamSource::from_option(self.exam),
-            task: self.task,
+            tasks: self.task.unwrap_or_default(),
             policy: self.policy,
             gradescope_metadata: self.gradescope_metadata,
             dependents: Dependents::new(self.no_reference),
@@ -200,8 +201,6 @@ fn format_help() -> String {
     )
 }
 
-fn parse_task(text: &str) -> Result<Task, String> {
-    let assignment = RAYS.assignment;
-    let task = assignment.find(text).map(TaskInfo::task);
-    task.ok_or_else(|| format!("unknown task; the tasks are {}", assignment.id_list()))
+fn parse_tasks(text: &str) -> Result<TaskSelection, String> {
+    TaskSelection::parse(text, RAYS.assignment)
 }

@@ -1,11 +1,11 @@
 //! Errors that prevent grading, and their exit codes.
 
 use std::io;
-use std::path::PathBuf;
 
 use crate::build::BuildError;
 use crate::doctor::package::PackageError;
 use crate::exam_source::ExamSourceError;
+use crate::files::PathError;
 use crate::format::outputs::OutputError;
 use crate::policy::{PolicyError, SubmissionTimeError};
 use crate::select_isolation::IsolationError;
@@ -53,14 +53,9 @@ pub enum Error {
     /// The required isolation is not available.
     #[error(transparent)]
     Isolation(#[from] IsolationError),
-    /// A report cannot be written.
-    #[error("cannot write {path}: {source}")]
-    Report {
-        /// Path of the report.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    /// A file of the report cannot be written.
+    #[error(transparent)]
+    File(#[from] PathError),
     /// A probe cannot be built or started.
     #[error("cannot run the submission's program: {0}")]
     Probe(#[from] io::Error),
@@ -80,9 +75,9 @@ impl Error {
             Error::Workspace(_)
             | Error::SubmissionTime(_)
             | Error::Build(_)
-            | Error::Output(OutputError::Io { .. })
+            | Error::Output(OutputError::File(_))
             | Error::Isolation(_)
-            | Error::Report { .. }
+            | Error::File(_)
             | Error::Probe(_) => 3,
         }
     }

@@ -1,13 +1,14 @@
 //! Reads exams: the practice exam of an assignment, which is embedded in this program, a file, or standard input.
 
 use std::borrow::Cow;
-use std::fs;
+use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use judging::content_hash::file_hash;
 use judging::exam_file::{self, ExamError, ExamFile};
 
+use crate::files::{AtPath, PathError};
 use crate::handed_out::HandedOut;
 
 /// Maximum size of an exam file, in bytes. The committed exams have about 3,000,000.
@@ -15,6 +16,9 @@ const MAX_FILE_BYTES: u64 = 64 << 20;
 
 /// The name of the practice exam's file, for error messages.
 const PRACTICE_FILE: &str = "practice.json";
+
+/// The action that is impossible if the file cannot be read, for error messages.
+const ACTION: &str = "read the exam";
 
 /// The source that an exam is read from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -32,13 +36,8 @@ pub enum ExamSource {
 #[derive(Debug, thiserror::Error)]
 pub enum ExamSourceError {
     /// The file cannot be read.
-    #[error("cannot read the exam {}: {source}", path.display())]
-    Io {
-        /// Path of the exam file.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
     /// The file is larger than the limit.
     #[error("the exam {} is larger than 64 MiB", .0.display())]
     TooLong(PathBuf),
@@ -83,28 +82,18 @@ impl ExamSource {
         Ok(match self {
             ExamSource::Practice => Cow::Borrowed(handed_out.practice_exam.as_bytes()),
             ExamSource::StandardInput => Cow::Owned(read(Path::new("-"), io::stdin())?),
-            ExamSource::File(path) => Cow::Owned(open(path)?),
+            ExamSource::File(path) => {
+                let file = File::open(path).at(ACTION, path)?;
+                Cow::Owned(read(path, file)?)
+            }
         })
     }
-}
-
-fn open(path: &Path) -> Result<Vec<u8>, ExamSourceError> {
-    let file = fs::File::open(path).map_err(|source| ExamSourceError::Io {
-        path: path.to_owned(),
-        source,
-    })?;
-    read(path, file)
 }
 
 fn read(path: &Path, input: impl Read) -> Result<Vec<u8>, ExamSourceError> {
     let mut bytes = Vec::new();
     let limited = &mut input.take(MAX_FILE_BYTES + 1);
-    limited
-        .read_to_end(&mut bytes)
-        .map_err(|source| ExamSourceError::Io {
-            path: path.to_owned(),
-            source,
-        })?;
+    limited.read_to_end(&mut bytes).at(ACTION, path)?;
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(ExamSourceError::TooLong(path.to_owned()));
     }

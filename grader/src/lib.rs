@@ -14,9 +14,9 @@
 //! | exam runs and reports | [`run_exam`], [`verdict`], [`report_answers`], [`report`], [`mod@format`] |
 //! | steps of an exam run | [`select_isolation`], [`build`], [`probe`]; [`drawing`] of judged answers, in [`svg`] |
 //! | results | [`score`], [`rerun_command`], [`stage_times`] |
-//! | inputs | [`policy`], [`submission`], [`handed_out`], [`exam_source`], [`question_ref`] |
+//! | inputs | [`policy`], [`submission`], [`handed_out`], [`exam_source`], [`question_ref`], [`task_selection`] |
 //! | a separate package | [`judging`]: exams, their keys, and the comparison of answers with keys |
-//! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`system`], [`zipfile`] |
+//! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`zipfile`]; [`files`], [`system`], [`nearest_name`] |
 
 pub mod build;
 pub mod cache_lookup;
@@ -28,9 +28,11 @@ pub mod doctor;
 pub mod drawing;
 pub mod error;
 pub mod exam_source;
+pub mod files;
 pub mod format;
 pub mod grade;
 pub mod handed_out;
+pub mod nearest_name;
 pub mod options;
 pub mod policy;
 pub mod probe;
@@ -48,6 +50,7 @@ pub mod stage_times;
 pub mod submission;
 pub mod svg;
 pub mod system;
+pub mod task_selection;
 pub mod terminal;
 pub mod verdict;
 pub mod watch;

@@ -11,13 +11,14 @@ use grader::sandbox;
 use grader::score;
 use grader::terminal::{check_and_print_package, diagnose_and_print, grade_and_print};
 use grader::watch::watch;
+use judging::sanitize::sanitize;
 
 fn main() -> ExitCode {
     if let Some(code) = sandbox::run_as_launcher() {
         return code;
     }
     run(Arguments::parse().resolve()).unwrap_or_else(|error| {
-        anstream::eprintln!("error: {error}");
+        anstream::eprintln!("error: {}", sanitize(&error.to_string(), usize::MAX));
         ExitCode::from(error.exit_code())
     })
 }

@@ -2,14 +2,13 @@
 
 use std::path::PathBuf;
 
-use judging::assignment::Task;
-
 use crate::exam_source::ExamSource;
 use crate::format::OutputSpec;
 use crate::handed_out::{HandedOut, RAYS};
 use crate::probe::Budget;
 use crate::report::text::HintDetail;
 use crate::select_isolation::IsolationRequest;
+use crate::task_selection::TaskSelection;
 
 /// Options for grading a submission. The default is a student's own work on the practice exam.
 ///
@@ -23,8 +22,8 @@ pub struct GradeOptions {
     pub submission: Option<PathBuf>,
     /// The exam that the submission is graded with.
     pub exam: ExamSource,
-    /// The only task to grade, or `None` for all of them.
-    pub task: Option<Task>,
+    /// The tasks to grade.
+    pub tasks: TaskSelection,
     /// The course's policy file; `None` is the default policy.
     pub policy: Option<PathBuf>,
     /// Gradescope's `submission_metadata.json`, which has the submission time.
@@ -49,7 +48,7 @@ impl Default for GradeOptions {
             handed_out: &RAYS,
             submission: None,
             exam: ExamSource::default(),
-            task: None,
+            tasks: TaskSelection::All,
             policy: None,
             gradescope_metadata: None,
             dependents: Dependents::default(),

@@ -1,17 +1,20 @@
-//! Runs a single question again, and shows the whole answer and what the code prints.
+//! Runs a single question again, and shows the whole answer, whether it is right, and what the code
+//! prints.
 
 use std::fmt::Write;
 
 use judging::describe;
-use judging::exam::{Exam, ExamQuestion};
+use judging::exam::{Exam, ExamQuestion, Item, question_subset};
+use judging::judge::{element_error, judge};
 use judging::sanitize::sanitize;
 use protocol::{Answer, ElementOutcome, Question};
 
 use crate::build::Builder;
 use crate::error::Error;
 use crate::grade::collect;
+use crate::nearest_name::suggestion;
 use crate::options::GradeOptions;
-use crate::probe::{Fault, subset};
+use crate::probe::{Budget, Fault, Launcher, culprit};
 use crate::question_ref::QuestionRef;
 use crate::select_isolation::with_requested_level;
 use crate::verdict::file_message;
@@ -24,7 +27,9 @@ const MAX_PRINTED_CHARS: usize = 20_000;
 pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String, Error> {
     let workspace = Workspace::find()?;
     let exam = options.exam.load(options.handed_out)?.exam;
-    let (question, wanted) = find_question(&exam, reference)?;
+    let item = find_item(&exam, &reference.item)?;
+    let given = reference.number.map(|number| find_element(item, number));
+    let given = given.transpose()?;
     let submission = collect(options, &workspace)?;
     let build = with_requested_level(Builder::prepare(&workspace)?, options.isolation)?
         .build(&submission)?;
@@ -36,49 +41,169 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     let Some(program) = &build.probe else {
         return Ok(text);
     };
-    let budget = options.budget;
-    let mut probe = build.launcher(program).start(budget)?;
-    let answered = probe.ask([&question], budget);
-    let got = answer_text(answered);
-    let printed = sanitize(probe.finish().trim_end(), MAX_PRINTED_CHARS);
-    let printed = match printed.as_str() {
-        "" => "(nothing)".to_owned(),
-        _ => format!("\n{printed}"),
+    let launcher = build.launcher(program);
+    let exam_run = ExamRun::new(&launcher, item, options.budget)?;
+    let position = match given {
+        Some(position) => Some(position),
+        None => exam_run.first_wrong(&launcher, item)?,
     };
-    let asked = describe::element(&question, 0);
-    write!(
-        text,
-        "asked    {asked}\ngot      {got}\nwanted   {wanted}\nprinted  {printed}\n"
-    )
-    .expect("writing to a string cannot fail");
+    match position {
+        Some(position) => {
+            let replayed = Replayed::run(&launcher, item, position, options.budget)?;
+            text.push_str(&replayed.report(item, &exam_run));
+        }
+        None => text.push_str(&format!(
+            "every answer to {} is right ({} of {})\n",
+            item.id,
+            item.count(),
+            item.count()
+        )),
+    }
     Ok(text)
 }
 
-/// Returns a question that contains only the referenced element, and the expected answer as text.
-fn find_question(exam: &Exam, reference: &QuestionRef) -> Result<(Question, String), Error> {
-    let item = exam.items.iter().find(|item| item.id == reference.item);
-    let item = item.ok_or_else(|| {
-        let ids = exam.items.iter().map(|item| item.id.as_str());
-        let task = reference.item.split('.').next().unwrap_or_default();
-        let ids: Vec<&str> = ids.filter(|id| id.starts_with(task)).collect();
+fn find_item<'a>(exam: &'a Exam, id: &str) -> Result<&'a Item, Error> {
+    let item = exam.items.iter().find(|item| item.id == id);
+    item.ok_or_else(|| {
+        let ids = || exam.items.iter().map(|item| item.id.as_str());
+        let task = id.split('.').next().unwrap_or_default();
+        let of_task: Vec<&str> = ids()
+            .filter(|id| id.split_once('.').is_some_and(|(known, _)| known == task))
+            .collect();
+        let (whose, known) = if of_task.is_empty() {
+            ("the items", ids().collect())
+        } else {
+            ("the items of this task", of_task)
+        };
         Error::Replay(format!(
-            "the exam has no item `{}`; the items of this task are: {}",
-            reference.item,
-            ids.join(", ")
+            "the exam has no item `{id}`{}; {whose} are: {}",
+            suggestion(id, ids()),
+            known.join(", ")
         ))
-    })?;
-    match item.element(reference.number) {
-        Some((question, element)) => {
-            let question = &item.questions[question];
-            let alone = subset(&question.question, element..element + 1);
-            Ok((alone, expected_text(question, element)))
-        }
-        None => Err(Error::Replay(format!(
-            "{} has {} questions, so there is no number {}",
-            reference.item,
+    })
+}
+
+/// Returns the indices of a question and of an element in it.
+fn find_element(item: &Item, number: usize) -> Result<(usize, usize), Error> {
+    item.element(number).ok_or_else(|| {
+        Error::Replay(format!(
+            "{} has {} questions, so there is no number {number}",
+            item.id,
             item.count(),
-            reference.number
-        ))),
+        ))
+    })
+}
+
+/// The answers to all questions of an item, which are sent together as in an exam.
+struct ExamRun(Result<Vec<Answer>, Fault>);
+
+impl ExamRun {
+    fn new(launcher: &Launcher, item: &Item, budget: Budget) -> Result<Self, Error> {
+        let questions = item.questions.iter().map(|question| &question.question);
+        Ok(ExamRun(launcher.start(budget)?.ask(questions, budget)))
+    }
+
+    /// Returns the indices of the first question that is answered wrongly and of the element in it,
+    /// or of those that crash or hang the program.
+    fn first_wrong(
+        &self,
+        launcher: &Launcher,
+        item: &Item,
+    ) -> Result<Option<(usize, usize)>, Error> {
+        let Ok(answers) = &self.0 else {
+            return Ok(Some(culprit(launcher, item)?.unwrap_or((0, 0))));
+        };
+        let judged = item.questions.iter().zip(answers).enumerate();
+        let mut failures = judged.filter_map(|(index, (question, answer))| {
+            Some((index, judge(question, answer).failure?.element))
+        });
+        Ok(failures.next())
+    }
+
+    /// Returns the error of an element, or `None` if it is right.
+    fn error(&self, item: &Item, (question, element): (usize, usize)) -> Option<String> {
+        match &self.0 {
+            Ok(answers) => {
+                element_error(&item.questions[question], answers.get(question)?, element)
+            }
+            Err(fault) => Some(fault.to_string()),
+        }
+    }
+}
+
+/// One question that was run again by itself.
+struct Replayed {
+    position: (usize, usize),
+    answer: Result<Answer, Fault>,
+    printed: String,
+}
+
+impl Replayed {
+    fn run(
+        launcher: &Launcher,
+        item: &Item,
+        (question, element): (usize, usize),
+        budget: Budget,
+    ) -> Result<Self, Error> {
+        let question_alone =
+            question_subset(&item.questions[question].question, element..element + 1);
+        let mut probe = launcher.start(budget)?;
+        let answers = probe.ask([&question_alone], budget);
+        Ok(Replayed {
+            position: (question, element),
+            answer: answers.and_then(|answers| {
+                let answer = answers.into_iter().next();
+                answer.ok_or_else(|| Fault::Protocol("no answer".to_owned()))
+            }),
+            printed: sanitize(probe.finish().trim_end(), MAX_PRINTED_CHARS),
+        })
+    }
+
+    fn report(&self, item: &Item, exam_run: &ExamRun) -> String {
+        let (question, element) = self.position;
+        let exam_question = &item.questions[question];
+        let printed = match self.printed.as_str() {
+            "" => "(nothing)".to_owned(),
+            printed => format!("\n{printed}"),
+        };
+        let rows = [
+            ("asked", describe::element(&exam_question.question, element)),
+            ("got", self.got()),
+            ("wanted", expected_text(exam_question, element)),
+            ("verdict", self.verdict(item, exam_run)),
+            ("printed", printed),
+        ];
+        let number = item.number(question, element);
+        let rows = rows.map(|(label, text)| format!("{label:<8} {text}\n"));
+        format!("{}#{number}\n{}", item.id, rows.concat())
+    }
+
+    fn got(&self) -> String {
+        match &self.answer {
+            Ok(Answer::Picture(ElementOutcome::Value(pixels))) => {
+                format!("{} pixels", pixels.len())
+            }
+            Ok(answer) => describe::answer::got(answer, 0),
+            Err(fault) => fault.to_string(),
+        }
+    }
+
+    /// Returns whether the answer is right, or what is wrong with it.
+    fn verdict(&self, item: &Item, exam_run: &ExamRun) -> String {
+        let (question, element) = self.position;
+        let single = item.questions[question].single(element);
+        let alone = match &self.answer {
+            Ok(answer) => element_error(&single, answer, 0),
+            Err(_) => Some("there is no answer".to_owned()),
+        };
+        match (alone, exam_run.error(item, self.position)) {
+            (Some(error), _) => format!("wrong: {error}"),
+            (None, None) => "right".to_owned(),
+            (None, Some(error)) => format!(
+                "right when asked alone, but not together with the item's other questions: \
+                 {error}. Does your code keep a value from one call to the next?"
+            ),
+        }
     }
 }
 
@@ -94,17 +219,5 @@ fn expected_text(question: &ExamQuestion, element: usize) -> String {
         | Question::Traverse { .. }
         | Question::BuildAndTraverse { .. }
         | Question::Done => describe::answer::wanted(question, element).join(", or\n         "),
-    }
-}
-
-fn answer_text(answered: Result<Vec<Answer>, Fault>) -> String {
-    let answer = match answered {
-        Ok(answers) => answers.into_iter().next(),
-        Err(fault) => return fault.to_string(),
-    };
-    match answer {
-        Some(Answer::Picture(ElementOutcome::Value(pixels))) => format!("{} pixels", pixels.len()),
-        Some(answer) => describe::answer::got(&answer, 0),
-        None => "no answer".to_owned(),
     }
 }

@@ -77,7 +77,7 @@ impl ReportFiles {
     /// Writes the score file if it is due.
     pub fn write_score(&mut self, score: &Score) -> Result<(), Error> {
         if score.complete || is_due(self.score_written_at, SCORE_INTERVAL) {
-            write(&self.score, &json::to_string(score))?;
+            atomic_write::write(json::to_string(score), &self.score)?;
             self.score_written_at = Some(Instant::now());
         }
         Ok(())
@@ -91,20 +91,20 @@ impl ReportFiles {
         answers: &ReportAnswers,
     ) -> Result<(), Error> {
         if score.complete || is_due(self.page_written_at, PAGE_INTERVAL) {
-            write(&self.page, &html::page(score, exam, answers, self.reload))?;
+            let page = html::page(score, exam, answers, self.reload);
+            atomic_write::write(&page, &self.page)?;
             self.page_written_at = Some(Instant::now());
         }
         Ok(())
+    }
+
+    /// Puts sentences about the points that count into the finished page. The page is rendered
+    /// before that, because a policy never changes a score.
+    pub fn write_counted(&self, texts: &[String]) -> Result<(), Error> {
+        Ok(html::write_counted(&self.page, texts)?)
     }
 }
 
 fn is_due(written_at: Option<Instant>, interval: Duration) -> bool {
     written_at.is_none_or(|at| at.elapsed() >= interval)
-}
-
-fn write(path: &Path, text: &str) -> Result<(), Error> {
-    atomic_write::write(text, path).map_err(|source| Error::Report {
-        path: path.to_owned(),
-        source,
-    })
 }

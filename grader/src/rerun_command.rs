@@ -22,6 +22,14 @@ impl RerunCommand {
         self.command(&format!("--task {task}"))
     }
 
+    /// Returns the command that shows the tree or the shapes of one question in the viewer, for one's
+    /// own work and the practice exam. Questions about the camera have neither.
+    pub fn view(&self, item: &str, number: usize) -> Option<String> {
+        let is_own = self.submission.is_none() && self.exam.is_none();
+        let has_scene = !item.starts_with("camera.");
+        (is_own && has_scene).then(|| format!("cargo view --item {item}#{number}"))
+    }
+
     fn command(&self, what: &str) -> String {
         let submission = self.submission.iter().map(|path| shell_word(path));
         let exam = self
@@ -60,6 +68,9 @@ mod tests {
             own.replay("sphere.uv", 7),
             "cargo grade --replay sphere.uv#7"
         );
+        let view = own.view("sphere.uv", 7);
+        assert_eq!(view.as_deref(), Some("cargo view --item sphere.uv#7"));
+        assert_eq!(own.view("camera.corners", 1), None);
         let others = RerunCommand {
             submission: Some("handed in/O'Hara".into()),
             exam: Some("final.json".into()),
@@ -68,5 +79,6 @@ mod tests {
             others.task("sphere"),
             r"cargo grade 'handed in/O'\''Hara' --exam final.json --task sphere"
         );
+        assert_eq!(others.view("sphere.uv", 7), None);
     }
 }

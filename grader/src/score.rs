@@ -72,7 +72,7 @@ pub struct TaskScore {
 }
 
 /// The score of one item.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ItemScore {
     /// Id of the item, such as `sphere.from_inside`.
@@ -291,6 +291,11 @@ impl ItemScore {
             Some(evidence) => command.replay(&self.id, evidence.number),
             None => command.task(self.id.split('.').next().unwrap_or_default()),
         }
+    }
+
+    /// Returns the command that shows the question of the evidence in the viewer, if there is one.
+    pub fn view_command(&self, command: &RerunCommand) -> Option<String> {
+        command.view(&self.id, self.evidence.as_ref()?.number)
     }
 }
 

@@ -4,6 +4,8 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
+use judging::sanitize::{sanitize, sanitize_line};
+
 use crate::cache_lookup::find_cached_report;
 use crate::cached_report;
 use crate::desktop;
@@ -94,6 +96,7 @@ pub fn check_and_print_package(path: &Path, handed_out: &HandedOut) -> Result<Ex
         return Ok(ExitCode::SUCCESS);
     }
     for problem in &problems {
+        let problem = sanitize(&problem.to_string(), usize::MAX);
         anstream::println!("{}: {problem}", path.display());
     }
     Ok(ExitCode::from(2))
@@ -114,9 +117,10 @@ fn terminal_report(graded: &GradedSubmission, options: &GradeOptions) -> String 
     } else {
         &graded.student_view.visible
     };
-    let mut text = report(score, options.task, options.hints);
-    if options.policy.is_some() && options.task.is_none() {
-        text.push_str(&format!("  counts for {}\n\n", graded.student_view.counted));
+    let mut text = report(score, &options.tasks, options.hints);
+    if options.policy.is_some() && options.tasks.is_all() {
+        let counted = graded.student_view.counted.explanation();
+        text.push_str(&format!("  {counted}\n\n"));
     }
     text
 }
@@ -125,7 +129,8 @@ fn terminal_report(graded: &GradedSubmission, options: &GradeOptions) -> String 
 fn file_list(files: &ReportFiles) -> String {
     let lines = files.paths().map(relative_to_current_folder);
     lines
-        .map(|file| format!("  {}\n", file.display()))
+        .map(|file| sanitize_line(&file.to_string_lossy(), usize::MAX))
+        .map(|file| format!("  {file}\n"))
         .collect()
 }
 

@@ -124,6 +124,7 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
             score.verdict = verdict_of(fault);
             score.message =
                 "skipped, because other items of this task exceeded the time limit".to_owned();
+            score.section = item.section.clone();
         }
         ItemOutcome::Answered(judgements) => {
             score_answers(item, judgements, &mut score, handed_out)

@@ -1,12 +1,34 @@
-//! The variants of `bvh.rs` that are made for speed, with the reference's other files, so that the
-//! benchmarks can use them. All other variants are only graded: `cargo author prove` compiles them
-//! like submissions.
+//! The variants as modules, each with its given code and the reference's other files.
+//!
+//! The library has the two variants of `bvh.rs` that are made for speed, for the benchmarks. All
+//! others are compiled only for tests, so that editors and `cargo check --all-targets` report their
+//! errors, and `cargo test` runs the worked examples on them. They are graded by `cargo author
+//! prove`, which compiles them like submissions.
 
 // A variant finds these modules at the root of its crate, as a submission's file does.
 use reference::{bbox, primitive, triangle};
 
+/// Includes a variant's file and its given code, which the build script writes.
+#[cfg(not(test))]
+macro_rules! variant {
+    ($path:literal) => {
+        include!(concat!($path, ".rs"));
+        include!(concat!(env!("OUT_DIR"), "/", $path, ".rs"));
+    };
+}
+
 /// Implementations of [`reference::bvh`].
+#[cfg(not(test))]
 pub mod bvh {
-    pub mod tuned;
-    pub mod wide;
+    pub mod tuned {
+        variant!("bvh/tuned");
+    }
+    pub mod wide {
+        variant!("bvh/wide");
+    }
+}
+
+#[cfg(test)]
+pub mod all {
+    include!(concat!(env!("OUT_DIR"), "/all.rs"));
 }

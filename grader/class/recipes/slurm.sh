@@ -1,31 +1,77 @@
 #!/usr/bin/env bash
 # Grades a class on a Slurm cluster: each task of an array grades a part, and then all parts are
-# merged.
+# merged. A part that fails is graded again, on any node.
 #
-#   INPUT=export.zip OUT=/shared/graded SHARDS=16 bash slurm.sh
+#   INPUT=export.zip OUT=/shared/graded SHARDS=16 EXAM=final.json POLICY=policy.toml bash slurm.sh
 #
-# INPUT and OUT must be on a disk that all nodes share. If something fails, run the command again:
-# it grades only what is missing. OPTIONS are passed to every `cargo class`, such as "--exam
-# final.json --policy p.toml", and LISTS to the merge, such as "--roster people.csv --canvas
-# export.csv".
+# INPUT, OUT, EXAM and POLICY must be on a disk that all nodes share; only the owner needs to read
+# EXAM. If something fails in the end, run the command again: it grades only what is missing.
+#
+# CORES, MEMORY and TIME are requested for each part (default: 2 cores, 4G, 4 hours), RETRIES is the
+# number of times that a failed part is graded again (default: 2), and SBATCH has more options for
+# sbatch, such as "--partition=short --account=cs". OPTIONS are passed to every `cargo class`, such
+# as "--cpu-limit 5", and LISTS to the merge, such as "--roster people.csv --canvas export.csv".
 set -euo pipefail
 
 : "${INPUT:?must name the export or folder}" "${OUT:?must name the output folder}"
-: "${SHARDS:=8}" "${CLASS:=cargo class}" "${OPTIONS:=}" "${LISTS:=}"
-export INPUT OUT SHARDS CLASS OPTIONS LISTS
+: "${EXAM:?must name the exam: see cargo author exam}" "${POLICY:=}"
+: "${SHARDS:=8}" "${CORES:=2}" "${MEMORY:=4G}" "${TIME:=4:00:00}" "${RETRIES:=2}"
+: "${CLASS:=cargo class}" "${OPTIONS:=}" "${LISTS:=}" "${SBATCH:=}"
+: "${SCRIPT:=$(realpath "$0")}" "${TRY:=0}" "${PARTS:=1-$SHARDS}"
+export INPUT OUT EXAM POLICY SHARDS CORES MEMORY TIME RETRIES CLASS OPTIONS LISTS SBATCH SCRIPT
+policy=()
+[[ -z "$POLICY" ]] || policy=(--policy "$POLICY")
 
-# shellcheck disable=SC2086 # each of these may be several words
+# Submits an array for these parts, and a merge that starts when all of them have ended.
+submit() {
+    local array merge
+    mkdir -p "$OUT/shards" "$OUT/logs"
+    # shellcheck disable=SC2086 # SBATCH may be several words
+    array=$(STEP=shard TRY=$2 sbatch --parsable --job-name=pathtracing --array="$1" --requeue \
+        --cpus-per-task="$CORES" --mem="$MEMORY" --time="$TIME" \
+        --output="$OUT/logs/%A-%a.txt" $SBATCH "$SCRIPT")
+    # shellcheck disable=SC2086
+    merge=$(STEP=merge TRY=$2 sbatch --parsable --job-name=pathtracing-merge --kill-on-invalid-dep=yes \
+        --dependency="afterany:$array" --mem="$MEMORY" --time="$TIME" \
+        --output="$OUT/logs/%j-merge.txt" $SBATCH "$SCRIPT")
+    echo "submitted the parts $1 as job $array, and their merge as job $merge; logs are in $OUT/logs"
+}
+
+# Prints the parts that are not graded completely, separated by commas.
+unfinished() {
+    local part parts=()
+    for ((part = 1; part <= SHARDS; part++)); do
+        grep -qs '"finished": true' "$OUT/shards/$part/run.json" || parts+=("$part")
+    done
+    local IFS=,
+    echo "${parts[*]}"
+}
+
+# shellcheck disable=SC2086 # OPTIONS, LISTS and CLASS may be several words
 case "${STEP:-submit}" in
 submit)
-    export STEP=shard
-    array=$(sbatch --parsable --array="1-$SHARDS" "$0")
-    export STEP=merge
-    sbatch --parsable --dependency="afterok:$array" "$0"
+    before=$(cat "$OUT/shards/count" 2>/dev/null || true)
+    if [[ -n "$before" && "$before" != "$SHARDS" ]]; then
+        echo "error: $OUT/shards has parts of $before; set SHARDS=$before, or remove that folder" >&2
+        exit 2
+    fi
+    mkdir -p "$OUT/shards"
+    echo "$SHARDS" >"$OUT/shards/count"
+    submit "$PARTS" 0
     ;;
 shard)
-    $CLASS "$INPUT" $OPTIONS --shard "$SLURM_ARRAY_TASK_ID/$SHARDS" --out "$OUT/shards/$SLURM_ARRAY_TASK_ID"
+    part=$SLURM_ARRAY_TASK_ID
+    $CLASS "$INPUT" $OPTIONS --exam "$EXAM" "${policy[@]}" --jobs "$CORES" \
+        --shard "$part/$SHARDS" --out "$OUT/shards/$part"
     ;;
 merge)
-    $CLASS merge "$OUT"/shards/* $LISTS --out "$OUT"
+    failed=$(unfinished)
+    if [[ -n "$failed" && "$TRY" -lt "$RETRIES" ]]; then
+        echo "the parts $failed are not finished: they are graded again"
+        submit "$failed" "$((TRY + 1))"
+        exit
+    fi
+    # If a part is still unfinished, the merge says which.
+    $CLASS merge "$OUT"/shards/*/ "${policy[@]}" $LISTS --out "$OUT"
     ;;
 esac

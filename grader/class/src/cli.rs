@@ -56,6 +56,15 @@ pub struct ClassArguments {
     #[arg(long)]
     pub dry_run: bool,
 
+    /// Grade only a few submissions, and print how long the rest will take
+    #[arg(long, requires = "out", conflicts_with_all = ["dry_run", "regrade", "shard"])]
+    pub estimate: bool,
+
+    /// Write the students' own lines into this new folder, without names, for a similarity checker;
+    /// the key and a list of identical submissions are written beside it
+    #[arg(long, value_name = "FOLDER")]
+    pub similarity_input: Option<PathBuf>,
+
     /// Grade everything again, keep the old scores, and list whose points changed and why
     #[arg(long, conflicts_with = "dry_run")]
     pub regrade: bool,
@@ -102,13 +111,23 @@ pub struct GradingArguments {
     pub no_reference: bool,
 }
 
-/// The roster and the gradebooks of a class, as CSV files.
+/// The roster and the gradebooks of a class, as CSV files, and what is made of the grades.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Lists {
     /// Roster, with columns such as name, email, sid, username; optional columns are group (one
     /// submission counts for the whole group) and datetime (the submission time)
     #[arg(long, value_name = "CSV")]
     pub roster: Option<PathBuf>,
+
+    /// Points and comments by hand, with the columns student, task, delta, comment and author; they
+    /// are added before lateness is considered
+    #[arg(long, value_name = "CSV")]
+    pub manual_points: Option<PathBuf>,
+
+    /// Write hand-back.zip: a page for each student, with the file names that Canvas and Moodle
+    /// expect
+    #[arg(long)]
+    pub hand_back: bool,
 
     /// Gradebook exported from Canvas; the points are written to a copy
     #[arg(long, value_name = "CSV")]

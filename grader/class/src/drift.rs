@@ -1,9 +1,83 @@
 //! Compares the scores of a regrade with the earlier ones: whose points changed, in which items,
 //! and why.
 
+use std::fmt;
+
 use serde::Serialize;
 
-use crate::outcome::{ItemScore, ScoreSummary};
+use crate::outcome::{EntryResult, ItemScore, ScoreSummary};
+use crate::store::{Store, StoreError};
+
+/// The differences from earlier runs.
+#[derive(Clone, Debug, Default)]
+pub struct Changes {
+    /// The changes of a regrade; `None` in a folder's first round.
+    pub regrade: Option<RegradeChanges>,
+    /// The scores that changed because the submission did.
+    pub resubmitted: Vec<Drift>,
+    /// The entries that are no longer in the input.
+    pub removed: Vec<RemovedEntry>,
+}
+
+/// The changes of a regrade.
+#[derive(Clone, Debug)]
+pub struct RegradeChanges {
+    /// The scores that changed.
+    pub drifts: Vec<Drift>,
+    /// The settings that changed.
+    pub causes: Vec<&'static str>,
+}
+
+/// An entry with a result in the output folder, but without a submission in the input.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RemovedEntry {
+    /// The entry's id.
+    pub id: String,
+    /// The names of its people.
+    pub names: String,
+    /// Its points, if it was graded.
+    pub points: Option<u32>,
+}
+
+impl fmt::Display for RemovedEntry {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.id)?;
+        if self.names != self.id {
+            write!(f, " ({})", self.names)?;
+        }
+        match self.points {
+            Some(points) => write!(f, ": {points} points"),
+            None => f.write_str(": no score"),
+        }
+    }
+}
+
+/// Returns the scores that changed because their submission did.
+pub fn find_resubmitted(store: &Store, results: &[EntryResult]) -> Vec<Drift> {
+    let drift = |result: &EntryResult| {
+        let was = store.replaced_score(&result.id)?;
+        compare_scores(&result.id, &was, result.score())
+    };
+    results.iter().filter_map(drift).collect()
+}
+
+/// Returns the entries in the store that are not among `ids`.
+pub fn find_removed(store: &Store, ids: &[&str]) -> Result<Vec<RemovedEntry>, StoreError> {
+    let mut removed = Vec::new();
+    for id in store.ids()? {
+        if ids.contains(&id.as_str()) {
+            continue;
+        }
+        if let Some(result) = store.result(&id)? {
+            removed.push(RemovedEntry {
+                names: result.info.display_names(),
+                points: result.score().map(|score| score.points),
+                id,
+            });
+        }
+    }
+    Ok(removed)
+}
 
 /// A score that a regrade changed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+/// The mark for the names of the people in [`EntryInfo::hand_back_as`].
+pub const WHO: &str = "{who}";
+
 /// One submission of a class, before its files are read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
@@ -27,6 +30,10 @@ pub struct EntryInfo {
     pub submitted: Option<String>,
     /// The file or folder that the submission was read from, relative to the input.
     pub from: String,
+    /// The file name under which the platform accepts a page for the people, in which `{who}` is
+    /// replaced by their names. `None` if the platform has no such rule.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hand_back_as: Option<String>,
 }
 
 /// One student, as described by the platform: text is copied unchanged, and unknown fields are
@@ -49,6 +56,23 @@ pub struct Person {
     /// Moodle.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub number: String,
+    /// The group in the roster.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub group: String,
+    /// The extension in the roster: a number of days, or a time.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub extension: String,
+    /// Whether `name` comes from the name of a file or folder, so that a name in a list is better.
+    #[serde(skip_serializing_if = "is_false")]
+    pub is_named_by_file: bool,
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde passes a reference"
+)]
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 /// The location of an entry's files.
@@ -63,6 +87,28 @@ pub enum Source {
 }
 
 impl Person {
+    /// Returns a person of whom only the name of a file or folder is known.
+    pub fn named_by_file(name: impl Into<String>) -> Self {
+        Person {
+            is_named_by_file: true,
+            ..Person::named(name)
+        }
+    }
+
+    /// Returns everything that is known to identify the person, without empty texts.
+    pub fn identifiers(&self) -> impl Iterator<Item = &str> + Clone {
+        let all = [
+            &self.email,
+            &self.sid,
+            &self.login,
+            &self.number,
+            &self.name,
+        ];
+        all.into_iter()
+            .map(String::as_str)
+            .filter(|text| !text.is_empty())
+    }
+
     /// Returns a person of whom only the name is known.
     pub fn named(name: impl Into<String>) -> Self {
         Person {
@@ -80,12 +126,18 @@ impl Person {
 
     /// Fills in unknown fields from another record of the same person.
     pub fn fill_missing_from(&mut self, other: &Person) {
+        if self.is_named_by_file && !other.name.is_empty() {
+            self.name.clear();
+            self.is_named_by_file = false;
+        }
         let pairs = [
             (&mut self.name, &other.name),
             (&mut self.email, &other.email),
             (&mut self.sid, &other.sid),
             (&mut self.login, &other.login),
             (&mut self.number, &other.number),
+            (&mut self.group, &other.group),
+            (&mut self.extension, &other.extension),
         ];
         for (mine, theirs) in pairs {
             if mine.is_empty() {

@@ -46,6 +46,7 @@ impl EntryGrader<'_> {
                 let is_new = !self
                     .store
                     .has_state(&entry.id, &EntryState::NothingToGrade(why.clone()));
+                self.store.set_score_aside(&entry.id, self.run.round)?;
                 let result = self.finish(entry, EntryOutcome::NothingToGrade(why), "")?;
                 (result, is_new)
             }
@@ -73,6 +74,7 @@ impl EntryGrader<'_> {
         submission: &Submission,
         key: &str,
     ) -> Result<EntryResult, StoreError> {
+        self.store.set_score_aside(&entry.id, self.run.round)?;
         self.store.remove_stamp(&entry.id)?;
         let mut fault = String::new();
         for _ in 0..ATTEMPTS {
@@ -145,9 +147,18 @@ impl EntryGrader<'_> {
     }
 
     fn save(&self, result: EntryResult, key: &str) -> Result<EntryResult, StoreError> {
-        self.store.save_result(&result, key)?;
+        self.store.save_result(&result, key, self.run.round)?;
         Ok(result)
     }
+}
+
+/// Returns whether an entry needs no grading: it has a valid result, or nothing to grade.
+pub fn is_done(grader: &Grader, store: &Store, run: &Run, entry: &Entry) -> bool {
+    let Ok(submission) = collect_submission(entry, grader.handed_out()) else {
+        return true;
+    };
+    let key = cache_key(run, grader.policy(), &submission);
+    store.cached_result(entry, &key).is_some()
 }
 
 /// Returns the cache key: a hash of everything that the output files of an entry depend on. The

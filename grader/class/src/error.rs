@@ -6,8 +6,11 @@ use grader::error::Error as GraderError;
 use grader::policy::PolicyError;
 use grader::select_isolation::IsolationError;
 
+use crate::hand_back::HandBackError;
 use crate::input_error::ClassInputError;
+use crate::manual::ManualPointsError;
 use crate::shard::Shard;
+use crate::similarity::SimilarityError;
 use crate::store::StoreError;
 use crate::table::TableError;
 
@@ -20,9 +23,18 @@ pub enum Error {
     /// The roster or a gradebook cannot be used.
     #[error(transparent)]
     List(#[from] TableError),
+    /// The points by hand cannot be used.
+    #[error(transparent)]
+    ManualPoints(#[from] ManualPointsError),
     /// The output folder cannot be used.
     #[error(transparent)]
     Store(#[from] StoreError),
+    /// The archive to hand back cannot be made.
+    #[error(transparent)]
+    HandBack(#[from] HandBackError),
+    /// The input for a similarity checker cannot be written.
+    #[error(transparent)]
+    Similarity(#[from] SimilarityError),
     /// The submissions cannot be isolated from the machine.
     #[error("{0}; if you trust the submissions, use --isolation none")]
     Isolation(IsolationError),
@@ -43,6 +55,31 @@ pub enum Error {
         out: PathBuf,
         /// The settings that differ.
         differences: Vec<&'static str>,
+    },
+    /// The output folder has the results of another part of the class.
+    #[error(
+        "{} has the results of {was}, and not of {now}: name another folder, or remove this one",
+        out.display()
+    )]
+    OtherShard {
+        /// The output folder.
+        out: PathBuf,
+        /// The part in the folder.
+        was: String,
+        /// The part to grade.
+        now: String,
+    },
+    /// The results would be written among the submissions.
+    #[error(
+        "{} is in {}: the results would be taken for submissions; choose another folder for --out",
+        out.display(),
+        input.display()
+    )]
+    OutInInput {
+        /// The output folder.
+        out: PathBuf,
+        /// The input folder.
+        input: PathBuf,
     },
     /// There are no scores to regrade.
     #[error("{} holds no scores yet: leave out --regrade", .0.display())]
@@ -116,9 +153,13 @@ impl Error {
         match self {
             Error::Input(_)
             | Error::List(_)
+            | Error::ManualPoints(_)
+            | Error::Similarity(SimilarityError::NotEmpty(_) | SimilarityError::Overlap { .. })
             | Error::Policy(_)
             | Error::SettingsChanged { .. }
             | Error::NothingToRegrade(_)
+            | Error::OtherShard { .. }
+            | Error::OutInInput { .. }
             | Error::NotAShard(_)
             | Error::UnfinishedShard(_)
             | Error::IncompatibleShards { .. }
@@ -126,7 +167,10 @@ impl Error {
             | Error::DifferentPolicies { .. }
             | Error::DuplicateEntry { .. }
             | Error::MergeIntoShard { .. } => 2,
-            Error::Store(_) | Error::Isolation(_) => 3,
+            Error::Store(_)
+            | Error::Similarity(SimilarityError::File(_))
+            | Error::HandBack(_)
+            | Error::Isolation(_) => 3,
             Error::Grader(error) => error.exit_code(),
         }
     }
@@ -151,7 +195,7 @@ impl From<GraderError> for Error {
             | GraderError::RequiredPoints { .. }
             | GraderError::Workspace(_)
             | GraderError::Build(_)
-            | GraderError::Report { .. }
+            | GraderError::File(_)
             | GraderError::Probe(_) => Error::Grader(error),
         }
     }

@@ -5,31 +5,40 @@ use std::fs;
 use std::num::NonZero;
 use std::path::Path;
 use std::thread;
+use std::time::{Duration, Instant};
 
 use grader::error::Error as GraderError;
+use grader::files::AtPath;
 use grader::grade::Grader;
 use grader::options::GradeOptions;
-use grader::policy::PolicyError;
+use grader::policy::{Policy, PolicyError};
 use grader::workspace::Workspace;
 use judging::content_hash::file_hash;
 
 use crate::cli::{ClassArguments, Lists};
-use crate::drift::{Drift, compare_scores};
+use crate::drift::{
+    Changes, Drift, RegradeChanges, compare_scores, find_removed, find_resubmitted,
+};
 use crate::entry::{Entry, EntryInfo, Person};
-use crate::entry_grader::EntryGrader;
+use crate::entry_grader::{EntryGrader, is_done};
 use crate::error::Error;
+use crate::estimate::Estimate;
 use crate::groups;
 use crate::input::Input;
+use crate::late::warn_about_unmatched_extensions;
 use crate::layout::{CLASSROOM50_SCORES, Layout};
-use crate::model::{ClassRow, GradedClass};
+use crate::manual::{ManualPointsError, ManualPointsList};
+use crate::model::{GradedClass, count_points};
 use crate::outcome::EntryResult;
-use crate::output::{RegradeChanges, check_lists, write_results};
+use crate::output::{check_lists, write_results};
+use crate::paths::contains;
 use crate::progress::Progress;
 use crate::queue;
 use crate::report::preview::{render_preview, render_warnings};
 use crate::roster;
 use crate::run::{Run, Settings};
 use crate::shard::Shard;
+use crate::similarity;
 use crate::store::Store;
 
 /// Whether every submission of a class was graded.
@@ -50,6 +59,11 @@ pub fn grade_class(
     check_lists(&arguments.lists)?;
     let workspace = Workspace::find().map_err(GraderError::from)?;
     let path = arguments.input.as_deref().unwrap_or(Path::new("."));
+    if let Some(folder) = &arguments.similarity_input {
+        let out = arguments.out.as_deref();
+        let others: Vec<&Path> = [path].into_iter().chain(out).collect();
+        similarity::check_folder(folder, &others)?;
+    }
     let input = Input::open(
         path,
         &workspace.cache_folder().join("classes"),
@@ -64,6 +78,17 @@ pub fn grade_class(
     let mut infos: Vec<&mut EntryInfo> = entries.map(|entry| &mut entry.info).collect();
     groups::add_group_members(&lists, &mut infos, &mut missing)?;
     roster::set_submission_times(&lists, &mut infos)?;
+    let manual = read_manual_points(&arguments.lists, options)?;
+    let entries = recognised.entries.iter();
+    let people: Vec<&Person> = entries.flat_map(|entry| &entry.info.people).collect();
+    manual.check_students(&people)?;
+    if let Some(folder) = &arguments.similarity_input {
+        let entries = &recognised.entries;
+        anstream::print!(
+            "{}",
+            similarity::write_input(folder, entries, options.handed_out)?
+        );
+    }
     let (Some(out), false) = (&arguments.out, arguments.dry_run) else {
         anstream::print!(
             "{}",
@@ -73,7 +98,9 @@ pub fn grade_class(
     };
 
     let grader = Grader::for_many(options)?;
+    warn_about_unmatched_extensions(grader.policy(), people.into_iter().chain(&missing));
     let store = Store::new(out);
+    check_out(&store, path, arguments.shard)?;
     let settings = settings(&grader, options)?;
     let policy = policy_text(options.policy.as_deref())?;
     if store.read_run()?.is_some_and(|run| run.policy != policy) {
@@ -85,13 +112,29 @@ pub fn grade_class(
         ..start_or_resume(&store, settings, arguments.regrade)?
     };
     store.remove_temporary_files()?;
-    store.write_run(&run)?;
     let warnings = render_warnings(&recognised);
+    let all: Vec<&str> = recognised
+        .entries
+        .iter()
+        .map(|entry| entry.id.as_str())
+        .collect();
+    let removed = find_removed(&store, &all)?;
     let entries = arguments
         .shard
         .unwrap_or(Shard::ALL)
         .select(recognised.entries);
-    let results = grade_entries(&grader, &store, &run, &entries, slot_count(arguments.jobs))?;
+    let run = Run {
+        entries: entries.iter().map(|entry| entry.id.clone()).collect(),
+        ..run
+    };
+    store.write_run(&run)?;
+    let slots = slot_count(arguments.jobs);
+    if arguments.estimate {
+        let estimate = estimate(&grader, &store, &run, entries, slots)?;
+        anstream::print!("{}", estimate.render());
+        return Ok(Completion::Complete);
+    }
+    let results = grade_entries(&grader, &store, &run, &entries, slots)?;
     let run = Run {
         finished: true,
         was_finished: true,
@@ -99,23 +142,36 @@ pub fn grade_class(
     };
     store.write_run(&run)?;
 
-    let changes = find_regrade_changes(&store, &run, &results);
-    let rows = results
-        .into_iter()
-        .map(|result| ClassRow::new(result, grader.policy()));
+    let changes = Changes {
+        regrade: find_regrade_changes(&store, &run, &results),
+        resubmitted: find_resubmitted(&store, &results),
+        removed,
+    };
+    let rows = count_points(results, grader.policy(), &manual)?;
     let class = GradedClass {
         exam: run.settings.exam.clone(),
         exam_hash: run.settings.exam_hash.clone(),
         isolation: run.settings.isolation.clone(),
-        rows: rows.collect(),
+        rows,
         missing,
     };
     anstream::print!("{warnings}");
-    write_results(&class, &store, &arguments.lists, changes.as_ref())?;
+    write_results(&class, &store, &arguments.lists, &changes)?;
     Ok(match class.fault_count() {
         0 => Completion::Complete,
         _ => Completion::Incomplete,
     })
+}
+
+/// Reads the manual points, if a file is given.
+pub fn read_manual_points(
+    lists: &Lists,
+    options: &GradeOptions,
+) -> Result<ManualPointsList, ManualPointsError> {
+    match &lists.manual_points {
+        Some(path) => ManualPointsList::read(path, options.handed_out),
+        None => Ok(ManualPointsList::default()),
+    }
 }
 
 /// Returns the lists given on the command line. If no roster is given, the one that classroom50
@@ -138,7 +194,8 @@ fn settings(grader: &Grader, options: &GradeOptions) -> Result<Settings, Error> 
     // The executable itself is hashed: any change to it, such as a build with another compiler, may
     // change a score.
     let program = env::current_exe().and_then(fs::read);
-    let program = program.map_err(GraderError::Probe)?;
+    let program = program.at("read", "the grader's own program");
+    let program = program.map_err(GraderError::from)?;
     Ok(Settings {
         exam: exam.id.clone(),
         exam_hash: exam.hash.clone(),
@@ -164,7 +221,7 @@ fn options_of_scores(options: &GradeOptions) -> String {
         policy: _,
         // options of a single submission
         submission: _,
-        task: _,
+        tasks: _,
         gradescope_metadata: _,
         hints: _,
         out: _,
@@ -176,13 +233,7 @@ fn options_of_scores(options: &GradeOptions) -> String {
 /// Returns the text of the policy file, or `None` if no file is given. The file has already been
 /// parsed successfully.
 fn policy_text(path: Option<&Path>) -> Result<Option<String>, PolicyError> {
-    let read = |path: &Path| {
-        fs::read_to_string(path).map_err(|source| PolicyError::Io {
-            path: path.to_owned(),
-            source,
-        })
-    };
-    path.map(read).transpose()
+    path.map(Policy::read_text).transpose()
 }
 
 /// Returns the run to resume or to start. Scores that depend on other settings are never mixed with
@@ -212,6 +263,62 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
         }
     };
     Ok(run)
+}
+
+/// Rejects an output folder in the input, and one with the results of another part.
+fn check_out(store: &Store, input: &Path, shard: Option<Shard>) -> Result<(), Error> {
+    let out = store.folder();
+    if input.is_dir() && contains(input, out) {
+        return Err(Error::OutInInput {
+            out: out.to_owned(),
+            input: input.to_owned(),
+        });
+    }
+    let title = |shard: Option<Shard>| match shard {
+        Some(shard) => format!("part {shard}"),
+        None => "the whole class".to_owned(),
+    };
+    match store.read_run()? {
+        Some(run) if run.shard != shard => Err(Error::OtherShard {
+            out: out.to_owned(),
+            was: title(run.shard),
+            now: title(shard),
+        }),
+        Some(_) | None => Ok(()),
+    }
+}
+
+/// Grades the first entries without a result, two per slot, and measures each.
+fn estimate(
+    grader: &Grader,
+    store: &Store,
+    run: &Run,
+    entries: Vec<Entry>,
+    slots: usize,
+) -> Result<Estimate, Error> {
+    let is_open = |entry: &Entry| !is_done(grader, store, run, entry);
+    let mut sample: Vec<Entry> = entries.into_iter().filter(is_open).collect();
+    let rest = sample.split_off(sample.len().min(2 * slots));
+    let progress = Progress::new(sample.len(), slots);
+    let entry_grader = EntryGrader {
+        grader,
+        store,
+        run,
+        progress: &progress,
+    };
+    let times = queue::run(&sample, slots, |slot, entry| {
+        let started_at = Instant::now();
+        entry_grader
+            .grade(slot, entry)
+            .map(|_| started_at.elapsed())
+    });
+    progress.finish();
+    let times: Result<Vec<Duration>, _> = times.into_iter().collect();
+    Ok(Estimate {
+        times: times?,
+        remaining: rest.len(),
+        slots,
+    })
 }
 
 fn grade_entries(

@@ -26,9 +26,10 @@ pub fn add_group_members(
         let theirs = members
             .iter()
             .filter(|member| info.people.iter().any(|person| member.matches(person)));
-        let groups: BTreeSet<&str> = theirs.map(|member| member.group.as_str()).collect();
+        let groups: BTreeSet<&str> = theirs.map(|member| member.person.group.as_str()).collect();
         let others = members.iter().filter(|member| {
-            let is_in_group = !member.group.is_empty() && groups.contains(member.group.as_str());
+            let is_in_group =
+                !member.person.group.is_empty() && groups.contains(member.person.group.as_str());
             is_in_group && !is_there(member)
         });
         let others: Vec<Person> = others.map(|member| member.person.clone()).collect();

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use grader::build::build_dir::{BuildDir, remove_abandoned};
+use grader::files::{self, AtPath};
 use grader::handed_out::HandedOut;
 use grader::submission::{Submission, SubmissionError, listed, places};
 use judging::sanitize::sanitize;
@@ -35,10 +36,6 @@ impl Input {
         handed_out: &'static HandedOut,
     ) -> Result<Self, ClassInputError> {
         remove_abandoned(parent);
-        let at = |source| ClassInputError::Io {
-            path: path.to_owned(),
-            source,
-        };
         let (unpacked, not_unpacked) = match fs::metadata(path) {
             Err(_) => return Err(ClassInputError::NotFound(path.to_owned())),
             Ok(kind) if kind.is_dir() => (None, Vec::new()),
@@ -49,16 +46,16 @@ impl Input {
         };
         let folder = match &unpacked {
             Some(build_dir) => build_dir.path().join(CLASS_FOLDER),
-            None => path.canonicalize().map_err(at)?,
+            None => path.canonicalize().at("read", path)?,
         };
-        let listed = list_folder(&folder).map_err(at)?;
+        let listed = list_folder(&folder)?;
         let root = layout::find_class_folder(&listed, handed_out).clone();
-        let metadata = root.find(METADATA).map(|node| fs::read(&node.path));
-        let metadata = metadata.transpose().map_err(at)?;
+        let metadata = root.find(METADATA).map(|node| files::read(&node.path));
+        let metadata = metadata.transpose()?;
         let metadata = metadata.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
         let mut class = layout::recognise(&root, metadata.as_deref(), handed_out)?;
         class.unmatched.extend(not_unpacked);
-        let hidden = hidden_names(&root.path).map_err(at)?;
+        let hidden = hidden_names(&root.path)?;
         class
             .unmatched
             .extend(hidden.into_iter().map(|name| UnmatchedPath {

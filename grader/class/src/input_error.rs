@@ -1,8 +1,8 @@
 //! Errors in the input folder or archive.
 
-use std::io;
 use std::path::PathBuf;
 
+use grader::files::PathError;
 use grader::submission::ArchiveError;
 
 use crate::layout::MetadataError;
@@ -14,13 +14,8 @@ pub enum ClassInputError {
     #[error("{0} does not exist: pass the folder or archive that you downloaded from the platform")]
     NotFound(PathBuf),
     /// A file or folder cannot be read.
-    #[error("cannot read {path}: {source}")]
-    Io {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The operating system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
     /// The archive cannot be read.
     #[error("{path}: {why}; alternatively, unpack it yourself and pass the path of the folder")]
     Archive {

@@ -1,54 +1,126 @@
-//! Computes the lateness of submissions, according to the platform's information and the policy.
+//! Computes the lateness of submissions, according to the platform's information, the policy and
+//! the person's extension.
 
-use grader::policy::{CountedPoints, Lateness, Policy, TimeError, read_time};
+use std::collections::BTreeSet;
 
-use crate::entry::EntryInfo;
-use crate::outcome::ScoreSummary;
+use grader::policy::{AttemptRule, Extension, Lateness, Policy, TimeError, read_time};
+use jiff::Timestamp;
+use judging::sanitize::sanitize;
 
-/// A submission time that decides about points, but cannot be read. Nobody's points may depend on a
-/// guess, so that the submission has no final points until a person corrects the time.
+use crate::entry::{EntryInfo, Person};
+
+/// The reason why it is unclear how late a submission is. Nobody's points may depend on a guess, so
+/// the submission has no final points until a person corrects the time.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the submission time {text:?} cannot be used: {why}")]
-pub struct UnclearTime {
-    /// The time as the platform or roster writes it.
-    text: String,
-    /// The reason why it cannot be used.
-    why: TimeError,
+pub enum UnclearTime {
+    /// A submission time that decides about points, but cannot be read.
+    #[error("the submission time {text:?} cannot be used: {why}")]
+    Submitted {
+        /// The time as the platform or roster writes it.
+        text: String,
+        /// The reason why it cannot be used.
+        why: TimeError,
+    },
+    /// An extension in the roster that cannot be read.
+    #[error(
+        "the extension {text:?} is neither a number of days nor a time that can be used: {why}"
+    )]
+    Extension {
+        /// The extension as the roster writes it.
+        text: String,
+        /// The reason why it cannot be used.
+        why: TimeError,
+    },
+    /// The platform says only that the submission is late, and the person has an extension.
+    #[error(
+        "the platform says that it is late, but an extension can be applied only if the submission \
+         time and the due time are known: add a column `datetime` to the roster, and `due` to the \
+         policy"
+    )]
+    OnlyAFlag,
 }
 
-/// Returns the final points of a score, after the policy has been applied.
-pub fn apply_policy(
+/// Returns how late a submission is for one of its people. If its submission time is known and the
+/// policy has a due time, these two decide; otherwise, the platform's late flag does.
+pub fn lateness(
     policy: &Policy,
     info: &EntryInfo,
-    score: &ScoreSummary,
-) -> Result<CountedPoints, UnclearTime> {
-    let lateness = lateness(policy, info)?;
-    Ok(policy.counted_points(score.points, score.max_points, lateness))
-}
-
-/// Returns how late a submission is. If its submission time is known and the policy has a due time,
-/// these two decide; otherwise, the platform's late flag does.
-fn lateness(policy: &Policy, info: &EntryInfo) -> Result<Lateness, UnclearTime> {
-    let exact = match (&info.submitted, policy.late.due) {
-        (Some(text), Some(_)) => {
-            let time = read_time(text, policy.late.timezone.as_ref());
-            let time = time.map_err(|why| UnclearTime {
-                text: text.clone(),
-                why,
-            })?;
-            policy.lateness(time)
-        }
+    person: &Person,
+) -> Result<Lateness, UnclearTime> {
+    let extensions = extensions(policy, person)?;
+    let exact = match (policy.late.due, submission_time(policy, info)?) {
+        (Some(_), Some(time)) => policy.lateness(time, &extensions),
         (_, None) | (None, _) => None,
     };
-    Ok(exact.unwrap_or(if info.late {
+    match exact {
+        Some(lateness) => Ok(lateness),
+        None if info.late && !extensions.is_empty() => Err(UnclearTime::OnlyAFlag),
         // Without both times, a submission with a late flag counts as one second past the grace
         // period.
-        Lateness {
+        None if info.late => Ok(Lateness {
             seconds: u64::from(policy.late.grace_minutes) * 60 + 1,
-        }
-    } else {
-        Lateness::NONE
-    }))
+        }),
+        None => Ok(Lateness::NONE),
+    }
+}
+
+/// Returns the submission time, if it is known and the policy needs it.
+pub fn submission_time(
+    policy: &Policy,
+    info: &EntryInfo,
+) -> Result<Option<Timestamp>, UnclearTime> {
+    let needed = info
+        .submitted
+        .as_ref()
+        .filter(|_| policy.late.due.is_some() || policy.attempts.counts != AttemptRule::Ask);
+    let read = |text: &String| {
+        let time = read_time(text, policy.late.timezone.as_ref());
+        time.map_err(|why| UnclearTime::Submitted {
+            text: text.clone(),
+            why,
+        })
+    };
+    needed.map(read).transpose()
+}
+
+/// Returns the extensions of a person, in the policy and in the roster.
+fn extensions(policy: &Policy, person: &Person) -> Result<Vec<Extension>, UnclearTime> {
+    let names = person.identifiers().chain([person.group.as_str()]);
+    let mut extensions: Vec<Extension> = policy.extensions_of(names).collect();
+    if !person.extension.is_empty() {
+        let own = Extension::parse(&person.extension, policy.late.timezone.as_ref());
+        extensions.push(own.map_err(|why| UnclearTime::Extension {
+            text: person.extension.clone(),
+            why,
+        })?);
+    }
+    Ok(extensions)
+}
+
+/// Prints a warning for each of the policy's extensions that belongs to none of these people.
+pub fn warn_about_unmatched_extensions<'a>(
+    policy: &'a Policy,
+    people: impl Iterator<Item = &'a Person>,
+) {
+    for name in unmatched_extensions(policy, people) {
+        let name = sanitize(name, 200);
+        anstream::eprintln!("the policy has an extension for {name:?}, who is not in this class");
+    }
+}
+
+/// Returns the names in the policy's extensions that belong to none of these people.
+fn unmatched_extensions<'a>(
+    policy: &'a Policy,
+    people: impl Iterator<Item = &'a Person>,
+) -> Vec<&'a str> {
+    let mut names: BTreeSet<String> = BTreeSet::new();
+    for person in people {
+        let all = person.identifiers().chain([person.group.as_str()]);
+        names.extend(all.map(str::to_lowercase));
+    }
+    let keys = policy.late.extensions.keys();
+    let unmatched = keys.filter(|key| !names.contains(&key.to_lowercase()));
+    unmatched.map(String::as_str).collect()
 }
 
 /// Returns whether the policy has a due time, but the submission has neither a time nor a late
@@ -59,31 +131,43 @@ pub fn is_undated(policy: &Policy, info: &EntryInfo) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
+
+    fn policy(text: &str) -> Policy {
+        Policy::from_text(Path::new("policy.toml"), text).unwrap()
+    }
+
+    fn late_flag() -> EntryInfo {
+        EntryInfo {
+            late: true,
+            ..EntryInfo::default()
+        }
+    }
 
     #[test]
     fn a_late_flag_without_a_time_counts_as_one_day() {
-        let mut policy = Policy::default();
-        policy.late.percent_per_day = 10;
-        policy.late.grace_minutes = 5;
-        let score = ScoreSummary {
-            points: 80,
-            max_points: 100,
-            tasks: Vec::new(),
-        };
-        let late = EntryInfo {
-            late: true,
-            ..EntryInfo::default()
-        };
-        assert_eq!(apply_policy(&policy, &late, &score).unwrap().points, 72);
-        assert_eq!(
-            apply_policy(&policy, &EntryInfo::default(), &score)
-                .unwrap()
-                .points,
-            80
-        );
+        let mut policy = policy("[late]\npercent_per_day = 10\ngrace_minutes = 5");
+        let nobody = Person::default();
+        let late = lateness(&policy, &late_flag(), &nobody).unwrap();
+        assert_eq!(policy.counted_points(80, 100, late).points, 72);
+        let on_time = lateness(&policy, &EntryInfo::default(), &nobody);
+        assert_eq!(on_time, Ok(Lateness::NONE));
         assert!(!is_undated(&policy, &EntryInfo::default()));
         policy.late.due = "2026-11-20T23:59:59Z".parse().ok();
-        assert!(is_undated(&policy, &EntryInfo::default()) && !is_undated(&policy, &late));
+        assert!(is_undated(&policy, &EntryInfo::default()) && !is_undated(&policy, &late_flag()));
+    }
+
+    #[test]
+    fn an_extension_cannot_be_applied_to_a_late_flag() {
+        let policy = policy("[late]\ndue = 2026-11-20T23:59:59Z\n[late.extensions]\nann = 2");
+        let ann = Person::named("Ann");
+        let unclear = lateness(&policy, &late_flag(), &ann);
+        assert_eq!(unclear, Err(UnclearTime::OnlyAFlag));
+        assert!(lateness(&policy, &late_flag(), &Person::named("Bob")).is_ok());
+        let people = [ann];
+        assert!(unmatched_extensions(&policy, people.iter()).is_empty());
+        assert_eq!(unmatched_extensions(&policy, [].iter()), ["ann"]);
     }
 }

@@ -9,35 +9,41 @@
 //! | layer | modules |
 //! |---|---|
 //! | commands | [`grade`], [`merge`]; [`output`] |
-//! | reports | [`report`], [`gradebook`], [`summary`], [`distribution`], [`drift`] |
+//! | reports | [`report`], [`gradebook`], [`hand_back`], [`similarity`], [`estimate`], [`summary`], [`distribution`] |
 //! | grading of entries | [`entry_grader`], [`queue`], [`progress`] |
-//! | results | [`store`], [`run`], [`outcome`], [`model`], [`late`] |
-//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`] |
+//! | results | [`drift`], [`store`], [`run`], [`outcome`], [`model`], [`attempts`], [`late`], [`manual`] |
+//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`], [`paths`] |
 
+pub mod attempts;
 pub mod cli;
 pub mod distribution;
 pub mod drift;
 pub mod entry;
 pub mod entry_grader;
 pub mod error;
+pub mod estimate;
 pub mod grade;
 pub mod gradebook;
 pub mod groups;
+pub mod hand_back;
 pub mod input;
 pub mod input_error;
 pub mod late;
 pub mod layout;
 pub mod listing;
+pub mod manual;
 pub mod merge;
 pub mod model;
 pub mod outcome;
 pub mod output;
+pub mod paths;
 pub mod progress;
 pub mod queue;
 pub mod report;
 pub mod roster;
 pub mod run;
 pub mod shard;
+pub mod similarity;
 pub mod store;
 pub mod summary;
 pub mod table;

@@ -4,6 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use grader::files::{self, AtPath, PathError};
 use grader::submission::is_archive_name;
 
 /// The number of levels of subfolders that are listed.
@@ -50,29 +51,24 @@ impl Node {
 
 /// Lists a folder. Hidden and skipped files and folders are left out, and invalid Unicode in names
 /// is replaced.
-pub fn list_folder(folder: &Path) -> io::Result<Node> {
+pub fn list_folder(folder: &Path) -> Result<Node, PathError> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     Ok(Node {
         name: name.into_owned(),
         path: folder.to_owned(),
-        children: Some(list_children(folder, MAX_DEPTH)?),
+        children: Some(list_children(folder, MAX_DEPTH).at("read", folder)?),
         is_link: false,
     })
 }
 
 /// Returns the names of the hidden files and folders in a folder, except those that macOS adds to
 /// every folder.
-pub fn hidden_names(folder: &Path) -> io::Result<Vec<String>> {
-    let mut names = Vec::new();
-    for entry in fs::read_dir(folder)? {
-        let name = entry?.file_name().to_string_lossy().into_owned();
-        let is_macos = name == ".DS_Store" || name.starts_with("._");
-        if name.starts_with('.') && !is_macos {
-            names.push(name);
-        }
-    }
-    names.sort();
-    Ok(names)
+pub fn hidden_names(folder: &Path) -> Result<Vec<String>, PathError> {
+    let paths = files::read_dir(folder)?.into_iter();
+    let names = paths.filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+    let is_macos = |name: &str| name == ".DS_Store" || name.starts_with("._");
+    let hidden = names.filter(|name| name.starts_with('.') && !is_macos(name));
+    Ok(hidden.collect())
 }
 
 fn list_children(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {

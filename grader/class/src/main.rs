@@ -8,6 +8,7 @@ use class::error::Error;
 use class::grade::{Completion, grade_class};
 use class::merge::merge_shards;
 use grader::sandbox;
+use judging::sanitize::sanitize;
 
 fn main() -> ExitCode {
     if let Some(ended) = sandbox::run_as_launcher() {
@@ -17,7 +18,7 @@ fn main() -> ExitCode {
         Ok(Completion::Complete) => ExitCode::SUCCESS,
         Ok(Completion::Incomplete) => ExitCode::from(3),
         Err(error) => {
-            anstream::eprintln!("error: {error}");
+            anstream::eprintln!("error: {}", sanitize(&error.to_string(), usize::MAX));
             ExitCode::from(error.exit_code())
         }
     }

@@ -1,17 +1,20 @@
 //! `cargo class merge`: merges the parts of a class that several machines have graded.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
+use grader::files;
+use grader::options::GradeOptions;
 use grader::policy::Policy;
 
 use crate::cli::MergeArguments;
-use crate::entry::EntryInfo;
+use crate::drift::{Changes, RemovedEntry, find_removed, find_resubmitted};
+use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
-use crate::grade::Completion;
+use crate::grade::{Completion, read_manual_points};
 use crate::groups;
-use crate::model::{ClassRow, GradedClass};
+use crate::late::warn_about_unmatched_extensions;
+use crate::model::{GradedClass, count_points};
 use crate::outcome::EntryResult;
 use crate::output::write_results;
 use crate::roster;
@@ -41,9 +44,10 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
 
     let out = Store::new(&arguments.out);
     let mut sources: BTreeMap<String, &Path> = BTreeMap::new();
-    for (path, _) in &shards {
+    for (path, run) in &shards {
         let shard = Store::new(path);
-        for id in shard.ids()? {
+        let current = |id: &String| run.entries.is_empty() || run.entries.contains(id);
+        for id in shard.ids()?.into_iter().filter(current) {
             if let Some(other) = sources.insert(id.clone(), path) {
                 return Err(Error::DuplicateEntry {
                     id,
@@ -56,6 +60,7 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     }
     let run = &Run {
         shard: None,
+        entries: sources.keys().cloned().collect(),
         ..run.clone()
     };
     out.write_run(run)?;
@@ -63,22 +68,46 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     let rows: Vec<EntryResult> = out.results()?;
     let rows = rows.into_iter().filter(|row| sources.contains_key(&row.id));
     let mut rows: Vec<EntryResult> = rows.collect();
-    let people = rows.iter_mut().flat_map(|row| &mut row.info.people);
-    let mut missing = roster::join(&arguments.lists, &mut people.collect::<Vec<_>>())?;
+    let mut people: Vec<&mut Person> = rows
+        .iter_mut()
+        .flat_map(|row| &mut row.info.people)
+        .collect();
+    if arguments.lists.roster.is_some() {
+        // This roster counts, and not the one that the shard was graded with.
+        for person in &mut people {
+            person.group.clear();
+            person.extension.clear();
+        }
+    }
+    let mut missing = roster::join(&arguments.lists, &mut people)?;
     let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
     roster::set_submission_times(&arguments.lists, &mut infos)?;
     groups::add_group_members(&arguments.lists, &mut infos, &mut missing)?;
+    let manual = read_manual_points(&arguments.lists, &GradeOptions::default())?;
+    let people: Vec<&Person> = rows.iter().flat_map(|row| &row.info.people).collect();
+    manual.check_students(&people)?;
+    warn_about_unmatched_extensions(&policy, people.into_iter().chain(&missing));
+    let ids: Vec<&str> = sources.keys().map(String::as_str).collect();
+    let mut removed = find_removed(&out, &ids)?;
+    for (path, _) in &shards {
+        let of_shard = find_removed(&Store::new(path), &ids)?;
+        let is_new = |entry: &RemovedEntry| removed.iter().all(|other| other.id != entry.id);
+        let of_shard: Vec<RemovedEntry> = of_shard.into_iter().filter(is_new).collect();
+        removed.extend(of_shard);
+    }
+    let changes = Changes {
+        regrade: None,
+        resubmitted: find_resubmitted(&out, &rows),
+        removed,
+    };
     let class = GradedClass {
         exam: run.settings.exam.clone(),
         exam_hash: run.settings.exam_hash.clone(),
         isolation: run.settings.isolation.clone(),
-        rows: rows
-            .into_iter()
-            .map(|row| ClassRow::new(row, &policy))
-            .collect(),
+        rows: count_points(rows, &policy, &manual)?,
         missing,
     };
-    write_results(&class, &out, &arguments.lists, None)?;
+    write_results(&class, &out, &arguments.lists, &changes)?;
     Ok(match class.fault_count() {
         0 => Completion::Complete,
         _ => Completion::Incomplete,
@@ -152,15 +181,10 @@ fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<()
 }
 
 fn copy_entry(from: &Path, to: &Path) -> Result<(), StoreError> {
-    let at = |path: &Path| {
-        let path = path.to_owned();
-        move |source| StoreError::Io { path, source }
-    };
-    fs::create_dir_all(to).map_err(at(to))?;
-    for entry in fs::read_dir(from).map_err(at(from))? {
-        let entry = entry.map_err(at(from))?;
-        let target = to.join(entry.file_name());
-        fs::copy(entry.path(), &target).map_err(at(&target))?;
+    files::create_dir_all(to)?;
+    for source in files::read_dir(from)? {
+        let target = to.join(source.file_name().unwrap_or_default());
+        files::copy(&source, &target)?;
     }
     Ok(())
 }

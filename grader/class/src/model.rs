@@ -2,8 +2,10 @@
 
 use grader::policy::{CountedPoints, Policy};
 
+use crate::attempts::apply_rule;
 use crate::entry::Person;
-use crate::late::{apply_policy, is_undated};
+use crate::late::{UnclearTime, is_undated, lateness};
+use crate::manual::{ManualPoints, ManualPointsError, ManualPointsList};
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary};
 
 /// The results of a class.
@@ -21,24 +23,53 @@ pub struct GradedClass {
     pub missing: Vec<Person>,
 }
 
-/// A submission's result and its final points.
+/// A submission's result and the grades of its people.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClassRow {
     /// The result of grading the submission.
     pub result: EntryResult,
-    /// The final points, after the policy has been applied; `None` if there is no score, or if the
-    /// submission time is unclear.
+    /// The grade of each person, in the order of `result.info.people`. The people of a group may
+    /// have different extensions and manual points.
+    pub grades: Vec<PersonGrade>,
+}
+
+/// One person's grade for a submission.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PersonGrade {
+    /// The final points, after the policy has been applied; `None` if there is no score, or if it
+    /// does not count.
     pub counted: Option<CountedPoints>,
-    /// The reason why a score has no final points: a submission time that cannot be read.
-    pub unclear_time: Option<String>,
+    /// The reason why a score has no final points.
+    pub problem: Option<GradeProblem>,
     /// Whether the submission counts as on time because its submission time is unknown.
     pub is_undated: bool,
+    /// The points that staff gave by hand.
+    pub manual: Vec<ManualPoints>,
+}
+
+/// The reason why a score has no final points.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GradeProblem {
+    /// It is unclear how late the submission is.
+    #[error(transparent)]
+    UnclearTime(UnclearTime),
+    /// Another submission of the same person counts.
+    #[error("the submission {0} of the same person counts")]
+    OtherAttempt(String),
+    /// Nobody has chosen among several submissions of the same person.
+    #[error(
+        "{} of the same person could count as well: remove one, or set `counts` under [attempts] \
+         in the policy",
+        .0.join(" and ")
+    )]
+    SeveralAttempts(Vec<String>),
 }
 
 impl GradedClass {
-    /// Returns the results that have a score.
+    /// Returns the results that have a score, apart from those of superseded attempts.
     pub fn scores(&self) -> impl Iterator<Item = (&EntryResult, &ScoreSummary)> {
-        let results = self.rows.iter().map(|row| &row.result);
+        let rows = self.rows.iter().filter(|row| !row.is_superseded());
+        let results = rows.map(|row| &row.result);
         results.filter_map(|result| Some((result, result.score()?)))
     }
 
@@ -51,68 +82,144 @@ impl GradedClass {
 }
 
 impl ClassRow {
-    /// Creates the row of a result, and applies the policy to its points.
-    pub fn new(result: EntryResult, policy: &Policy) -> Self {
-        let score = result.score();
-        let counted = score.map(|score| apply_policy(policy, &result.info, score));
-        let (counted, unclear_time) = match counted.transpose() {
-            Ok(counted) => (counted, None),
-            Err(unclear) => (None, Some(unclear.to_string())),
+    /// Creates the row of a result, and applies the policy to its points. `manual` has the manual
+    /// points of each person.
+    pub fn new(result: EntryResult, policy: &Policy, manual: Vec<Vec<ManualPoints>>) -> Self {
+        let grade = |(person, manual): (&Person, Vec<ManualPoints>)| {
+            let sum = manual.iter().map(|points| points.delta).sum();
+            let counted = result.score().map(|score| {
+                let lateness = lateness(policy, &result.info, person)?;
+                let ScoreSummary {
+                    points, max_points, ..
+                } = *score;
+                Ok(policy.counted_points_with(points, max_points, sum, lateness))
+            });
+            let (counted, problem) = match counted.transpose() {
+                Ok(counted) => (counted, None),
+                Err(unclear) => (None, Some(GradeProblem::UnclearTime(unclear))),
+            };
+            PersonGrade {
+                is_undated: counted.is_some() && is_undated(policy, &result.info),
+                counted,
+                problem,
+                manual,
+            }
         };
-        let is_undated = counted.is_some() && is_undated(policy, &result.info);
-        ClassRow {
-            result,
-            counted,
-            unclear_time,
-            is_undated,
-        }
+        let grades = result.info.people.iter().zip(manual).map(grade).collect();
+        ClassRow { result, grades }
     }
 
-    /// Returns a sentence about what the score counts towards the grade, or `None` if it counts as
-    /// it is.
-    pub fn counted_text(&self) -> Option<String> {
-        if let Some(why) = &self.unclear_time {
-            return Some(format!("No points count yet: {why}."));
-        }
-        let (counted, score) = (self.counted?, self.result.score()?);
-        let CountedPoints {
-            points,
-            max_points,
-            late_days,
-            is_closed,
-        } = counted;
-        let when = match late_days {
-            0 => "handed in on time",
-            1 => "handed in 1 day late",
-            _ => &format!("handed in {late_days} days late"),
-        };
-        let end = if is_closed {
-            ", after the last day"
-        } else {
-            ""
-        };
-        let is_unchanged = (points, max_points) == (score.points, score.max_points);
-        (!is_unchanged || late_days > 0).then(|| {
-            format!("{points} of {max_points} points count towards the grade: {when}{end}.")
+    /// Returns the people, each with their grade.
+    pub fn people(&self) -> impl Iterator<Item = (&Person, &PersonGrade)> {
+        self.result.info.people.iter().zip(&self.grades)
+    }
+
+    /// Returns sentences about what the score counts towards each person's grade. Those that are the
+    /// same for all people of the submission name nobody.
+    pub fn counted_texts(&self) -> Vec<String> {
+        self.merge(PersonGrade::explanation)
+    }
+
+    /// Returns notes for staff: the reason why there are no final points, or else what counts, and
+    /// the manual points.
+    pub fn notes(&self) -> Vec<String> {
+        self.merge(|grade| {
+            let problem = match self.why(grade) {
+                why if why.is_empty() => None,
+                why => Some(format!("{}: {why}", self.status(grade))),
+            };
+            // Without either, the columns of the table say as much.
+            let needs_words =
+                |counted: &CountedPoints| counted.late_days > 0 || counted.manual != 0;
+            let counted = grade.counted.filter(needs_words);
+            let counted = counted.map(|counted| counted.explanation());
+            let manual = grade.manual.iter().map(ToString::to_string);
+            problem.or(counted).into_iter().chain(manual).collect()
         })
     }
 
-    /// Returns the status, as it is shown in tables.
-    pub fn status(&self) -> &'static str {
-        match &self.result.outcome {
-            EntryOutcome::Graded(_) if self.unclear_time.is_some() => "time unclear",
-            EntryOutcome::Graded(_) => "graded",
-            EntryOutcome::NothingToGrade(_) => "nothing to grade",
-            EntryOutcome::Fault(_) => "not graded",
+    /// Returns the texts about all grades, with names in front if they differ.
+    fn merge(&self, texts: impl Fn(&PersonGrade) -> Vec<String>) -> Vec<String> {
+        let all: Vec<Vec<String>> = self.grades.iter().map(texts).collect();
+        let Some(first) = all.first() else {
+            return Vec::new();
+        };
+        if all.iter().all(|texts| texts == first) {
+            return first.clone();
+        }
+        let own = self.people().zip(&all).flat_map(|((person, _), texts)| {
+            let name = person.display_name();
+            texts.iter().map(move |text| format!("{name}: {text}"))
+        });
+        own.collect()
+    }
+
+    /// Returns whether other submissions of all its people count.
+    pub fn is_superseded(&self) -> bool {
+        let mut grades = self.grades.iter();
+        let is_superseded =
+            |grade: &PersonGrade| matches!(grade.problem, Some(GradeProblem::OtherAttempt(_)));
+        !self.grades.is_empty() && grades.all(is_superseded)
+    }
+
+    /// Returns the first of its people's problems.
+    pub fn problem(&self) -> Option<&GradeProblem> {
+        self.grades.iter().find_map(|grade| grade.problem.as_ref())
+    }
+
+    /// Returns the status of one person's grade, as it is shown in tables.
+    pub fn status(&self, grade: &PersonGrade) -> &'static str {
+        match (&self.result.outcome, &grade.problem) {
+            (EntryOutcome::Graded(_), None) => "graded",
+            (EntryOutcome::Graded(_), Some(GradeProblem::UnclearTime(_))) => "time unclear",
+            (_, Some(GradeProblem::OtherAttempt(_))) => "another attempt counts",
+            (_, Some(GradeProblem::SeveralAttempts(_))) => "several attempts",
+            (EntryOutcome::NothingToGrade(_), _) => "nothing to grade",
+            (EntryOutcome::Fault(_), _) => "not graded",
         }
     }
 
     /// Returns the reason why there is no score or no final points, or an empty string if there are
     /// both.
-    pub fn why(&self) -> &str {
-        match &self.result.outcome {
-            EntryOutcome::Graded(_) => self.unclear_time.as_deref().unwrap_or_default(),
-            EntryOutcome::NothingToGrade(why) | EntryOutcome::Fault(why) => why,
+    pub fn why(&self, grade: &PersonGrade) -> String {
+        match (&self.result.outcome, &grade.problem) {
+            (EntryOutcome::Graded(_), None) => String::new(),
+            (EntryOutcome::Graded(_), Some(problem)) => problem.to_string(),
+            (EntryOutcome::NothingToGrade(why) | EntryOutcome::Fault(why), _) => why.clone(),
         }
     }
+}
+
+impl PersonGrade {
+    /// Returns sentences about what the score counts towards the grade, and the comments of staff.
+    /// There are none if it counts as it is.
+    pub fn explanation(&self) -> Vec<String> {
+        let counts = match (&self.problem, self.counted) {
+            (Some(problem), _) => Some(format!("No points count: {problem}.")),
+            (None, Some(counted)) => counted.explanation_if_changed(),
+            (None, None) => None,
+        };
+        let manual = self.manual.iter().map(ToString::to_string);
+        counts.into_iter().chain(manual).collect()
+    }
+}
+
+/// Applies the policy and the manual points to all results.
+pub fn count_points(
+    results: Vec<EntryResult>,
+    policy: &Policy,
+    manual: &ManualPointsList,
+) -> Result<Vec<ClassRow>, ManualPointsError> {
+    let mut rows = Vec::new();
+    for result in results {
+        let people = result.info.people.iter();
+        let own: Vec<Vec<ManualPoints>> = people.map(|person| manual.of(person)).collect();
+        if let Some(score) = result.score() {
+            own.iter()
+                .try_for_each(|points| manual.check_range(points, score))?;
+        }
+        rows.push(ClassRow::new(result, policy, own));
+    }
+    apply_rule(policy, &mut rows);
+    Ok(rows)
 }

@@ -87,6 +87,9 @@ pub struct Stamp {
     /// The cache key: a hash of the submission and everything else that its score depends on. Empty
     /// if there is no score.
     pub key: String,
+    /// The round of the run in which the entry was graded.
+    #[serde(default)]
+    pub round: u32,
     /// Information about the submission, such as its people.
     #[serde(rename = "about")]
     pub info: EntryInfo,

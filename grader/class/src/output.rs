@@ -1,49 +1,53 @@
 //! Writes the files of a graded class, and prints the summary.
 
 use crate::cli::Lists;
-use crate::drift::Drift;
+use crate::drift::Changes;
 use crate::error::Error;
 use crate::gradebook::{FilledGradebook, fill_canvas, fill_gradescope, fill_moodle};
+use crate::hand_back::{ARCHIVE, hand_back};
 use crate::model::GradedClass;
 use crate::report::{grades, page, text};
 use crate::store::{Store, json};
 use crate::summary::ClassSummary;
 use crate::table::TableError;
 
-/// The changes of a regrade.
-#[derive(Clone, Debug)]
-pub struct RegradeChanges {
-    /// The scores that changed.
-    pub drifts: Vec<Drift>,
-    /// The settings that changed.
-    pub causes: Vec<&'static str>,
-}
-
 /// Writes the files of the class, and prints a summary.
 pub fn write_results(
     class: &GradedClass,
     store: &Store,
     lists: &Lists,
-    changes: Option<&RegradeChanges>,
+    changes: &Changes,
 ) -> Result<(), Error> {
     let summary = ClassSummary::new(class);
     for row in &class.rows {
-        store.write_counted(&row.result.id, row.counted_text().as_deref())?;
+        let id = &row.result.id;
+        let names = row.result.info.display_names();
+        let names = (names != *id).then_some(names);
+        let texts: Vec<String> = names.into_iter().chain(row.counted_texts()).collect();
+        store.write_counted(id, &texts)?;
     }
-    store.write("class.json", &json(&summary))?;
-    store.write("class.html", &page::render_page(class, &summary))?;
-    store.write("grades.csv", &grades::grades_table(class).to_csv())?;
+    store.write("class.json", json(&summary))?;
+    store.write("class.html", page::render_page(class, &summary, changes))?;
+    store.write("grades.csv", grades::grades_table(class).to_csv())?;
     anstream::print!("{}", text::render_summary(&summary));
 
-    if let Some(changes) = changes {
-        store.write("drift.json", &json(&changes.drifts))?;
-        anstream::print!("{}", text::render_drifts(&changes.drifts, &changes.causes));
+    if let Some(regrade) = &changes.regrade {
+        store.write("drift.json", json(&regrade.drifts))?;
+        anstream::print!("{}", text::render_regrade(regrade));
     }
+    anstream::print!("{}", text::render_resubmitted(&changes.resubmitted));
+    anstream::print!("{}", text::render_removed(&changes.removed));
     for (name, filled) in fill_gradebooks(class, lists)? {
         // The changes are printed, so that the teacher can check them before uploading the file.
         anstream::print!("{}", text::render_gradebook(&filled));
-        store.write(name, &filled.table.to_csv())?;
+        store.write(name, filled.table.to_csv())?;
         anstream::println!("  {}", store.folder().join(name).display());
+    }
+    if lists.hand_back {
+        let hand_back = hand_back(class, store)?;
+        store.write(ARCHIVE, &hand_back.archive)?;
+        anstream::print!("{}", text::render_hand_back(&hand_back));
+        anstream::println!("  {}", store.folder().join(ARCHIVE).display());
     }
     anstream::println!();
     for name in ["grades.csv", "class.html"] {

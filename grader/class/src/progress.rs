@@ -5,6 +5,7 @@ use std::io::{self, IsTerminal};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use judging::sanitize::sanitize_line;
 
 use crate::outcome::{EntryOutcome, EntryResult};
 
@@ -81,11 +82,12 @@ impl Progress {
 
 fn result_line(result: &EntryResult) -> String {
     let id = &result.id;
-    match &result.outcome {
+    let line = match &result.outcome {
         EntryOutcome::Graded(score) => format!("{id}: {} of {}", score.points, score.max_points),
         EntryOutcome::NothingToGrade(why) => format!("{id}: nothing to grade: {why}"),
         EntryOutcome::Fault(why) => format!("{id}: not graded, and not the student's fault: {why}"),
-    }
+    };
+    sanitize_line(&line, usize::MAX)
 }
 
 fn make_bars(count: usize, slots: usize) -> Bars {

@@ -1,5 +1,6 @@
 //! Reads the people of a class from a roster or gradebook. Columns are recognised by their names.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use grader::policy::read_time;
@@ -42,6 +43,7 @@ const SUBMISSION_TIME: [&str; 4] = [
     "last modified (submission)",
 ];
 const GROUP: [&str; 4] = ["group", "group name", "group_name", "team"];
+const EXTENSION: [&str; 3] = ["extension", "extension_days", "extension days"];
 
 /// Names in Canvas's gradebook that do not belong to people.
 const PLACEHOLDER_NAMES: [&str; 2] = ["Points Possible", "Student, Test"];
@@ -49,10 +51,10 @@ const PLACEHOLDER_NAMES: [&str; 2] = ["Points Possible", "Student, Test"];
 /// A row of a roster or gradebook.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
+    /// The row, as spreadsheets number it.
+    row: usize,
     /// The person that the row is about.
     pub person: Person,
-    /// The name of the person's group; empty if the list has none.
-    pub group: String,
     /// The submission time, in the list's format; empty if the list has none.
     pub submitted: String,
     /// Whether the list marks the submission as late.
@@ -139,7 +141,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
     let column = |names: &[&str]| names.iter().find_map(|name| table.column(name));
     let [name, first, last] = [column(&NAME), column(&FIRST), column(&LAST)];
     let [email, sid, login] = [column(&EMAIL), column(&SID), column(&LOGIN)];
-    let group = column(&GROUP);
+    let [group, extension] = [column(&GROUP), column(&EXTENSION)];
     let [submitted, late] = [column(&SUBMISSION_TIME), table.column("late")];
     // A list needs one of these columns, since only they can match its rows with submissions.
     email.or(sid).or(login).or(name)?;
@@ -150,7 +152,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
             .column("Identifier")
             .or_else(|| table.column("canvas_user_id")),
     };
-    let member = |row: &Vec<String>| {
+    let member = |(row_number, row): (usize, &Vec<String>)| {
         let cell = |column: Option<usize>| {
             let cell = column.and_then(|column| row.get(column));
             cell.map(|cell| cell.trim().to_owned()).unwrap_or_default()
@@ -170,10 +172,13 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
                 .next()
                 .unwrap_or_default()
                 .to_owned(),
+            group: cell(group),
+            extension: cell(extension),
+            is_named_by_file: false,
         };
         Member {
+            row: row_number,
             person,
-            group: cell(group),
             // Moodle writes a dash for a participant who handed in nothing.
             submitted: Some(cell(submitted))
                 .filter(|time| time != "-")
@@ -182,7 +187,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
             has_namesake: false,
         }
     };
-    let members = table.rows.iter().map(member);
+    let members = (2..).zip(&table.rows).map(member);
     let is_person = |Member { person, .. }: &Member| {
         !person.display_name().is_empty() && !PLACEHOLDER_NAMES.contains(&person.name.as_str())
     };
@@ -197,6 +202,53 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
     Some(members)
 }
 
+/// Rejects a roster in which two rows have the same email address, student number or account name,
+/// but differ in something else. A row may be repeated, for example for each attempt or section.
+fn check_keys(path: &Path, members: &[Member]) -> Result<(), TableError> {
+    let mut rows: BTreeMap<(usize, String), usize> = BTreeMap::new();
+    for (index, member) in members.iter().enumerate() {
+        let Person {
+            email, sid, login, ..
+        } = &member.person;
+        for (kind, key) in [email, sid, login].into_iter().enumerate() {
+            if key.is_empty() {
+                continue;
+            }
+            let first = *rows.entry((kind, key.to_lowercase())).or_insert(index);
+            if !is_repetition(&members[first].person, &member.person) {
+                return Err(TableError::DuplicateKey {
+                    path: path.to_owned(),
+                    key: key.clone(),
+                    rows: [members[first].row, member.row],
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Returns whether two rows say the same about a person.
+fn is_repetition(one: &Person, other: &Person) -> bool {
+    let pairs = [
+        (&one.name, &other.name),
+        (&one.email, &other.email),
+        (&one.sid, &other.sid),
+        (&one.login, &other.login),
+        (&one.group, &other.group),
+        (&one.extension, &other.extension),
+    ];
+    pairs
+        .iter()
+        .all(|(one, other)| equals_ignoring_case(one, other))
+}
+
+/// Reads a roster, and checks that no two people have the same identifier.
+pub fn read_roster(path: &Path) -> Result<Vec<Member>, TableError> {
+    let members = read_members(path)?;
+    check_keys(path, &members)?;
+    Ok(members)
+}
+
 /// Fills in unknown fields of `people` from the lists. Returns the people on the lists who match
 /// nobody in `people`.
 pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, TableError> {
@@ -206,6 +258,9 @@ pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, Ta
         &lists.moodle,
         &lists.gradescope,
     ];
+    if let Some(roster) = &lists.roster {
+        read_roster(roster)?;
+    }
     let mut missing: Vec<Person> = Vec::new();
     for path in files.into_iter().flatten() {
         for known in read_members(path)? {

@@ -23,6 +23,10 @@ pub struct Run {
     /// The text of the policy file; `None` for the default policy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub policy: Option<String>,
+    /// The ids of the entries. The folder may have others, of students who are no longer in the
+    /// input.
+    #[serde(default)]
+    pub entries: Vec<String>,
     /// The settings that the scores depend on.
     pub settings: Settings,
     /// The settings of the last finished round before this one.
@@ -60,6 +64,7 @@ impl Run {
             was_finished: false,
             shard: None,
             policy: None,
+            entries: Vec::new(),
             settings,
             before: None,
         }
@@ -80,6 +85,7 @@ impl Run {
             was_finished: false,
             shard: None,
             policy: None,
+            entries: Vec::new(),
             settings,
             before,
         }

@@ -3,11 +3,12 @@
 
 use std::ffi::OsStr;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
+use grader::files::{self, AtPath, PathError};
 use grader::report::atomic_write;
-use grader::report::html::with_counted;
+use grader::report::html::write_counted;
+use serde::de::DeserializeOwned;
 
 use crate::entry::Entry;
 use crate::outcome::{EntryOutcome, EntryResult, EntryState, ScoreSummary, Stamp};
@@ -18,6 +19,7 @@ const REPORT: &str = "report.html";
 const FEEDBACK: &str = "feedback.html";
 const STAMP: &str = "entry.json";
 const PREVIOUS: &str = "previous.json";
+const REPLACED: &str = "replaced.json";
 const RUN: &str = "run.json";
 /// The prefix of temporary files, which are renamed once they are complete.
 const TEMPORARY_PREFIX: &str = ".tmp";
@@ -32,13 +34,8 @@ pub struct Store {
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
     /// A file or folder cannot be read or written.
-    #[error("cannot use {path}: {source}")]
-    Io {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The operating system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
     /// A file has invalid contents.
     #[error("{path} is damaged ({why}): delete it and grade again")]
     Damaged {
@@ -47,6 +44,15 @@ pub enum StoreError {
         /// The parser's message.
         why: String,
     },
+}
+
+impl StoreError {
+    fn damaged(path: PathBuf, error: &serde_json::Error) -> Self {
+        StoreError::Damaged {
+            path,
+            why: error.to_string(),
+        }
+    }
 }
 
 impl Store {
@@ -68,7 +74,7 @@ impl Store {
         for folder in entries.chain([self.folder.clone()]) {
             let files = fs::read_dir(folder).into_iter().flatten().flatten();
             for file in files.filter(|file| is_temporary(&file.file_name())) {
-                remove(&file.path())?;
+                files::remove_if_exists(file.path())?;
             }
         }
         Ok(())
@@ -81,27 +87,17 @@ impl Store {
 
     /// Reads `run.json`; returns `None` in a new folder.
     pub fn read_run(&self) -> Result<Option<Run>, StoreError> {
-        let path = self.folder.join(RUN);
-        let text = match fs::read_to_string(&path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            read => read.map_err(|source| io_error(&path, source))?,
-        };
-        let run = serde_json::from_str(&text);
-        run.map(Some).map_err(|error| StoreError::Damaged {
-            path,
-            why: error.to_string(),
-        })
+        read_json(self.folder.join(RUN))
     }
 
     /// Writes `run.json`.
     pub fn write_run(&self, run: &Run) -> Result<(), StoreError> {
-        self.write(RUN, &json(run))
+        self.write(RUN, json(run))
     }
 
     /// Writes a file of the class, such as `class.json`, into the output folder.
-    pub fn write(&self, name: &str, text: &str) -> Result<(), StoreError> {
-        let path = self.folder.join(name);
-        atomic_write::write(text, &path).map_err(|source| io_error(&path, source))
+    pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> Result<(), StoreError> {
+        Ok(atomic_write::write(contents, &self.folder.join(name))?)
     }
 
     /// Returns the stored result of an entry if it was graded with this cache key.
@@ -123,8 +119,13 @@ impl Store {
     }
 
     /// Writes the stamp of an entry. If the entry has a score, it must already have been written.
-    /// Otherwise, the entry's files from earlier runs are removed.
-    pub fn save_result(&self, result: &EntryResult, key: &str) -> Result<(), StoreError> {
+    /// Otherwise, the entry's files from earlier runs are removed. `round` is the round of the run.
+    pub fn save_result(
+        &self,
+        result: &EntryResult,
+        key: &str,
+        round: u32,
+    ) -> Result<(), StoreError> {
         let folder = self.entry_folder(&result.id);
         let state = match &result.outcome {
             EntryOutcome::Graded(_) => EntryState::Graded,
@@ -134,64 +135,85 @@ impl Store {
         if state != EntryState::Graded {
             // The files of an earlier run must not be mistaken for those of this run.
             for file in [SCORE, REPORT, FEEDBACK] {
-                remove(&folder.join(file))?;
+                files::remove_if_exists(folder.join(file))?;
             }
         }
         let stamp = Stamp {
             key: key.to_owned(),
+            round,
             info: result.info.clone(),
             state,
         };
-        let path = folder.join(STAMP);
-        atomic_write::write(&json(&stamp), &path).map_err(|source| io_error(&path, source))
+        Ok(atomic_write::write(json(&stamp), &folder.join(STAMP))?)
     }
 
     /// Writes the page that the student may see.
     pub fn save_feedback(&self, id: &str, page: &str) -> Result<(), StoreError> {
         let path = self.entry_folder(id).join(FEEDBACK);
-        atomic_write::write(page, &path).map_err(|source| io_error(&path, source))
+        Ok(atomic_write::write(page, &path)?)
     }
 
-    /// Puts a text about what the score counts towards the grade into the entry's pages.
-    pub fn write_counted(&self, id: &str, text: Option<&str>) -> Result<(), StoreError> {
+    /// Reads the page that the student may see.
+    pub fn read_feedback(&self, id: &str) -> Result<String, StoreError> {
+        Ok(files::read_to_string(self.entry_folder(id).join(FEEDBACK))?)
+    }
+
+    /// Puts sentences about what the score counts towards the grade into the entry's pages.
+    pub fn write_counted(&self, id: &str, texts: &[String]) -> Result<(), StoreError> {
         for name in [REPORT, FEEDBACK] {
             let path = self.entry_folder(id).join(name);
-            match fs::read_to_string(&path) {
-                Ok(page) => {
-                    let updated = with_counted(&page, text);
-                    if updated != page {
-                        let written = atomic_write::write(&updated, &path);
-                        written.map_err(|source| io_error(&path, source))?;
-                    }
-                }
-                // A shard's older results may lack a page.
-                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-                Err(error) => return Err(io_error(&path, error)),
-            }
+            // A shard's older results may lack a page.
+            write_counted(&path, texts)?;
         }
         Ok(())
     }
 
+    /// Keeps the score of an entry whose submission has changed, before it is graded again. Scores
+    /// from earlier rounds are kept by [`save_previous_scores`](Self::save_previous_scores).
+    pub fn set_score_aside(&self, id: &str, round: u32) -> Result<(), StoreError> {
+        let stamp = self.read_stamp(id)?;
+        let is_kept = |stamp: Stamp| stamp.state == EntryState::Graded && stamp.round == round;
+        if stamp.is_some_and(is_kept) {
+            let folder = self.entry_folder(id);
+            let path = folder.join(REPLACED);
+            let text = files::read_to_string(folder.join(SCORE))?;
+            atomic_write::write(&text, &path)?;
+        }
+        Ok(())
+    }
+
+    /// Returns the score of an earlier version of the submission in the same round, if there is one.
+    pub fn replaced_score(&self, id: &str) -> Option<ScoreSummary> {
+        self.read_kept_score(id, REPLACED)
+    }
+
     /// Removes the stamp of an entry, before its other files change.
     pub fn remove_stamp(&self, id: &str) -> Result<(), StoreError> {
-        remove(&self.entry_folder(id).join(STAMP))
+        Ok(files::remove_if_exists(self.entry_folder(id).join(STAMP))?)
     }
 
     /// Returns all results, in the order of their ids.
     pub fn results(&self) -> Result<Vec<EntryResult>, StoreError> {
-        let mut results = Vec::new();
-        for id in self.ids()? {
-            let Some(Stamp { info, state, .. }) = self.read_stamp(&id)? else {
-                continue;
-            };
-            let outcome = match state {
-                EntryState::Graded => EntryOutcome::Graded(Box::new(self.read_score(&id)?)),
-                EntryState::NothingToGrade(why) => EntryOutcome::NothingToGrade(why),
-                EntryState::Fault(why) => EntryOutcome::Fault(why),
-            };
-            results.push(EntryResult { id, info, outcome });
-        }
-        Ok(results)
+        let ids = self.ids()?;
+        let results = ids.iter().map(|id| self.result(id));
+        results.filter_map(Result::transpose).collect()
+    }
+
+    /// Returns the result of an entry, or `None` if it has none.
+    pub fn result(&self, id: &str) -> Result<Option<EntryResult>, StoreError> {
+        let Some(Stamp { info, state, .. }) = self.read_stamp(id)? else {
+            return Ok(None);
+        };
+        let outcome = match state {
+            EntryState::Graded => EntryOutcome::Graded(Box::new(self.read_score(id)?)),
+            EntryState::NothingToGrade(why) => EntryOutcome::NothingToGrade(why),
+            EntryState::Fault(why) => EntryOutcome::Fault(why),
+        };
+        Ok(Some(EntryResult {
+            id: id.to_owned(),
+            info,
+            outcome,
+        }))
     }
 
     /// Saves the current score of every entry as its previous score. If an entry has no current
@@ -200,14 +222,15 @@ impl Store {
         for id in self.ids()? {
             let folder = self.entry_folder(&id);
             let path = folder.join(PREVIOUS);
+            files::remove_if_exists(folder.join(REPLACED))?;
             if self
                 .read_stamp(&id)?
                 .is_some_and(|s| s.state == EntryState::Graded)
             {
-                let text = read(&folder.join(SCORE))?;
-                atomic_write::write(&text, &path).map_err(|source| io_error(&path, source))?;
+                let text = files::read_to_string(folder.join(SCORE))?;
+                atomic_write::write(&text, &path)?;
             } else {
-                remove(&path)?;
+                files::remove_if_exists(&path)?;
             }
         }
         Ok(())
@@ -215,46 +238,33 @@ impl Store {
 
     /// Returns the previous score of an entry, if there is one.
     pub fn previous_score(&self, id: &str) -> Option<ScoreSummary> {
-        let text = fs::read_to_string(self.entry_folder(id).join(PREVIOUS)).ok()?;
+        self.read_kept_score(id, PREVIOUS)
+    }
+
+    fn read_kept_score(&self, id: &str, name: &str) -> Option<ScoreSummary> {
+        let text = fs::read_to_string(self.entry_folder(id).join(name)).ok()?;
         ScoreSummary::parse(&text).ok()
     }
 
     /// Returns the ids of all entries, sorted.
     pub fn ids(&self) -> Result<Vec<String>, StoreError> {
         let folder = self.folder.join("students");
-        let entries = match fs::read_dir(&folder) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
-            entries => entries.map_err(|source| io_error(&folder, source))?,
-        };
-        let names = entries.flatten().map(|entry| entry.file_name());
-        let mut ids: Vec<String> = names.filter_map(|name| name.into_string().ok()).collect();
-        ids.sort();
-        Ok(ids)
+        if !folder.try_exists().at("read", &folder)? {
+            return Ok(Vec::new());
+        }
+        let entries = files::read_dir(&folder)?;
+        let names = entries.iter().filter_map(|path| path.file_name()?.to_str());
+        Ok(names.map(str::to_owned).collect())
     }
 
     fn read_score(&self, id: &str) -> Result<ScoreSummary, StoreError> {
         let path = self.entry_folder(id).join(SCORE);
-        let text = read(&path)?;
-        ScoreSummary::parse(&text).map_err(|error| StoreError::Damaged {
-            path,
-            why: error.to_string(),
-        })
+        let text = files::read_to_string(&path)?;
+        ScoreSummary::parse(&text).map_err(|error| StoreError::damaged(path, &error))
     }
 
     fn read_stamp(&self, id: &str) -> Result<Option<Stamp>, StoreError> {
-        let path = self.entry_folder(id).join(STAMP);
-        match fs::read_to_string(&path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-            Err(source) => Err(io_error(&path, source)),
-            Ok(text) => {
-                serde_json::from_str(&text)
-                    .map(Some)
-                    .map_err(|error| StoreError::Damaged {
-                        path,
-                        why: error.to_string(),
-                    })
-            }
-        }
+        read_json(self.entry_folder(id).join(STAMP))
     }
 }
 
@@ -269,20 +279,9 @@ pub fn json(value: &impl serde::Serialize) -> String {
     text
 }
 
-fn read(path: &Path) -> Result<String, StoreError> {
-    fs::read_to_string(path).map_err(|source| io_error(path, source))
-}
-
-fn remove(path: &Path) -> Result<(), StoreError> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(io_error(path, error)),
-        Ok(()) | Err(_) => Ok(()),
-    }
-}
-
-fn io_error(path: &Path, source: io::Error) -> StoreError {
-    StoreError::Io {
-        path: path.to_owned(),
-        source,
-    }
+/// Reads a JSON file, or returns `None` if it does not exist.
+fn read_json<T: DeserializeOwned>(path: PathBuf) -> Result<Option<T>, StoreError> {
+    let text = files::read_if_exists(&path)?;
+    let value = text.map(|text| serde_json::from_str(&text)).transpose();
+    value.map_err(|error| StoreError::damaged(path, &error))
 }

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::distribution::Distribution;
-use crate::model::{ClassRow, GradedClass};
-use crate::outcome::ScoreSummary;
+use crate::model::{ClassRow, GradeProblem, GradedClass};
+use crate::outcome::{EntryOutcome, ScoreSummary};
 
 /// The format version of `class.json`.
 const SCHEMA: u32 = 1;
@@ -37,6 +37,10 @@ pub struct ClassSummary {
     pub undated: usize,
     /// The number of submissions without final points because their submission time is unclear.
     pub unclear_times: usize,
+    /// The number of submissions that do not count because another one of the same person does.
+    pub superseded: usize,
+    /// The number of submissions of which nobody has chosen whether they count.
+    pub undecided: usize,
     /// The distribution of the total points; `None` if there are no scores.
     pub points: Option<Distribution>,
     /// The distribution of each task's points, in lecture order.
@@ -86,8 +90,26 @@ pub struct MistakeCount {
 pub struct Outlier {
     /// The entry's id.
     pub id: String,
+    /// The names of its people.
+    pub names: String,
     /// The reason why the submission needs attention.
     pub why: String,
+}
+
+impl Outlier {
+    /// Returns the id and, if they are others, the names of the people.
+    pub fn title(&self) -> String {
+        id_and_names(&self.id, &self.names)
+    }
+}
+
+/// Returns the id of an entry and, if they are others, the names of its people.
+pub fn id_and_names(id: &str, names: &str) -> String {
+    if names == id {
+        id.to_owned()
+    } else {
+        format!("{id} ({names})")
+    }
 }
 
 impl ClassSummary {
@@ -104,15 +126,17 @@ impl ClassSummary {
             exam_hash: class.exam_hash.clone(),
             isolation: class.isolation.clone(),
             graded: scores.len(),
-            nothing_to_grade: class.rows.len() - scores.len() - not_graded,
+            nothing_to_grade: class.rows.iter().filter(|row| has_nothing(row)).count(),
             not_graded,
             missing: class.missing.len(),
             unclear_times: class
                 .rows
                 .iter()
-                .filter(|row| row.unclear_time.is_some())
+                .filter(|row| matches!(row.problem(), Some(GradeProblem::UnclearTime(_))))
                 .count(),
-            undated: class.rows.iter().filter(|row| row.is_undated).count(),
+            superseded: class.rows.iter().filter(|row| row.is_superseded()).count(),
+            undecided: class.rows.iter().filter(|row| is_undecided(row)).count(),
+            undated: class.rows.iter().filter(|row| is_undated(row)).count(),
             tasks: tasks(&scores),
             failed_most: failed_most(&scores),
             mistakes: mistakes(&scores),
@@ -120,6 +144,18 @@ impl ClassSummary {
             points,
         }
     }
+}
+
+fn has_nothing(row: &ClassRow) -> bool {
+    matches!(row.result.outcome, EntryOutcome::NothingToGrade(_)) && !row.is_superseded()
+}
+
+fn is_undated(row: &ClassRow) -> bool {
+    row.grades.iter().any(|grade| grade.is_undated)
+}
+
+fn is_undecided(row: &ClassRow) -> bool {
+    matches!(row.problem(), Some(GradeProblem::SeveralAttempts(_)))
 }
 
 fn tasks(scores: &[&ScoreSummary]) -> Vec<TaskDistribution> {
@@ -192,9 +228,14 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
         let (lower, upper): (f64, f64) = (lower, upper);
         lower - 1.5 * (upper - lower)
     });
+    let problem = |row: &ClassRow| {
+        let grade = row.grades.iter().find(|grade| grade.counted.is_none())?;
+        Some(format!("{}: {}", row.status(grade), row.why(grade)))
+    };
     let why = |row: &ClassRow| match row.result.score() {
-        None => Some(format!("{}: {}", row.status(), row.why())),
-        Some(_) if row.counted.is_none() => Some(format!("{}: {}", row.status(), row.why())),
+        _ if row.is_superseded() => None,
+        None => problem(row),
+        Some(_) if row.problem().is_some() => problem(row),
         Some(score) if score.items().all(|item| item.verdict == "not_compiled") => {
             Some("0 points: nothing compiles".to_owned())
         }
@@ -210,6 +251,7 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
     let outlier = |row: &ClassRow| {
         Some(Outlier {
             id: row.result.id.clone(),
+            names: row.result.info.display_names(),
             why: why(row)?,
         })
     };

@@ -1,9 +1,10 @@
-//! CSV tables as platforms export them: separated by commas or semicolons, with or without a byte
+//! CSV tables as platforms export them: separated by commas, semicolons or tabs, with or without a byte
 //! order mark.
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+
+use grader::files::{self, PathError};
+use judging::sanitize::sanitize_line;
 
 /// A CSV table. Cells are kept as text: numbers and dates are not parsed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,13 +21,8 @@ pub struct Table {
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
     /// The file cannot be read.
-    #[error("cannot read {path}: {source}")]
-    Io {
-        /// The file's path.
-        path: PathBuf,
-        /// The operating system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
     /// The file is not valid CSV.
     #[error("{path}: {why}; export it again, as CSV in UTF-8")]
     Csv {
@@ -34,6 +30,19 @@ pub enum TableError {
         path: PathBuf,
         /// The position and the problem.
         why: String,
+    },
+    /// Two rows of a roster have the same key, but are about different people.
+    #[error(
+        "{path}: rows {} and {} both have {key:?}, but differ otherwise: correct one of them",
+        rows[0], rows[1]
+    )]
+    DuplicateKey {
+        /// The file's path.
+        path: PathBuf,
+        /// The email address, student number or account name.
+        key: String,
+        /// The rows, as spreadsheets number them.
+        rows: [usize; 2],
     },
     /// A column is missing.
     #[error("{path} has no column {column}: {remedy}")]
@@ -47,15 +56,14 @@ pub enum TableError {
     },
 }
 
+/// The delimiters that spreadsheets write. If several are as frequent, the first counts.
+const DELIMITERS: [u8; 3] = [b',', b';', b'\t'];
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 impl Table {
     /// Reads a CSV file.
     pub fn read(path: &Path) -> Result<Self, TableError> {
-        let bytes = fs::read(path).map_err(|source| TableError::Io {
-            path: path.to_owned(),
-            source,
-        })?;
+        let bytes = files::read(path)?;
         Table::parse(&bytes).map_err(|why| TableError::Csv {
             path: path.to_owned(),
             why,
@@ -70,12 +78,9 @@ impl Table {
             .split(|byte| *byte == b'\n')
             .next()
             .unwrap_or_default();
-        let count = |sign: u8| first.iter().filter(|byte| **byte == sign).count();
-        let delimiter = if count(b';') > count(b',') {
-            b';'
-        } else {
-            b','
-        };
+        let count = |sign: &u8| first.iter().filter(|byte| *byte == sign).count();
+        let delimiter = DELIMITERS.into_iter().rev().max_by_key(count);
+        let delimiter = delimiter.unwrap_or(b',');
         let mut reader = csv::ReaderBuilder::new()
             .delimiter(delimiter)
             .has_headers(false)
@@ -151,12 +156,15 @@ impl Table {
     }
 }
 
-/// Escapes text that a spreadsheet would take for a formula: a student's name could otherwise run a
-/// formula on the teacher's machine (OWASP, "CSV Injection").
-pub fn escape_formula(text: &str) -> String {
-    match text.chars().next() {
-        Some('=' | '+' | '-' | '@' | '\t' | '\r') => format!("'{text}"),
-        Some(_) | None => text.to_owned(),
+/// Returns untrusted text as a cell: without control characters, and so that no spreadsheet takes it
+/// for a formula. Otherwise, a student's name could run a formula on the teacher's machine (OWASP,
+/// "CSV Injection").
+pub fn safe_cell(text: &str) -> String {
+    let text = sanitize_line(text, usize::MAX);
+    // A formula may begin after spaces, and a tab has become spaces.
+    match text.trim_start().chars().next() {
+        Some('=' | '+' | '-' | '@') => format!("'{text}"),
+        Some(_) | None => text,
     }
 }
 
@@ -170,12 +178,18 @@ mod tests {
         let table = Table::parse(text.as_bytes()).unwrap();
         assert_eq!(table.rows, [["Müller; Ann", "87,5"]]);
         assert_eq!(table.to_csv(), text);
+        let tabs = "Name\tGrade\nAnn, Lee\t87\n";
+        let table = Table::parse(tabs.as_bytes()).unwrap();
+        assert_eq!(table.rows, [["Ann, Lee", "87"]]);
+        assert_eq!(table.to_csv(), tabs);
     }
 
     #[test]
     fn formulas_are_escaped_and_other_text_is_kept() {
-        assert_eq!(escape_formula("=1+1"), "'=1+1");
-        assert_eq!(escape_formula("@SUM(A1)"), "'@SUM(A1)");
-        assert_eq!(escape_formula("O'Hara"), "O'Hara");
+        assert_eq!(safe_cell("=1+1"), "'=1+1");
+        assert_eq!(safe_cell("@SUM(A1)"), "'@SUM(A1)");
+        assert_eq!(safe_cell("\t=1+1"), "'    =1+1");
+        assert_eq!(safe_cell("O'Hara"), "O'Hara");
+        assert_eq!(safe_cell("a\r\n\u{202e}b"), "a\\r\\n\\u{202e}b");
     }
 }

@@ -4,10 +4,11 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::{self, ErrorKind};
+use std::io::ErrorKind;
 use std::path::{Component, Path};
 
 use grader::build::build_dir::BuildDir;
+use grader::files::{self, AtPath, PathError};
 use grader::submission::{Archive, ArchiveError, Member, is_archive_name};
 
 use crate::input_error::ClassInputError;
@@ -41,16 +42,13 @@ pub fn unpack(
         path: path.to_owned(),
         why,
     };
-    let at = |source| ClassInputError::Io {
-        path: path.to_owned(),
-        source,
-    };
-    let max_total = MAX_TOTAL_BYTES + MAX_EXPANSION * fs::metadata(path).map_err(at)?.len();
+    let bytes = fs::metadata(path).at("read", path)?.len();
+    let max_total = MAX_TOTAL_BYTES + MAX_EXPANSION * bytes;
     let mut archive = Archive::open(path).map_err(archive_error)?;
     let listing = archive.listing().map_err(archive_error)?;
-    let build_dir = BuildDir::new_in(parent).map_err(at)?;
+    let build_dir = BuildDir::new_in(parent)?;
     let folder = &build_dir.path().join(CLASS_FOLDER);
-    fs::create_dir(folder).map_err(at)?;
+    files::create_dir_all(folder)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let unmatched = |why: String| UnmatchedPath {
         name: name.clone().into_owned(),
@@ -64,8 +62,8 @@ pub fn unpack(
 
     let wanted_folders = listing.folders.iter().filter(|path| is_wanted(path));
     for path in wanted_folders {
-        let put = extract_to(folder, path, |target| fs::create_dir_all(target));
-        others.extend(put.map_err(at)?.map(unmatched));
+        let put = extract_to(folder, path, |target| files::create_dir_all(target));
+        others.extend(put?.map(unmatched));
     }
     // Grouped by the maximum size, so that a tar archive is read once per group and not once per
     // file.
@@ -98,10 +96,9 @@ pub fn unpack(
                     )));
                 }
                 let put = extract_to(folder, &member.path, |target| {
-                    fs::create_dir_all(target.parent().unwrap_or(target))?;
-                    fs::write(target, &bytes)
+                    files::write_with_parents(target, &bytes)
                 });
-                others.extend(put.map_err(at)?.map(unmatched));
+                others.extend(put?.map(unmatched));
             }
         }
     }
@@ -129,8 +126,8 @@ fn max_bytes(path: &str) -> u64 {
 fn extract_to(
     folder: &Path,
     path: &str,
-    put: impl Fn(&Path) -> io::Result<()>,
-) -> io::Result<Option<String>> {
+    put: impl Fn(&Path) -> Result<(), PathError>,
+) -> Result<Option<String>, PathError> {
     let mut parts = Path::new(path).components();
     if !parts.all(|part| matches!(part, Component::Normal(_))) {
         return Ok(Some(format!("{path} in it is not a valid path")));
@@ -139,7 +136,9 @@ fn extract_to(
         Ok(()) => Ok(None),
         // The archive is at fault if, for example, a name is too long, or a path is both a file and
         // a folder.
-        Err(error) if !is_machine_fault(error.kind()) => Ok(Some(format!("{path} in it: {error}"))),
+        Err(error) if !is_machine_fault(error.source.kind()) => {
+            Ok(Some(format!("{path} in it: {}", error.reason())))
+        }
         Err(error) => Err(error),
     }
 }

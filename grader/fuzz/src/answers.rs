@@ -9,6 +9,7 @@ use grader::report::json;
 use grader::report::text::{HintDetail, report};
 use grader::report_answers::ReportAnswers;
 use grader::score::Verdict;
+use grader::task_selection::TaskSelection;
 use grader::verdict::{ItemOutcome, add_hints, item_score, pending_score};
 use judging::exam::{Exam, ExamQuestion, Item};
 use judging::exam_file::ExamFile;
@@ -69,7 +70,7 @@ fn grade(item: &Item, answers: Vec<Answer>) {
 
     let text = json::to_string(&score);
     serde_json::from_str::<serde_json::Value>(&text).expect("the score is JSON");
-    let printed = report(&score, None, HintDetail::Full);
+    let printed = report(&score, &TaskSelection::All, HintDetail::Full);
     assert!(
         !printed.contains('\u{7}'),
         "the report has a bell character"

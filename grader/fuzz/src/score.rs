@@ -1,5 +1,6 @@
 //! Score files that `cargo class` reads back, from other machines or from a run that was killed.
 
+use class::drift::Changes;
 use class::entry::EntryInfo;
 use class::model::{ClassRow, GradedClass};
 use class::outcome::{EntryOutcome, EntryResult, ScoreSummary, Stamp};
@@ -32,12 +33,12 @@ pub fn read(bytes: &[u8]) {
         exam_hash: "any".to_owned(),
         isolation: "none".to_owned(),
         rows: ["alice", "bob"]
-            .map(|id| ClassRow::new(row(id), &policy))
+            .map(|id| ClassRow::new(row(id), &policy, vec![Vec::new(); info.people.len()]))
             .into(),
         missing: Vec::new(),
     };
     let class_summary = ClassSummary::new(&class);
-    assert!(page::render_page(&class, &class_summary).ends_with("</html>"));
+    assert!(page::render_page(&class, &class_summary, &Changes::default()).ends_with("</html>"));
     assert!(!grades::grades_table(&class).to_csv().is_empty());
     assert!(!text::render_summary(&class_summary).is_empty());
 }

@@ -17,7 +17,7 @@ use crate::signatures::{KnownMistake, MistakeAnswers, NoAnswerReason, ObservedAn
 
 /// Maximum number of mistakes to name for an item. If there are more, none is named, because a long
 /// list would not help.
-const MAX_MISTAKES: usize = 3;
+pub const MAX_MISTAKES: usize = 3;
 
 /// A submission's answers to the signature elements of each item, by item id.
 #[derive(Clone, Debug, Default)]

@@ -1,7 +1,9 @@
-//! Makes text from untrusted sources safe for terminals, files and web pages.
+//! Makes text from untrusted sources safe for terminals, tables and web pages. Everything that a
+//! submission, its name or a list of people contains goes through [`sanitize`] or [`sanitize_line`]
+//! before people read it.
 
-/// Escapes direction marks, and control characters except line breaks and tabs. Replaces tabs with
-/// spaces, and truncates the text after `longest` characters.
+/// Escapes all characters that could affect the text around them, except line breaks. Replaces tabs
+/// with spaces, and truncates the text after `longest` characters.
 pub fn sanitize(text: &str, longest: usize) -> String {
     let mut sanitized = String::new();
     for (count, character) in text.chars().enumerate() {
@@ -12,12 +14,32 @@ pub fn sanitize(text: &str, longest: usize) -> String {
         match character {
             '\n' => sanitized.push('\n'),
             '\t' => sanitized.push_str("    "),
-            // Direction marks are escaped, because they reorder the text around them on screen.
-            c if c.is_control() || is_direction_mark(c) => sanitized.extend(c.escape_default()),
+            c if affects_surroundings(c) => sanitized.extend(c.escape_default()),
             c => sanitized.push(c),
         }
     }
     sanitized
+}
+
+/// Sanitizes a text like [`sanitize`], and also escapes line breaks.
+pub fn sanitize_line(text: &str, longest: usize) -> String {
+    sanitize(text, longest).replace('\n', "\\n")
+}
+
+/// Returns whether a character could affect the text around it: a control character, a mark that
+/// changes the direction in which text is shown, a line separator, or an invisible character that
+/// programs interpret, such as a tag.
+pub fn affects_surroundings(c: char) -> bool {
+    let is_direction_mark = matches!(
+        c,
+        '\u{061c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
+    );
+    let is_separator = matches!(c, '\u{2028}' | '\u{2029}');
+    let is_invisible = matches!(
+        c,
+        '\u{206a}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}'
+    );
+    c.is_control() || is_direction_mark || is_separator || is_invisible
 }
 
 /// Maximum length of a folder name, in characters.
@@ -48,15 +70,11 @@ pub fn safe_folder_name(text: &str) -> String {
     name.trim_end_matches('.').to_owned()
 }
 
-fn is_direction_mark(c: char) -> bool {
-    matches!(c, '\u{061c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
-    use super::{safe_folder_name, sanitize};
+    use super::{affects_surroundings, safe_folder_name, sanitize, sanitize_line};
 
     #[test]
     fn escapes_control_and_direction_characters() {
@@ -65,6 +83,22 @@ mod tests {
             "\\u{1b}[2Jscore\\u{202e}"
         );
         assert_eq!(sanitize("two\nlines", 99), "two\nlines");
+        assert_eq!(sanitize_line("two\r\nlines", 99), "two\\r\\nlines");
+        // Names and formulas are not changed.
+        let harmless = "Zoë Müller, مريم, 张伟, नेहा, θ ≤ 2π, 👩\u{200d}🔬";
+        assert_eq!(sanitize_line(harmless, 99), harmless);
+    }
+
+    proptest! {
+        #[test]
+        fn nothing_that_affects_its_surroundings_is_left(text in any::<String>(), longest in 0..50_usize) {
+            let sanitized = sanitize(&text, longest);
+            prop_assert!(!sanitized.chars().any(|c| c != '\n' && affects_surroundings(c)));
+            prop_assert_eq!(sanitize(&sanitized, usize::MAX), sanitized);
+            let line = sanitize_line(&text, longest);
+            prop_assert!(!line.chars().any(affects_surroundings));
+            prop_assert_eq!(sanitize_line(&line, usize::MAX), line);
+        }
     }
 
     #[test]

@@ -41,24 +41,39 @@ impl NotCompiled {
     }
 }
 
-/// Returns the files that are rejected before compiling: unreadable ones, and those without a
-/// declaration that other files use.
-pub(super) fn unusable_files(submission: &Submission) -> BTreeMap<&'static str, NotCompiled> {
-    let why = |file: &TaskFile, text: &Result<String, TaskFileError>| match text {
-        Err(unreadable) => Some(NotCompiled::Unreadable(unreadable.clone())),
-        Ok(text) => {
-            let missing = file
-                .required_declarations
-                .iter()
-                .find(|part| !text.contains(**part));
-            missing.map(|part| NotCompiled::MissingDeclaration(part))
-        }
+/// Returns the files that are rejected before compiling, because they cannot be read.
+pub(super) fn unreadable_files(submission: &Submission) -> BTreeMap<&'static str, NotCompiled> {
+    let files = submission.files.iter();
+    let why = files.filter_map(|(file, text)| {
+        let why = text.as_ref().err()?;
+        Some((file.name, NotCompiled::Unreadable(why.clone())))
+    });
+    why.collect()
+}
+
+/// Returns the files that seem to lack a declaration that other files use. The errors in the other
+/// files would hide the cause.
+pub(super) fn incomplete_files(submission: &Submission) -> BTreeMap<&'static str, NotCompiled> {
+    let why = |(file, text): &(TaskFile, Result<String, TaskFileError>)| {
+        let text = text.as_ref().ok()?;
+        let mut required = file.required_declarations.iter();
+        let missing = required.find(|part| !text.contains(**part))?;
+        Some((file.name, NotCompiled::MissingDeclaration(missing)))
     };
-    submission
-        .files
-        .iter()
-        .filter_map(|(file, text)| Some((file.name, why(file, text)?)))
-        .collect()
+    submission.files.iter().filter_map(why).collect()
+}
+
+/// Replaces the reason for each of these files by the first error in it, such as a misspelt
+/// `struct`, which says more.
+pub(super) fn explain(incomplete: &mut BTreeMap<&'static str, NotCompiled>, errors: &[Diagnostic]) {
+    for (name, why) in incomplete {
+        if let Some(error) = errors.iter().find(|error| error.originates_in(name)) {
+            *why = NotCompiled::Error {
+                text: error.text().to_owned(),
+                line: error.line_in(name),
+            };
+        }
+    }
 }
 
 /// Records each file that the errors name, with its first error. Returns whether any of these files

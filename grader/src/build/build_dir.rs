@@ -3,10 +3,11 @@
 //! after use. If a grader is killed, the next grader removes its directory.
 
 use std::fs::{self, File, TryLockError};
-use std::io;
 use std::path::Path;
 
 use tempfile::TempDir;
+
+use crate::files::{self, AtPath, PathError};
 
 /// A file that is locked while the directory is in use. The system releases the lock when the
 /// grader ends, even if it is killed.
@@ -24,15 +25,13 @@ pub struct BuildDir {
 
 impl BuildDir {
     /// Creates a directory inside `all`.
-    pub fn new_in(all: &Path) -> io::Result<Self> {
-        fs::create_dir_all(all)?;
-        let folder = TempDir::new_in(all)?;
-        let lock = File::create(folder.path().join(UNLOCKED_FILE))?;
-        lock.lock()?;
-        fs::rename(
-            folder.path().join(UNLOCKED_FILE),
-            folder.path().join(LOCK_FILE),
-        )?;
+    pub fn new_in(all: &Path) -> Result<Self, PathError> {
+        files::create_dir_all(all)?;
+        let folder = TempDir::new_in(all).at("create a folder in", all)?;
+        let unlocked = folder.path().join(UNLOCKED_FILE);
+        let lock = File::create(&unlocked).at("create", &unlocked)?;
+        lock.lock().at("lock", &unlocked)?;
+        fs::rename(&unlocked, folder.path().join(LOCK_FILE)).at("rename", &unlocked)?;
         Ok(BuildDir {
             _lock: lock,
             folder,

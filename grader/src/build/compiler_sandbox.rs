@@ -41,6 +41,13 @@ pub(super) fn arguments(rustc: &Rustc, source: &Crate, command: &mut Command) {
     }
 }
 
+/// Returns whether the compiler may read a program.
+pub(super) fn can_read_program(rustc: &Rustc, program: &Path) -> bool {
+    let system = SYSTEM_PATHS.iter().map(Path::new);
+    let mut readable = system.chain([rustc.toolchain.sysroot()]);
+    readable.any(|folder| program.starts_with(folder))
+}
+
 /// Returns the files that the compiler may read and write.
 pub(super) fn profile(rustc: &Rustc, source: &Crate) -> Profile {
     let links = source.links.iter().map(|(_, library)| *library);

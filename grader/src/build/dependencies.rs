@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::build::toolchain::Toolchain;
+use crate::files::{self, AtPath, PathError};
 use crate::system;
 use crate::workspace::Workspace;
 
@@ -49,13 +50,8 @@ pub struct Dependencies {
 #[derive(Debug, thiserror::Error)]
 pub enum DependenciesError {
     /// The cache cannot be used.
-    #[error("cannot use {path}: {source}")]
-    Io {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
     /// Cargo failed, and has printed why.
     #[error(
         "cargo could not build student/framework (see its messages above); the first run needs network access"
@@ -108,6 +104,30 @@ impl Dependencies {
             copy(libraries, &externs, &cache.join("crates"))
         })
     }
+
+    /// Returns the dependencies together with a crate of this workspace, whose package is in
+    /// `folder`. All are built in one call of cargo, so that they share one `framework`.
+    pub fn with_package(
+        name: &str,
+        folder: &Path,
+        workspace: &Workspace,
+        toolchain: &Toolchain,
+    ) -> Result<Self, DependenciesError> {
+        let mut sources = vec![folder.join("Cargo.toml")];
+        list_sources(&folder.join("src"), &mut sources)?;
+        let mut hash = ContentHash::default().with(cache_key(workspace, toolchain)?.as_bytes());
+        for file in sources {
+            hash.add(&files::read(&file)?);
+        }
+        let cache = workspace.cache_folder().join("dependencies");
+        let cache = cache.join(format!("{}-{name}", &hash.hex()[..16]));
+        prepare_once(&cache, || {
+            let packages = [&FRAMEWORK_PACKAGES[..], &["--package", name]].concat();
+            let libraries = build(&packages, workspace, toolchain)?;
+            let externs: Vec<&str> = EXTERNS.into_iter().chain([name]).collect();
+            copy(libraries, &externs, &cache.join("crates"))
+        })
+    }
 }
 
 /// Returns the dependencies in this folder, or builds them there. Existing files are never built
@@ -128,22 +148,17 @@ fn prepare_once(
     }
     let built = make()?;
     let text = serde_json::to_vec_pretty(&built).expect("paths are valid UTF-8");
-    fs::write(&record, text).map_err(io_error(&record))?;
+    files::write(&record, text)?;
     Ok(built)
 }
 
 /// Locks this folder until the returned file is dropped.
 fn lock(cache: &Path) -> Result<File, DependenciesError> {
-    fs::create_dir_all(cache).map_err(io_error(cache))?;
+    files::create_dir_all(cache)?;
     let path = cache.join("lock");
-    let lock = File::create(&path).map_err(io_error(&path))?;
-    lock.lock().map_err(io_error(&path))?;
+    let lock = File::create(&path).at("create", &path)?;
+    lock.lock().at("lock", &path)?;
     Ok(lock)
-}
-
-fn io_error(path: &Path) -> impl FnOnce(io::Error) -> DependenciesError {
-    let path = path.to_owned();
-    move |source| DependenciesError::Io { path, source }
 }
 
 fn read(record: &Path) -> Option<Dependencies> {
@@ -171,16 +186,13 @@ fn cache_key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, Dep
     for file in files {
         let name = file.strip_prefix(workspace.root()).unwrap_or(&file);
         hash.add(name.as_os_str().as_encoded_bytes());
-        hash.add(&fs::read(&file).map_err(io_error(&file))?);
+        hash.add(&files::read(&file)?);
     }
     Ok(hash.hex())
 }
 
 fn list_sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), DependenciesError> {
-    let entries = fs::read_dir(folder).map_err(io_error(folder))?;
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    paths.sort();
-    for path in paths {
+    for path in files::read_dir(folder)? {
         if path.is_dir() {
             list_sources(&path, files)?;
         } else {
@@ -226,7 +238,7 @@ fn build(
             .env("CARGO_PROFILE_RELEASE_DEBUG", "false")
             .env("CARGO_PROFILE_RELEASE_LTO", "off")
             .env("CARGO_PROFILE_RELEASE_PANIC", "unwind");
-        output(&mut cargo).map_err(io_error(&toolchain.cargo))
+        output(&mut cargo).at("run", &toolchain.cargo)
     };
     let mut output = run(true)?;
     if !output.status.success() {
@@ -275,11 +287,11 @@ fn copy(
     names: &[&str],
     folder: &Path,
 ) -> Result<Dependencies, DependenciesError> {
-    fs::create_dir_all(folder).map_err(io_error(folder))?;
+    files::create_dir_all(folder)?;
     let mut externs = BTreeMap::new();
     for (name, library) in libraries {
         let copy = folder.join(library.file_name().expect("cargo prints paths of files"));
-        fs::copy(&library, &copy).map_err(io_error(&library))?;
+        files::copy(&library, &copy)?;
         if names.contains(&&*name) {
             externs.insert(name, copy);
         }
@@ -310,7 +322,7 @@ mod tests {
         let make = || {
             built.fetch_add(1, Ordering::SeqCst);
             let rlib = cache.join("libglam.rlib");
-            fs::write(&rlib, "a library").map_err(io_error(&rlib))?;
+            files::write(&rlib, "a library")?;
             Ok(Dependencies {
                 externs: BTreeMap::from([("glam".to_owned(), rlib)]),
                 folder: cache.clone(),

@@ -10,11 +10,19 @@ pub struct Diagnostic {
     message: String,
     level: String,
     #[serde(default)]
+    code: Option<ErrorCode>,
+    #[serde(default)]
     spans: Vec<Span>,
     #[serde(default)]
     children: Vec<Diagnostic>,
     #[serde(default)]
     rendered: Option<String>,
+}
+
+/// The code of an error, such as `E0308`. Syntax errors have none.
+#[derive(Clone, Debug, Deserialize)]
+struct ErrorCode {
+    code: String,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -62,10 +70,24 @@ impl Diagnostic {
             })
     }
 
-    /// Returns the 1-based line number of the error if it is in this file.
+    /// Returns the 1-based line number of the error if it is in this file, or else that of the first
+    /// line in this file that the message refers to.
     pub fn line_in(&self, file: &str) -> Option<u32> {
-        let mut spans = self.spans.iter().filter(|span| span.is_primary);
+        let primary = self.spans.iter().filter(|span| span.is_primary);
+        let children = self.children.iter().flat_map(|child| &child.spans);
+        let mut spans = primary.chain(&self.spans).chain(children);
         spans.find(|span| span.file_name == file)?.line_start
+    }
+
+    /// Returns whether the error is in this file, and is not that something from another file is
+    /// missing.
+    pub fn originates_in(&self, file: &str) -> bool {
+        /// Codes of unresolved imports and paths.
+        const UNRESOLVED: [&str; 2] = ["E0432", "E0433"];
+        let code = self.code.as_ref().map(|code| code.code.as_str());
+        let mut primary = self.spans.iter().filter(|span| span.is_primary);
+        primary.any(|span| span.file_name == file)
+            && code.is_none_or(|code| !UNRESOLVED.contains(&code))
     }
 
     /// Returns the whole message as the compiler prints it.

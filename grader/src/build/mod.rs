@@ -18,13 +18,12 @@ mod toolchain;
 mod verified_copy;
 
 use std::collections::BTreeMap;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use judging::content_hash::ContentHash;
 
-use crate::build::blame::{blame, blame_all, unusable_files};
+use crate::build::blame::{blame, blame_all, explain, incomplete_files, unreadable_files};
 use crate::build::build_dir::{BuildDir, remove_abandoned};
 use crate::build::compile::compile;
 use crate::build::dependencies::{Dependencies, DependenciesError};
@@ -32,6 +31,7 @@ use crate::build::program_cache::ProgramCache;
 use crate::build::rustc::{CompileOutcome, Rustc};
 use crate::build::substitution::{ReferenceParts, Substitution, SubstitutionError};
 use crate::build::toolchain::{Toolchain, ToolchainError};
+use crate::files::{AtPath, PathError};
 use crate::handed_out::{HandedOut, TaskFile};
 use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, TaskFileError};
@@ -72,13 +72,8 @@ pub enum BuildError {
     )]
     Machine(String),
     /// The build folder cannot be used.
-    #[error("cannot build in {path}: {source}")]
-    Io {
-        /// Path of the build folder.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    Folder(#[from] PathError),
 }
 
 impl Builder {
@@ -86,9 +81,13 @@ impl Builder {
     pub fn prepare(workspace: &Workspace) -> Result<Self, BuildError> {
         let toolchain = Toolchain::find()?;
         let dependencies = Dependencies::prepare(workspace, &toolchain)?;
+        Ok(Builder::new(toolchain, dependencies, workspace))
+    }
+
+    fn new(toolchain: Toolchain, dependencies: Dependencies, workspace: &Workspace) -> Self {
         let folder = workspace.cache_folder().join("work");
         remove_abandoned(&folder);
-        Ok(Builder {
+        Builder {
             rustc: Rustc {
                 toolchain,
                 dependencies,
@@ -97,7 +96,7 @@ impl Builder {
             },
             reference_parts: Vec::new(),
             folder,
-        })
+        }
     }
 
     /// Returns a builder that can also compile a submission's file with parts of this reference in
@@ -127,6 +126,18 @@ impl Builder {
         builder.rustc.dependencies =
             Dependencies::with_crates(names, workspace, &self.rustc.toolchain)?;
         Ok(builder)
+    }
+
+    /// Finds the compiler, and builds the dependencies together with a crate of this workspace, which
+    /// programs can import. The package is in `folder`. Nothing is built for grading.
+    pub fn prepare_with_package(
+        name: &str,
+        folder: &Path,
+        workspace: &Workspace,
+    ) -> Result<Self, BuildError> {
+        let toolchain = Toolchain::find()?;
+        let dependencies = Dependencies::with_package(name, folder, workspace, &toolchain)?;
+        Ok(Builder::new(toolchain, dependencies, workspace))
     }
 
     /// Returns a hash of everything that programs depend on besides the submission.
@@ -162,11 +173,7 @@ impl Builder {
 
     /// Returns a builder that stores all programs in this folder and reuses them.
     pub fn with_cache(mut self, folder: &Path) -> Result<Self, BuildError> {
-        let kept = ProgramCache::new(folder).map_err(|source| BuildError::Io {
-            path: folder.to_owned(),
-            source,
-        })?;
-        self.rustc.cache = Some(kept);
+        self.rustc.cache = Some(ProgramCache::new(folder)?);
         Ok(self)
     }
 
@@ -182,19 +189,31 @@ impl Builder {
         submission: &Submission,
         mut report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
     ) -> Result<Build, BuildError> {
-        let io = |source| BuildError::Io {
-            path: self.folder.clone(),
-            source,
-        };
-        let build_dir = BuildDir::new_in(&self.folder).map_err(io)?;
+        let build_dir = BuildDir::new_in(&self.folder)?;
         let handed_out = submission.handed_out;
-        let mut not_compiled = unusable_files(submission);
-
+        let mut not_compiled = unreadable_files(submission);
         let mut probe = None;
-        for attempt in 0..MAX_ATTEMPTS {
+        let mut incomplete = incomplete_files(submission);
+        if !incomplete.is_empty() {
+            let files = with_starter_files(submission, &not_compiled);
+            let folder = build_dir.path().join("as handed in");
+            match compile(&files, handed_out, &folder, &self.rustc).at("build in", &self.folder)? {
+                // The declaration is there, but written in an unusual way.
+                CompileOutcome::Done(path) => {
+                    probe = Some(path);
+                    incomplete.clear();
+                }
+                CompileOutcome::Errors(errors) => explain(&mut incomplete, &errors),
+                CompileOutcome::Failed(_) => {}
+            }
+            not_compiled.append(&mut incomplete);
+            report_errors(&not_compiled);
+        }
+        let attempts = if probe.is_some() { 0 } else { MAX_ATTEMPTS };
+        for attempt in 0..attempts {
             let files = with_starter_files(submission, &not_compiled);
             let folder = build_dir.path().join(attempt.to_string());
-            match compile(&files, handed_out, &folder, &self.rustc).map_err(io)? {
+            match compile(&files, handed_out, &folder, &self.rustc).at("build in", &self.folder)? {
                 CompileOutcome::Done(path) => {
                     probe = Some(path);
                     break;

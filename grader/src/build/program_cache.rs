@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 
 use judging::content_hash::ContentHash;
 
+use crate::files::{self, PathError};
+
 /// A folder of compiled programs.
 #[derive(Clone, Debug)]
 pub struct ProgramCache {
@@ -15,8 +17,8 @@ pub struct ProgramCache {
 
 impl ProgramCache {
     /// Opens the cache in this folder, and creates the folder if necessary.
-    pub fn new(folder: &Path) -> io::Result<Self> {
-        fs::create_dir_all(folder)?;
+    pub fn new(folder: &Path) -> Result<Self, PathError> {
+        files::create_dir_all(folder)?;
         Ok(ProgramCache {
             folder: folder.to_owned(),
         })

@@ -13,7 +13,6 @@ use judging::content_hash::ContentHash;
 use crate::build::compiler_sandbox;
 use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::{self, Diagnostic};
-use crate::build::linker;
 use crate::build::machine_fault::MachineFault;
 use crate::build::program_cache::ProgramCache;
 use crate::build::toolchain::Toolchain;
@@ -129,8 +128,8 @@ impl Rustc {
     pub fn compile(&self, source: &Crate) -> io::Result<CompileOutcome> {
         let mut command = Command::new(&self.toolchain.rustc);
         system::clear_environment(&mut command);
+        system::keep_search_path(&mut command);
         command
-            .env("PATH", std::env::var_os("PATH").unwrap_or_default())
             .env("TMPDIR", source.folder)
             .args(FLAGS)
             .args(self.link_arguments(source))
@@ -142,7 +141,11 @@ impl Rustc {
             .arg(source.root);
         match source.kind {
             CrateKind::Program => {
-                linker::arguments(self.toolchain.sysroot(), source.folder, &mut command)?;
+                let is_readable = |program: &Path| {
+                    !self.sandbox.confines() || compiler_sandbox::can_read_program(self, program)
+                };
+                let (linker, sysroot) = (&self.toolchain.linker, self.toolchain.sysroot());
+                linker.arguments(sysroot, source.folder, is_readable, &mut command)?;
             }
             CrateKind::Library => {}
         }
@@ -222,7 +225,8 @@ impl Rustc {
     }
 }
 
-fn option_with_path(option: &str, path: &Path) -> OsString {
+/// Returns an option of the compiler that ends in a path.
+pub(super) fn option_with_path(option: &str, path: &Path) -> OsString {
     let mut argument = OsString::from(option);
     argument.push(path);
     argument

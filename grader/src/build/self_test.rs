@@ -15,6 +15,7 @@ use crate::build::Builder;
 use crate::build::build_dir::BuildDir;
 use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
 use crate::capture::Capture;
+use crate::files::{self, PathError};
 use crate::sandbox::{Isolation, Profile};
 use crate::system::{self, Limits};
 
@@ -36,6 +37,9 @@ const WALL_LIMIT: Duration = Duration::from_secs(30);
 /// The reason why an isolation level is not available.
 #[derive(Debug, thiserror::Error)]
 pub enum SelfTestError {
+    /// A file of the test cannot be written.
+    #[error(transparent)]
+    File(#[from] PathError),
     /// A part of the sandbox cannot be set up.
     #[error("{0}")]
     Setup(io::Error),
@@ -56,12 +60,12 @@ pub enum SelfTestError {
 impl Builder {
     /// Tests the sandbox in which submissions are compiled and run.
     pub fn test_sandbox(&self) -> Result<(), SelfTestError> {
-        let work = BuildDir::new_in(&self.folder).map_err(SelfTestError::Setup)?;
+        let work = BuildDir::new_in(&self.folder)?;
         // This folder contains a file that every user of the machine can read without a sandbox.
         let public_folder = TempDir::new().map_err(SelfTestError::Setup)?;
         let key = public_folder.path().join("key");
         system::make_folder_accessible(public_folder.path()).map_err(SelfTestError::Setup)?;
-        fs::write(&key, SECRET).map_err(SelfTestError::Setup)?;
+        files::write(&key, SECRET)?;
 
         let program = compile(
             &self.rustc,

@@ -17,6 +17,7 @@ use judging::content_hash::ContentHash;
 use tempfile::TempDir;
 
 use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
+use crate::files::{self, AtPath, PathError};
 use crate::handed_out::{HandedOut, SubstitutedFile, TaskFile};
 use crate::sandbox::Sandbox;
 
@@ -50,13 +51,8 @@ struct Scaffold {
 #[derive(Debug, thiserror::Error)]
 pub enum SubstitutionError {
     /// A file cannot be read or written.
-    #[error("cannot use {path}: {source}")]
-    Io {
-        /// Path of the file.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
     /// The reference does not compile.
     #[error("the reference does not compile: see `cargo check -p reference`")]
     NotCompiled,
@@ -76,7 +72,8 @@ impl ReferenceParts {
             sandbox: Sandbox::none(),
             ..rustc.clone()
         };
-        let texts = spec.parts.iter().map(|name| read(reference, name));
+        let texts = spec.parts.iter();
+        let texts = texts.map(|name| files::read_to_string(reference.join(name)));
         let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
         let parts: Vec<(&str, &str)> = iter::zip(spec.parts.iter().copied(), &texts)
             .map(|(name, text)| (name, text.as_str()))
@@ -88,22 +85,22 @@ impl ReferenceParts {
             spec,
             folder: parts_folder,
             scaffold: Scaffold {
-                root: read(&scaffold, AROUND)?,
-                probe: read(&scaffold, PROBE)?,
-                wrapper: read(&scaffold, spec.file)?,
+                root: files::read_to_string(scaffold.join(AROUND))?,
+                probe: files::read_to_string(scaffold.join(PROBE))?,
+                wrapper: files::read_to_string(scaffold.join(spec.file))?,
             },
         };
         let folder = &parts_of_file.folder;
         if folder.is_dir() {
             return Ok(parts_of_file);
         }
-        fs::create_dir_all(cache).map_err(io_error(cache))?;
-        let work = TempDir::new_in(cache).map_err(io_error(cache))?;
+        files::create_dir_all(cache)?;
+        let work = TempDir::new_in(cache).at("create a folder in", cache)?;
         compile_parts(&parts, &root, work.path(), rustc)?;
         // The folder appears complete or not at all. Another process may have created it first.
         match fs::rename(work.path(), folder) {
             Err(_) if folder.is_dir() => {}
-            renamed => renamed.map_err(io_error(folder))?,
+            renamed => renamed.at("create", folder)?,
         }
         Ok(parts_of_file)
     }
@@ -132,16 +129,6 @@ impl ReferenceParts {
     fn library(&self) -> PathBuf {
         self.folder.join("libparts.rlib")
     }
-}
-
-fn io_error(path: &Path) -> impl FnOnce(io::Error) -> SubstitutionError {
-    let path = path.to_owned();
-    move |source| SubstitutionError::Io { path, source }
-}
-
-fn read(folder: &Path, name: &str) -> Result<String, SubstitutionError> {
-    let path = folder.join(name);
-    fs::read_to_string(&path).map_err(io_error(&path))
 }
 
 /// Returns the name of a file's module.
@@ -177,7 +164,7 @@ fn compile_parts(
     rustc: &Rustc,
 ) -> Result<(), SubstitutionError> {
     for (name, text) in parts.iter().chain([&("parts.rs", root)]) {
-        fs::write(folder.join(name), text).map_err(io_error(folder))?;
+        files::write(folder.join(name), text)?;
     }
     let library = Crate {
         name: "parts",
@@ -188,7 +175,7 @@ fn compile_parts(
         links: &[],
         dependency_folder: None,
     };
-    match rustc.compile(&library).map_err(io_error(folder))? {
+    match rustc.compile(&library).at("compile in", folder)? {
         CompileOutcome::Done(_) => {}
         CompileOutcome::Errors(_) | CompileOutcome::Failed(_) => {
             return Err(SubstitutionError::NotCompiled);
@@ -196,7 +183,7 @@ fn compile_parts(
     }
     // The sources are no longer needed, and they would leave a solution on this machine.
     for (name, _) in parts {
-        fs::remove_file(folder.join(name)).map_err(io_error(folder))?;
+        files::remove_if_exists(folder.join(name))?;
     }
     Ok(())
 }

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::UNIX_EPOCH;
 
+use crate::build::linker::SystemLinker;
+
 /// The real `cargo` and `rustc` instead of rustup's proxies, which take 8 ms per call and obey any
 /// `rust-toolchain.toml` in the current folder.
 #[derive(Clone, Debug)]
@@ -14,6 +16,8 @@ pub struct Toolchain {
     pub cargo: PathBuf,
     /// Path of `rustc`, which compiles submissions.
     pub rustc: PathBuf,
+    /// The linker that `rustc` calls.
+    pub linker: SystemLinker,
 }
 
 /// An error returned if the compiler cannot be found.
@@ -69,5 +73,6 @@ fn toolchain_beside(cargo: &Path) -> Option<Toolchain> {
     (cargo.is_file() && rustc.is_file()).then(|| Toolchain {
         cargo: cargo.to_owned(),
         rustc,
+        linker: SystemLinker::find(),
     })
 }

@@ -23,6 +23,16 @@ const CRATE_INDEX: &str = "pathtracing/crates/registry/index/";
 /// Part of the path of a crate that Cargo downloads only on Linux.
 const LINUX_ONLY_CRATE: &str = "/landlock-";
 
+/// Options and commands that are followed by the name of a Rust toolchain.
+const INSTALLERS: [&str; 2] = ["--default-toolchain ", "toolchain install "];
+
+/// Returns whether a script installs a toolchain that is not a fixed version, such as `stable`.
+fn installs_floating(script: &[u8], installer: &str) -> bool {
+    let script = String::from_utf8_lossy(script);
+    let mut toolchains = script.split(installer).skip(1);
+    toolchains.any(|toolchain| !toolchain.starts_with(|c: char| c.is_ascii_digit()))
+}
+
 impl PackageContents {
     /// Returns a message for each problem that Gradescope would have with the package.
     pub(super) fn problems(&self, handed_out: &HandedOut) -> Vec<String> {
@@ -72,12 +82,20 @@ impl PackageContents {
                 ),
             }];
         };
+        let is_floating = INSTALLERS
+            .iter()
+            .any(|installer| installs_floating(text, installer));
         let is_executable = |mode: u32| mode & 0o111 != 0;
         let mode = self.permissions.get(name).copied();
         let faults = [
             (
                 !text.starts_with(b"#!"),
                 "does not begin with #!, so it cannot be run",
+            ),
+            (
+                is_floating,
+                "installs whichever Rust is the newest, so scores may differ between two images: \
+                 name a version, such as 1.95.0",
             ),
             (
                 text.contains(&b'\r'),

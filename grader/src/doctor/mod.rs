@@ -95,6 +95,6 @@ fn remedy(why: &SelfTestError) -> Option<&'static str> {
         | SelfTestError::Incomplete(_) => Some(
             "do not grade other people's work at this level, and report the problem as described in grader/SECURITY.md",
         ),
-        SelfTestError::Setup(_) => None,
+        SelfTestError::File(_) | SelfTestError::Setup(_) => None,
     }
 }

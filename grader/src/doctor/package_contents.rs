@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use judging::exam::Exam;
 use rawzip::FileReader;
 
+use crate::files::{AtPath, PathError};
 use crate::policy::Policy;
 use crate::zipfile::{Zip, ZipError};
 
@@ -26,13 +27,8 @@ const MAX_ENTRIES: usize = 100_000;
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
     /// The package does not exist or cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Io {
-        /// Path of the package.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
     /// The package is not a zip.
     #[error(
         "{} is not a zip that can be unpacked ({source}): create it with `cargo author package gradescope`",
@@ -59,16 +55,12 @@ pub(super) struct PackageContents {
 
 /// Reads a zip and unpacks every entry in memory, to check that it can be unpacked.
 pub(super) fn read_package(path: &Path) -> Result<PackageContents, PackageError> {
-    let io = |source| PackageError::Io {
-        path: path.to_owned(),
-        source,
-    };
     let zip = |source| PackageError::Zip {
         path: path.to_owned(),
         source,
     };
-    let file = File::open(path).map_err(io)?;
-    let length = file.metadata().map_err(io)?.len();
+    let file = File::open(path).at("read", path)?;
+    let length = file.metadata().at("read", path)?.len();
     let archive = Zip::open(FileReader::from(file), length, MAX_ENTRIES).map_err(zip)?;
     let mut contents = PackageContents::default();
     for entry in &archive.entries {

@@ -22,6 +22,7 @@ fn render(view: &StudentView, context: &FormatContext) -> String {
     let results: Vec<Value> = view
         .visible_items()
         .map(|(_, item)| result(view, item, context))
+        .chain(view.counted_text().map(counted_result))
         .collect();
     super::to_json(&json!({
         "slug": format!("pathtracing/{}", view.visible.exam.id),
@@ -42,8 +43,10 @@ fn result(view: &StudentView, item: &ItemScore, context: &FormatContext) -> Valu
         Some(true) => Value::Null,
         Some(false) | None => json!({ "rationale": rationale, "help": help }),
     };
+    // A dependency must be the name of another result, and hidden items have none.
     let dependency = if let Verdict::Blocked { by } = &item.verdict {
-        Some(by)
+        let mut items = view.visible_items();
+        items.any(|(_, item)| item.id == *by).then_some(by)
     } else {
         None
     };
@@ -55,6 +58,19 @@ fn result(view: &StudentView, item: &ItemScore, context: &FormatContext) -> Valu
         "cause": cause,
         "data": { "points": item.points, "max_points": item.max_points },
         "dependency": dependency,
+    })
+}
+
+/// Returns a check that explains the grade. The format has no other location for it.
+fn counted_result(text: String) -> Value {
+    json!({
+        "name": "counted",
+        "description": text,
+        "passed": true,
+        "log": [],
+        "cause": Value::Null,
+        "data": {},
+        "dependency": Value::Null,
     })
 }
 

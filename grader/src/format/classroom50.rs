@@ -40,20 +40,24 @@ fn render(view: &StudentView, context: &FormatContext) -> String {
         none if none.is_empty() => of("COMMIT_URL"),
         review => review,
     };
-    let tests: Vec<Value> = view
-        .visible_items()
-        .map(|(_, item)| {
-            json!({
-                "test-name": format!("{}: {}", item.id, item.title),
-                "passed": item.verdict == Verdict::Pass,
-                "score": item.points,
-                "max-score": item.max_points,
-                "outcome": item.verdict.label(),
-                "message": item_message(item),
-                "output": item_text(view, item, context),
+    let tests: Vec<Value> =
+        view.visible_items()
+            .map(|(_, item)| {
+                json!({
+                    "test-name": format!("{}: {}", item.id, item.title),
+                    "passed": item.verdict == Verdict::Pass,
+                    "score": item.points,
+                    "max-score": item.max_points,
+                    "outcome": item.verdict.label(),
+                    "message": item_message(item),
+                    "output": item_text(view, item, context),
+                })
             })
-        })
-        .collect();
+            // The format has no other location for an explanation of the score.
+            .chain(view.counted_text().map(
+                |text| json!({ "test-name": text, "passed": true, "score": 0, "max-score": 0 }),
+            ))
+            .collect();
     super::to_json(&json!({
         "schema": "classroom50/result/v1",
         "classroom": of("CLASSROOM"),

@@ -34,7 +34,6 @@ fn render(view: &StudentView, context: &FormatContext) -> String {
 
 fn results(view: &StudentView, context: &FormatContext, max_chars: usize) -> Value {
     let score = &view.visible;
-    let milliseconds = score.timings.build_ms + score.timings.exam_ms;
     let tests = score.tasks.iter().zip(1..).flat_map(|(task, number)| {
         let entries = view.all_items.iter().filter(|entry| entry.task == task.id);
         entries.zip(1..).map(move |(entry, position)| {
@@ -42,9 +41,9 @@ fn results(view: &StudentView, context: &FormatContext, max_chars: usize) -> Val
             test(view, entry, number, context, max_chars)
         })
     });
-    json!({
+    let tests = tests.chain(counted_test(view, score.tasks.len() + 1));
+    let mut results = json!({
         "score": view.counted.points,
-        "execution_time": milliseconds as f64 / 1000.0,
         "output": truncate(&output(view), 4 * max_chars),
         "output_format": "text",
         "test_output_format": "text",
@@ -59,7 +58,11 @@ fn results(view: &StudentView, context: &FormatContext, max_chars: usize) -> Val
             "max_points": score.max_points,
         },
         "tests": tests.collect::<Vec<_>>(),
-    })
+    });
+    if let Some(milliseconds) = view.milliseconds() {
+        results["execution_time"] = (milliseconds as f64 / 1000.0).into();
+    }
+    results
 }
 
 /// Returns the text above all tests. It omits the total if some items are hidden, since the total
@@ -69,16 +72,44 @@ fn output(view: &StudentView) -> String {
         .all_items
         .iter()
         .all(|entry| entry.visibility.is_shown_now());
-    let points = all_shown.then(|| headline(view));
-    let not_all = (!all_shown).then(|| "Some items are not shown yet.".to_owned());
+    let (points, counted) = if all_shown {
+        (headline(view), view.counted_text())
+    } else {
+        let not_all = "Some items are not shown yet.".to_owned();
+        (not_all, view.counted.rules())
+    };
     let parts = [
         view.unfinished_notice(),
-        points,
-        not_all,
+        Some(points),
+        counted,
         Some(build_report(view)),
     ];
     let parts = parts.into_iter().flatten().filter(|part| !part.is_empty());
     parts.collect::<Vec<_>>().join("\n\n")
+}
+
+/// Returns a test without points that explains the total. It is needed if the total includes hidden
+/// items: students see it when Gradescope shows them the total.
+fn counted_test(view: &StudentView, number: usize) -> Option<Value> {
+    let items = view.all_items.iter().map(|entry| entry.visibility);
+    let hidden: Vec<Visibility> = items.filter(|shown| !shown.is_shown_now()).collect();
+    let is_only_late = hidden.iter().all(|shown| *shown == Visibility::AfterDue);
+    let visibility = visibility(if is_only_late {
+        Visibility::AfterDue
+    } else {
+        Visibility::AfterPublished
+    });
+    let text = view.counted_text().filter(|_| !hidden.is_empty())?;
+    Some(json!({
+        "name": "What counts towards the grade",
+        "name_format": "text",
+        "number": number.to_string(),
+        "output": text,
+        "output_format": "text",
+        "tags": [],
+        "visibility": visibility,
+        "extra_data": {},
+    }))
 }
 
 fn test(

@@ -1,7 +1,7 @@
 //! A page for students who do not have the exam.
 
 use crate::format::{FormatContext, FormatSpec, StudentView};
-use crate::report::html::feedback;
+use crate::report::html::{feedback, with_counted};
 
 /// The format.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -13,5 +13,5 @@ pub static FORMAT: FormatSpec = FormatSpec {
 
 /// Renders the page.
 pub fn render(view: &StudentView, _: &FormatContext) -> String {
-    feedback(&view.visible)
+    with_counted(&feedback(&view.visible), view.counted_text().as_slice())
 }

@@ -3,7 +3,6 @@
 use judging::section::Section;
 
 use crate::format::{FormatContext, StudentView};
-use crate::policy::CountedPoints;
 use crate::report::text::HintDetail;
 use crate::score::{Hint, ItemScore, Verdict};
 
@@ -66,25 +65,19 @@ pub fn build_report(view: &StudentView) -> String {
     files.chain(notes).collect::<Vec<_>>().join("\n\n")
 }
 
-fn lateness_text(counted: CountedPoints) -> String {
-    match (counted.late_days, counted.is_closed) {
-        (0, _) => String::new(),
-        (_, true) => ", because it was submitted after the last day".to_owned(),
-        (1, false) => ", one day late".to_owned(),
-        (days, false) => format!(", {days} days late"),
-    }
-}
-
-/// Returns one line with the points.
+/// Returns one line with the points that were earned.
 pub fn headline(view: &StudentView) -> String {
-    let (score, counted) = (&view.visible, view.counted);
-    let points = format!(
+    let score = &view.visible;
+    format!(
         "{} of {} points, {} exam",
         score.points, score.max_points, score.exam.id
-    );
-    if (counted.points, counted.max_points) == (score.points, score.max_points) {
-        points
-    } else {
-        format!("{points}; counts for {counted}{}", lateness_text(counted))
+    )
+}
+
+/// Returns one line with the points that were earned and, if they are others, those that count.
+pub fn headline_with_counted(view: &StudentView) -> String {
+    match view.counted_text() {
+        Some(counted) => format!("{}. {counted}", headline(view)),
+        None => headline(view),
     }
 }

@@ -46,6 +46,9 @@ fn suite(view: &StudentView, task: &TaskScore, context: &FormatContext) -> Marku
                 (property("title", &task.title))
                 (property("complete", &view.visible.complete.to_string()))
                 (points_properties(task.points, task.max_points))
+                @if let Some(counted) = view.counted_text() {
+                    (property("counted", &counted))
+                }
             }
             @for item in &task.items {
                 testcase name=(item.id) classname=(task.id.id()) {

@@ -15,6 +15,8 @@ mod json;
 mod junit;
 pub mod outputs;
 mod prairielearn;
+mod redact;
+mod sentence;
 mod size;
 mod spec;
 mod student_view;

@@ -3,12 +3,12 @@
 
 use std::collections::BTreeMap;
 use std::env;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use judging::assignment::{Task, TaskInfo};
+use judging::sanitize::sanitize_line;
 
+use crate::files::{self, PathError};
 use crate::format::{FormatContext, FormatSpec, MethodLocation, OutputSpec, StudentView};
 use crate::handed_out::HandedOut;
 use crate::report::atomic_write;
@@ -31,13 +31,8 @@ pub enum OutputError {
         all: String,
     },
     /// A file cannot be read or written.
-    #[error("cannot write {}: {source}", path.display())]
-    Io {
-        /// The path of the output file.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
 }
 
 /// The requested output files, and the context to render them.
@@ -99,10 +94,7 @@ impl Outputs {
                 continue;
             };
             let text = format!("{existing_text}{}", render(view, &self.context));
-            atomic_write::write(&text, path).map_err(|source| OutputError::Io {
-                path: path.clone(),
-                source,
-            })?;
+            atomic_write::write(&text, path)?;
         }
         Ok(())
     }
@@ -134,11 +126,10 @@ fn resolve_output(spec: &OutputSpec, folder: &Path) -> Result<Output, OutputErro
     let (path, existing_text) = match (&spec.path, shared) {
         (Some(path), _) => (path.clone(), String::new()),
         (None, None) => (folder.join(format.file), String::new()),
-        (None, Some(path)) => match fs::read_to_string(&path) {
-            Ok(existing_text) => (path, existing_text),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => (path, String::new()),
-            Err(source) => return Err(OutputError::Io { path, source }),
-        },
+        (None, Some(path)) => {
+            let existing_text = files::read_if_exists(&path)?.unwrap_or_default();
+            (path, existing_text)
+        }
     };
     Ok(Output {
         format,
@@ -180,7 +171,8 @@ fn folder_in_checkout(submitted: &Path, handed_out: &HandedOut) -> String {
     let folder = folder.and_then(|folder| folder.canonicalize().ok());
     let relative = folder.and_then(|folder| {
         let relative = folder.strip_prefix(checkout.canonicalize().ok()?).ok()?;
-        Some(relative.to_string_lossy().replace('\\', "/"))
+        let relative = relative.to_string_lossy().replace('\\', "/");
+        Some(sanitize_line(&relative, usize::MAX))
     });
     relative.unwrap_or_default()
 }

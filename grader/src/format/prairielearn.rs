@@ -6,7 +6,7 @@
 
 use serde_json::{Value, json};
 
-use crate::format::item_text::{build_report, headline, item_message, item_text};
+use crate::format::item_text::{build_report, headline_with_counted, item_message, item_text};
 use crate::format::size::{fit, truncate};
 use crate::format::{FormatContext, FormatSpec, StudentView};
 
@@ -47,7 +47,9 @@ fn results(view: &StudentView, context: &FormatContext, max_chars: usize) -> Val
             })
         })
         .collect();
-    let message = view.unfinished_notice().unwrap_or_else(|| headline(view));
+    let message = view
+        .unfinished_notice()
+        .unwrap_or_else(|| headline_with_counted(view));
     json!({
         "gradable": true,
         "score": f64::from(counted.points) / f64::from(counted.max_points.max(1)),

@@ -1,10 +1,11 @@
-//! The part of a score that students may see. All formats are rendered from it.
+//! The part of a score that students may see, with sanitized texts. All formats are rendered from
+//! it.
 
 use judging::assignment::Task;
 
+use crate::format::redact::{redact, visible_score};
 use crate::policy::{CountedPoints, Lateness, Policy, Visibility};
-use crate::rerun_command::RerunCommand;
-use crate::score::{ItemScore, Score, TaskScore, Verdict};
+use crate::score::{ItemScore, Score, TaskScore, Timings, Verdict};
 
 /// A score without the parts that the policy hides, and without notes for staff.
 #[derive(Clone, Debug)]
@@ -19,7 +20,7 @@ pub struct StudentView {
 }
 
 /// An item, and when students may see it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ItemView {
     /// The task of the item.
     pub task: Task,
@@ -32,30 +33,24 @@ pub struct ItemView {
 impl StudentView {
     /// Creates the view that a policy allows.
     pub fn new(score: &Score, policy: &Policy, lateness: Lateness) -> Self {
-        let mut visible = score.clone();
-        // Students run the grader again on their own machines, where their own submission is the
-        // default.
-        visible.rerun_command = RerunCommand::default();
+        let hidden = hidden_ids(policy, score);
         let mut all_items = Vec::new();
-        for task in &mut visible.tasks {
-            let is_open =
-                |item: &ItemScore| policy.visibility(&score.exam, &item.id) == Visibility::All;
-            // Printed text may reveal the questions.
-            if !task.items.iter().all(is_open) {
-                task.printed = None;
-            }
-            for item in &task.items {
-                let visibility = policy.visibility(&score.exam, &item.id);
-                all_items.push(ItemView {
+        for task in &score.tasks {
+            let is_open = is_open(task, policy, score);
+            all_items.extend(task.items.iter().map(|item| {
+                let mut visibility = policy.visibility(&score.exam, &item.id);
+                if visibility == Visibility::All && !is_open {
+                    visibility = Visibility::Feedback;
+                }
+                ItemView {
                     task: task.id,
-                    item: redact(item, visibility, &hidden_ids(policy, score)),
+                    item: redact(item, visibility, &hidden),
                     visibility,
-                });
-            }
-            task.items = items_shown_now(task, &all_items);
+                }
+            }));
         }
         StudentView {
-            visible,
+            visible: visible_score(score, &all_items),
             all_items,
             counted: policy.counted_points(score.points, score.max_points, lateness),
         }
@@ -67,6 +62,21 @@ impl StudentView {
         tasks.flat_map(|task| task.items.iter().map(move |item| (task, item)))
     }
 
+    /// Returns a sentence about the points that count towards the grade, and why, or `None` if they
+    /// count as they were earned.
+    pub fn counted_text(&self) -> Option<String> {
+        self.counted.explanation_if_changed()
+    }
+
+    /// Returns how long grading took, in milliseconds. `None` if students may not see every
+    /// question, since a program that waits can choose this number.
+    pub fn milliseconds(&self) -> Option<u64> {
+        let Timings {
+            build_ms, exam_ms, ..
+        } = self.visible.timings;
+        shows_everything(&self.all_items).then_some(build_ms + exam_ms)
+    }
+
     /// Returns a notice if grading is not complete.
     pub fn unfinished_notice(&self) -> Option<String> {
         let all = self.all_items.len();
@@ -74,12 +84,13 @@ impl StudentView {
             .all_items
             .iter()
             .filter(|entry| entry.item.verdict != Verdict::Pending);
-        (!self.visible.complete).then(|| {
-            format!(
-                "UNFINISHED: {} of {all} items are graded; the others have no points yet",
-                graded.count()
-            )
-        })
+        let mut visibilities = self.all_items.iter().map(|entry| entry.visibility);
+        let count = match visibilities.all(Visibility::is_shown_now) {
+            true => format!("{} of {all}", graded.count()),
+            false => "only some".to_owned(),
+        };
+        (!self.visible.complete)
+            .then(|| format!("UNFINISHED: {count} items are graded; the others have no points yet"))
     }
 
     /// Returns whether none of the submission's task files compiled.
@@ -89,105 +100,24 @@ impl StudentView {
     }
 }
 
+/// Returns whether students may see everything about all items of a task. If not, they see
+/// everything about none: one process answers the whole task, so its answer to an open item can
+/// repeat the question of another one.
+fn is_open(task: &TaskScore, policy: &Policy, score: &Score) -> bool {
+    let mut items = task.items.iter();
+    items.all(|item| policy.visibility(&score.exam, &item.id) == Visibility::All)
+}
+
+/// Returns whether students may see everything about these items.
+pub(super) fn shows_everything(items: &[ItemView]) -> bool {
+    items
+        .iter()
+        .all(|entry| entry.visibility == Visibility::All)
+}
+
 /// Returns the ids of the items that students may not see now.
 fn hidden_ids(policy: &Policy, score: &Score) -> Vec<String> {
     let items = score.items();
     let hidden = items.filter(|item| !policy.visibility(&score.exam, &item.id).is_shown_now());
     hidden.map(|item| item.id.clone()).collect()
-}
-
-/// Removes everything from an item that students may not see at this visibility, including the ids
-/// of `hidden` items.
-fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemScore {
-    let mut item = ItemScore {
-        staff: None,
-        ..item.clone()
-    };
-    if let Verdict::Blocked { by } = &item.verdict
-        && hidden.contains(by)
-    {
-        let by = by.split('.').next().unwrap_or_default().to_owned();
-        item.verdict = Verdict::Blocked { by };
-    }
-    if let Some(named) = hidden.iter().find(|id| item.message.contains(*id)) {
-        let task = named.split('.').next().unwrap_or_default();
-        item.message = format!("depends on the task {task}");
-    }
-    match visibility {
-        Visibility::All => item,
-        Visibility::Feedback | Visibility::AfterDue | Visibility::AfterPublished => {
-            // The submission chooses the message of a panic, which may repeat the question.
-            if item.verdict == Verdict::Panicked || item.message.starts_with("panicked") {
-                item.message = "panicked".to_owned();
-            }
-            ItemScore {
-                evidence: None,
-                pictures: Vec::new(),
-                ..item
-            }
-        }
-        Visibility::Points | Visibility::Hidden => redact_to_points(item),
-    }
-}
-
-/// Keeps only the id, the title and the points of an item, with a verdict that follows from the
-/// points.
-fn redact_to_points(item: ItemScore) -> ItemScore {
-    ItemScore {
-        verdict: if item.verdict == Verdict::Pending {
-            Verdict::Pending
-        } else {
-            verdict_from_points(item.points, item.max_points)
-        },
-        message: String::new(),
-        at: None,
-        look: None,
-        section: None,
-        hints: Vec::new(),
-        evidence: None,
-        carried_forward: false,
-        pictures: Vec::new(),
-        ..item
-    }
-}
-
-fn verdict_from_points(points: u32, max_points: u32) -> Verdict {
-    match points {
-        0 => Verdict::Wrong,
-        _ if points < max_points => Verdict::Partial,
-        _ => Verdict::Pass,
-    }
-}
-
-/// Returns the items of a task that students may see now, and one item that sums up the others.
-fn items_shown_now(task: &TaskScore, entries: &[ItemView]) -> Vec<ItemScore> {
-    let of_task = || entries.iter().filter(|entry| entry.task == task.id);
-    let open = of_task().filter(|entry| entry.visibility.is_shown_now());
-    let mut items: Vec<ItemScore> = open.map(|entry| entry.item.clone()).collect();
-    let hidden: Vec<&ItemScore> = of_task()
-        .filter(|entry| !entry.visibility.is_shown_now())
-        .map(|entry| &entry.item)
-        .collect();
-    let Some(first) = hidden.first() else {
-        return items;
-    };
-    let is_pending = hidden.iter().any(|item| item.verdict == Verdict::Pending);
-    let points = hidden.iter().map(|item| item.points).sum();
-    let max_points = hidden.iter().map(|item| item.max_points).sum();
-    items.push(ItemScore {
-        id: format!("{}.not_shown", task.id),
-        title: match hidden.len() {
-            1 => "one item that is not shown".to_owned(),
-            count => format!("{count} items that are not shown"),
-        },
-        points,
-        max_points,
-        verdict: if is_pending {
-            Verdict::Pending
-        } else {
-            verdict_from_points(points, max_points)
-        },
-        ..redact_to_points((*first).clone())
-    });
-    items
 }

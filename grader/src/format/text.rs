@@ -2,6 +2,7 @@
 
 use crate::format::{FormatContext, FormatSpec, StudentView};
 use crate::report::text::report;
+use crate::task_selection::TaskSelection;
 
 /// The format.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -13,8 +14,11 @@ pub static FORMAT: FormatSpec = FormatSpec {
 
 /// Renders the report.
 fn render(view: &StudentView, context: &FormatContext) -> String {
-    let report = report(&view.visible, None, context.hints);
+    let report = report(&view.visible, &TaskSelection::All, context.hints);
     let mut text = anstream::adapter::strip_str(&report).to_string();
+    if let Some(counted) = view.counted_text() {
+        text.push_str(&format!("  {counted}\n"));
+    }
     if let Some(unfinished) = view.unfinished_notice() {
         text.push_str(&format!("  {unfinished}\n"));
     }

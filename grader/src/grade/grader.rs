@@ -139,9 +139,11 @@ impl<'a> Grader<'a> {
             options,
             lateness: lateness(options, &policy)?,
             exam_name: file.name(),
-            exam: match options.task {
-                Some(task) => file.exam.with_needed_items(|item| item.task == task),
-                None => file.exam,
+            exam: if options.tasks.is_all() {
+                file.exam
+            } else {
+                file.exam
+                    .with_needed_items(|item| options.tasks.includes(item.task))
             },
             policy,
             builder,
@@ -244,17 +246,15 @@ impl<'a> Grader<'a> {
         })
     }
 
-    /// Returns the report's files, or `None` if only one task is graded, since one task's points are
+    /// Returns the report's files, or `None` if only some tasks are graded, since their points are
     /// not a score.
     pub fn files(&self, submission: &Submission, reload: Reload) -> Option<ReportFiles> {
         let folder = match &self.options.out {
             Some(folder) => folder.clone(),
             None => default_folder(&self.workspace, submission),
         };
-        match self.options.task {
-            Some(_) => None,
-            None => Some(ReportFiles::new(&folder, reload)),
-        }
+        let is_score = self.options.tasks.is_all();
+        is_score.then(|| ReportFiles::new(&folder, reload))
     }
 }
 

@@ -15,7 +15,7 @@ use crate::options::GradeOptions;
 use crate::report::html::Reload;
 use crate::report_files::ReportFiles;
 use crate::score::Score;
-use crate::verdict::file_message;
+use crate::verdict::{file_line, file_message};
 
 pub use grader::{BuiltSubmission, Grader};
 pub use resolve::{builder, collect, default_folder};
@@ -74,13 +74,16 @@ pub fn grade(options: &GradeOptions) -> Result<GradedSubmission, Error> {
         writing += started_at.elapsed();
         written
     })?;
+    let student_view = grader.student_view(&score);
+    if let Some(files) = &files {
+        files.write_counted(student_view.counted_text().as_slice())?;
+    }
     score.timings.stages.prepare = prepared;
     score.timings.stages.report = writing;
-    let seen = grader.student_view(&score);
     Ok(GradedSubmission {
         score,
         files,
-        student_view: seen,
+        student_view,
         cache_key: key,
     })
 }
@@ -93,7 +96,9 @@ fn print_compile_errors() -> impl FnMut(&BTreeMap<&'static str, NotCompiled>) {
         for (file, why) in files.iter().filter(|(file, _)| printed.insert(**file)) {
             let message = file_message(file, why);
             let first = message.lines().next().unwrap_or_default();
-            anstream::eprintln!("{file}: {first}; grading the rest");
+            let line = file_line(why).map(|line| format!(":{line}"));
+            let line = line.unwrap_or_default();
+            anstream::eprintln!("{file}{line}: {first}; grading the rest");
         }
     }
 }

@@ -31,8 +31,8 @@ pub(super) fn lateness(
         .gradescope_metadata
         .as_deref()
         .map(SubmissionTime::read);
-    let lateness =
-        submission_time.map(|read| read.map(|submission_time| policy.lateness_of(submission_time)));
+    let lateness = submission_time
+        .map(|read| read.map(|submission_time| policy.lateness_of(&submission_time)));
     lateness.unwrap_or(Ok(Lateness::NONE))
 }
 

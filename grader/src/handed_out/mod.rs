@@ -2,6 +2,7 @@
 //! students write, and the given files around them. Given files in a submission are compared with
 //! these, but never used.
 
+mod own_lines;
 mod rays;
 mod tokens;
 

@@ -21,6 +21,24 @@ pub(super) fn tokens(text: &str) -> Vec<&str> {
     found
 }
 
+/// Returns the text without comments. The line breaks in them are kept, so that nothing moves to
+/// another line.
+pub(super) fn without_comments(text: &str) -> String {
+    let mut rest = text;
+    let mut code = String::new();
+    for token in tokenize(text, FrontmatterAllowed::No) {
+        let (this, after) = rest.split_at(token.len as usize);
+        rest = after;
+        if matches!(token.kind, TokenKind::BlockComment { .. }) {
+            code.push(' ');
+            code.extend(this.chars().filter(|c| *c == '\n'));
+        } else if !matches!(token.kind, TokenKind::LineComment { .. }) {
+            code.push_str(this);
+        }
+    }
+    code
+}
+
 /// Returns whether these tokens are among others, without a gap.
 pub(super) fn contains(all: &[&str], part: &[&str]) -> bool {
     part.is_empty() || all.windows(part.len()).any(|window| window == part)

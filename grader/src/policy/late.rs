@@ -1,10 +1,9 @@
 //! Converts points to final points in exact integer arithmetic, and rounds once at the end.
 
-use std::fmt;
-
 use jiff::Timestamp;
 
-use crate::policy::{LatePolicy, PercentBase, Policy, Rounding};
+use crate::policy::counted::{CountedPoints, Deduction};
+use crate::policy::{Extension, LatePolicy, PercentBase, Policy, Rounding};
 
 /// One day, in seconds.
 const DAY: u64 = 24 * 60 * 60;
@@ -28,25 +27,6 @@ impl Lateness {
     }
 }
 
-/// The final points of a submission.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CountedPoints {
-    /// The final points that the submission gets.
-    pub points: u32,
-    /// Final points of a perfect submission on time.
-    pub max_points: u32,
-    /// Number of started days after the due time, including free days.
-    pub late_days: u32,
-    /// Whether the submission gets no points because it was made after the last day.
-    pub is_closed: bool,
-}
-
-impl fmt::Display for CountedPoints {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{} of {} points", self.points, self.max_points)
-    }
-}
-
 impl Policy {
     /// Returns the final points for `points` of `max_points`: scaled, reduced for lateness, capped
     /// and rounded.
@@ -56,28 +36,60 @@ impl Policy {
         max_points: u32,
         lateness: Lateness,
     ) -> CountedPoints {
+        self.counted_points_with(points, max_points, 0, lateness)
+    }
+
+    /// Returns the final points like [`counted_points`](Self::counted_points). Before everything
+    /// else, points that staff gave by hand are added.
+    pub fn counted_points_with(
+        &self,
+        points: u32,
+        max_points: u32,
+        manual: i32,
+        lateness: Lateness,
+    ) -> CountedPoints {
         let out_of = self.points.out_of.unwrap_or(max_points);
         let late_days = self.late.late_days(lateness);
-        let is_closed = self.late.closed_after_days.is_some_and(|n| late_days > n);
-        let fraction = if is_closed {
-            Fraction::NONE
-        } else {
-            self.late
-                .fraction(points.min(max_points), max_points, late_days)
-        };
+        let points = points.min(max_points);
+        let sum = points.saturating_add_signed(manual).min(max_points);
+        let (fraction, deduction) = self.late.apply(sum, max_points, late_days);
         CountedPoints {
-            points: fraction.apply(out_of, self.points.rounding),
+            points: fraction.of(out_of, self.points.rounding),
             max_points: out_of,
+            earned: points,
+            earned_of: max_points,
+            manual,
             late_days,
-            is_closed,
+            deduction,
         }
     }
 
-    /// Returns how late a submission is that was made at `submitted`. `None` if the policy has no
-    /// due time.
-    pub fn lateness(&self, submitted: Timestamp) -> Option<Lateness> {
-        Some(Lateness::since(self.late.due?, submitted))
+    /// Returns how late a submission is that was made at `submitted`, if these extensions apply.
+    /// `None` if the policy has no due time.
+    pub fn lateness(&self, submitted: Timestamp, extensions: &[Extension]) -> Option<Lateness> {
+        let due = extended_due(self.late.due?, extensions);
+        Some(Lateness::since(due, submitted))
     }
+
+    /// Returns the extensions for somebody with these names and identifiers.
+    pub fn extensions_of<'a>(
+        &self,
+        names: impl Iterator<Item = &'a str> + Clone,
+    ) -> impl Iterator<Item = Extension> {
+        let is_meant = move |key: &str| {
+            let key = key.to_lowercase();
+            names.clone().any(|name| name.to_lowercase() == key)
+        };
+        let extensions = self.late.extensions.iter();
+        extensions.filter_map(move |(key, extension)| is_meant(key).then_some(*extension))
+    }
+}
+
+/// Returns the due time with all of these extensions: the latest counts.
+pub(super) fn extended_due(due: Timestamp, extensions: &[Extension]) -> Timestamp {
+    let extensions = extensions.iter();
+    let extended = extensions.map(|extension| extension.apply(due));
+    extended.max().unwrap_or(due)
 }
 
 impl LatePolicy {
@@ -90,27 +102,44 @@ impl LatePolicy {
         }
     }
 
-    fn fraction(&self, points: u32, max_points: u32, late_days: u32) -> Fraction {
+    /// Returns the share of the final points, and the consequence of being late.
+    fn apply(&self, points: u32, max_points: u32, late_days: u32) -> (Fraction, Deduction) {
         // Points are in hundredths here, so that percentages of them are integers.
         let (points, all) = (u64::from(points) * 100, u64::from(max_points) * 100);
+        let share = |numerator| Fraction {
+            numerator,
+            denominator: all,
+        };
+        if let Some(after_days) = self.closed_after_days.filter(|days| late_days > *days) {
+            return (share(0), Deduction::Closed { after_days });
+        }
         let days = late_days.saturating_sub(self.free_days);
         if days == 0 {
-            return Fraction {
-                numerator: points,
-                denominator: all,
+            let deduction = match late_days {
+                0 => Deduction::None,
+                _ => Deduction::FreeDays,
             };
+            return (share(points), deduction);
         }
-        let percent = u64::from(days.saturating_mul(self.percent_per_day).min(100));
+        let percent = days.saturating_mul(self.percent_per_day).min(100);
         let of = match self.percent_of {
             PercentBase::Earned => points,
             PercentBase::Possible => all,
         };
-        let part = points.saturating_sub(of / 100 * percent);
+        let part = points.saturating_sub(of / 100 * u64::from(percent));
         let most = all / 100 * u64::from(self.most_percent);
-        Fraction {
-            numerator: part.min(most),
-            denominator: all,
+        if part > most {
+            return (share(most), Deduction::Limit(self.most_percent));
         }
+        let deduction = match percent {
+            0 => Deduction::None,
+            percent => Deduction::Percent {
+                percent,
+                of: self.percent_of,
+                free_days: self.free_days,
+            },
+        };
+        (share(part), deduction)
     }
 }
 
@@ -122,12 +151,8 @@ struct Fraction {
 }
 
 impl Fraction {
-    const NONE: Fraction = Fraction {
-        numerator: 0,
-        denominator: 1,
-    };
-
-    fn apply(self, points: u32, rounding: Rounding) -> u32 {
+    /// Returns this share of the points, rounded.
+    fn of(self, points: u32, rounding: Rounding) -> u32 {
         let (exact, all) = (self.numerator * u64::from(points), self.denominator.max(1));
         let rounded = match rounding {
             Rounding::Down => exact / all,
@@ -200,13 +225,13 @@ mod tests {
         let policy = policy("[late]\nfree_days = 5\nclosed_after_days = 2");
         let last = policy.counted_points(70, 100, hours(48));
         assert_eq!(
-            (last.points, last.is_closed, last.late_days),
-            (70, false, 2)
+            (last.points, last.deduction, last.late_days),
+            (70, Deduction::FreeDays, 2)
         );
         let later = policy.counted_points(70, 100, hours(49));
         assert_eq!(
-            (later.points, later.is_closed, later.late_days),
-            (0, true, 3)
+            (later.points, later.deduction, later.late_days),
+            (0, Deduction::Closed { after_days: 2 }, 3)
         );
     }
 
@@ -228,10 +253,17 @@ mod tests {
         let time = 1_795_215_599;
         for same in ["2026-11-20T23:59:59+01:00", "2026-11-20T22:59:59Z"] {
             let due = due(same);
-            assert_eq!(due.lateness(at(time)), Some(Lateness::NONE), "{same}");
-            assert_eq!(due.lateness(at(time - 9)), Some(Lateness::NONE), "{same}");
-            assert_eq!(due.lateness(at(time + 9)), Some(Lateness { seconds: 9 }));
+            assert_eq!(due.lateness(at(time), &[]), Some(Lateness::NONE), "{same}");
+            assert_eq!(
+                due.lateness(at(time - 9), &[]),
+                Some(Lateness::NONE),
+                "{same}"
+            );
+            assert_eq!(
+                due.lateness(at(time + 9), &[]),
+                Some(Lateness { seconds: 9 })
+            );
         }
-        assert_eq!(Policy::default().lateness(at(time)), None);
+        assert_eq!(Policy::default().lateness(at(time), &[]), None);
     }
 }

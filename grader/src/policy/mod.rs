@@ -3,6 +3,8 @@
 //! A policy never changes a score. `score.json` contains the points of a submission regardless of
 //! its time, and the final points are computed from them.
 
+mod counted;
+mod extension;
 mod late;
 mod read;
 mod submission_time;
@@ -15,7 +17,9 @@ use jiff::Timestamp;
 use jiff::tz::TimeZone;
 use serde::Deserialize;
 
-pub use late::{CountedPoints, Lateness};
+pub use counted::{CountedPoints, Deduction};
+pub use extension::Extension;
+pub use late::Lateness;
 pub use read::PolicyError;
 pub use submission_time::{SubmissionTime, SubmissionTimeError};
 pub use visibility::Visibility;
@@ -32,6 +36,8 @@ pub struct Policy {
     pub points: PointsPolicy,
     /// Deductions for late submissions.
     pub late: LatePolicy,
+    /// The choice among several submissions of one person.
+    pub attempts: AttemptsPolicy,
     /// Visibility of results.
     pub visibility: VisibilityPolicy,
 }
@@ -81,6 +87,29 @@ pub struct LatePolicy {
     pub most_percent: u32,
     /// Number of days after which a submission gets no points, or `None` if there is no such limit.
     pub closed_after_days: Option<u32>,
+    /// Later due times, by a name or identifier of a person, or by the name of a group.
+    pub extensions: BTreeMap<String, Extension>,
+}
+
+/// The choice among several submissions of one person.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AttemptsPolicy {
+    /// The submission that counts.
+    pub counts: AttemptRule,
+}
+
+/// The submission that counts, of several by one person.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AttemptRule {
+    /// None of them, until a person has chosen.
+    #[default]
+    Ask,
+    /// The one that was handed in last.
+    Latest,
+    /// The one with the most final points.
+    Best,
 }
 
 /// The points to which a percentage refers.
@@ -118,6 +147,7 @@ impl Default for LatePolicy {
             percent_of: PercentBase::Earned,
             most_percent: 100,
             closed_after_days: None,
+            extensions: BTreeMap::new(),
         }
     }
 }

@@ -2,7 +2,6 @@
 //! to do.
 
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
@@ -12,22 +11,15 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use toml::value::Datetime;
 
+use crate::files::{AtPath, PathError};
 use crate::policy::Policy;
 
 /// Reasons why a policy cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum PolicyError {
     /// The file cannot be read.
-    #[error(
-        "cannot read the policy {}: {source}; `cargo grade --policy-default` prints one to start from",
-        path.display()
-    )]
-    Io {
-        /// Path of the policy file.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error("{0}; `cargo grade --policy-default` prints one to start from")]
+    File(#[source] PathError),
     /// The file is not TOML, or not a valid policy.
     #[error(
         "the policy {}, line {line}: {problem}\n  {text}\n`cargo grade --policy-default` prints all keys with explanations",
@@ -61,11 +53,13 @@ pub enum PolicyError {
 impl Policy {
     /// Reads the policy at `path`.
     pub fn read(path: &Path) -> Result<Policy, PolicyError> {
-        let text = fs::read_to_string(path).map_err(|source| PolicyError::Io {
-            path: path.to_owned(),
-            source,
-        })?;
-        Policy::from_text(path, &text)
+        Policy::from_text(path, &Policy::read_text(path)?)
+    }
+
+    /// Reads the text of the policy at `path`, which need not be valid.
+    pub fn read_text(path: &Path) -> Result<String, PolicyError> {
+        let text = fs::read_to_string(path).at("read the policy", path);
+        text.map_err(PolicyError::File)
     }
 
     /// Parses a policy. `path` is used in error messages only.
@@ -196,6 +190,7 @@ mod tests {
         let policy = Policy::parse(&lines_with_examples.join("\n")).ok().unwrap();
         assert_eq!(policy.points.out_of, Some(50));
         assert!(policy.late.due.is_some() && policy.late.closed_after_days.is_some());
+        assert_eq!(policy.late.extensions.len(), 2);
         assert_eq!(policy.visibility.items.len(), 2);
     }
 }

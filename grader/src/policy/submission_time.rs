@@ -3,20 +3,22 @@
 //! (<https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/>).
 
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
 use serde::Deserialize;
 
-use crate::policy::Policy;
-use crate::policy::late::Lateness;
+use crate::files::{AtPath, PathError};
+use crate::policy::late::{Lateness, extended_due};
 use crate::policy::written_time::read_time;
+use crate::policy::{Extension, Policy};
 
 /// The times at which a submission was made and due.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SubmissionTime {
     submitted: Timestamp,
+    /// The names and email addresses of the people who submitted.
+    people: Vec<String>,
     /// The due time, or `None` if the assignment has no due date.
     due: Option<Timestamp>,
 }
@@ -25,13 +27,8 @@ pub struct SubmissionTime {
 #[derive(Debug, thiserror::Error)]
 pub enum SubmissionTimeError {
     /// The file cannot be read.
-    #[error("cannot read Gradescope's {}: {source}", path.display())]
-    Io {
-        /// Path of Gradescope's file.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
     /// The file does not have the documented format.
     #[error(
         "{} has no valid submission time and due date ({why}); without --gradescope-metadata, nothing counts as late",
@@ -50,6 +47,14 @@ pub enum SubmissionTimeError {
 struct Metadata {
     created_at: String,
     assignment: Assignment,
+    #[serde(default)]
+    users: Vec<User>,
+}
+
+#[derive(Deserialize)]
+struct User {
+    name: Option<String>,
+    email: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -60,10 +65,7 @@ struct Assignment {
 impl SubmissionTime {
     /// Reads Gradescope's file at `path`.
     pub fn read(path: &Path) -> Result<Self, SubmissionTimeError> {
-        let text = fs::read_to_string(path).map_err(|source| SubmissionTimeError::Io {
-            path: path.to_owned(),
-            source,
-        })?;
+        let text = fs::read_to_string(path).at("read Gradescope's", path)?;
         SubmissionTime::parse(&text).map_err(|why| SubmissionTimeError::Invalid {
             path: path.to_owned(),
             why,
@@ -73,8 +75,11 @@ impl SubmissionTime {
     fn parse(text: &str) -> Result<Self, String> {
         let metadata: Metadata = serde_json::from_str(text).map_err(|error| error.to_string())?;
         let due = metadata.assignment.due_date;
+        let people = metadata.users.into_iter();
+        let people = people.flat_map(|user| [user.name, user.email]).flatten();
         Ok(SubmissionTime {
             submitted: parse_time(&metadata.created_at)?,
+            people: people.collect(),
             due: due.as_deref().map(parse_time).transpose()?,
         })
     }
@@ -86,11 +91,16 @@ fn parse_time(text: &str) -> Result<Timestamp, String> {
 
 impl Policy {
     /// Returns how late a submission is, relative to the policy's due time or, if there is none, to
-    /// the platform's.
-    pub fn lateness_of(&self, submission: SubmissionTime) -> Lateness {
-        let late = |due: Timestamp| Lateness::since(due, submission.submitted);
-        let by_policy = self.lateness(submission.submitted);
-        by_policy.unwrap_or(submission.due.map_or(Lateness::NONE, late))
+    /// the platform's. Of a group, the member with the latest extension counts.
+    pub fn lateness_of(&self, submission: &SubmissionTime) -> Lateness {
+        let people = submission.people.iter().map(String::as_str);
+        let extensions: Vec<Extension> = self.extensions_of(people).collect();
+        let by_platform = || {
+            let due = extended_due(submission.due?, &extensions);
+            Some(Lateness::since(due, submission.submitted))
+        };
+        let lateness = self.lateness(submission.submitted, &extensions);
+        lateness.or_else(by_platform).unwrap_or(Lateness::NONE)
     }
 }
 
@@ -109,13 +119,13 @@ mod tests {
     fn platform_due_date_applies_without_a_policy_due_date() {
         let submission = parse_with_due(r#""2026-11-20T23:00:00.000000-08:00""#).unwrap();
         let silent = Policy::default();
-        assert_eq!(silent.lateness_of(submission), Lateness { seconds: 10 });
+        assert_eq!(silent.lateness_of(&submission), Lateness { seconds: 10 });
         let own: Policy = toml::from_str("[late]\ndue = 2026-11-21T07:00:05Z").unwrap();
-        assert_eq!(own.lateness_of(submission), Lateness { seconds: 5 });
+        assert_eq!(own.lateness_of(&submission), Lateness { seconds: 5 });
         let without = parse_with_due("null").unwrap();
-        assert_eq!(silent.lateness_of(without), Lateness::NONE);
+        assert_eq!(silent.lateness_of(&without), Lateness::NONE);
         let early = parse_with_due(r#""2026-11-22T00:00:00.000000-08:00""#).unwrap();
-        assert_eq!(silent.lateness_of(early), Lateness::NONE);
+        assert_eq!(silent.lateness_of(&early), Lateness::NONE);
     }
 
     #[test]

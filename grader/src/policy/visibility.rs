@@ -14,8 +14,8 @@ const PRACTICE_EXAM: &str = "practice";
 pub enum Visibility {
     /// The question, the submission's answer and the expected answer.
     All,
-    /// The error message and hints, but no questions or answers, from which students could
-    /// reconstruct the exam.
+    /// The points, what went wrong, and hints. No questions or answers, from which students could
+    /// reconstruct the exam, and nothing that the submission's program wrote or chose.
     Feedback,
     /// Title and points.
     Points,

@@ -7,10 +7,9 @@ use std::io;
 use std::ops::Range;
 use std::time::Duration;
 
-use judging::exam::Item;
+use judging::exam::{Item, question_subset};
 use protocol::Question;
 
-use super::subset::subset;
 use super::{Budget, Launcher};
 
 /// Time budget for each question. Most correct items take less than this in total, so a question
@@ -35,7 +34,7 @@ pub fn culprit(launcher: &Launcher, item: &Item) -> io::Result<Option<(usize, us
         let parts: Vec<Range<usize>> = chunks(suspects, length).collect();
         let subsets = parts
             .iter()
-            .map(|elements| subset(question, elements.clone()));
+            .map(|elements| question_subset(question, elements.clone()));
         match first_fault(launcher, subsets)? {
             Some(faulty) => suspects = parts[faulty].clone(),
             None => return Ok(None),

@@ -5,7 +5,6 @@ mod budget;
 mod culprit;
 mod fault;
 mod streams;
-mod subset;
 
 use std::io;
 use std::mem;
@@ -28,7 +27,6 @@ use streams::{Batch, Streams};
 pub use budget::Budget;
 pub use culprit::culprit;
 pub use fault::{Crash, Fault, TimeLimit};
-pub use subset::subset;
 
 /// Maximum size of a submission's output that is stored, in bytes.
 const MAX_OUTPUT_BYTES: usize = 64 << 10;

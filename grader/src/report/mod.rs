@@ -3,4 +3,5 @@
 pub mod atomic_write;
 pub mod html;
 pub mod json;
+mod shared_hints;
 pub mod text;

@@ -3,12 +3,13 @@
 use std::fmt::{self, Write};
 
 use anstyle::{AnsiColor, Style};
-use judging::assignment::Task;
-use judging::sanitize::sanitize;
+use judging::sanitize::{sanitize, sanitize_line};
 use judging::section::Section;
 
+use crate::report::shared_hints::{explained_items, with_something_new};
 use crate::sandbox::Isolation;
 use crate::score::{Hint, ItemScore, Score, TaskScore, Verdict};
+use crate::task_selection::TaskSelection;
 
 const WIDTH: usize = 80;
 const BAR_WIDTH: usize = 20;
@@ -31,25 +32,25 @@ pub enum HintDetail {
     Full,
 }
 
-/// Renders the report with ANSI colours, which the output stream strips if necessary. If `only` is
-/// a task, the report covers that task alone.
-pub fn report(score: &Score, only: Option<Task>, hints: HintDetail) -> String {
+/// Renders the report on the selected tasks with ANSI colours, which the output stream strips if
+/// necessary.
+pub fn report(score: &Score, tasks: &TaskSelection, hints: HintDetail) -> String {
     let mut text = String::new();
-    write_report(&mut text, score, only, hints).expect("writing to a string cannot fail");
+    write_report(&mut text, score, tasks, hints).expect("writing to a string cannot fail");
     text
 }
 
 fn write_report(
     out: &mut String,
     score: &Score,
-    only: Option<Task>,
+    selection: &TaskSelection,
     hints: HintDetail,
 ) -> fmt::Result {
-    let shown = |task: &&TaskScore| only.is_none_or(|only| only == task.id);
+    let shown = |task: &&TaskScore| selection.includes(task.id);
     let tasks: Vec<&TaskScore> = score.tasks.iter().filter(shown).collect();
 
     writeln!(out)?;
-    if only.is_none() {
+    if selection.is_all() {
         write_headline(out, score)?;
     }
     for task in &tasks {
@@ -69,29 +70,36 @@ fn write_report(
         let failing: Vec<&ItemScore> = failing
             .filter(|item| item.points < item.max_points)
             .collect();
-        // The first failing item of each task is enough to start with. A report on a single task
-        // also has the other items that have evidence.
-        let is_extra = |item: &&&ItemScore| only.is_some() && item.evidence.is_some();
-        let extra = failing.iter().skip(1).filter(is_extra);
-        let shown: Vec<&&ItemScore> = failing.first().into_iter().chain(extra).collect();
+        // The first failing item of each task is enough to start with. A report on selected tasks
+        // also has the other items that have evidence, and tells more than the first.
+        let shown = if selection.is_all() {
+            failing.iter().take(1).copied().collect()
+        } else {
+            with_something_new(&failing)
+        };
+        let mut explained = 0;
         for item in &shown {
-            write_item(out, item, hints)?;
-            write_rerun_command(out, &item.rerun_command(&score.rerun_command))?;
+            let same_hint = explained_items(item, &failing);
+            explained += same_hint.len();
+            write_item(out, item, hints, &same_hint)?;
+            write_command(out, "again", &item.rerun_command(&score.rerun_command))?;
+            if let Some(view) = item.view_command(&score.rerun_command) {
+                write_command(out, "view", &view)?;
+            }
         }
-        let others = failing.len() - shown.len();
-        match only {
-            Some(_) => write_hidden_count(out, others, "")?,
-            None => write_hidden_count(
-                out,
-                others,
-                &format!(": {}", score.rerun_command.task(task.id.id())),
-            )?,
-        }
+        let others = failing.len() - shown.len() - explained;
+        let how = if selection.is_all() {
+            format!(": {}", score.rerun_command.task(task.id.id()))
+        } else {
+            String::new()
+        };
+        write_hidden_count(out, others, &how)?;
         if let Some(printed) = &task.printed {
             write_printed(out, task, printed)?;
         }
     }
     for note in &score.build.notes {
+        let note = sanitize_line(note, usize::MAX);
         writeln!(out, "\n{FAINT}  note: {note}{FAINT:#}")?;
     }
     writeln!(out)
@@ -99,6 +107,7 @@ fn write_report(
 
 fn write_headline(out: &mut String, score: &Score) -> fmt::Result {
     let title = format!("  {}, {} exam", score.submission, score.exam.id);
+    let title = sanitize_line(&title, usize::MAX);
     let points = format!("{} / {}", score.points, score.max_points);
     let gap = WIDTH.saturating_sub(2 + title.chars().count() + points.len());
     writeln!(out, "{STRONG}{title}{:gap$}{points}{STRONG:#}\n", "")?;
@@ -138,6 +147,7 @@ fn points_style(points: u32, max_points: u32) -> Style {
 
 fn write_compiler_message(out: &mut String, message: &str) -> fmt::Result {
     writeln!(out)?;
+    let message = sanitize(message, usize::MAX);
     for line in message.lines().take(MAX_COMPILER_LINES) {
         writeln!(out, "  {BAD}│{BAD:#} {line}")?;
     }
@@ -147,7 +157,13 @@ fn write_compiler_message(out: &mut String, message: &str) -> fmt::Result {
     Ok(())
 }
 
-fn write_item(out: &mut String, item: &ItemScore, hints: HintDetail) -> fmt::Result {
+/// Writes an item and the ids of other items with the same hint.
+fn write_item(
+    out: &mut String,
+    item: &ItemScore,
+    hints: HintDetail,
+    same_hint: &[&str],
+) -> fmt::Result {
     let style = points_style(item.points, item.max_points);
     let verdict = item.verdict.label();
     let gap = (WIDTH - 2).saturating_sub(item.id.chars().count() + verdict.chars().count());
@@ -159,7 +175,7 @@ fn write_item(out: &mut String, item: &ItemScore, hints: HintDetail) -> fmt::Res
     for line in wrap(&item.title, WIDTH - 4) {
         writeln!(out, "    {line}")?;
     }
-    let hint = hint_text(&item.hints, hints);
+    let hint = hint_text(&item.hints, hints, same_hint);
     let section = item.section.as_ref().map(Section::location);
     let rows = [
         ("what", Some(&item.message)),
@@ -184,8 +200,9 @@ fn write_item(out: &mut String, item: &ItemScore, hints: HintDetail) -> fmt::Res
     Ok(())
 }
 
-/// Joins the hints of an item. Returns `None` if there are none.
-fn hint_text(hints: &[Hint], detail: HintDetail) -> Option<String> {
+/// Joins the hints of an item, and names the other items that they explain. Returns `None` if there
+/// are none.
+fn hint_text(hints: &[Hint], detail: HintDetail, same_hint: &[&str]) -> Option<String> {
     let text = |hint: &Hint| match detail {
         HintDetail::Nudge => hint.nudge.clone(),
         HintDetail::Full => hint.hint.clone(),
@@ -195,13 +212,21 @@ fn hint_text(hints: &[Hint], detail: HintDetail) -> Option<String> {
         HintDetail::Nudge => " (run with --hints for more)",
         HintDetail::Full => "",
     };
-    (!all.is_empty()).then(|| format!("{}{more}", all.join(" Or: ")))
+    let explained = match same_hint.len() {
+        0 => String::new(),
+        1 => format!("\nThe same mistake explains 1 more item: {}", same_hint[0]),
+        count => format!(
+            "\nThe same mistake explains {count} more items: {}",
+            same_hint.join(", ")
+        ),
+    };
+    (!all.is_empty()).then(|| format!("{}{more}{explained}", all.join(" Or: ")))
 }
 
 /// Writes a label and its text, wrapped to the width, with later lines indented.
 fn write_row(out: &mut String, label: &str, text: &str) -> fmt::Result {
     const INDENT: usize = 12;
-    let mut lines = wrap(text, WIDTH - INDENT).into_iter();
+    let mut lines = wrap(&sanitize(text, usize::MAX), WIDTH - INDENT).into_iter();
     let first = lines.next().unwrap_or_default();
     writeln!(out, "    {FAINT}{label:<7}{FAINT:#} {first}")?;
     lines.try_for_each(|line| writeln!(out, "{:INDENT$}{line}", ""))
@@ -226,9 +251,10 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Writes the command that grades the item again.
-fn write_rerun_command(out: &mut String, command: &str) -> fmt::Result {
-    writeln!(out, "    {FAINT}{:<7} {command}{FAINT:#}", "again")
+/// Writes a command about the item.
+fn write_command(out: &mut String, label: &str, command: &str) -> fmt::Result {
+    let command = sanitize_line(command, usize::MAX);
+    writeln!(out, "    {FAINT}{label:<7} {command}{FAINT:#}")
 }
 
 /// Writes the number of failing items that are not shown, and `how` to see them.
@@ -238,6 +264,7 @@ fn write_hidden_count(out: &mut String, count: usize, how: &str) -> fmt::Result 
         1 => "item",
         _ => "items",
     };
+    let how = sanitize_line(how, usize::MAX);
     writeln!(
         out,
         "    {FAINT}and {count} more {items} of this task{how}{FAINT:#}"
@@ -252,7 +279,7 @@ fn write_printed(out: &mut String, task: &TaskScore, printed: &str) -> fmt::Resu
         task.title
     )?;
     for line in printed.lines().take(MAX_PRINTED_LINES) {
-        let line = sanitize(line, WIDTH - 5);
+        let line = sanitize_line(line, WIDTH - 5);
         writeln!(out, "  {FAINT}│{FAINT:#} {line}")?;
     }
     Ok(())

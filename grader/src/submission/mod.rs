@@ -10,7 +10,7 @@ mod folder;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use judging::sanitize::sanitize;
+use judging::sanitize::sanitize_line;
 
 use crate::handed_out::{HandedOut, TaskFile};
 
@@ -195,7 +195,7 @@ fn may_lead_to_files(link: &str, handed_out: &HandedOut) -> bool {
 
 /// Returns a name that is safe to print: shortened, and with control characters escaped.
 fn display_name(name: &str) -> String {
-    sanitize(name, MAX_NAME_CHARS).replace('\n', "\\n")
+    sanitize_line(name, MAX_NAME_CHARS)
 }
 
 /// Returns the name of a folder or file, after resolving paths such as `student/.`.

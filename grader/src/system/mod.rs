@@ -121,6 +121,14 @@ pub fn clear_environment(command: &mut Command) {
     }
 }
 
+/// Keeps the PATH in the environment of a compiler on Windows, where it may find the linker only
+/// there. On other systems, it gets the linker's path as an argument.
+pub fn keep_search_path(command: &mut Command) {
+    if let Some(path) = std::env::var_os("PATH").filter(|_| cfg!(windows)) {
+        command.env("PATH", path);
+    }
+}
+
 /// Does nothing: `setrlimit` limits only the calling process, and the job objects of Windows cannot
 /// be used from safe code.
 #[cfg(not(target_os = "linux"))]

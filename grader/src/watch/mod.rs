@@ -1,7 +1,7 @@
 //! `cargo grade --watch`: grades again whenever a file is saved, starting with the items that
 //! failed last time.
 
-mod save_watcher;
+pub mod save_watcher;
 mod screen;
 
 use std::convert::Infallible;
@@ -25,7 +25,7 @@ use crate::watch::screen::{Phase, Screen};
 pub fn watch(options: &GradeOptions, open: bool) -> Result<Infallible, Error> {
     let grader = Grader::prepare(options)?;
     let watcher = SaveWatcher::new(|| grader.collect().ok());
-    let mut screen = Screen::open(options.task, options.hints);
+    let mut screen = Screen::open(options.tasks.clone(), options.hints);
     let mut submission = grader.collect()?;
     let mut last: Option<Score> = None;
     let mut page = open.then(|| files(&grader, &submission)).flatten();

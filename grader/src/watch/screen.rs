@@ -4,10 +4,10 @@
 use std::io;
 
 use console::{Term, truncate_str};
-use judging::assignment::Task;
 
 use crate::report::text::{HintDetail, report};
 use crate::score::Score;
+use crate::task_selection::TaskSelection;
 
 /// The current phase of grading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,25 +35,25 @@ pub enum Phase {
 /// The terminal, file or pipe that shows the reports.
 pub struct Screen {
     term: Term,
-    task: Option<Task>,
+    tasks: TaskSelection,
     hints: HintDetail,
 }
 
 impl Screen {
-    /// Opens standard output. If a task is given, reports show that task only.
-    pub fn open(task: Option<Task>, hints: HintDetail) -> Self {
+    /// Opens standard output. Reports show the selected tasks only.
+    pub fn open(tasks: TaskSelection, hints: HintDetail) -> Self {
         let term = Term::buffered_stdout();
         if term.is_term() {
             // Scrolls up what is on the screen, so that it is not overwritten.
             let rows = usize::from(term.size().0);
             let _ = term.write_str(&"\n".repeat(rows));
         }
-        Screen { term, task, hints }
+        Screen { term, tasks, hints }
     }
 
     /// Shows a score, complete or not.
     pub fn show(&mut self, score: &Score, phase: Phase) -> io::Result<()> {
-        let report = report(score, self.task, self.hints);
+        let report = report(score, &self.tasks, self.hints);
         if self.term.is_term() {
             self.draw(&status_line(score, phase), &report)
         } else if phase == Phase::Waiting {

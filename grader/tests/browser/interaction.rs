@@ -1,7 +1,7 @@
 //! Interaction with the page: by mouse, by keyboard, and with reduced motion.
 
-use crate::chromium::Chromium;
-use crate::devtools::{DESKTOP, Tab, Viewer};
+use browser_support::{Chromium, DESKTOP, Tab, Viewer};
+
 use crate::pages;
 
 const SLIDER: &str = "document.querySelector('#triangle\\\\.picture input[type=range]')";

@@ -2,8 +2,6 @@
 //! If Chromium is not installed, the tests print a notice and pass, or fail if `CI` is set.
 
 mod accessibility;
-mod chromium;
-mod devtools;
 mod interaction;
 mod pages;
 mod rendering;

@@ -52,13 +52,17 @@ fn add_hostile_text(source: &Path) {
     let panic = format!(
         "if ray.dir.x > 0.0 {{ println!(\"{attack}\"); panic!(\"{attack}\"); }} Some(Trace {{"
     );
-    for case in ["exiting", "not_compiling", "printing"] {
-        copy(
-            &workspace().join("grader/tests/submissions").join(case),
-            source,
-        );
-    }
+    let exit = "if pixel.x > 3 { std::process::exit(0); } let height =";
+    let print = "println!(\"asking {self:?} for {ray:?}\"); let inverse =";
+    replace(source, "camera.rs", "let height =", exit);
     replace(source, "triangle.rs", "Some(Trace {", &panic);
+    replace(
+        source,
+        "sphere.rs",
+        "ray.dir.length",
+        "ray.direction.length",
+    );
+    replace(source, "bbox.rs", "let inverse =", print);
 }
 
 /// Grades a copy of the reference after `prepare` has changed it, and returns the path of the page.

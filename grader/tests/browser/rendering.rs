@@ -1,7 +1,7 @@
 //! Rendering of the page: at any width, in light and dark mode, in print, and with hostile content.
 
-use crate::chromium::Chromium;
-use crate::devtools::{DESKTOP, Viewer};
+use browser_support::{Chromium, DESKTOP, Viewer};
+
 use crate::pages;
 
 const PHONE: Viewer = Viewer {

@@ -68,13 +68,14 @@ fn a_file_that_is_not_text_costs_its_own_task() {
 
 #[test]
 fn a_file_that_does_not_compile_costs_its_own_task() {
-    let graded = Submission::case("not_compiling").grade();
+    let graded = Submission::not_compiling().grade();
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
     assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
     assert_snapshot!(graded.report());
     // This line is printed early, before the other files are compiled without `sphere.rs`, because
     // that compilation takes four times as long.
-    let line = "sphere.rs: error[E0609]: no field `direction` on type `&Ray`; grading the rest\n";
+    let line =
+        "sphere.rs:71: error[E0609]: no field `direction` on type `&Ray`; grading the rest\n";
     assert!(graded.error().ends_with(line), "{}", graded.error());
 }
 
@@ -96,11 +97,44 @@ fn a_changed_signature_costs_its_own_task_though_a_given_file_fails_to_compile()
     assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
 }
 
+/// The file has no `struct Sphere` then, but the compiler's message says more.
+#[test]
+fn a_typo_in_a_declaration_is_reported_with_the_compilers_words_and_line() {
+    let typo = Submission::reference("typo").with_replaced(
+        "sphere.rs",
+        "pub struct Sphere {",
+        "pub strct Sphere {",
+    );
+    let text = std::fs::read_to_string(typo.path().join("sphere.rs")).unwrap();
+    let line = 1 + text
+        .lines()
+        .position(|line| line.contains("strct"))
+        .unwrap();
+    let graded = typo.grade();
+    assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
+    assert_eq!(graded.verdicts("triangle"), ["pass"]);
+    let file = &graded.score()["build"]["not_compiled"][0];
+    assert_eq!(file["line"], line);
+    let message = file["message"].as_str().unwrap();
+    assert!(message.contains("| pub strct Sphere {"), "{message}");
+    assert!(message.contains(&format!("sphere.rs:{line}:")), "{message}");
+    let begin = format!("sphere.rs:{line}: error: ");
+    assert!(graded.error().starts_with(&begin), "{}", graded.error());
+
+    // A declaration that is written differently is no error.
+    let spaced = Submission::reference("spaced").with_replaced(
+        "sphere.rs",
+        "pub struct Sphere {",
+        "pub struct\n    Sphere {",
+    );
+    assert_eq!(spaced.grade().verdicts("sphere"), ["pass"]);
+}
+
 #[test]
 fn finds_errors_that_the_compiler_reports_one_after_the_other() {
     // The compiler stops at the first error, before it sees the second.
     let graded =
-        Submission::case("not_compiling").with("camera.rs", "struct Camera fn new fn sample_ray (");
+        Submission::not_compiling().with("camera.rs", "struct Camera fn new fn sample_ray (");
     let graded = graded.grade();
     assert_eq!(graded.verdicts("camera"), ["not_compiled"]);
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
@@ -120,7 +154,7 @@ fn writes_a_report_if_nothing_compiles() {
 
 #[test]
 fn a_panic_costs_the_items_that_trigger_it() {
-    let graded = Submission::case("panicking").grade();
+    let graded = Submission::panicking().grade();
     assert!(graded.verdicts("sphere").contains(&"panicked".to_owned()));
     // One point of `traverse` is for a tree that contains spheres.
     assert_eq!(points_of_other_tasks(&graded.points(), SPHERE), 84);
@@ -143,7 +177,7 @@ fn a_panic_in_a_constructor_is_reported_like_any_other() {
 
 #[test]
 fn an_endless_loop_is_stopped() {
-    let graded = Submission::case("looping").grade_with(&["--cpu-limit", "1"]);
+    let graded = Submission::looping().grade_with(&["--cpu-limit", "1"]);
     assert!(graded.verdicts("sphere").contains(&"timed_out".to_owned()));
     assert_eq!(graded.points()[..2], FULL_POINTS[..2]);
     assert_snapshot!(graded.report());
@@ -151,7 +185,13 @@ fn an_endless_loop_is_stopped() {
 
 #[test]
 fn endless_recursion_ends_the_process_but_not_the_exam() {
-    let graded = Submission::case("recursing").grade();
+    let graded = Submission::reference("recursing")
+        .with_replaced(
+            "bvh.rs",
+            "self.build_node(start, middle)",
+            "self.build_node(start, end)",
+        )
+        .grade();
     assert_eq!(graded.verdicts("build"), ["crashed"]);
     assert_eq!(graded.points()[..4], FULL_POINTS[..4]);
     assert_snapshot!(graded.report());
@@ -159,7 +199,7 @@ fn endless_recursion_ends_the_process_but_not_the_exam() {
 
 #[test]
 fn exiting_early_does_not_count_as_an_answer() {
-    let graded = Submission::case("exiting").grade();
+    let graded = Submission::exiting().grade();
     assert!(graded.verdicts("camera").contains(&"crashed".to_owned()));
     assert_eq!(graded.points()[1..5], FULL_POINTS[1..5]);
     assert_snapshot!(graded.report());
@@ -167,14 +207,20 @@ fn exiting_early_does_not_count_as_an_answer() {
 
 #[test]
 fn printing_is_harmless() {
-    let graded = Submission::case("printing").grade();
+    let graded = Submission::reference("printing")
+        .with_replaced(
+            "bbox.rs",
+            "let inverse = dir.recip();",
+            "println!(\"asking {self:?} for {ray:?}\"); let inverse = dir.recip();",
+        )
+        .grade();
     assert_eq!(graded.points(), *FULL_POINTS);
     assert_snapshot!(graded.report());
 }
 
 #[test]
 fn nan_is_a_wrong_answer() {
-    let graded = Submission::case("not_a_number").grade();
+    let graded = Submission::not_a_number().grade();
     assert!(graded.verdicts("sphere").contains(&"wrong".to_owned()));
     assert_eq!(graded.points()[3..5], FULL_POINTS[3..5]);
     assert_snapshot!(graded.report());
@@ -183,7 +229,17 @@ fn nan_is_a_wrong_answer() {
 #[cfg(target_os = "linux")]
 #[test]
 fn allocating_without_bound_is_stopped() {
-    let graded = Submission::case("hoarding").grade();
+    let hoard = "let mut hoard = vec![*ray];
+        while !hoard.is_empty() {
+            hoard.extend_from_within(..);
+        }";
+    let graded = Submission::reference("hoarding")
+        .with_replaced(
+            "bvh.rs",
+            "root.bbox.hit(ray, ray.range)?;",
+            &format!("{hoard} root.bbox.hit(ray, ray.range)?;"),
+        )
+        .grade();
     assert_eq!(graded.verdicts("traverse"), ["out_of_memory"]);
     assert_eq!(graded.points(), full_points_except(&[TRAVERSE]));
     assert_snapshot!(graded.report());
@@ -191,15 +247,15 @@ fn allocating_without_bound_is_stopped() {
 
 #[test]
 fn a_helper_in_another_task_file_works() {
-    let graded = Submission::case("helpers_elsewhere").grade();
+    let graded = Submission::with_helper_in_another_file().grade();
     assert_eq!(graded.points(), *FULL_POINTS);
 }
 
 #[test]
 fn a_broken_file_also_fails_the_files_that_use_its_helpers() {
-    let broken = Submission::case("helpers_elsewhere").with_replaced(
+    let broken = Submission::with_helper_in_another_file().with_replaced(
         "bbox.rs",
-        "times.min.max(enter)",
+        "enter > times.min",
         "oops",
     );
     let graded = broken.grade();

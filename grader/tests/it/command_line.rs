@@ -44,7 +44,7 @@ fn a_path_without_a_submission_is_a_usage_error() {
 
 #[test]
 fn grades_an_archive_like_the_folder_in_it() {
-    let submission = Submission::case("panicking");
+    let submission = Submission::panicking();
     let folder = submission.grade().score();
     let file = submission.path().with_extension("tar.gz");
     let packed = flate2::write::GzEncoder::new(
@@ -103,7 +103,7 @@ fn finds_the_task_files_at_the_top_in_src_and_in_student_src() {
 
 #[test]
 fn exits_with_1_below_the_required_points() {
-    let graded = Submission::case("not_compiling").grade_with(&["--require", "100"]);
+    let graded = Submission::not_compiling().grade_with(&["--require", "100"]);
     assert_eq!(graded.exit_code(), 1);
     assert!(graded.score.is_some());
     let graded = Submission::reference("full").grade_with(&["--require", "100"]);
@@ -117,7 +117,7 @@ fn exits_with_1_below_the_required_points() {
 
 #[test]
 fn grading_one_task_reports_it_alone_and_writes_no_score() {
-    let graded = Submission::case("panicking").grade_with(&["--task", "sphere"]);
+    let graded = Submission::panicking().grade_with(&["--task", "sphere"]);
     assert_eq!(graded.exit_code(), 0);
     assert!(graded.score.is_none());
     assert_snapshot!(graded.report());
@@ -142,7 +142,7 @@ fn timings_list_each_stage() {
 
 #[test]
 fn replays_one_question() {
-    let submission = Submission::case("panicking");
+    let submission = Submission::panicking();
     let score = submission.grade().score();
     let items = score["tasks"][2]["items"].as_array().unwrap();
     let item = items
@@ -154,12 +154,56 @@ fn replays_one_question() {
         item["id"].as_str().unwrap(),
         item["evidence"]["number"]
     );
+    assert_snapshot!(replay(&submission, &question));
+}
+
+#[test]
+fn replays_the_first_wrong_question_of_an_item() {
+    let submission = Submission::reference("half-distance").with_replaced(
+        "sphere.rs",
+        "distance: t,",
+        "distance: if ray.origin.x > 0.0 { t / 2.0 } else { t },",
+    );
+    let replay = replay(&submission, "sphere.from_inside");
+    let verdict = replay.lines().find(|line| line.starts_with("verdict"));
+    let verdict = verdict.unwrap_or_else(|| panic!("there is no verdict: {replay}"));
+    assert!(
+        verdict.starts_with("verdict  wrong: distance; the error is"),
+        "{verdict}"
+    );
+    let replay = self::replay(&submission, "camera.corners");
+    assert!(
+        replay.starts_with("every answer to camera.corners is right"),
+        "{replay}"
+    );
+}
+
+#[test]
+fn replay_tells_an_answer_that_depends_on_earlier_calls() {
+    let submission = Submission::reference("counting").with_replaced(
+        "sphere.rs",
+        "distance: t,",
+        "distance: {
+                use std::sync::atomic::{AtomicU32, Ordering};
+                static CALLS: AtomicU32 = AtomicU32::new(0);
+                t + CALLS.fetch_add(1, Ordering::Relaxed) as f32
+            },",
+    );
+    let replay = replay(&submission, "sphere.from_inside");
+    assert!(
+        replay.contains("verdict  right when asked alone, but not together"),
+        "{replay}"
+    );
+    assert!(replay.contains("distance; the error is"), "{replay}");
+}
+
+fn replay(submission: &Submission, question: &str) -> String {
     let output = grader()
         .arg(submission.path())
-        .args(["--replay", &question])
+        .args(["--replay", question])
         .output()
         .unwrap();
-    assert_snapshot!(String::from_utf8(output.stdout).unwrap());
+    String::from_utf8(output.stdout).unwrap()
 }
 
 #[test]
@@ -170,7 +214,13 @@ fn an_unknown_question_lists_the_known_ones() {
         error.contains("the items of this task are: sphere."),
         "{error}"
     );
-    let (code, error) = exit_code_and_error(&["--replay", "sphere"]);
+    let (code, error) = exit_code_and_error(&["--replay", "spere.uv"]);
+    assert_eq!(code, 2);
+    assert!(
+        error.contains("(did you mean sphere.uv?); the items are: camera."),
+        "{error}"
+    );
+    let (code, error) = exit_code_and_error(&["--replay", "sphere#"]);
     assert_eq!(code, 2);
     assert!(error.contains("such as sphere.from_inside#7"), "{error}");
 }

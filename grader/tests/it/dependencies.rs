@@ -91,6 +91,32 @@ fn the_class_crate_depends_only_on_the_grader() {
 }
 
 #[test]
+fn the_viewer_is_no_dependency_and_links_no_solution() {
+    assert!(dependencies("view").contains("framework"));
+    for package in [
+        "grader",
+        "class",
+        "author",
+        "judging",
+        "student",
+        "framework",
+    ] {
+        assert_eq!(
+            forbidden_dependencies(package, &["view", "view_probe"]),
+            [""; 0]
+        );
+    }
+    assert_eq!(
+        forbidden_dependencies("view", &["student", "reference", "author", "class"]),
+        [""; 0]
+    );
+    assert_eq!(
+        forbidden_dependencies("view_probe", &["grader", "judging", "student", "reference"]),
+        [""; 0]
+    );
+}
+
+#[test]
 fn student_crates_do_not_depend_on_the_grader() {
     for package in ["student", "framework", "protocol"] {
         assert_eq!(

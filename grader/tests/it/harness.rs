@@ -37,17 +37,6 @@ impl Submission {
         Submission::copy_of(name, &workspace().join("grader/starter"))
     }
 
-    /// Copies the task files of the reference, and replaces some of them with the files in
-    /// `tests/submissions/NAME`.
-    pub fn case(name: &str) -> Self {
-        let submission = Submission::reference(name);
-        let case = workspace().join("grader/tests/submissions").join(name);
-        for entry in fs::read_dir(&case).unwrap().flatten() {
-            fs::copy(entry.path(), submission.path().join(entry.file_name())).unwrap();
-        }
-        submission
-    }
-
     fn copy_of(name: &str, source: &Path) -> Self {
         let submission = Submission {
             folder: TempDir::new().unwrap(),
@@ -76,10 +65,11 @@ impl Submission {
         self
     }
 
-    /// Replaces text in a file, and panics if the file does not contain it.
+    /// Replaces text in a file, and panics unless the file contains it exactly once.
     pub fn with_replaced(self, file: &str, from: &str, to: &str) -> Self {
         let text = fs::read_to_string(self.path().join(file)).unwrap();
-        assert!(text.contains(from), "{file} does not contain {from:?}");
+        let count = text.matches(from).count();
+        assert_eq!(count, 1, "{file} contains {from:?} {count} times");
         self.with(file, text.replace(from, to))
     }
 
@@ -111,6 +101,7 @@ impl Submission {
             output,
             submission: self.path(),
             score: fs::read(out.join("score.json")).ok(),
+            page: fs::read_to_string(out.join("report.html")).ok(),
         }
     }
 }
@@ -129,6 +120,8 @@ pub struct GradeRun {
     submission: PathBuf,
     /// The contents of the score file, if there is one.
     pub score: Option<Vec<u8>>,
+    /// The text of the page, if there is one.
+    page: Option<String>,
 }
 
 impl GradeRun {
@@ -155,6 +148,10 @@ impl GradeRun {
 
     pub fn error(&self) -> String {
         String::from_utf8(self.output.stderr.clone()).unwrap()
+    }
+
+    pub fn page(&self) -> &str {
+        self.page.as_deref().expect("a page was written")
     }
 
     pub fn score(&self) -> Value {

@@ -19,6 +19,13 @@ fn far_first() -> Submission {
     )
 }
 
+/// Grades one task of it, where one hint explains several items.
+#[test]
+fn a_hint_that_explains_several_items_is_shown_once() {
+    let graded = far_first().grade_with(&["--task", "sphere"]);
+    assert_snapshot!(graded.report());
+}
+
 fn hints(graded: &GradeRun) -> Vec<Value> {
     let score = graded.score();
     let tasks = score["tasks"].as_array().unwrap().iter();

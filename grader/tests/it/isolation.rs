@@ -128,7 +128,7 @@ fn the_compiler_cannot_read_files_for_a_submission() {
 
 #[test]
 fn isolation_does_not_change_the_score() {
-    let submission = Submission::case("panicking");
+    let submission = Submission::panicking();
     let score = |level| {
         let mut score = grade_at(&submission, level).score();
         for field in ["isolation", "timings"] {

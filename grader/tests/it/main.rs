@@ -1,13 +1,14 @@
-//! Tests that run the real binary on real submissions. Each module tests one promise to users. Each
-//! folder in `tests/submissions` is one submission, and contains only the files that differ from
-//! the reference.
+//! Tests that run the real binary on real submissions, most of which are the reference with a small
+//! change. Each module tests one promise to users.
 
 mod bad_exams;
 mod bad_submissions;
 mod cached_report;
+mod cases;
 mod command_line;
 mod dependencies;
 mod faults;
+mod file_errors;
 mod formats;
 mod harness;
 mod hints;

@@ -103,7 +103,7 @@ fn reports_each_problem_with_a_remedy() {
     let exam = "pathtracing/exam.json";
     let without = |name| package_except(&good, name, None);
     let with = |name, text| package_except(&good, name, Some((name, text)));
-    let bad: [Case; 13] = [
+    let bad: [Case; 14] = [
         (
             "the folder was zipped",
             vec![("mine/setup.sh", ""), ("mine/run_autograder", "")],
@@ -118,6 +118,14 @@ fn reports_each_problem_with_a_remedy() {
         (
             "Windows line endings in a subfolder",
             with(GRADE.0, "#!/bin/sh\r\n"),
+            0o755,
+        ),
+        (
+            "newest Rust",
+            with(
+                SETUP.0,
+                "#!/bin/sh\nrustup-init -y --default-toolchain stable\n",
+            ),
             0o755,
         ),
         ("no shebang line", with(RUN.0, "echo"), 0o755),

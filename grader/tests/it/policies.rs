@@ -3,7 +3,7 @@
 use insta::assert_snapshot;
 use serde_json::Value;
 
-use crate::formats::{grade_in_all_formats, small_exam};
+use crate::formats::{FormatTexts, grade_in_all_formats, models, small_exam, student_formats};
 use crate::harness::{Submission, grader};
 
 /// Returns the error message for a policy file, and checks that nothing was graded.
@@ -35,13 +35,15 @@ fn rejects_invalid_policies_with_line_and_remedy() {
 
 #[test]
 fn the_policy_scales_points_but_not_the_score() {
-    let submission = Submission::case("not_compiling").with("policy.toml", "[points]\nout_of = 30");
+    let submission = Submission::not_compiling().with("policy.toml", "[points]\nout_of = 30");
     let path = submission.path().join("policy.toml");
     let graded = submission.grade_with(&["--policy", path.to_str().unwrap()]);
     let points = graded.score()["points"].as_u64().unwrap();
     let counted = (2 * points * 30 + 100) / 200;
-    let line = format!("  counts for {counted} of 30 points");
+    let line =
+        format!("{counted} of 30 points count towards the grade: {points} of 100 points earned.");
     assert!(graded.report().contains(&line), "{}", graded.report());
+    assert!(graded.page().contains(&line), "the page says the same");
 }
 
 #[test]
@@ -52,23 +54,59 @@ fn the_default_policy_explains_itself() {
 }
 
 #[test]
-fn late_gradescope_submissions_are_reduced_and_reported() {
+fn every_format_says_what_a_late_submission_counts_and_why() {
+    let written = grade_late("[points]\nout_of = 50\n[late]\npercent_per_day = 10");
+    let results: Value = serde_json::from_str(&written["gradescope"]).unwrap();
+    let points = results["extra_data"]["points"].as_u64().unwrap();
+    assert_eq!(results["score"], 45);
+    let line = format!(
+        "45 of 50 points count towards the grade: {points} of {points} points earned, handed in 1 \
+         day late, so 10 % of the points earned are deducted."
+    );
+    for format in student_formats() {
+        let text = models::readable(format.id, &written[format.id]);
+        assert!(text.contains(&line), "{}: {text}", format.id);
+    }
+    assert!(written["log"].contains(&line), "{}", written["log"]);
+}
+
+#[test]
+fn gradescope_explains_a_score_that_includes_hidden_items_when_it_shows_the_score() {
+    let late = "[points]\nout_of = 50\n[late]\nmost_percent = 60\n[visibility]\nfinal = ";
+    for (visibility, shown) in [
+        ("'after_due'", "after_due_date"),
+        ("'hidden'", "after_published"),
+    ] {
+        let written = grade_late(&format!("{late}{visibility}"));
+        let results: Value = serde_json::from_str(&written["gradescope"]).unwrap();
+        let points = results["extra_data"]["points"].as_u64().unwrap();
+        assert_eq!(results["score"], 30);
+        // The rules are no secret, but the total is.
+        let output = results["output"].as_str().unwrap();
+        let rules = format!(
+            "Towards the grade: {points} points count as 50; handed in 1 day late, and late work \
+             counts for at most 60 % of all points."
+        );
+        assert!(output.contains(&rules), "{output}");
+        assert!(!output.contains("30 of 50"), "{output}");
+        let last = results["tests"].as_array().unwrap().last().unwrap();
+        assert_eq!(last["visibility"], shown);
+        let text = last["output"].as_str().unwrap();
+        assert!(text.starts_with("30 of 50 points count"), "{text}");
+    }
+}
+
+/// Grades the reference with a policy, ten minutes after Gradescope's due time.
+fn grade_late(policy: &str) -> FormatTexts {
     let metadata = r#"{"id": 1, "created_at": "2026-11-21T00:10:00.365935-08:00",
         "assignment": {"due_date": "2026-11-20T23:59:59.000000-08:00", "late_due_date": null}}"#;
     let submission = Submission::reference("late")
-        .with("policy.toml", "[late]\npercent_per_day = 10")
+        .with("policy.toml", policy)
         .with("metadata.json", metadata);
     let path = |name: &str| submission.path().join(name).to_str().unwrap().to_owned();
     let (policy, metadata) = (path("policy.toml"), path("metadata.json"));
     let late = ["--policy", &policy, "--gradescope-metadata", &metadata];
-    let written = grade_in_all_formats(&submission, &small_exam("final"), &late);
-    let results: Value = serde_json::from_str(&written["gradescope"]).unwrap();
-    let points = results["extra_data"]["points"].as_u64().unwrap();
-    let counted = (points * 9 + 5) / 10;
-    assert_eq!(results["score"], counted);
-    let line = format!("counts for {counted} of {points} points, one day late");
-    let output = results["output"].as_str().unwrap();
-    assert!(output.contains(&line), "{output}");
+    grade_in_all_formats(&submission, &small_exam("final"), &late)
 }
 
 #[test]

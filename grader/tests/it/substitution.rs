@@ -60,10 +60,11 @@ fn finds_two_mistakes_that_hide_each_other() {
             "(inside.min <= inside.max).then_some(inside)",
             "let (_, inside) = (inside, Interval::new(enter.max(0.0), leave));\n(inside.min <= inside.max).then_some(inside)",
         )
+        .with_replaced("bvh.rs", "root.bbox.hit(ray, ray.range)", "root.bbox.hit(ray, protocol::Interval::new(0.0, 0.0))")
         .with_replaced(
             "bvh.rs",
-            "bbox.hit(ray, ray.range)",
-            "bbox.hit(ray, protocol::Interval::new(0.0, 0.0))",
+            "(l.bbox.hit(ray, ray.range), r.bbox.hit(ray, ray.range))",
+            "(l.bbox.hit(ray, protocol::Interval::new(0.0, 0.0)), r.bbox.hit(ray, protocol::Interval::new(0.0, 0.0)))",
         );
     let points = graded.grade_with_reference().points();
     assert!(points[BBOX] < FULL_POINTS[BBOX], "{points:?}");

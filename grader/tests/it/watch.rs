@@ -50,7 +50,7 @@ impl Drop for WatchProcess {
 
 #[test]
 fn grades_every_save_and_updates_the_score_file() {
-    let submission = Submission::case("not_compiling");
+    let submission = Submission::not_compiling();
     let sphere = submission.path().join("sphere.rs");
     let right = fs::read_to_string(Submission::reference("right").path().join("sphere.rs"));
     let score = || {

@@ -1,15 +1,17 @@
-//! Writes a class of any size, made of the known mistakes and variants, to measure how fast a class
-//! is graded.
+//! Writes known mistakes and variants as submissions: a class of any size, to measure how fast a class
+//! is graded, or the solutions with these ids, to grade them one by one.
 //!
 //! ```text
 //! cargo run --release -p author --example submissions -- target/class 200
 //! time cargo class target/class --out target/graded
+//!
+//! cargo run --release -p author --example submissions -- target/class bvh.wide sphere.near_only
+//! cargo grade target/class/bvh.wide
 //! ```
 
 use std::env;
 use std::error::Error;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use author::solutions::catalogue::mistakes;
 use author::solutions::sources::Sources;
@@ -19,38 +21,46 @@ use grader::workspace::Workspace;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = env::args().skip(1);
-    let (Some(folder), Some(count)) = (arguments.next(), arguments.next()) else {
-        return Err(
-            "expected a folder and a number of submissions, such as `target/class 200`".into(),
-        );
-    };
-    let (folder, count) = (PathBuf::from(folder), count.parse()?);
-    let workspace = Workspace::find()?;
-    let root = workspace.root();
-
-    let reference = Sources::reference(root, &RAYS)?;
-    let mut solutions = Vec::new();
-    for mistake in mistakes(root, &RAYS)? {
-        solutions.push((mistake.id.clone(), mistake.apply(&reference)?));
-    }
-    for variant in variants(root)? {
-        solutions.push((variant.id.clone(), variant.apply(&reference, root)?));
-    }
-    for index in 0..count {
-        // The stride ensures that even a small class contains mistakes in all tasks.
-        let (id, sources) = &solutions[(7 * index) % solutions.len()];
-        write(&folder.join(format!("{index:04}-{id}")), sources)?;
+    let folder = PathBuf::from(arguments.next().ok_or(USAGE)?);
+    let arguments: Vec<String> = arguments.collect();
+    let solutions = solutions()?;
+    match &*arguments {
+        [] => return Err(USAGE.into()),
+        [count] if count.parse::<usize>().is_ok() => {
+            for index in 0..count.parse()? {
+                // The stride ensures that even a small class contains mistakes in all tasks.
+                let (id, sources) = &solutions[(7 * index) % solutions.len()];
+                sources.write(&folder.join(format!("{index:04}-{id}")))?;
+            }
+        }
+        ids => {
+            for id in ids {
+                let solution = solutions.iter().find(|(known, _)| known == id);
+                let (_, sources) = solution
+                    .ok_or_else(|| format!("there is no mistake or variant with the id {id}"))?;
+                sources.write(&folder.join(id))?;
+            }
+        }
     }
     Ok(())
 }
 
-fn write(folder: &Path, sources: &Sources) -> Result<(), Box<dyn Error>> {
-    fs::create_dir_all(folder)?;
-    for file in RAYS.files {
-        fs::write(
-            folder.join(file.name),
-            sources.text(file.name).unwrap_or_default(),
-        )?;
+const USAGE: &str = "expected a folder and a number of submissions, such as `target/class 200`, or a \
+                     folder and ids of mistakes or variants";
+
+/// Returns all mistakes and variants with their ids.
+fn solutions() -> Result<Vec<(String, Sources)>, Box<dyn Error>> {
+    let workspace = Workspace::find()?;
+    let root = workspace.root();
+    let reference = Sources::reference(root, &RAYS)?;
+    let mut solutions = Vec::new();
+    for mistake in mistakes(root, &RAYS)? {
+        let sources = mistake.apply(&reference)?;
+        solutions.push((mistake.id, sources));
     }
-    Ok(())
+    for variant in variants(root)? {
+        let sources = variant.apply(&reference, root)?;
+        solutions.push((variant.id, sources));
+    }
+    Ok(solutions)
 }

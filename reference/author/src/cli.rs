@@ -87,6 +87,9 @@ pub enum Command {
         /// with `--check`
         #[arg(long, value_name = "N")]
         seeds: Option<u64>,
+        /// Write only the table, with the lists as they are, which takes a minute
+        #[arg(long, conflicts_with_all = ["seeds", "check"])]
+        table: bool,
         /// Whether to write or to check the lists and the table.
         #[command(flatten)]
         check: CheckArgs,
@@ -115,6 +118,19 @@ pub enum Command {
         #[arg(long, value_name = "ID", conflicts_with_all = ["mistakes", "write"])]
         variant: Option<String>,
         /// Record the result, with the date and the commit
+        #[arg(long)]
+        write: bool,
+    },
+    /// Grade a submission that answers the practice exam by heart with the final exams of all seeds,
+    /// in which it must earn nothing
+    ByHeart {
+        /// The seeds, such as 0..50
+        #[arg(long, value_parser = parse_seeds)]
+        seeds: Range<u64>,
+        /// Write the submission's files to this folder
+        #[arg(long, value_name = "FOLDER")]
+        out: Option<PathBuf>,
+        /// Record the result
         #[arg(long)]
         write: bool,
     },

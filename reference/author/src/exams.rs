@@ -20,10 +20,6 @@ use crate::solutions::{Solutions, SolutionsError};
 /// The version of the exam file's format.
 const SCHEMA: u32 = 1;
 
-/// The seed of the practice exam. It is not secret, because the practice exam is handed out with
-/// its keys.
-const PRACTICE_SEED: Seed = Seed(2025);
-
 /// The path of the practice exam, relative to the workspace root.
 const PRACTICE_FILE: &str = "grader/exams/practice.json";
 
@@ -33,6 +29,9 @@ pub enum ExamGenerationError {
     /// The reference or a known mistake could not be built, or did not give the expected answers.
     #[error(transparent)]
     Solutions(#[from] SolutionsError),
+    /// A final exam would have the questions of the practice exam.
+    #[error("the seed {} is that of the practice exam; choose another one", Seed::PRACTICE.0)]
+    PracticeSeed,
     /// The exam could not be serialized.
     #[error("cannot serialize the exam: {0}")]
     Text(#[from] serde_json::Error),
@@ -40,7 +39,7 @@ pub enum ExamGenerationError {
 
 /// Generates the exam files of this repository.
 pub fn generated_files() -> Result<Vec<GeneratedFile>, ExamGenerationError> {
-    let practice = exam_text("practice", PRACTICE_SEED)?;
+    let practice = exam_text("practice", Seed::PRACTICE)?;
     Ok(vec![GeneratedFile::new(PRACTICE_FILE, practice)])
 }
 
@@ -52,7 +51,10 @@ pub fn load_practice(root: &Path) -> Result<Exam, ExamSourceError> {
 /// Generates the text of a final exam. Its questions are about the same ideas as those of the
 /// practice exam, with other numbers.
 pub fn final_exam_text(seed: u64) -> Result<String, ExamGenerationError> {
-    exam_text("final", Seed(seed))
+    match Seed(seed) {
+        Seed::PRACTICE => Err(ExamGenerationError::PracticeSeed),
+        seed => exam_text("final", seed),
+    }
 }
 
 fn exam_text(id: &str, seed: Seed) -> Result<String, ExamGenerationError> {
@@ -107,6 +109,15 @@ mod tests {
     use judging::signatures::KnownMistake;
 
     use super::*;
+
+    #[test]
+    fn the_practice_seed_gives_no_final_exam() {
+        let error = final_exam_text(Seed::PRACTICE.0).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "the seed 2025 is that of the practice exam; choose another one"
+        );
+    }
 
     #[test]
     fn text_parses_back_to_the_exam() {

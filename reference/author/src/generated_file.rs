@@ -1,8 +1,9 @@
 //! Writes generated files, or checks that they are up to date.
 
 use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+
+use grader::files::{self, PathError};
 
 /// A generated file and its contents.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,13 +45,8 @@ pub enum GeneratedFileError {
         command: String,
     },
     /// A file cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
-    Unwritable {
-        /// The path of the file.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
 }
 
 /// Writes the files below `root`, or compares them with the files there. `command` is the command
@@ -86,10 +82,7 @@ fn differs(file: &GeneratedFile, root: &Path) -> bool {
 
 fn write(file: &GeneratedFile, root: &Path) -> Result<(), GeneratedFileError> {
     let path = root.join(&file.path);
-    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
-    folder
-        .and_then(|()| fs::write(&path, &file.contents))
-        .map_err(|source| GeneratedFileError::Unwritable { path, source })
+    Ok(files::write_with_parents(path, &file.contents)?)
 }
 
 #[cfg(test)]

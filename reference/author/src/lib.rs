@@ -17,7 +17,7 @@
 //! | additions to an exam | [`hints`], [`drawing_data`] |
 //! | an exam's items; solutions, and how they are built and run | [`items`], [`solutions`] |
 //! | trees with decoys; other generated files | [`tree`], [`starter`], [`scenes`] |
-//! | correct answers, random numbers, files | [`oracle`], [`seed`], [`generated_file`], [`text_file`] |
+//! | correct answers, random numbers, files | [`oracle`], [`seed`], [`generated_file`] |
 
 pub mod bundle;
 pub mod cli;
@@ -34,5 +34,4 @@ pub mod scenes;
 pub mod seed;
 pub mod solutions;
 pub mod starter;
-pub mod text_file;
 pub mod tree;

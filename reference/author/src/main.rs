@@ -10,6 +10,7 @@ use author::bundle::{self, Bundle, archive};
 use author::cli::{Cli, Command};
 use author::generated_file::{GeneratedFile, Mode, write_or_check};
 use author::package::{self, Course, Platform, trial};
+use author::proof::by_heart::grade_by_heart;
 use author::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, calibrate, table};
 use author::proof::mutants::{self, MutantSelection};
 use author::proof::prove::prove;
@@ -20,7 +21,9 @@ use author::solutions::workbench::Workbench;
 use author::solutions::{Solutions, SolutionsError};
 use author::{exams, handout, scenes, starter};
 use clap::Parser;
+use grader::files;
 use grader::handed_out::RAYS;
+use judging::exam::Exam;
 
 /// The workspace's root. The paths of generated files are relative to it.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
@@ -68,7 +71,11 @@ fn run(command: Command) -> CommandResult {
             let package = package::collect(root, &RAYS, platform, course)?;
             write_package(root, platform, &package, &out, check)
         }
-        Command::Mistakes { seeds, check } => run_mistakes(root, seeds, check.mode()),
+        Command::Mistakes { table: true, .. } => {
+            let practice = exams::load_practice(root)?;
+            write_table_of_mistakes(&solutions()?, &practice, Mode::Write)
+        }
+        Command::Mistakes { seeds, check, .. } => run_mistakes(root, seeds, check.mode()),
         Command::Mutants { fast, check } => {
             run_mutants(root, MutantSelection::new(fast), check.mode())
         }
@@ -96,6 +103,16 @@ fn run(command: Command) -> CommandResult {
                 eprintln!("{note}");
             }
             report(&summary.problems(), &summary.summary_line())
+        }
+        Command::ByHeart { seeds, out, write } => {
+            let result = grade_by_heart(&solutions()?, &exams::load_practice(root)?, seeds)?;
+            if let Some(folder) = out {
+                result.sources.write(&folder)?;
+            }
+            if write {
+                generate(&[result.record()], Mode::Write, "by-heart")?;
+            }
+            report(&result.problems(), &result.summary_line())
         }
         Command::Calibrate {
             seeds,
@@ -186,8 +203,7 @@ fn write_package(
                         .into(),
                 );
             }
-            out.parent().map_or(Ok(()), std::fs::create_dir_all)?;
-            std::fs::write(out, archive::zip_with_prefix(package, "")?)?;
+            files::write_with_parents(out, archive::zip_with_prefix(package, "")?)?;
             let (count, size) = (package.files.len(), package.size() / 1_000_000);
             println!("{count} files, {size} MB unpacked: {}", out.display());
             if check {
@@ -248,11 +264,13 @@ fn run_mistakes(root: &Path, seeds: Option<u64>, mode: Mode) -> CommandResult {
     if mode == Mode::Write {
         solutions.set_failed_items(&failed);
     }
-    generate(
-        &[matrix::generated_file(&solutions, &practice)?],
-        mode,
-        "mistakes",
-    )
+    write_table_of_mistakes(&solutions, &practice, mode)
+}
+
+/// Writes or checks the table of the practice exam.
+fn write_table_of_mistakes(solutions: &Solutions, practice: &Exam, mode: Mode) -> CommandResult {
+    let table = matrix::generated_file(solutions, practice)?;
+    generate(&[table], mode, "mistakes")
 }
 
 fn run_mutants(root: &Path, selection: MutantSelection, mode: Mode) -> CommandResult {

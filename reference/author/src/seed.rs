@@ -5,10 +5,19 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// The seed from which all questions of an exam are drawn.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Seed(pub u64);
 
 impl Seed {
+    /// The seed of the practice exam. It is not secret, because the practice exam is handed out with
+    /// its keys.
+    pub const PRACTICE: Seed = Seed(2025);
+
+    /// Returns a seed that depends only on this one, to draw an item again.
+    pub fn next(self) -> Seed {
+        Seed(self.rng("next").0.random())
+    }
+
     /// Returns the random numbers of one item. Each item has its own sequence, so that changing one
     /// item leaves the others as they are.
     pub fn rng(self, item: &str) -> Rng {
@@ -35,6 +44,11 @@ impl Rng {
     /// Returns an integer in `0..n`. Panics if `n` is 0.
     pub fn index(&mut self, n: usize) -> usize {
         self.0.random_range(0..n)
+    }
+
+    /// Returns an integer from `min` to `max`, both included.
+    pub fn integer(&mut self, min: u32, max: u32) -> u32 {
+        self.0.random_range(min..=max)
     }
 
     /// Returns true or false with equal probability.
@@ -109,6 +123,7 @@ mod tests {
         assert_eq!(first(1, "a.b"), first(1, "a.b"));
         assert_ne!(first(1, "a.b"), first(2, "a.b"));
         assert_ne!(first(1, "a.b"), first(1, "b.a"));
+        assert_ne!(Seed(1).next(), Seed(2).next());
     }
 
     #[test]

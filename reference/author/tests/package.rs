@@ -85,3 +85,35 @@ fn a_gradescope_package_needs_a_final_exam() {
     let refused = collect(&root(), &RAYS, Platform::Gradescope, without_exam());
     assert!(matches!(refused, Err(PackageError::MissingExam)));
 }
+
+/// The version of Rust that packages install. A newer one may only be entered here after CI has
+/// passed with it.
+const RUST: &str = "1.95.0";
+
+#[test]
+fn packages_install_one_fixed_version_of_rust() {
+    let gradescope = collect(&root(), &RAYS, Platform::Gradescope, FINAL.clone()).unwrap();
+    let github = collect(&root(), &RAYS, Platform::Github, without_exam()).unwrap();
+    let install = [
+        (
+            gradescope.text("setup.sh"),
+            format!("--default-toolchain {RUST}\n"),
+        ),
+        (
+            github.text(".github/workflows/grade.yml"),
+            format!("rustup toolchain install {RUST} "),
+        ),
+    ];
+    for (script, line) in install {
+        assert!(script.unwrap().contains(&line), "{script:?}");
+    }
+    let manifest = std::fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let minimum = manifest.split("rust-version = \"").nth(1).unwrap();
+    let numbers = |version: &str| -> Vec<u32> {
+        let numbers = version
+            .split(['.', '"'])
+            .map_while(|number| number.parse().ok());
+        numbers.collect()
+    };
+    assert!(numbers(RUST) >= numbers(minimum), "{minimum:.10}");
+}

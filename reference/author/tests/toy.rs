@@ -285,6 +285,8 @@ fn a_class_of_toys_is_graded() {
     let arguments = ClassArguments {
         input: Some(class),
         out: Some(out.clone()),
+        estimate: false,
+        similarity_input: None,
         dry_run: false,
         regrade: false,
         shard: None,

@@ -1,78 +1,8 @@
-//! Compares every partition of the sorted centres, axis by axis, and computes both boxes from
-//! scratch for each. This takes quadratic time, but is as simple as possible. Traverses the tree
-//! with a stack of nodes, each with the distance at which the ray enters it.
-
-use protocol::{Ray, Trace};
-
-use crate::bbox::BBox;
-use crate::primitive::Primitive;
-
-/// A node of the tree. It is a leaf if and only if `l == r`.
-#[derive(Clone, Copy, Debug)]
-pub struct Node {
-    /// The box around everything below this node.
-    pub bbox: BBox,
-    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
-    pub start: usize,
-    /// In a leaf, the number of its primitives. Ignored in other nodes.
-    pub size: usize,
-    /// In an interior node, the index of one child in [`Bvh::nodes`].
-    pub l: usize,
-    /// In an interior node, the index of the other child in [`Bvh::nodes`].
-    pub r: usize,
-}
-
-impl Node {
-    /// Creates a leaf, which holds primitives.
-    pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
-        Node {
-            bbox,
-            start,
-            size,
-            l: 0,
-            r: 0,
-        }
-    }
-
-    /// Creates an interior node, which has two children.
-    pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
-        Node {
-            bbox,
-            start: 0,
-            size: 0,
-            l,
-            r,
-        }
-    }
-
-    /// Returns whether the node is a leaf.
-    pub fn is_leaf(&self) -> bool {
-        self.l == self.r
-    }
-}
-
-/// A bounding volume hierarchy: a binary tree of boxes around primitives.
-#[derive(Clone, Debug)]
-pub struct Bvh {
-    /// All primitives. Those of one leaf are next to each other.
-    pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. A tree without primitives may have no nodes.
-    pub nodes: Vec<Node>,
-    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
-    pub root: usize,
-}
+// Compares every partition of the sorted centres, axis by axis, and computes both boxes from
+// scratch for each. This takes quadratic time, but is as simple as possible. Traverses the tree
+// with a stack of nodes, each with the distance at which the ray enters it.
 
 impl Bvh {
-    /// Creates a tree from its primitives, its nodes and the index of its root.
-    pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
-        Bvh {
-            primitives,
-            nodes,
-            root,
-        }
-    }
-
-    /// Builds the tree with the surface area heuristic (SAH).
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes = Vec::new();
         if !primitives.is_empty() {
@@ -81,8 +11,6 @@ impl Bvh {
         Bvh::from_nodes(primitives, nodes, 0)
     }
 
-    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
-    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let root = self.nodes.get(self.root)?;
         let mut ray = *ray;

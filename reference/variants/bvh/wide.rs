@@ -1,83 +1,34 @@
-//! A wide BVH that tests eight boxes or eight triangles at a time. The binary tree, built here or
-//! given by the caller, is collapsed into nodes with eight children, and the triangles of each leaf
-//! are stored together in a pack. This follows Wald, Benthin and Boulos, "Getting Rid of Packets",
-//! 2008, and Embree's `BVH8<Triangle4>`.
-//!
-//! Traversal is limited by cache misses and branch mispredictions, not by arithmetic:
-//!
-//! - Nodes and packs are in one array, with the packs of a node right behind it. All children that
-//!   the ray hits are prefetched at once, together with the memory behind them.
-//! - A pack is small, because each corner that neighbouring triangles share is stored once.
-//! - A stack entry is one integer, with the entry distance in the bits above the child, so that the
-//!   nearer of two children is found without a branch.
-//! - For each axis, the sign of the ray's direction tells which plane of a box the ray reaches
-//!   first, so only that plane is used to compute the entry distance.
-//! - The shading data of a triangle is in one cache line. For a flat triangle, it is computed from
-//!   the corners, so nothing else is read.
-//! - For a tree built here, traversal does not use `nodes` but another tree, in which a large
-//!   triangle may be split into pieces.
+// A wide BVH that tests eight boxes or eight triangles at a time. The binary tree, built here or
+// given by the caller, is collapsed into nodes with eight children, and the triangles of each leaf
+// are stored together in a pack. This follows Wald, Benthin and Boulos, "Getting Rid of Packets",
+// 2008, and Embree's `BVH8<Triangle4>`.
+//
+// Traversal is limited by cache misses and branch mispredictions, not by arithmetic:
+//
+// - Nodes and packs are in one array, with the packs of a node right behind it. All children that
+//   the ray hits are prefetched at once, together with the memory behind them.
+// - A pack is small, because each corner that neighbouring triangles share is stored once.
+// - A stack entry is one integer, with the entry distance in the bits above the child, so that the
+//   nearer of two children is found without a branch.
+// - For each axis, the sign of the ray's direction tells which plane of a box the ray reaches
+//   first, so only that plane is used to compute the entry distance.
+// - The shading data of a triangle is in one cache line. For a flat triangle, it is computed from
+//   the corners, so nothing else is read.
+// - For a tree built here, traversal does not use `nodes` but another tree, in which a large
+//   triangle may be split into pieces.
 
 use glam::{Vec2, Vec3};
-use protocol::{Interval, Ray, Shape, Trace};
+use protocol::{Interval, Shape};
 use wide::bytemuck::cast;
 use wide::{f32x4, f32x8, u32x8};
 
-use crate::bbox::BBox;
-use crate::primitive::Primitive;
 use crate::triangle::Triangle;
-
-/// A node of the tree. It is a leaf if and only if `l == r`.
-#[derive(Clone, Copy, Debug)]
-pub struct Node {
-    /// The box around everything below this node.
-    pub bbox: BBox,
-    /// In a leaf, the index of its first primitive in [`Bvh::primitives`]. Ignored in other nodes.
-    pub start: usize,
-    /// In a leaf, the number of its primitives. Ignored in other nodes.
-    pub size: usize,
-    /// In an interior node, the index of one child in [`Bvh::nodes`].
-    pub l: usize,
-    /// In an interior node, the index of the other child in [`Bvh::nodes`].
-    pub r: usize,
-}
-
-impl Node {
-    /// Creates a leaf, which holds primitives.
-    pub fn leaf(bbox: BBox, start: usize, size: usize) -> Self {
-        Node {
-            bbox,
-            start,
-            size,
-            l: 0,
-            r: 0,
-        }
-    }
-
-    /// Creates an interior node, which has two children.
-    pub fn interior(bbox: BBox, l: usize, r: usize) -> Self {
-        Node {
-            bbox,
-            start: 0,
-            size: 0,
-            l,
-            r,
-        }
-    }
-
-    /// Returns whether the node is a leaf.
-    pub fn is_leaf(&self) -> bool {
-        self.l == self.r
-    }
-}
 
 /// A bounding volume hierarchy, stored twice: as a binary tree, and as a wide tree for traversal.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// All primitives. Those of one leaf are next to each other.
     pub primitives: Vec<Primitive>,
-    /// All nodes, in any order. A tree without primitives may have no nodes.
     pub nodes: Vec<Node>,
-    /// The index of the root in `nodes`. The root can be any node, not only the first or the last.
     pub root: usize,
     /// The wide tree, with its root first. Empty if there are no primitives.
     lines: Vec<CacheLine>,
@@ -86,7 +37,6 @@ pub struct Bvh {
 }
 
 impl Bvh {
-    /// Creates a tree from its primitives, its nodes and the index of its root.
     pub fn from_nodes(primitives: Vec<Primitive>, nodes: Vec<Node>, root: usize) -> Self {
         let order: Vec<usize> = (0..primitives.len()).collect();
         let (lines, surfaces) = if root < nodes.len() {
@@ -131,8 +81,6 @@ impl Bvh {
         }
     }
 
-    /// Returns the ray's closest hit on any primitive, or `None` if there is none within
-    /// `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let mut closest = ClosestHit {
             distance: ray.range.max,

@@ -1,25 +1,19 @@
-//! Computes a matrix from the film to the sensor once, in `new`. Pharr, Jakob and Humphreys,
-//! "Physically Based Rendering" (4th edition), section 5.2, call this matrix `cameraFromRaster`.
+// Computes a matrix from the film to the sensor once, in `new`. Pharr, Jakob and Humphreys,
+// "Physically Based Rendering" (4th edition), section 5.2, call this matrix `cameraFromRaster`.
 
 use framework::math::tan;
-use glam::{Mat3, UVec2, Vec2, Vec3};
-use protocol::Ray;
+use glam::Mat3;
 
-/// A pinhole camera at the origin that looks down −z, with y up.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
-    /// The vertical field of view: the full angle from the lowest ray to the highest, in degrees.
     pub vertical_fov: f32,
-    /// The width of the sensor divided by its height. It can differ from the shape of `film`.
     pub aspect_ratio: f32,
-    /// The number of pixels, across and up.
     pub film: UVec2,
     /// The matrix that transforms (x, y, 1) on the film to the point on the sensor.
     sensor_from_film: Mat3,
 }
 
 impl Camera {
-    /// Creates a camera.
     pub fn new(vertical_fov: f32, aspect_ratio: f32, film: UVec2) -> Self {
         let half_height = tan(0.5 * vertical_fov.to_radians());
         let half = Vec2::new(aspect_ratio * half_height, half_height);
@@ -34,7 +28,6 @@ impl Camera {
         }
     }
 
-    /// Returns the ray that starts at the camera and passes through `pixel`.
     pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
         let on_film = (pixel.as_vec2() + offset).extend(1.0);
         Ray::new(Vec3::ZERO, self.sensor_from_film * on_film)

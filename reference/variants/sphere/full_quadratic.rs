@@ -1,49 +1,6 @@
-//! Uses the complete quadratic formula, (−b ± √(b² − 4ac)) / 2a.
-
-use std::f32::consts::{PI, TAU};
-
-use framework::math;
-use glam::{Vec2, Vec3, vec2};
-use protocol::{Ray, Trace};
-
-use crate::bbox::BBox;
-
-/// A sphere in world space.
-#[derive(Clone, Copy, Debug)]
-pub struct Sphere {
-    /// The centre.
-    pub center: Vec3,
-    /// The radius, greater than zero.
-    pub radius: f32,
-    /// The index of the material, to be copied into the [`Trace`].
-    pub material: u32,
-}
+// Uses the complete quadratic formula, (−b ± √(b² − 4ac)) / 2a.
 
 impl Sphere {
-    /// Creates a sphere.
-    pub fn new(center: Vec3, radius: f32, material: u32) -> Self {
-        Sphere {
-            center,
-            radius,
-            material,
-        }
-    }
-
-    /// Returns the tightest box around the sphere.
-    pub fn bbox(&self) -> BBox {
-        BBox::new(self.center - self.radius, self.center + self.radius)
-    }
-
-    /// Returns the texture coordinates of the point in the direction `unit_dir` from the centre.
-    /// The direction must have **length one**. u runs from 0 to 1 around the y-axis, and v from 0
-    /// at the lowest point to 1 at the highest.
-    pub fn uv(unit_dir: Vec3) -> Vec2 {
-        let u = math::atan2(unit_dir.z, unit_dir.x) / TAU;
-        let v = math::acos(-unit_dir.y.clamp(-1.0, 1.0)) / PI;
-        vec2(if u < 0.0 { u + 1.0 } else { u }, v)
-    }
-
-    /// Returns the ray's first hit on the sphere, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let o = ray.origin - self.center;
         let a = ray.dir.dot(ray.dir);

@@ -1,20 +1,12 @@
-//! Computes two edges and the face normal once, in `new`, and stores them in private fields.
+// Computes two edges and the face normal once, in `new`, and stores them in private fields.
 
 use glam::Vec3;
-use protocol::{Ray, Trace, Vertex};
 
-use crate::bbox::BBox;
-
-/// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
     /// The edge from p0 to p1.
     e1: Vec3,
@@ -25,7 +17,6 @@ pub struct Triangle {
 }
 
 impl Triangle {
-    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         let e1 = p1.position - p0.position;
         let e2 = p2.position - p0.position;
@@ -40,17 +31,6 @@ impl Triangle {
         }
     }
 
-    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
-    /// axis-aligned plane.
-    pub fn bbox(&self) -> BBox {
-        let mut bbox = BBox::EMPTY;
-        bbox.enclose_point(self.p0.position);
-        bbox.enclose_point(self.p1.position);
-        bbox.enclose_point(self.p2.position);
-        bbox
-    }
-
-    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         // Cramer's rule: the determinant of the three equations, and the determinants in which s
         // replaces a column.

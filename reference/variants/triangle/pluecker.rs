@@ -1,47 +1,10 @@
-//! Determines with Plücker coordinates on which side of each edge the ray passes: for two lines
-//! (d1, m1) and (d2, m2), the sign of d1·m2 + d2·m1 tells the side. See Shoemake, "Plücker
-//! Coordinate Tutorial", Ray Tracing News 11(1), 1998.
+// Determines with Plücker coordinates on which side of each edge the ray passes: for two lines
+// (d1, m1) and (d2, m2), the sign of d1·m2 + d2·m1 tells the side. See Shoemake, "Plücker
+// Coordinate Tutorial", Ray Tracing News 11(1), 1998.
 
 use glam::Vec3;
-use protocol::{Ray, Trace, Vertex};
-
-use crate::bbox::BBox;
-
-/// A triangle in world space.
-#[derive(Clone, Copy, Debug)]
-pub struct Triangle {
-    /// The corner with the weight `w = 1 − u − v`.
-    pub p0: Vertex,
-    /// The corner with the weight `u`.
-    pub p1: Vertex,
-    /// The corner with the weight `v`.
-    pub p2: Vertex,
-    /// The index of the material, to be copied into the [`Trace`].
-    pub material: u32,
-}
 
 impl Triangle {
-    /// Creates a triangle.
-    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
-        Triangle {
-            p0,
-            p1,
-            p2,
-            material,
-        }
-    }
-
-    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
-    /// axis-aligned plane.
-    pub fn bbox(&self) -> BBox {
-        let mut bbox = BBox::EMPTY;
-        bbox.enclose_point(self.p0.position);
-        bbox.enclose_point(self.p1.position);
-        bbox.enclose_point(self.p2.position);
-        bbox
-    }
-
-    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         // Positions are relative to p0, since the moments of a small, distant triangle would
         // otherwise have large rounding errors.

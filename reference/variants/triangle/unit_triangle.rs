@@ -1,24 +1,16 @@
-//! Transforms the ray with a matrix, computed once, that maps the triangle to (0,0), (1,0), (0,1)
-//! in the plane z = 0, where the test is trivial. The third column of the inverse matrix is the
-//! axis along which the face normal has its largest component. See Baldwin and Weber, "Fast
-//! Ray-Triangle Intersections by Coordinate Transformation", Journal of Computer Graphics
-//! Techniques 5(3), 2016.
+// Transforms the ray with a matrix, computed once, that maps the triangle to (0,0), (1,0), (0,1)
+// in the plane z = 0, where the test is trivial. The third column of the inverse matrix is the
+// axis along which the face normal has its largest component. See Baldwin and Weber, "Fast
+// Ray-Triangle Intersections by Coordinate Transformation", Journal of Computer Graphics
+// Techniques 5(3), 2016.
 
 use glam::{Mat3, Vec3};
-use protocol::{Ray, Trace, Vertex};
 
-use crate::bbox::BBox;
-
-/// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The corner with the weight `w = 1 − u − v`.
     pub p0: Vertex,
-    /// The corner with the weight `u`.
     pub p1: Vertex,
-    /// The corner with the weight `v`.
     pub p2: Vertex,
-    /// The index of the material, to be copied into the [`Trace`].
     pub material: u32,
     /// The matrix that maps e1 to the x-axis, e2 to the y-axis, and a coordinate axis to the
     /// z-axis.
@@ -26,7 +18,6 @@ pub struct Triangle {
 }
 
 impl Triangle {
-    /// Creates a triangle.
     pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
         let e1 = p1.position - p0.position;
         let e2 = p2.position - p0.position;
@@ -41,17 +32,6 @@ impl Triangle {
         }
     }
 
-    /// Returns the tightest box around the triangle. It is flat if the triangle lies in an
-    /// axis-aligned plane.
-    pub fn bbox(&self) -> BBox {
-        let mut bbox = BBox::EMPTY;
-        bbox.enclose_point(self.p0.position);
-        bbox.enclose_point(self.p1.position);
-        bbox.enclose_point(self.p2.position);
-        bbox
-    }
-
-    /// Returns the ray's hit on the triangle, or `None` if there is none within `ray.range`.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let origin = self.to_unit * (ray.origin - self.p0.position);
         let dir = self.to_unit * ray.dir;

@@ -19,6 +19,7 @@ pub mod scene;
 #[cfg(test)]
 mod sphere_submission;
 pub mod submission;
+mod suggestion;
 mod system;
 #[cfg(feature = "cli")]
-mod view;
+pub mod view;

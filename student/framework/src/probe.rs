@@ -3,6 +3,7 @@
 //! It receives questions and never the correct answers. Only its answers earn points: its exit code
 //! and its output are used for diagnosis only.
 
+use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Write};
 use std::process::ExitCode;
 use std::thread;
@@ -22,6 +23,13 @@ const MAX_QUESTION_BYTES: usize = 256 << 20;
 
 /// Answers questions from standard input until the input ends.
 pub fn main(submission: &dyn Submission) -> ExitCode {
+    run(|questions, answers| serve(submission, questions, answers))
+}
+
+/// Runs `serve` with the pipe of questions and the pipe of answers, on a thread with a large stack,
+/// and returns the exit code of the process. Panics in an [`attempt`](crate::attempt::attempt)
+/// print nothing.
+pub fn run(serve: impl FnOnce(File, File) -> Result<(), WireError> + Send) -> ExitCode {
     end_with_the_grader();
     let (questions, answers) = match claim_standard_streams() {
         Ok(streams) => streams,
@@ -35,7 +43,7 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
         thread::Builder::new()
             .name("submission".to_owned())
             .stack_size(STACK_BYTES)
-            .spawn_scoped(scope, || serve(submission, questions, answers))
+            .spawn_scoped(scope, || serve(questions, answers))
             .map(|thread| thread.join().unwrap_or(Err(WireError::EndOfStream)))
     });
     match served {

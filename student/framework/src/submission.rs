@@ -90,10 +90,20 @@ pub struct World {
 impl World {
     /// Converts a scene to the submission's types, which includes building a tree over the shapes.
     pub fn new(submission: &dyn Submission, scene: &Scene) -> Self {
-        World {
-            camera: submission.camera(&scene.camera.pinhole),
-            bvh: submission.build(&scene.shapes, scene.max_leaf_size),
-        }
+        World::from_parts(
+            submission.camera(&scene.camera.pinhole),
+            submission.build(&scene.shapes, scene.max_leaf_size),
+        )
+    }
+
+    /// Creates a world from a camera and a tree.
+    pub fn from_parts(camera: Box<dyn CameraRays>, bvh: Box<dyn Hierarchy>) -> Self {
+        World { camera, bvh }
+    }
+
+    /// Replaces the camera, and keeps the tree.
+    pub fn set_camera(&mut self, camera: Box<dyn CameraRays>) {
+        self.camera = camera;
     }
 
     /// Calls `Camera::sample_ray`. The ray is in camera space.

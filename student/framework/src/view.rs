@@ -101,7 +101,7 @@ fn locate(tree: &Tree, point: Vec3, epsilon: f32) -> TreeLocation {
 }
 
 /// Returns a colour from blue (for 0) through green to red (for `max`).
-fn heat_colour(count: u32, max: u32) -> Vec3 {
+pub fn heat_colour(count: u32, max: u32) -> Vec3 {
     const STOPS: [Vec3; 4] = [
         Vec3::new(0.15, 0.25, 0.85),
         Vec3::new(0.1, 0.75, 0.65),

@@ -1,7 +1,8 @@
 //! Fills in one column of a copy of a gradebook that was exported from a platform.
 //!
 //! A person who cannot be matched for certain is reported, and the row is left unchanged: a wrong
-//! grade in a gradebook is found weeks later, if ever.
+//! grade in a gradebook is found weeks later, if ever. All other cells are copied as the platform
+//! wrote them, whatever characters a name has, since the platform matches its rows by them.
 
 mod canvas;
 mod gradescope;
@@ -11,7 +12,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::entry::Person;
-use crate::model::{ClassRow, GradedClass};
+use crate::model::{ClassRow, GradeProblem, GradedClass, PersonGrade};
 use crate::table::{Table, TableError};
 
 pub use canvas::fill_canvas;
@@ -90,10 +91,10 @@ fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
     } = spec;
     let (matches, mut warnings) = match_rows(&table, &keys, is_person, name, class);
     let mut changes = Vec::new();
-    let mut filled: BTreeMap<usize, &ClassRow> = BTreeMap::new();
-    for (class_row, row_index) in matches {
+    let mut filled: BTreeMap<usize, (&ClassRow, &PersonGrade)> = BTreeMap::new();
+    for (class_row, grade, row_index) in matches {
         let who = name(&table.rows[row_index]);
-        if let Some(other) = filled.insert(row_index, class_row) {
+        if let Some((other, _)) = filled.insert(row_index, (class_row, grade)) {
             let (one, two) = (&other.result.id, &class_row.result.id);
             warnings.push(format!(
                 "{who} has two submissions, {one} and {two}: keep one"
@@ -105,19 +106,21 @@ fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
         let prefix = format!("{who} has two submissions");
         warnings.iter().any(|warning| warning.starts_with(&prefix))
     };
-    for (row_index, class_row) in filled {
+    for (row_index, (class_row, grade)) in filled {
         let who = name(&table.rows[row_index]);
-        let locked = is_locked(&table.rows[row_index]);
-        let cell = &mut table.rows[row_index][target];
-        let Some(counted) = class_row.counted else {
-            let why = class_row.unclear_time.as_deref();
-            let why = why.unwrap_or(class_row.status());
-            warnings.push(format!("{who}: {why}; left unchanged"));
-            continue;
-        };
         if has_two_submissions(&warnings, &who) {
             continue;
         }
+        let locked = is_locked(&table.rows[row_index]);
+        let cell = &mut table.rows[row_index][target];
+        let Some(counted) = grade.counted else {
+            let why = match &grade.problem {
+                Some(problem) => problem.to_string(),
+                None => class_row.status(grade).to_owned(),
+            };
+            warnings.push(format!("{who}: {why}; left unchanged"));
+            continue;
+        };
         if locked {
             warnings.push(format!(
                 "{who}: the platform does not allow changes; left unchanged"
@@ -146,6 +149,9 @@ fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
     }
 }
 
+/// A person's submission and grade, and the index of their row in the gradebook.
+type GradebookMatch<'c> = (&'c ClassRow, &'c PersonGrade, usize);
+
 /// Finds the row of each person in the class. Also returns a warning for each person without
 /// exactly one row.
 fn match_rows<'c>(
@@ -154,7 +160,7 @@ fn match_rows<'c>(
     is_person: &dyn Fn(&[String]) -> bool,
     name: &dyn Fn(&[String]) -> String,
     class: &'c GradedClass,
-) -> (Vec<(&'c ClassRow, usize)>, Vec<String>) {
+) -> (Vec<GradebookMatch<'c>>, Vec<String>) {
     // For each key, the indices of the rows with each text. A text that is in several rows
     // identifies nobody.
     let indices: Vec<BTreeMap<String, Vec<usize>>> = keys
@@ -172,14 +178,18 @@ fn match_rows<'c>(
         .collect();
     let (mut matches, mut warnings) = (Vec::new(), Vec::new());
     for class_row in &class.rows {
-        for person in &class_row.result.info.people {
+        for (person, grade) in class_row.people() {
+            // The row gets the points of the attempt that counts.
+            if matches!(grade.problem, Some(GradeProblem::OtherAttempt(_))) {
+                continue;
+            }
             let found = keys.iter().zip(&indices).find_map(|(key, index)| {
                 let texts = (key.person_texts)(person);
                 let mut texts = texts.iter().map(|text| normalise(text));
                 texts.find_map(|text| index.get(&text))
             });
             match found.map(Vec::as_slice) {
-                Some([row_index]) => matches.push((class_row, *row_index)),
+                Some([row_index]) => matches.push((class_row, grade, *row_index)),
                 Some(several) => {
                     let names: Vec<String> = several
                         .iter()
@@ -211,7 +221,8 @@ fn cell_equals(cell: &str, points: u32) -> bool {
 /// Returns a warning if the maximum of the counted points differs from the maximum in the
 /// gradebook.
 fn maximum_warning(class: &GradedClass, listed: &str) -> Option<String> {
-    let counted = class.rows.iter().find_map(|class_row| class_row.counted)?;
+    let mut grades = class.rows.iter().flat_map(|class_row| &class_row.grades);
+    let counted = grades.find_map(|grade| grade.counted)?;
     let listed = listed.trim();
     (!listed.is_empty() && !cell_equals(listed, counted.max_points)).then(|| {
         format!(

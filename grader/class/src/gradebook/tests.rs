@@ -12,7 +12,7 @@ fn person(name: &str, email: &str, sid: &str, number: &str) -> Person {
         email: email.to_owned(),
         sid: sid.to_owned(),
         number: number.to_owned(),
-        login: String::new(),
+        ..Person::default()
     }
 }
 
@@ -30,7 +30,7 @@ fn class(people: &[(&str, Person)]) -> GradedClass {
                 tasks: Vec::new(),
             })),
         };
-        ClassRow::new(row, &Policy::default())
+        ClassRow::new(row, &Policy::default(), vec![Vec::new()])
     };
     GradedClass {
         exam: String::new(),

@@ -133,7 +133,13 @@ fn entry_of_files(mut files: Vec<(CanvasName, &Node)>, handed_out: &HandedOut) -
         1 => newest.name.clone(),
         count => format!("{} and {} more", newest.name, count - 1),
     };
-    entry(last, files.iter().any(|(name, _)| name.late), from, source)
+    // Canvas shows what is handed back under the name of the attachment.
+    let attachment = archive.map_or(*newest, |(_, node)| *node);
+    let is_zip = attachment.name.to_lowercase().ends_with(".zip");
+    let end = if is_zip { "" } else { ".html" };
+    let mut entry = entry(last, files.iter().any(|(name, _)| name.late), from, source);
+    entry.info.hand_back_as = Some(format!("{}{end}", attachment.name));
+    entry
 }
 
 fn entry(name: &CanvasName, late: bool, from: String, source: Source) -> Entry {
@@ -146,11 +152,13 @@ fn entry(name: &CanvasName, late: bool, from: String, source: Source) -> Entry {
                     who => who.to_owned(),
                 },
                 number: name.user.to_owned(),
+                // Canvas writes names in lower case, without spaces.
+                is_named_by_file: true,
                 ..Person::default()
             }],
             late,
-            submitted: None,
             from,
+            ..EntryInfo::default()
         },
         source,
     }

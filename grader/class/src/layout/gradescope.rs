@@ -103,13 +103,14 @@ fn entry_info(name: &str, metadata: Metadata) -> EntryInfo {
     };
     let mut people: Vec<Person> = metadata.submitters.into_iter().map(person).collect();
     if people.is_empty() {
-        people.push(Person::named(name));
+        people.push(Person::named_by_file(name));
     }
     EntryInfo {
         people,
         late: false,
         submitted: metadata.created_at.and_then(Scalar::text),
         from: name.to_owned(),
+        hand_back_as: None,
     }
 }
 

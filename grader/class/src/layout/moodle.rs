@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use super::{LayoutContents, unmatched_path};
-use crate::entry::{Entry, EntryInfo, Person, Source};
+use crate::entry::{Entry, EntryInfo, Person, Source, WHO};
 use crate::listing::Node;
 
 const MARK: &str = "_assignsubmission_";
@@ -96,6 +96,10 @@ fn entry((name, node): &(MoodleName, &Node), source: Source) -> Entry {
                 ..Person::default()
             }],
             from: node.name.clone(),
+            hand_back_as: Some(format!(
+                "{WHO}_{}_assignfeedback_file_feedback.html",
+                name.participant
+            )),
             ..EntryInfo::default()
         },
         source,

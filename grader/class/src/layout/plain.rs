@@ -16,7 +16,7 @@ pub(super) fn read(root: &Node) -> LayoutContents {
             entries.push(Entry {
                 id: name.to_owned(),
                 info: EntryInfo {
-                    people: vec![Person::named(name)],
+                    people: vec![Person::named_by_file(name)],
                     from: node.name.clone(),
                     ..EntryInfo::default()
                 },

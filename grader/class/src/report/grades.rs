@@ -1,8 +1,8 @@
 //! Writes `grades.csv`, which has a row for each student.
 
 use crate::entry::Person;
-use crate::model::{ClassRow, GradedClass};
-use crate::table::{Table, escape_formula};
+use crate::model::{ClassRow, GradedClass, PersonGrade};
+use crate::table::{Table, safe_cell};
 
 const COLUMNS_BEFORE_TASKS: [&str; 9] = [
     "submission",
@@ -15,7 +15,15 @@ const COLUMNS_BEFORE_TASKS: [&str; 9] = [
     "points",
     "max_points",
 ];
-const COLUMNS_AFTER_TASKS: [&str; 5] = ["late_days", "submitted", "from", "why", "report"];
+const COLUMNS_AFTER_TASKS: [&str; 7] = [
+    "manual",
+    "late_days",
+    "submitted",
+    "from",
+    "why",
+    "comments",
+    "report",
+];
 
 /// Returns the table of the class. If a submission has no score, its points are left empty: the
 /// teacher decides how many it gets.
@@ -27,8 +35,8 @@ pub fn grades_table(class: &GradedClass) -> Table {
     let header: Vec<&str> = [&COLUMNS_BEFORE_TASKS[..], &tasks, &COLUMNS_AFTER_TASKS].concat();
     let mut table = Table::new(&header);
     for class_row in &class.rows {
-        for person in &class_row.result.info.people {
-            table.rows.push(row(class_row, person, tasks.len()));
+        for (person, grade) in class_row.people() {
+            table.rows.push(row(class_row, person, grade, tasks.len()));
         }
     }
     for person in &class.missing {
@@ -39,9 +47,9 @@ pub fn grades_table(class: &GradedClass) -> Table {
     table
 }
 
-fn row(class_row: &ClassRow, person: &Person, tasks: usize) -> Vec<String> {
-    let mut row = person_cells(&class_row.result.id, person, class_row.status());
-    let counted = class_row.counted.map(|counted| counted.points.to_string());
+fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize) -> Vec<String> {
+    let mut row = person_cells(&class_row.result.id, person, class_row.status(grade));
+    let counted = grade.counted.map(|counted| counted.points.to_string());
     row.push(counted.unwrap_or_default());
     match class_row.result.score() {
         Some(score) => {
@@ -50,7 +58,7 @@ fn row(class_row: &ClassRow, person: &Person, tasks: usize) -> Vec<String> {
         }
         None => row.extend(vec![String::new(); 2 + tasks]),
     }
-    let late = match (class_row.counted, class_row.result.info.late) {
+    let late = match (grade.counted, class_row.result.info.late) {
         (Some(counted), _) => counted.late_days.to_string(),
         (None, true) => "late".to_owned(),
         (None, false) => String::new(),
@@ -60,12 +68,19 @@ fn row(class_row: &ClassRow, person: &Person, tasks: usize) -> Vec<String> {
         .result
         .score()
         .map(|_| format!("students/{}/report.html", class_row.result.id));
+    let manual = grade.counted.map_or(0, |counted| counted.manual);
+    let comments: Vec<String> = grade.manual.iter().map(ToString::to_string).collect();
     row.extend([
+        match manual {
+            0 => String::new(),
+            points => points.to_string(),
+        },
         late,
-        escape_formula(info.submitted.as_deref().unwrap_or_default()),
-        escape_formula(&info.from),
-        escape_formula(class_row.why()),
-        report.unwrap_or_default(),
+        safe_cell(info.submitted.as_deref().unwrap_or_default()),
+        safe_cell(&info.from),
+        safe_cell(&class_row.why(grade)),
+        safe_cell(&comments.join("; ")),
+        safe_cell(&report.unwrap_or_default()),
     ]);
     row
 }
@@ -79,6 +94,6 @@ fn person_cells(id: &str, person: &Person, status: &str) -> Vec<String> {
         &person.login,
         status,
     ]
-    .map(escape_formula)
+    .map(safe_cell)
     .to_vec()
 }

@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use grader::handed_out::HandedOut;
-use judging::sanitize::sanitize;
+use judging::sanitize::sanitize_line;
 
 use crate::entry::{Entry, Person};
 use crate::input::collect_submission;
@@ -42,7 +42,7 @@ fn write_preview(
         let who = sanitized(&entry.info.display_names());
         let late = if entry.info.late { ", late" } else { "" };
         match files {
-            Ok(files) => writeln!(out, "  {who}{late}: {files}")?,
+            Ok(files) => writeln!(out, "  {who}{late}: {}", sanitized(&files))?,
             Err(why) => writeln!(out, "  {who}{late}: nothing to grade: {}", sanitized(&why))?,
         }
         writeln!(out, "      {}", sanitized(&entry.info.from))?;
@@ -71,9 +71,11 @@ pub fn render_warnings(class: &RecognisedClass) -> String {
 
 fn write_warnings(out: &mut String, class: &RecognisedClass) -> fmt::Result {
     for (one, other) in duplicate_people(&class.entries) {
+        let (one, other) = (sanitized(one), sanitized(other));
         writeln!(
             out,
-            "\n  {one} and {other} belong to the same person: keep the one that counts"
+            "\n  {one} and {other} belong to the same person: keep the one that counts, or set [attempts] \
+             in the policy"
         )?;
     }
     if !class.unmatched.is_empty() {
@@ -133,5 +135,5 @@ fn duplicate_people(entries: &[Entry]) -> Vec<(&str, &str)> {
 }
 
 fn sanitized(text: &str) -> String {
-    sanitize(text, MAX_CHARS).replace('\n', "\\n")
+    sanitize_line(text, MAX_CHARS)
 }

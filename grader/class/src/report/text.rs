@@ -4,11 +4,12 @@
 use std::fmt::{self, Write};
 
 use anstyle::Style;
-use judging::sanitize::sanitize;
+use judging::sanitize::sanitize_line;
 
 use crate::distribution::Distribution;
-use crate::drift::Drift;
+use crate::drift::{Drift, RegradeChanges, RemovedEntry};
 use crate::gradebook::FilledGradebook;
+use crate::hand_back::HandBack;
 use crate::summary::ClassSummary;
 
 const STRONG: Style = Style::new().bold();
@@ -27,6 +28,7 @@ pub fn render_summary(summary: &ClassSummary) -> String {
 
 fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
     let ClassSummary { graded, exam, .. } = summary;
+    let exam = one_line(exam);
     writeln!(out, "\n{STRONG}  {graded} graded, {exam} exam{STRONG:#}")?;
     let others = [
         (
@@ -43,6 +45,14 @@ fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
             "without final points, since their submission time cannot be read: see class.html",
         ),
         (
+            summary.undecided,
+            "without final points, since the same person handed in several: see class.html",
+        ),
+        (
+            summary.superseded,
+            "that do not count, since another one of the same person does",
+        ),
+        (
             summary.undated,
             "counted as on time, since their submission time is unknown",
         ),
@@ -55,7 +65,7 @@ fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
         write_distribution(out, "all", points)?;
     }
     for task in &summary.tasks {
-        write_distribution(out, &task.title, &task.points)?;
+        write_distribution(out, &one_line(&task.title), &task.points)?;
     }
     let failed = summary.failed_most.iter();
     let failed = failed.map(|failed| (failed.count, format!("{}  {}", failed.item, failed.title)));
@@ -70,7 +80,7 @@ fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
         writeln!(
             out,
             "  {}: {}",
-            one_line(&outlier.id),
+            one_line(&outlier.title()),
             one_line(&outlier.why)
         )?;
     }
@@ -139,18 +149,59 @@ pub fn render_gradebook(filled: &FilledGradebook) -> String {
     text
 }
 
-/// Renders the changes of a regrade; `causes` are the settings that changed.
-pub fn render_drifts(drifts: &[Drift], causes: &[&str]) -> String {
-    let causes = match causes {
+/// Renders the contents of the archive to hand back.
+pub fn render_hand_back(hand_back: &HandBack) -> String {
+    let pages = match hand_back.pages {
+        1 => "1 page".to_owned(),
+        pages => format!("{pages} pages"),
+    };
+    let mut text = format!("\n{STRONG}  to hand back: {pages}{STRONG:#}\n");
+    for line in &hand_back.left_out {
+        text += &format!("  ! not in it: {}\n", one_line(line));
+    }
+    text
+}
+
+/// Renders the changes of a regrade.
+pub fn render_regrade(regrade: &RegradeChanges) -> String {
+    let causes = match regrade.causes.as_slice() {
         [] => "no setting changed".to_owned(),
         causes => format!("changed settings: {}", causes.join(", ")),
     };
-    let count = match drifts.len() {
+    let count = match regrade.drifts.len() {
         0 => "no score changed".to_owned(),
         1 => "1 score changed".to_owned(),
         count => format!("{count} scores changed"),
     };
-    let mut text = format!("\n{STRONG}  regraded: {count}{STRONG:#} ({causes})\n");
+    let title = format!("regraded: {count}{STRONG:#} ({causes})");
+    render_drifts(&title, &regrade.drifts) + &more(&regrade.drifts, ", in drift.json")
+}
+
+/// Renders the scores that changed because their submission did.
+pub fn render_resubmitted(drifts: &[Drift]) -> String {
+    if drifts.is_empty() {
+        return String::new();
+    }
+    let title = format!("changed submissions{STRONG:#} (replaced.json has the earlier score)");
+    render_drifts(&title, drifts) + &more(drifts, "")
+}
+
+/// Renders the entries that are no longer in the input.
+pub fn render_removed(removed: &[RemovedEntry]) -> String {
+    if removed.is_empty() {
+        return String::new();
+    }
+    let mut text = format!(
+        "\n{STRONG}  no longer in the input{STRONG:#} (not in the tables; their folders are kept)\n"
+    );
+    for entry in removed {
+        text += &format!("  {}\n", one_line(&entry.to_string()));
+    }
+    text
+}
+
+fn render_drifts(title: &str, drifts: &[Drift]) -> String {
+    let mut text = format!("\n{STRONG}  {title}\n");
     for drift in drifts.iter().take(MAX_LINES) {
         let now = drift
             .now
@@ -161,19 +212,22 @@ pub fn render_drifts(drifts: &[Drift], causes: &[&str]) -> String {
             let (was, now) = (points(change.was), points(change.now));
             text += &format!(
                 "      {} {was} → {now}: {}\n",
-                change.item,
+                one_line(&change.item),
                 one_line(&change.why)
             );
         }
     }
-    let more = drifts.len().saturating_sub(MAX_LINES);
-    if more > 0 {
-        text += &format!("  and {more} more, in drift.json\n");
-    }
     text
 }
 
+fn more(drifts: &[Drift], location: &str) -> String {
+    match drifts.len().saturating_sub(MAX_LINES) {
+        0 => String::new(),
+        more => format!("  and {more} more{location}\n"),
+    }
+}
+
 /// Returns untrusted text on one line, shortened and without control characters.
-fn one_line(text: &str) -> String {
-    sanitize(text, 160).replace('\n', " ")
+pub fn one_line(text: &str) -> String {
+    sanitize_line(text, 160)
 }

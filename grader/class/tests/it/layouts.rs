@@ -185,10 +185,10 @@ Ann Lee,7004,u4,ann,Lab 1,Team B,52,
     let preview = class.preview_of(&class.input(), &["--roster", &groups]);
     let (graded, missing) = preview.split_once("nothing submitted:").unwrap();
     assert!(
-        graded.contains("  doejane + Núñez, José: all 5 files"),
+        graded.contains("  Jane Doe + Núñez, José: all 5 files"),
         "{preview}"
     );
-    assert!(graded.contains("  oharabob: all 5 files"), "{preview}");
+    assert!(graded.contains("  Bob O'Hara: all 5 files"), "{preview}");
     assert!(
         missing.contains("Ann Lee") && !missing.contains("José"),
         "{preview}"

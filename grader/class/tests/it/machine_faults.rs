@@ -12,7 +12,9 @@ use crate::harness::{TestClass, exit_code_and_stderr, successful_stdout};
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 
 /// A linker that fails if there is a file `fault-*` next to it. Each failure removes one such file.
+/// It has no PATH, like every linker that the grader starts.
 const LINKER: &str = r#"#!/bin/sh
+PATH=/usr/local/bin:/usr/bin:/bin
 here=$(dirname "$0")
 for fault in "$here"/fault-*; do
     if [ -e "$fault" ]; then
@@ -21,7 +23,7 @@ for fault in "$here"/fault-*; do
         exit 1
     fi
 done
-PATH=${PATH#*:} exec cc "$@"
+exec cc "$@"
 "#;
 
 fn grade_with_faults(faults: usize, class: &TestClass, exam: &str) -> Output {

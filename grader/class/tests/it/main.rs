@@ -1,11 +1,16 @@
 //! Tests of the `class` binary, with classes like those that platforms export.
 
+mod characters;
 mod faulty_submissions;
 mod gradebooks;
+mod handing_back;
 mod harness;
 #[cfg(target_os = "linux")]
 mod large_class;
 mod layouts;
 mod machine_faults;
+mod page;
+mod people;
 mod resuming;
 mod shards;
+mod similarity;

@@ -152,3 +152,37 @@ fn an_abandoned_regrade_keeps_the_old_scores() {
     let change = format!("camera.offset {worth} → {}: pass", worth - 1);
     assert!(text.contains(&change), "{text}");
 }
+
+#[test]
+fn a_changed_submission_keeps_its_old_score_and_removed_students_are_named() {
+    let class = sample_class("class");
+    let exam = class.small_exam(&ITEMS);
+    successful_stdout(&class.grade(&exam, &[]));
+    let old = class.read("students/bob/score.json");
+    let class = class.with_reference("bob");
+    for name in ["carl", "dora"] {
+        fs::remove_dir_all(class.input().join(name)).unwrap();
+    }
+    let class = class.with_folder("carl");
+    let text = successful_stdout(&class.grade(&exam, &[]));
+    assert!(text.contains("  bob: 0 → 3\n"), "{text}");
+    assert!(
+        text.contains("      camera.offset 0 → 2: pass; it was"),
+        "{text}"
+    );
+    assert!(text.contains("  carl: 3 → no score\n"), "{text}");
+    assert!(text.contains("  dora: 3 points\n"), "{text}");
+    assert_eq!(class.read("students/bob/replaced.json"), old);
+    assert!(class.out().join("students/dora/report.html").is_file());
+    assert!(!class.read("grades.csv").contains("dora"));
+    let page = class.read("class.html");
+    assert!(page.contains("<strong>0 → 3</strong>"), "{page}");
+    assert!(page.contains("dora: 3 points"), "{page}");
+    assert!(!text.contains("ann: "), "{text}");
+
+    // A regrade compares with the scores before it.
+    let (_, other) = exam_with_changed_points(&class, &exam, -1);
+    let text = successful_stdout(&class.grade(&other, &["--regrade"]));
+    assert!(text.contains("  bob: 3 → 2\n"), "{text}");
+    assert!(!text.contains("changed submissions"), "{text}");
+}

@@ -82,10 +82,8 @@ fn set_recipe_variables(command: &mut Command, class: &TestClass, exam: &str) {
         .env("CLASS", env!("CARGO_BIN_EXE_class"))
         .env("INPUT", class.input())
         .env("OUT", class.out())
-        .env(
-            "OPTIONS",
-            format!("--exam {exam} --no-reference --isolation none"),
-        );
+        .env("EXAM", exam)
+        .env("OPTIONS", "--no-reference --isolation none");
 }
 
 fn recipe(name: &str) -> std::path::PathBuf {
@@ -97,32 +95,44 @@ const SBATCH: &str = r#"#!/bin/bash
 set -euo pipefail
 for word in "$@"; do case "$word" in
     --array=*) range=${word#--array=} ;;
-    --dependency=*) ;;
-    --parsable) ;;
+    --*) ;;
     *) script=$word; break ;;
 esac; done
 echo 1
 if [[ -n "${range:-}" ]]; then
-    for id in $(seq "${range%-*}" "${range#*-}"); do
-        SLURM_ARRAY_TASK_ID=$id SLURM_ARRAY_TASK_COUNT=${range#*-} bash "$script" >&2
+    for part in ${range//,/ }; do
+        for id in $(seq "${part%-*}" "${part#*-}"); do
+            # A task that fails is no failure of sbatch.
+            SLURM_ARRAY_TASK_ID=$id bash "$script" >&2 || true
+        done
     done
 else
-    shift $(($# - 1))
     bash "$script" >&2
 fi
 "#;
 
+/// A replacement for the binary that is killed when it grades the second part for the first time.
+const DYING_ONCE: &str = r#"#!/bin/bash
+if [[ "$*" == *"--shard 2/2"* && ! -e "$OUT/died" ]]; then
+    touch "$OUT/died"
+    kill -9 $$
+fi
+exec "$REAL_CLASS" "$@"
+"#;
+
 #[cfg(unix)]
 #[test]
-fn the_recipe_for_slurm_grades_and_merges_an_array() {
+fn the_recipe_for_slurm_grades_a_dead_part_again_and_merges() {
     use std::os::unix::fs::PermissionsExt;
 
     let class = three_submissions();
     let exam = class.small_exam(&ITEMS);
     let bin = class.path_beside("bin");
     fs::create_dir(&bin).unwrap();
-    fs::write(bin.join("sbatch"), SBATCH).unwrap();
-    fs::set_permissions(bin.join("sbatch"), fs::Permissions::from_mode(0o755)).unwrap();
+    for (name, text) in [("sbatch", SBATCH), ("dying", DYING_ONCE)] {
+        fs::write(bin.join(name), text).unwrap();
+        fs::set_permissions(bin.join(name), fs::Permissions::from_mode(0o755)).unwrap();
+    }
     let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
 
     let mut submit = Command::new("bash");
@@ -131,9 +141,82 @@ fn the_recipe_for_slurm_grades_and_merges_an_array() {
         .env("PATH", path)
         .env("SHARDS", "2");
     set_recipe_variables(&mut submit, &class, &exam);
-    successful_stdout(&submit.output().unwrap());
+    submit
+        .env("REAL_CLASS", env!("CARGO_BIN_EXE_class"))
+        .env("CLASS", bin.join("dying"));
+    let output = submit.output().unwrap();
+    let text = successful_stdout(&output);
+    assert!(text.contains("submitted the parts 1-2 as job 1"), "{text}");
+    let log = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        log.contains("the parts 2 are not finished: they are graded again"),
+        "{log}"
+    );
     let grades = class.read("grades.csv");
     assert_eq!(grades.lines().count(), 4, "{grades}");
+
+    // Another number of parts would mix up the submissions.
+    let output = submit.env("SHARDS", "3").output().unwrap();
+    let (code, error) = exit_code_and_stderr(&output);
+    assert_eq!(code, 2);
+    assert!(error.contains("has parts of 2; set SHARDS=2"), "{error}");
+}
+
+#[test]
+fn results_of_another_part_or_among_the_submissions_are_refused() {
+    let class = three_submissions();
+    let exam = class.small_exam(&ITEMS);
+    grade_shard(&class, &exam, "1/2", &[]);
+    let grade = |out: &Path, more: &[&str]| {
+        let mut command = class_command();
+        command
+            .arg(class.input())
+            .args(["--exam", &exam, "--isolation", "none"]);
+        command
+            .arg("--no-reference")
+            .args(more)
+            .arg("--out")
+            .arg(out);
+        exit_code_and_stderr(&command.output().unwrap())
+    };
+    let shard = class.path_beside("shard-1-2");
+    for more in [&["--shard", "1/3"][..], &[]] {
+        let (code, error) = grade(&shard, more);
+        assert_eq!(code, 2);
+        assert!(
+            error.contains("has the results of part 1/2, and not of"),
+            "{error}"
+        );
+    }
+    let (code, error) = grade(&class.input().join("graded"), &[]);
+    assert_eq!(code, 2);
+    assert!(error.contains("would be taken for submissions"), "{error}");
+    assert!(!class.input().join("graded").exists());
+}
+
+#[test]
+fn an_estimate_grades_a_few_submissions_and_keeps_their_results() {
+    let class = three_submissions()
+        .with_reference("dora")
+        .with_reference("eve");
+    let exam = class.small_exam(&ITEMS);
+    let estimate = || successful_stdout(&class.grade(&exam, &["--estimate", "--jobs", "1"]));
+    let text = estimate();
+    assert!(text.contains("estimate from 2 submissions"), "{text}");
+    assert!(text.contains("2 more submissions, 1 at a time"), "{text}");
+    assert!(
+        text.contains("64 machines like this") && text.contains("core-hours"),
+        "{text}"
+    );
+    assert!(!class.out().join("grades.csv").exists());
+    let text = estimate();
+    assert!(text.contains("0 more submissions"), "{text}");
+    let text = estimate();
+    assert!(text.contains("nothing to estimate"), "{text}");
+    let graded = class.grade(&exam, &[]);
+    let lines = String::from_utf8_lossy(&graded.stderr);
+    assert!(!lines.contains(" of "), "all results were kept: {lines}");
+    assert!(successful_stdout(&graded).contains("4 graded"));
 }
 
 #[test]
@@ -165,6 +248,13 @@ mod recipe_schemas {
         serde_saphyr::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
+    /// Without these options, a class would be graded with the practice exam, which students have.
+    fn assert_exam_and_policy(command: &str) {
+        for option in ["--exam ", "--policy "] {
+            assert!(command.contains(option), "{option}: {command}");
+        }
+    }
+
     /// The schema of a Kubernetes Job (batch/v1), as far as the recipe needs it.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields, rename_all = "camelCase")]
@@ -182,6 +272,7 @@ mod recipe_schemas {
         completions: u32,
         parallelism: u32,
         backoff_limit_per_index: u32,
+        active_deadline_seconds: u32,
         template: Template,
     }
 
@@ -195,6 +286,7 @@ mod recipe_schemas {
     #[serde(deny_unknown_fields, rename_all = "camelCase")]
     struct PodSpec {
         restart_policy: String,
+        automount_service_account_token: bool,
         containers: Vec<Container>,
         volumes: Vec<Value>,
     }
@@ -226,6 +318,8 @@ mod recipe_schemas {
         assert!(job.spec.backoff_limit_per_index > 0);
         let pod = job.spec.template.spec;
         assert_eq!(pod.restart_policy, "Never");
+        assert!(job.spec.active_deadline_seconds > 0);
+        assert!(!pod.automount_service_account_token);
         let [container] = pod.containers.as_slice() else {
             panic!("there must be one container")
         };
@@ -235,6 +329,7 @@ mod recipe_schemas {
         assert_eq!(shards["value"], job.spec.completions.to_string());
         let command = container.command.join(" ");
         assert!(command.contains("--shard \"$((JOB_COMPLETION_INDEX + 1))/$SHARDS\""));
+        assert_exam_and_policy(&command);
         assert!(
             container.working_dir.starts_with('/') && container.resources["limits"].is_object()
         );
@@ -256,6 +351,7 @@ mod recipe_schemas {
     #[serde(deny_unknown_fields, rename_all = "kebab-case")]
     struct WorkflowJob {
         runs_on: String,
+        timeout_minutes: u32,
         #[serde(default)]
         needs: Option<String>,
         #[serde(default)]
@@ -277,6 +373,8 @@ mod recipe_schemas {
         uses: Option<String>,
         #[serde(default)]
         run: Option<String>,
+        #[serde(default, rename = "env")]
+        _env: BTreeMap<String, String>,
         #[serde(default, rename = "with")]
         _with: Option<BTreeMap<String, Value>>,
     }
@@ -306,6 +404,8 @@ mod recipe_schemas {
         let merge = &workflow.jobs["merge"];
         assert_eq!(merge.needs.as_deref(), Some("shard"));
         assert!(runs(merge).contains("cargo class merge"));
+        assert_exam_and_policy(&runs(shard));
+        assert!(workflow.jobs.values().all(|job| job.timeout_minutes > 0));
         for job in workflow.jobs.values() {
             assert!(job.runs_on.starts_with("ubuntu-"));
             assert!(

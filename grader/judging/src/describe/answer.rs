@@ -44,10 +44,12 @@ pub fn wanted(question: &ExamQuestion, element: usize) -> Vec<String> {
                 .collect()
         }
         Key::Spans { spans } => vec![span(spans[element])],
-        Key::Tree { checks, sweep_cost } => vec![format!(
-            "a tree that passes these checks: {checks:?}{}",
-            sweep_cost.map_or(String::new(), |cost| format!("; SAH cost about {cost:.2}"))
-        )],
+        Key::Tree { checks, sweep_cost } => {
+            let cost = sweep_cost.map(|cost| format!("its SAH cost is about {cost:.2}"));
+            let checks = checks.iter().map(|check| check.requirement().to_owned());
+            let all: Vec<String> = checks.chain(cost).collect();
+            vec![format!("a tree in which {}", all.join(", and "))]
+        }
         Key::Radiance { pixels, .. } => vec![point(pixels[element])],
     }
 }

@@ -120,6 +120,20 @@ pub enum TreeCheck {
     Stops,
 }
 
+impl TreeCheck {
+    /// Returns the requirement as part of a sentence about the tree.
+    pub fn requirement(self) -> &'static str {
+        match self {
+            TreeCheck::Partition => "every primitive is in exactly one leaf",
+            TreeCheck::Contains => "every box contains the primitives below it",
+            TreeCheck::Tight => "no box is larger than these primitives need",
+            TreeCheck::Split => "no leaf holds half of the primitives",
+            TreeCheck::LeafSize => "no leaf holds more than `max_leaf_size` primitives",
+            TreeCheck::Stops => "nodes with at most `max_leaf_size` primitives are leaves",
+        }
+    }
+}
+
 /// The correct hit of one ray of a `Hits` key.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

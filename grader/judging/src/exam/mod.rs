@@ -4,6 +4,7 @@
 //! compares the answers.
 
 mod key;
+mod subset;
 
 use protocol::Question;
 use serde::{Deserialize, Serialize};
@@ -14,6 +15,7 @@ use crate::section::Section;
 use crate::signatures::{KnownMistake, MistakeSignatures};
 
 pub use key::{ExpectedHit, HitCheck, Key, RayCheck, Surface, TreeCheck};
+pub use subset::{question_subset, single_answer};
 
 /// An exam, worth 100 points in total.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -146,5 +148,18 @@ impl ExamQuestion {
             key,
             drawing_data: DrawingData::None,
         }
+    }
+
+    /// Returns a question with only this element, and its key. A question with a single element is
+    /// returned unchanged.
+    ///
+    /// # Panics
+    ///
+    /// If the question has no such element.
+    pub fn single(&self, element: usize) -> ExamQuestion {
+        ExamQuestion::new(
+            question_subset(&self.question, element..element + 1),
+            subset::single_key(&self.key, element),
+        )
     }
 }

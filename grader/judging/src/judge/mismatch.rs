@@ -38,3 +38,18 @@ pub enum Aspect {
     /// The radiance of the pixel is wrong.
     Radiance,
 }
+
+impl Aspect {
+    /// Returns the name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Aspect::NoAnswer => "no answer",
+            Aspect::HitOrMiss => "hit or miss",
+            Aspect::Depth => "depth",
+            Aspect::Normal => "normal",
+            Aspect::Uv => "uv",
+            Aspect::Direction => "direction",
+            Aspect::Radiance => "light",
+        }
+    }
+}

@@ -2,6 +2,7 @@
 
 mod credit;
 mod deviation;
+mod element_error;
 mod first_hits;
 mod hits;
 mod measure;
@@ -25,6 +26,7 @@ use tree::TreeAnswer;
 
 pub use credit::Credit;
 pub use deviation::{Deviation, Measurement};
+pub use element_error::element_error;
 pub use mismatch::{Aspect, Mismatch};
 pub use threshold::Threshold;
 

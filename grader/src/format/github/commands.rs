@@ -3,8 +3,10 @@
 
 use std::fmt::Write;
 
-/// Returns a command with properties. Everything is escaped, so that no text can start another
-/// command.
+use judging::sanitize::sanitize;
+
+/// Returns a command with properties. Everything is sanitized and escaped, so that no text can start
+/// another command.
 pub fn command(name: &str, properties: &[(&str, String)], message: &str) -> String {
     let properties = properties.iter();
     let properties: Vec<String> = properties
@@ -18,7 +20,8 @@ pub fn command(name: &str, properties: &[(&str, String)], message: &str) -> Stri
 }
 
 fn escape_message(text: &str) -> String {
-    text.replace('%', "%25")
+    sanitize(text, usize::MAX)
+        .replace('%', "%25")
         .replace('\r', "%0D")
         .replace('\n', "%0A")
 }
@@ -54,7 +57,7 @@ mod tests {
         let line = command("error", &file, "100%\r\n::set-output name=x::y");
         assert_eq!(
             line,
-            "::error file=a%2Cb%3Ac.rs::100%25%0D%0A::set-output name=x::y\n"
+            "::error file=a%2Cb%3Ac.rs::100%25\\r%0A::set-output name=x::y\n"
         );
         assert_eq!(line.lines().count(), 1);
     }

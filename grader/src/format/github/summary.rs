@@ -27,6 +27,9 @@ fn write_summary(
     max_chars: usize,
 ) -> fmt::Result {
     writeln!(out, "## {}\n", escape_markdown(&headline(view)))?;
+    if let Some(counted) = view.counted_text() {
+        writeln!(out, "{}\n", escape_markdown(&counted))?;
+    }
     if let Some(unfinished) = view.unfinished_notice() {
         writeln!(out, "**{}**\n", escape_markdown(&unfinished))?;
     }

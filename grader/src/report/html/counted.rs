@@ -1,9 +1,13 @@
 //! Puts the points that a score counts towards the grade into a page. A course's policy can change
 //! after grading, so they are put into a finished page, at a mark that the page has for them.
 
+use std::path::Path;
+
 use maud::{Markup, PreEscaped, html};
 
 use super::elements::plain_text;
+use crate::files::{self, PathError};
+use crate::report::atomic_write;
 
 /// The marks around the text. No text of a submission can contain them, since `<` is escaped.
 const START: &str = "<!--counted-->";
@@ -14,9 +18,9 @@ pub(super) fn marks() -> Markup {
     PreEscaped(format!("{START}{END}"))
 }
 
-/// Returns a page with this text below its points, in place of an earlier one. A page without the
-/// marks is returned unchanged.
-pub fn with_counted(page: &str, text: Option<&str>) -> String {
+/// Returns a page with these sentences below its points, in place of earlier ones. A page without
+/// the marks is returned unchanged.
+pub fn with_counted(page: &str, texts: &[String]) -> String {
     let parts = page.split_once(START).and_then(|(before, rest)| {
         let (_, after) = rest.split_once(END)?;
         Some((before, after))
@@ -24,10 +28,22 @@ pub fn with_counted(page: &str, text: Option<&str>) -> String {
     let Some((before, after)) = parts else {
         return page.to_owned();
     };
-    let paragraph = html! {
-        @if let Some(text) = text { p .total { strong { (plain_text(text)) } } }
+    let paragraphs = html! {
+        @for text in texts { p .total { strong { (plain_text(text)) } } }
     };
-    format!("{before}{START}{}{END}{after}", paragraph.into_string())
+    format!("{before}{START}{}{END}{after}", paragraphs.into_string())
+}
+
+/// Puts the sentences into a finished page at this path, if there is one.
+pub fn write_counted(path: &Path, texts: &[String]) -> Result<(), PathError> {
+    let Some(page) = files::read_if_exists(path)? else {
+        return Ok(());
+    };
+    let updated = with_counted(&page, texts);
+    if updated == page {
+        return Ok(());
+    }
+    atomic_write::write(&updated, path)
 }
 
 #[cfg(test)]
@@ -37,14 +53,14 @@ mod tests {
     #[test]
     fn a_text_replaces_the_one_before_and_is_escaped() {
         let page = format!("<h1>ann</h1>{}<p>", marks().into_string());
-        let late = with_counted(&page, Some("45 of 50"));
+        let late = with_counted(&page, &["45 of 50".to_owned()]);
         assert!(late.contains("45 of 50"));
-        let again = with_counted(&late, Some("<b>40</b> <!--/counted-->"));
+        let again = with_counted(&late, &["<b>40</b> <!--/counted-->".to_owned()]);
         assert!(
             !again.contains("45 of 50") && !again.contains("<b>"),
             "{again}"
         );
-        assert_eq!(with_counted(&again, None), page);
-        assert_eq!(with_counted("no marks", Some("1")), "no marks");
+        assert_eq!(with_counted(&again, &[]), page);
+        assert_eq!(with_counted("no marks", &["1".to_owned()]), "no marks");
     }
 }

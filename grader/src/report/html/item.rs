@@ -38,6 +38,9 @@ pub(super) fn failing(
                 (hints(score))
                 @if let Some(rerun) = rerun {
                     p .rerun { "Run it again: " (command(&score.rerun_command(rerun))) }
+                    @if let Some(view) = score.view_command(rerun) {
+                        p .rerun { "See what your code does: " (command(&view)) }
+                    }
                     @if let Some(item) = item { (pictures::failing(item, answers, rerun)) }
                 }
             }

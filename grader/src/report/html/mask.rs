@@ -42,19 +42,6 @@ pub(super) fn patch(aspect: Aspect) -> String {
     })
 }
 
-/// Returns the name of an aspect for readers of the page.
-pub(super) fn aspect_name(aspect: Aspect) -> &'static str {
-    match aspect {
-        Aspect::NoAnswer => "no answer",
-        Aspect::HitOrMiss => "hit or miss",
-        Aspect::Depth => "depth",
-        Aspect::Normal => "normal",
-        Aspect::Uv => "uv",
-        Aspect::Direction => "direction",
-        Aspect::Radiance => "light",
-    }
-}
-
 fn paint(size: UVec2, colour: impl Fn(UVec2) -> Colour) -> String {
     let rows = (0..size.y).flat_map(|y| (0..size.x).map(move |x| UVec2::new(x, y)));
     data_uri(size, &rows.map(colour).collect::<Vec<_>>())

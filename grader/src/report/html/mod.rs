@@ -24,7 +24,8 @@ use crate::score::Score;
 use elements::plain_text;
 use judging::exam::Exam;
 
-pub use counted::with_counted;
+pub use counted::{with_counted, write_counted};
+pub use prose::prose;
 
 /// The id of the exam that students have.
 const PRACTICE: &str = "practice";

@@ -184,7 +184,7 @@ impl<F: Fn(usize) -> String> WrongPicture<'_, F> {
 
 fn spot_label(spot: &WorstPixel) -> String {
     let (x, y) = (spot.pixel.x, spot.pixel.y);
-    format!("pixel ({x}, {y}): {}", mask::aspect_name(spot.aspect))
+    format!("pixel ({x}, {y}): {}", spot.aspect.name())
 }
 
 /// Renders one layer of the expected picture, of the submitted picture, and of their difference.
@@ -237,7 +237,7 @@ fn legend(picture: &Picture) -> Markup {
                     tr {
                         th scope="row" {
                             img src=(mask::patch(*aspect)) alt="" width="16" height="16"; " "
-                            (plain_text(mask::aspect_name(*aspect)))
+                            (plain_text(aspect.name()))
                         }
                         td .number { (count) }
                     }

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::elements::plain_text;
 
 /// Renders a text with code and emphasis. Unpaired marks are kept as they are.
-pub(super) fn prose(text: &str) -> Markup {
+pub fn prose(text: &str) -> Markup {
     html! {
         @for (index, part) in parts(text, '`').into_iter().enumerate() {
             @if index % 2 == 1 {

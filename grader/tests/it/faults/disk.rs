@@ -78,7 +78,7 @@ fn a_full_disk_is_reported_and_gives_no_score() {
         let Some(output) = grade_on_disk(kilobytes, &workspace, &submission) else {
             return;
         };
-        let error = String::from_utf8_lossy(&output.stderr);
+        let error = String::from_utf8_lossy(&output.stderr).to_lowercase();
         let score: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
         match output.status.code() {
             Some(0) => {
@@ -95,7 +95,7 @@ fn a_full_disk_is_reported_and_gives_no_score() {
                 // score.
                 let is_complete = score["complete"] == true;
                 assert!(!is_complete || score["points"] == 100, "{kilobytes} kB");
-                let reasons = ["No space left on device", "the disk is full"];
+                let reasons = ["no space left on device", "the disk is full"];
                 assert!(
                     reasons.iter().any(|reason| error.contains(reason)),
                     "{kilobytes} kB: {error}"

@@ -99,7 +99,7 @@ fn two_hundred_killed_runs_leave_no_incomplete_file_that_looks_complete() {
 #[test]
 fn no_process_outlives_a_killed_grader() {
     Submission::reference("first").grade();
-    let submission = Submission::case("looping");
+    let submission = Submission::looping();
     let out = submission.path().join("out");
     let mut grader = start(&submission, &out);
     let probe = eventually(|| child_named("probe", grader.id()));
@@ -155,10 +155,7 @@ impl Drop for Load {
 fn grade_under_load(times: usize) {
     let _load = Load::start();
     let points = || {
-        let work = [
-            Submission::reference("right"),
-            Submission::case("panicking"),
-        ];
+        let work = [Submission::reference("right"), Submission::panicking()];
         work.map(|submission| submission.grade().points())
     };
     let results: Vec<_> = (0..times).map(|_| points()).collect();

@@ -55,7 +55,7 @@ fn a_compiler_killed_by_the_system_is_not_the_submissions_fault() {
 #[test]
 fn a_probe_killed_twice_by_the_system_costs_no_points() {
     Submission::reference("first").grade();
-    let submission = Submission::case("looping");
+    let submission = Submission::looping();
     let out = submission.path().join("out");
     let output = grade_while_killing("probe", 2, &submission, &out);
     let error = String::from_utf8_lossy(&output.stderr);

@@ -75,16 +75,12 @@ fn renders_a_known_mistake() {
 
 #[test]
 fn renders_a_file_that_does_not_compile() {
-    assert_snapshots("not-compiling", &Submission::case("not_compiling"), &[]);
+    assert_snapshots("not-compiling", &Submission::not_compiling(), &[]);
 }
 
 #[test]
 fn renders_an_endless_loop() {
-    assert_snapshots(
-        "hanging",
-        &Submission::case("looping"),
-        &["--cpu-limit", "1"],
-    );
+    assert_snapshots("hanging", &Submission::looping(), &["--cpu-limit", "1"]);
 }
 
 #[test]

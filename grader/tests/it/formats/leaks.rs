@@ -10,10 +10,11 @@ use crate::formats::{
 };
 use crate::harness::Submission;
 
-/// Returns all text that students can read: every format, and the log.
+/// Returns all text that students can read: every format, and everything printed.
 fn student_text(written: &FormatTexts) -> String {
     let formats = student_formats().map(|format| models::readable(format.id, &written[format.id]));
-    formats.chain([written["log"].clone()]).collect()
+    let printed = ["log", "errors"].map(|stream| written[stream].clone());
+    formats.chain(printed).collect()
 }
 
 /// Returns the parts of the score file that only staff may read.

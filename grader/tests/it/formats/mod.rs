@@ -1,9 +1,11 @@
 //! Tests of the output formats: each output must match the documentation of its platform and its
 //! snapshot.
 
+mod channels;
+mod characters;
 mod golden;
 mod leaks;
-mod models;
+pub mod models;
 mod unfinished;
 
 use std::collections::BTreeMap;
@@ -46,8 +48,8 @@ const ITEMS: [&str; 8] = [
     "traverse.closest_hit",
 ];
 
-/// The outputs of one run, by format. The key `log` stands for the standard output, and `json` for
-/// the score file.
+/// The outputs of one run, by format. The keys `log` and `errors` stand for the standard output and
+/// the standard error, and `json` for the score file.
 pub type FormatTexts = BTreeMap<&'static str, String>;
 
 /// Returns a part of the practice exam under another id.
@@ -101,6 +103,7 @@ pub fn grade_in_all_formats(
         .map(|format| (format.id, text(format)))
         .collect();
     written.insert("log", String::from_utf8(output.stdout).unwrap());
+    written.insert("errors", String::from_utf8(output.stderr).unwrap());
     written
 }
 

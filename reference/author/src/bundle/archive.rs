@@ -1,10 +1,10 @@
 //! Writes a bundle as a folder or as a ZIP archive. The archive is reproducible: the same bundle
 //! gives the same bytes on every machine.
 
-use std::fs;
-use std::io::{self, Cursor, Read, Write};
+use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 
+use grader::files::{self, PathError};
 use zip::result::ZipError;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, System, ZipArchive, ZipWriter};
@@ -25,13 +25,8 @@ pub enum WriteError {
     )]
     NotEmpty(PathBuf),
     /// A file operation failed.
-    #[error("cannot write {}: {source}", path.display())]
-    Io {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
     /// The archive cannot be created.
     #[error("cannot create the archive: {0}")]
     Zip(#[from] ZipError),
@@ -40,39 +35,28 @@ pub enum WriteError {
 /// Writes the bundle as an archive if `out` ends with `.zip`, and otherwise as a folder. The folder
 /// may be an empty Git repository.
 pub fn write(bundle: &Bundle, out: &Path) -> Result<(), WriteError> {
-    let io_error = |source| WriteError::Io {
-        path: out.to_owned(),
-        source,
-    };
     if out.extension().is_some_and(|extension| extension == "zip") {
-        return fs::write(out, zip(bundle)?).map_err(io_error);
+        return Ok(files::write(out, zip(bundle)?)?);
     }
     write_folder(bundle, out)
 }
 
 /// Writes the bundle as a folder. The folder may already exist if it contains nothing but `.git`.
 pub fn write_folder(bundle: &Bundle, out: &Path) -> Result<(), WriteError> {
-    let io_error = |source| WriteError::Io {
-        path: out.to_owned(),
-        source,
-    };
-    fs::create_dir_all(out).map_err(io_error)?;
-    for entry in fs::read_dir(out).map_err(io_error)? {
-        if entry.map_err(io_error)?.file_name() != ".git" {
-            return Err(WriteError::NotEmpty(out.to_owned()));
-        }
+    files::create_dir_all(out)?;
+    if files::read_dir(out)?
+        .iter()
+        .any(|path| !path.ends_with(".git"))
+    {
+        return Err(WriteError::NotEmpty(out.to_owned()));
     }
-    write_files(bundle, out).map_err(io_error)
+    Ok(write_files(bundle, out)?)
 }
 
 /// Writes all files of the bundle below `folder`.
-pub(crate) fn write_files(bundle: &Bundle, folder: &Path) -> io::Result<()> {
-    for (path, contents) in &bundle.files {
-        let path = folder.join(path);
-        path.parent().map_or(Ok(()), fs::create_dir_all)?;
-        fs::write(path, contents)?;
-    }
-    Ok(())
+pub(crate) fn write_files(bundle: &Bundle, folder: &Path) -> Result<(), PathError> {
+    let mut files = bundle.files.iter();
+    files.try_for_each(|(path, contents)| files::write_with_parents(folder.join(path), contents))
 }
 
 /// Returns the bytes of an archive that unpacks to one folder.

@@ -2,10 +2,9 @@
 //! cargo can build without a network.
 
 use std::env;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
+use grader::files::{self, PathError};
 use serde::Deserialize;
 
 /// The reason why the crates of a lock file cannot be read.
@@ -18,13 +17,8 @@ pub enum CratesError {
     #[error("cannot read the bundle's lock file: {0}")]
     Lock(#[from] toml::de::Error),
     /// A file operation failed.
-    #[error("cannot read {}: {source}", path.display())]
-    Io {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
 }
 
 #[derive(Deserialize)]
@@ -48,7 +42,7 @@ pub fn registry_files(lock: &str) -> Result<Vec<(String, Vec<u8>)>, CratesError>
     for path in registry_paths(&lock, &registry)? {
         let file = registry.join(&path);
         if file.is_file() {
-            let contents = fs::read(&file).map_err(io_error(&file))?;
+            let contents = files::read(&file)?;
             files.push((path, contents));
         }
     }
@@ -60,11 +54,6 @@ fn cargo_home() -> Result<PathBuf, CratesError> {
         .map(PathBuf::from)
         .or_else(|| Some(env::home_dir()?.join(".cargo")))
         .ok_or(CratesError::NoCargoHome)
-}
-
-fn io_error(path: &Path) -> impl FnOnce(io::Error) -> CratesError {
-    let path = path.to_owned();
-    move |source| CratesError::Io { path, source }
 }
 
 /// Returns the paths, relative to the registry folder and separated by `/`, of all files that could
@@ -84,11 +73,9 @@ fn registry_paths(lock: &LockFile, folder: &Path) -> Result<Vec<String>, CratesE
 }
 
 fn entry_names(folder: &Path) -> Result<Vec<String>, CratesError> {
-    let entries = fs::read_dir(folder).map_err(io_error(folder))?;
-    let names = entries.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()));
-    let mut names: Vec<String> = names.collect::<io::Result<_>>().map_err(io_error(folder))?;
-    names.sort();
-    Ok(names)
+    let paths = files::read_dir(folder)?.into_iter();
+    let names = paths.filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+    Ok(names.collect())
 }
 
 /// Returns the path of a crate's entry in a registry index (The Cargo Book, "Registry Index").

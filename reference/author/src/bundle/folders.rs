@@ -1,8 +1,10 @@
 //! Copies the folders that are handed out unchanged.
 
+use std::ffi::OsStr;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+
+use grader::files::{self, AtPath, PathError};
 
 use crate::bundle::Bundle;
 
@@ -43,13 +45,8 @@ const PRACTICE: &str = "grader/exams/practice.json";
 #[derive(Debug, thiserror::Error)]
 pub enum FoldersError {
     /// A file operation failed.
-    #[error("cannot read {}: {source}", path.display())]
-    Io {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
     /// A path leads to a symbolic link or a device, or its name is not UTF-8.
     #[error(
         "{} is not a regular file or folder with a UTF-8 name, so students could not unpack it: \
@@ -72,13 +69,9 @@ pub(crate) fn copy_tree(
     path: &str,
     bundle: &mut Bundle,
 ) -> Result<(), FoldersError> {
-    let io_error = |error| FoldersError::Io {
-        path: source.to_owned(),
-        source: error,
-    };
-    let kind = fs::symlink_metadata(source).map_err(io_error)?.file_type();
+    let kind = fs::symlink_metadata(source).at("read", source)?.file_type();
     if kind.is_file() {
-        let mut bytes = fs::read(source).map_err(io_error)?;
+        let mut bytes = files::read(source)?;
         if path == SUMMARY {
             bytes.truncate(offset_or_end(&bytes, STAFF_HEADING));
         }
@@ -88,12 +81,9 @@ pub(crate) fn copy_tree(
     if !kind.is_dir() {
         return Err(FoldersError::NotAPlainFile(source.to_owned()));
     }
-    for entry in fs::read_dir(source).map_err(io_error)? {
-        let name = entry.map_err(io_error)?.file_name();
-        let below = source.join(&name);
-        let name = name
-            .to_str()
-            .ok_or_else(|| FoldersError::NotAPlainFile(below.clone()))?;
+    for below in files::read_dir(source)? {
+        let name = below.file_name().and_then(OsStr::to_str);
+        let name = name.ok_or_else(|| FoldersError::NotAPlainFile(below.clone()))?;
         let path = format!("{path}/{name}");
         if is_handed_out(&path, name) {
             copy_tree(&below, &path, bundle)?;

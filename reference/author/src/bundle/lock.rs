@@ -4,11 +4,10 @@
 //! update the remaining packages.
 
 use std::env;
-use std::fs;
-use std::io;
 use std::path::Path;
 use std::process::Command;
 
+use grader::files::{self, AtPath, PathError};
 use tempfile::TempDir;
 
 use crate::bundle::Bundle;
@@ -19,7 +18,7 @@ use crate::bundle::archive;
 pub enum LockError {
     /// A file operation failed.
     #[error("cannot create the bundle's lock file: {0}")]
-    Io(#[from] io::Error),
+    File(#[from] PathError),
     /// Cargo failed.
     #[error("cargo cannot create the bundle's lock file; run `cargo fetch`, then try again:\n{0}")]
     Cargo(String),
@@ -27,19 +26,20 @@ pub enum LockError {
 
 /// Returns the text of the bundle's lock file.
 pub(super) fn lock_file(root: &Path, bundle: &Bundle) -> Result<String, LockError> {
-    let folder = TempDir::new()?;
+    let folder = TempDir::new().at("create a folder in", env::temp_dir())?;
     archive::write_files(bundle, folder.path())?;
     let lock = folder.path().join("Cargo.lock");
-    fs::copy(root.join("Cargo.lock"), &lock)?;
+    files::copy(root.join("Cargo.lock"), &lock)?;
 
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let output = Command::new(cargo)
+    let output = Command::new(&cargo)
         .args(["update", "--workspace", "--offline", "--quiet"])
         .current_dir(folder.path())
-        .output()?;
+        .output()
+        .at("run", cargo)?;
     if !output.status.success() {
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
         return Err(LockError::Cargo(message));
     }
-    Ok(fs::read_to_string(lock)?)
+    Ok(files::read_to_string(lock)?)
 }

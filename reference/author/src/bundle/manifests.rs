@@ -1,17 +1,15 @@
 //! The bundle's manifests and cargo aliases: the workspace's, without the entries for staff crates,
 //! tests and benches.
 
-use std::fs;
-use std::io;
+use std::path::Path;
 
-use std::path::{Path, PathBuf};
-
+use grader::files::{self, PathError};
 use toml_edit::{Array, DocumentMut, Item, TomlError};
 
 use crate::bundle::Bundle;
 
 /// The cargo aliases that work without the `reference` and `author` crates.
-const ALIASES: [&str; 3] = ["grade", "render", "examples"];
+const ALIASES: [&str; 4] = ["grade", "render", "view", "examples"];
 /// The manifest keys that are only for tests and benches, which are not in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
@@ -19,13 +17,8 @@ const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 #[derive(Debug, thiserror::Error)]
 pub enum ManifestError {
     /// A file cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Io {
-        /// The path of the file.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
     /// A file is not valid TOML.
     #[error("{path} is not valid TOML: {source}")]
     Toml {
@@ -47,7 +40,8 @@ pub enum ManifestError {
 /// Adds the cargo aliases and the manifests of the root and of `student`, without the entries for
 /// staff. Also trims the manifests that are already in the bundle.
 pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), ManifestError> {
-    bundle.insert("student/Cargo.toml", read(root, "student/Cargo.toml")?);
+    let text = |path: &str| files::read_to_string(root.join(path));
+    bundle.insert("student/Cargo.toml", text("student/Cargo.toml")?);
     let paths: Vec<String> = bundle.files.keys().cloned().collect();
     for path in paths.iter().filter(|path| path.ends_with("Cargo.toml")) {
         let mut manifest = parse(path, bundle.text(path).unwrap_or_default())?;
@@ -61,7 +55,7 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), Manife
         bundle.insert(path, manifest.to_string());
     }
 
-    let mut manifest = parse("Cargo.toml", &read(root, "Cargo.toml")?)?;
+    let mut manifest = parse("Cargo.toml", &text("Cargo.toml")?)?;
     let members = manifest["workspace"].get_mut("members");
     let members = members
         .and_then(Item::as_array_mut)
@@ -84,7 +78,7 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), Manife
     bundle.insert("Cargo.toml", manifest.to_string());
 
     let path = ".cargo/config.toml";
-    let mut config = parse(path, &read(root, path)?)?;
+    let mut config = parse(path, &text(path)?)?;
     let aliases = config["alias"].as_table_mut();
     let aliases = aliases.ok_or(ManifestError::MissingKey { path, key: "alias" })?;
     aliases.retain(|name, _| ALIASES.contains(&name));
@@ -98,11 +92,6 @@ fn keep_members(members: &mut Array, bundle: &Bundle) {
         let manifest = member.as_str().map(|folder| format!("{folder}/Cargo.toml"));
         manifest.is_some_and(|manifest| bundle.files.contains_key(&manifest))
     });
-}
-
-fn read(root: &Path, path: &str) -> Result<String, ManifestError> {
-    let path = root.join(path);
-    fs::read_to_string(&path).map_err(|source| ManifestError::Io { path, source })
 }
 
 fn parse(path: &str, text: &str) -> Result<DocumentMut, ManifestError> {

@@ -25,13 +25,29 @@ use crate::bundle::manifests::ManifestError;
 use crate::starter::{self, StarterError};
 
 /// The paths in the bundle and the contents of the files that only students see.
-const STUDENT_ONLY: [(&str, &str); 4] = [
+const STUDENT_ONLY: [(&str, &str); 8] = [
     ("README.md", include_str!("templates/README.md")),
     (".gitignore", include_str!("templates/gitignore")),
     (".gitattributes", include_str!("templates/gitattributes")),
     (
         ".github/workflows/grade.yml",
         include_str!("templates/grade.yml"),
+    ),
+    (
+        ".vscode/extensions.json",
+        include_str!("templates/vscode/extensions.json"),
+    ),
+    (
+        ".vscode/settings.json",
+        include_str!("templates/vscode/settings.json"),
+    ),
+    (
+        ".vscode/tasks.json",
+        include_str!("templates/vscode/tasks.json"),
+    ),
+    (
+        ".devcontainer/devcontainer.json",
+        include_str!("templates/devcontainer.json"),
     ),
 ];
 

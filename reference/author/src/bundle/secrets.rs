@@ -6,20 +6,16 @@
 
 use std::collections::{HashMap, HashSet};
 use std::fmt;
-use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use grader::files::{self, PathError};
 use grader::handed_out::HandedOut;
 use judging::exam::Exam;
 
 use crate::bundle::Bundle;
 use crate::solutions::catalogue::{CatalogueError, mistakes};
 use crate::solutions::sources::Sources;
-use crate::text_file::ReadError;
 
-/// The folders of solutions that an assignment may have beside the reference's `src`.
-const OTHER_SOLUTIONS: [&str; 2] = ["mutants", "variants"];
 /// The folder of the oracles, which solve the tasks in double precision. Only their formulas are
 /// secret: other lines, such as the conversion of a ray to `f64`, can occur in any code.
 const ORACLE_FOLDER: &str = "reference/author/src/oracle";
@@ -59,16 +55,8 @@ pub enum Leak {
 #[derive(Debug, thiserror::Error)]
 pub enum SecretsError {
     /// A file or folder cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Io {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
-    /// A file of the reference cannot be read.
     #[error(transparent)]
-    Reference(#[from] ReadError),
+    File(#[from] PathError),
     /// The catalogue of mistakes cannot be used.
     #[error(transparent)]
     Catalogue(#[from] CatalogueError),
@@ -89,8 +77,12 @@ impl Secrets {
         secrets.lines.retain(|line, _| is_formula(line));
         secrets.read(root, handed_out.reference)?;
         let solutions = handed_out.solutions();
-        for name in OTHER_SOLUTIONS {
-            let folder = format!("{solutions}/{name}");
+        let stems = handed_out
+            .file_names()
+            .map(|file| file.trim_end_matches(".rs"));
+        let variants = stems.map(|stem| format!("{solutions}/variants/{stem}"));
+        for folder in variants.chain([format!("{solutions}/mutants")]) {
+            // An assignment may have no other solutions.
             if root.join(&folder).is_dir() {
                 secrets.read(root, &folder)?;
             }
@@ -120,17 +112,13 @@ impl Secrets {
 
     fn read(&mut self, root: &Path, path: &str) -> Result<(), SecretsError> {
         let full_path = root.join(path);
-        let io_error = |source| SecretsError::Io {
-            path: full_path.clone(),
-            source,
-        };
         if full_path.is_dir() {
-            for entry in fs::read_dir(&full_path).map_err(io_error)? {
-                let name = entry.map_err(io_error)?.file_name();
+            for entry in files::read_dir(&full_path)? {
+                let name = entry.file_name().unwrap_or_default();
                 self.read(root, &format!("{path}/{}", name.to_string_lossy()))?;
             }
-        } else if !path.ends_with(".md") && !path.ends_with("Cargo.toml") {
-            let text = fs::read_to_string(&full_path).map_err(io_error)?;
+        } else if !path.ends_with(".md") {
+            let text = files::read_to_string(&full_path)?;
             self.add(path, &text);
         }
         Ok(())

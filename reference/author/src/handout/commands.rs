@@ -10,13 +10,14 @@ use super::pages::{Page, Snippet};
 use super::source_file::SourceFile;
 use crate::cli::Cli;
 
-/// The file that defines the options of `cargo render`. It is read as text, because the crate is
-/// not linked here.
+/// The files that define the options of `cargo render` and `cargo view`. They are read as text,
+/// because the crates are not linked here.
 const RENDER_OPTIONS: &str = "student/framework/src/cli/options.rs";
+const VIEW_OPTIONS: &str = "grader/view/src/cli.rs";
 /// The flags of Rust's test harness that the handout uses.
 const HARNESS_FLAGS: [&str; 1] = ["--nocapture"];
 /// Commands of other programs that the handout uses.
-pub(super) const OTHER_COMMANDS: [&str; 7] = [
+pub(super) const OTHER_COMMANDS: [&str; 10] = [
     "rustc",
     "rustup",
     "git",
@@ -24,6 +25,9 @@ pub(super) const OTHER_COMMANDS: [&str; 7] = [
     "unzip",
     "gcc",
     "xcode-select",
+    "wsl",
+    "sudo",
+    "explorer.exe",
 ];
 
 /// Returns the unknown commands, flags and arguments of a page, each with its line. `aliases` are
@@ -75,7 +79,10 @@ fn unknown_command(
         "grade" => Arguments::try_parse_from(&line).err(),
         "author" => Cli::try_parse_from(&line).err(),
         "class" => ClassCli::try_parse_from(&line).err(),
-        "render" | "render-reference" => return unknown_option(&line[1..], sources),
+        "render" | "render-reference" => {
+            return unknown_option("render", RENDER_OPTIONS, &line[1..], sources);
+        }
+        "view" => return unknown_option("view", VIEW_OPTIONS, &line[1..], sources),
         "examples" => return unknown_example(&line[1..], sources),
         _ => None,
     }?;
@@ -100,20 +107,27 @@ fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     if known {
         return None;
     }
-    unknown_option(&[flag], sources).map(|_| format!("no command has the flag {flag}"))
+    let is_unknown = |command, file| unknown_option(command, file, &[flag], sources).is_some();
+    (is_unknown("render", RENDER_OPTIONS) && is_unknown("view", VIEW_OPTIONS))
+        .then(|| format!("no command has the flag {flag}"))
 }
 
-/// Returns the problem with the first flag that `cargo render` does not have. Each of its flags is
-/// a field in [`RENDER_OPTIONS`].
-fn unknown_option(words: &[&str], sources: &[SourceFile]) -> Option<String> {
-    let options = sources.iter().find(|source| source.path == RENDER_OPTIONS);
+/// Returns the problem with the first flag that a command does not have. Each of its flags is a
+/// field in the file of its options.
+fn unknown_option(
+    command: &str,
+    file: &str,
+    words: &[&str],
+    sources: &[SourceFile],
+) -> Option<String> {
+    let options = sources.iter().find(|source| source.path == file);
     let options = options.map_or("", |source| source.text.as_str());
     let mut flags = words.iter().filter_map(|word| word.strip_prefix("--"));
     let unknown = flags.find(|flag| {
         let field = format!(" {}:", flag.replace('-', "_"));
         !options.contains(&field)
     })?;
-    Some(format!("cargo render has no flag --{unknown}"))
+    Some(format!("cargo {command} has no flag --{unknown}"))
 }
 
 /// Returns the problem with the first argument of `cargo examples` that is neither the name of a
@@ -137,23 +151,25 @@ mod tests {
         };
         let sources = [
             source(RENDER_OPTIONS, "    pub(super) view: View,"),
+            source(VIEW_OPTIONS, "    pub no_open: bool,"),
             source("student/src/bvh.rs", ""),
         ];
-        let aliases = ["grade", "author", "class", "render", "examples"].map(str::to_owned);
+        let aliases = ["grade", "author", "class", "render", "view", "examples"];
+        let aliases = aliases.map(str::to_owned);
         unknown_commands(&Page::new("a.md", markdown), &sources, &aliases.into())
     }
 
     #[test]
     fn known_commands_and_flags_pass() {
         let text = "```sh\ncargo grade --task sphere  # one task\ncargo author exams --check\n\
-                    cargo examples bvh --nocapture\ncargo class a.zip --dry-run\ncargo author exam --seed 7 > b\n```\n`--hints` `--shard 1/8` `cargo render cornell-box --view depth` `--view`";
+                    cargo examples bvh --nocapture\ncargo class a.zip --dry-run\ncargo author exam --seed 7 > b\n```\n`--hints` `--shard 1/8` `cargo render cornell-box --view depth` `--view` `cargo view flat --no-open`";
         assert_eq!(problems(text), [""; 0]);
     }
 
     #[test]
     fn reports_each_unknown_command_or_flag_with_its_line() {
         let text = "```sh\ncargo grade --taks sphere\ncargo grade --task spheres\ncargo gradee\n\
-                    cargo render a --views\ncargo examples tree\nmake\ncargo class a --shard 9/8\n```\n`--hint`";
+                    cargo render a --views\ncargo examples tree\nmake\ncargo class a --shard 9/8\ncargo view --opens\n```\n`--hint`";
         let problems = problems(text);
         let starts = [
             "a.md:2: `cargo grade --taks sphere`: error: unexpected argument '--taks' found",
@@ -163,7 +179,8 @@ mod tests {
             "a.md:6: there is no file tree.rs with examples",
             "a.md:7: unknown command make",
             "a.md:8: `cargo class a --shard 9/8`: error: invalid value '9/8'",
-            "a.md:10: no command has the flag --hint",
+            "a.md:9: cargo view has no flag --opens",
+            "a.md:11: no command has the flag --hint",
         ];
         assert_eq!(problems.len(), starts.len(), "{problems:#?}");
         for (problem, start) in problems.iter().zip(starts) {

@@ -11,10 +11,9 @@ pub mod pages;
 pub mod source_file;
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use grader::files::{self, PathError};
 use judging::exam::Exam;
 use judging::section::CHAPTERS;
 
@@ -22,17 +21,17 @@ use crate::generated_file::GeneratedFile;
 use crate::handout::names::KnownNames;
 use crate::handout::pages::{Page, pages};
 use crate::handout::source_file::SourceFile;
-use crate::text_file::{ReadError, read};
 
 /// The folders in which the handout's names are looked up: the code that students see, and the code
 /// that writes files that students see.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 9] = [
     "student/src",
     "student/protocol/src",
     "student/framework/src",
     "reference/src",
     "grader/src",
     "grader/judging/src",
+    "grader/view/src",
     "reference/author/src/items",
     "scenes",
 ];
@@ -48,13 +47,14 @@ pub fn generated_files() -> Vec<GeneratedFile> {
 
 /// Returns all problems with the handout of the workspace at `root`: broken links, missing sections
 /// that the exam refers to, and unknown names and commands.
-pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, ReadError> {
+pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, PathError> {
     let pages = pages(&root.join(CHAPTERS))?;
-    let figures = figures::all().map(|(name, _)| format!("figures/{name}"));
     let (files, mut sources) = (files(root)?, sources(root)?);
+    let drawn = figures::all().map(|(name, _)| format!("figures/{name}"));
+    let figures = drawn.chain(screenshots(&files)).collect();
     let config = SourceFile {
         path: ".cargo/config.toml".to_owned(),
-        text: read(&root.join(".cargo/config.toml"))?,
+        text: files::read_to_string(root.join(".cargo/config.toml"))?,
     };
     let aliases = aliases(&config.text);
     sources.push(config);
@@ -64,7 +64,7 @@ pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, ReadError> {
         exam,
     };
 
-    let mut all = links::broken_links(&pages, &figures.collect());
+    let mut all = links::broken_links(&pages, &figures);
     all.extend(links::missing_sections(&pages, exam));
     all.extend(pages.iter().flat_map(|page: &Page| {
         let mut problems = names::unknown_names(page, &known);
@@ -74,6 +74,15 @@ pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, ReadError> {
     Ok(all)
 }
 
+/// Returns the paths of the pictures that are not drawn, relative to the chapters.
+fn screenshots(files: &BTreeSet<String>) -> impl Iterator<Item = String> {
+    let chapters = format!("{CHAPTERS}/");
+    let names = files
+        .iter()
+        .filter_map(move |file| file.strip_prefix(&chapters).map(str::to_owned));
+    names.filter(|name| name.starts_with("figures/") && name.ends_with(".png"))
+}
+
 /// Returns the names of the aliases in cargo's configuration.
 fn aliases(config: &str) -> BTreeSet<String> {
     let below = config.lines().skip_while(|line| *line != "[alias]");
@@ -81,13 +90,13 @@ fn aliases(config: &str) -> BTreeSet<String> {
     names.map(|(name, _)| name.to_owned()).collect()
 }
 
-fn sources(root: &Path) -> Result<Vec<SourceFile>, ReadError> {
+fn sources(root: &Path) -> Result<Vec<SourceFile>, PathError> {
     let mut sources = Vec::new();
     for folder in SOURCES {
         for path in files_below(root, &root.join(folder))? {
             let code = [".rs", ".json"].iter().any(|ending| path.ends_with(ending));
             if code {
-                let text = read(&root.join(&path))?;
+                let text = files::read_to_string(root.join(&path))?;
                 sources.push(SourceFile { path, text });
             }
         }
@@ -95,19 +104,14 @@ fn sources(root: &Path) -> Result<Vec<SourceFile>, ReadError> {
     Ok(sources)
 }
 
-fn files(root: &Path) -> Result<BTreeSet<String>, ReadError> {
+fn files(root: &Path) -> Result<BTreeSet<String>, PathError> {
     Ok(files_below(root, root)?.into_iter().collect())
 }
 
 /// Returns the paths of all files below a folder, relative to the root, with `/` as the separator.
-fn files_below(root: &Path, folder: &Path) -> Result<Vec<String>, ReadError> {
-    let read_error = |source: io::Error| ReadError {
-        path: folder.to_owned(),
-        source,
-    };
+fn files_below(root: &Path, folder: &Path) -> Result<Vec<String>, PathError> {
     let mut found = Vec::new();
-    for entry in fs::read_dir(folder).map_err(read_error)? {
-        let path: PathBuf = entry.map_err(read_error)?.path();
+    for path in files::read_dir(folder)? {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if IGNORED_FOLDERS.contains(&&*name) {
             continue;

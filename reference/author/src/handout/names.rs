@@ -15,10 +15,23 @@ use super::source_file::SourceFile;
 
 /// Identifiers that the handout uses and that are defined by Rust or by another crate, not by the
 /// course.
-const RUST_NAMES: [&str; 12] = [
-    "Option", "Some", "None", "Vec3", "std", "glam", "usize", "unsafe", "println", "todo", "main",
+const RUST_NAMES: [&str; 13] = [
+    "Option",
+    "Some",
+    "None",
+    "Vec3",
+    "std",
+    "glam",
+    "usize",
+    "unsafe",
+    "println",
+    "todo",
+    "main",
     "sh",
+    "split_at_mut",
 ];
+/// C++ identifiers, of the language and of the slides, that the handout translates to Rust.
+const CPP_NAMES: [&str; 6] = ["float", "norm", "norm_squared", "hmin", "hmax", "push_back"];
 
 /// The sources, files and items that names can refer to.
 #[derive(Debug)]
@@ -68,7 +81,8 @@ pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
             return (!has_member(owner, member, known)).then(|| format!("{owner} has no {member}"));
         }
         let is_known = |word: &str| {
-            let named = words.contains(word) || own.contains(word) || RUST_NAMES.contains(&word);
+            let is_foreign = RUST_NAMES.contains(&word) || CPP_NAMES.contains(&word);
+            let named = words.contains(word) || own.contains(word) || is_foreign;
             // JSON files contain the names of enum variants in snake case.
             named || words.contains(pascal_case(word).as_str())
         };

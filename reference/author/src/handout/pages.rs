@@ -1,12 +1,10 @@
 //! Reads chapters: their headings, links, formulas, code and commands.
 
-use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
+use grader::files::{self, PathError};
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
-
-use crate::text_file::{ReadError, read};
 
 /// A piece of text from a chapter, and its line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -153,17 +151,12 @@ pub fn anchor(heading: &str) -> String {
 }
 
 /// Reads all chapters in a folder, sorted by name.
-pub fn pages(folder: &Path) -> Result<Vec<Page>, ReadError> {
-    let read_error = |source| ReadError {
-        path: folder.to_owned(),
-        source,
-    };
+pub fn pages(folder: &Path) -> Result<Vec<Page>, PathError> {
     let mut pages = Vec::new();
-    for entry in fs::read_dir(folder).map_err(read_error)? {
-        let path = entry.map_err(read_error)?.path();
+    for path in files::read_dir(folder)? {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if name.ends_with(".md") {
-            pages.push(Page::new(name.clone(), &read(&path)?));
+            pages.push(Page::new(name.clone(), &files::read_to_string(&path)?));
         }
     }
     pages.sort_by(|a, b| a.name.cmp(&b.name));

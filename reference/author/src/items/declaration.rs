@@ -52,6 +52,13 @@ pub struct DeclaredItem {
     needs: &'static [Group],
 }
 
+impl DeclaredItem {
+    /// Returns the item, which does not know the ids of the items that it needs.
+    pub(super) fn item(&self) -> &Item {
+        &self.item
+    }
+}
+
 /// Creates an item from its declaration and its questions.
 pub(super) fn item(declaration: Declaration, questions: Vec<ExamQuestion>) -> DeclaredItem {
     let Declaration {

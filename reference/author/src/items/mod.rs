@@ -1,12 +1,14 @@
 //! The exam's items: one module per task, and one idea per item.
 //!
 //! An item's keys test only the quantities that its idea is about. Every item has questions with
-//! opposite answers (such as hits and misses), so that no constant answer passes it.
+//! opposite answers (such as hits and misses), so that no constant answer passes it. All questions
+//! are drawn from the exam's seed, and no question of a final exam is one of the practice exam.
 
 pub mod bbox;
 pub mod build;
 pub mod camera;
 mod declaration;
+mod distinct;
 pub mod meshes;
 pub mod picture;
 pub mod sphere;
@@ -23,10 +25,18 @@ use crate::seed::Seed;
 
 use declaration::{Declaration, Group, item};
 pub use declaration::{DeclaredItem, resolve};
+use distinct::draw_items;
+pub use distinct::shares_a_question;
 
 /// Returns the items of an exam, each after the items that it needs. `recorded` is the picture of
 /// the radiance item.
 pub fn items(seed: Seed, recorded: RecordedPicture) -> Vec<Item> {
+    let all = declared_items(seed).chain([traverse::radiance_item(seed, recorded)]);
+    resolve(all.collect())
+}
+
+/// Returns all items except the one about a path-traced picture.
+fn declared_items(seed: Seed) -> impl Iterator<Item = DeclaredItem> {
     let tasks: [fn(Seed) -> Vec<DeclaredItem>; 6] = [
         camera::items,
         triangle::items,
@@ -35,9 +45,7 @@ pub fn items(seed: Seed, recorded: RecordedPicture) -> Vec<Item> {
         build::items,
         traverse::items,
     ];
-    let declared = tasks.into_iter().flat_map(|items| items(seed));
-    let all = declared.chain([traverse::radiance_item(seed, recorded)]);
-    resolve(all.collect())
+    tasks.into_iter().flat_map(move |items| items(seed))
 }
 
 /// Returns the ray from one point toward another, in single precision.

@@ -8,10 +8,11 @@ mod classroom50;
 mod gradescope;
 pub mod trial;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::ValueEnum;
 use grader::exam_source::{ExamSource, ExamSourceError};
+use grader::files::{self, PathError};
 use grader::handed_out::HandedOut;
 use grader::policy::{self, Policy, PolicyError};
 
@@ -65,13 +66,8 @@ pub enum PackageError {
     #[error(transparent)]
     Policy(#[from] PolicyError),
     /// The exam file or policy file cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Io {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The system's error.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
     /// A final exam was given for a platform that would show it to students.
     #[error("students can read {0}: only a package for gradescope can contain a final exam")]
     ExamNotSecret(&'static str),
@@ -97,26 +93,19 @@ impl Course {
             (Some(seed), _) => Some(crate::exams::final_exam_text(seed)?),
             (None, Some(path)) => {
                 ExamSource::File(path.to_owned()).load(handed_out)?;
-                Some(read(path)?)
+                Some(files::read_to_string(path)?)
             }
             (None, None) => None,
         };
         let policy = match policy {
             Some(path) => {
                 Policy::read(path)?;
-                read(path)?
+                Policy::read_text(path)?
             }
             None => policy::DEFAULT.to_owned(),
         };
         Ok(Course { exam, policy })
     }
-}
-
-fn read(path: &Path) -> Result<String, PackageError> {
-    std::fs::read_to_string(path).map_err(|source| PackageError::Io {
-        path: path.to_owned(),
-        source,
-    })
 }
 
 /// Collects the files of an assignment's package for a platform from the workspace at `root`.

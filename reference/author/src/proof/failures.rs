@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use grader::probe::Fault;
-use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
+use indicatif::ParallelProgressIterator;
 use judging::exam::{Exam, Item};
 use judging::judge::{Credit, judge};
 use protocol::Answer;
@@ -14,6 +14,7 @@ use rayon::prelude::*;
 
 use crate::exams;
 use crate::proof::ProofError;
+use crate::proof::progress::progress_bar;
 use crate::seed::Seed;
 use crate::solutions::Solutions;
 use crate::solutions::catalogue::Mistake;
@@ -37,10 +38,7 @@ pub fn failed_items(
         .par_iter()
         .map(|(mistake, sources)| Ok((mistake, solutions.workbench.build(sources, &mistake.id)?)))
         .collect::<Result<_, WorkbenchError>>()?;
-    let bar = ProgressBar::new(seeds).with_style(
-        ProgressStyle::with_template("{wide_bar} {pos} of {len} seeds, {eta} left")
-            .expect("the template is valid"),
-    );
+    let bar = progress_bar(seeds, "seeds");
     let of_seeds: Vec<Vec<BTreeSet<String>>> = (0..seeds)
         .into_par_iter()
         .progress_with(bar)

@@ -1,24 +1,24 @@
 //! Tests that the exam catches every known mistake and gives full marks to correct code, by
 //! grading many [solutions](crate::solutions).
 
+pub mod by_heart;
 pub mod calibrate;
 pub mod failures;
 pub mod grade;
 pub mod matrix;
 pub mod mutants;
+mod progress;
 pub mod prove;
 pub mod recognition;
 pub mod summary;
 
-use std::io;
-use std::path::PathBuf;
-
 use grader::exam_source::ExamSourceError;
+use grader::files::PathError;
 
 use crate::solutions::SolutionsError;
+use crate::solutions::by_heart::ByHeartError;
 use crate::solutions::recording::RecordingError;
 use crate::solutions::workbench::WorkbenchError;
-use crate::text_file::ReadError;
 
 /// The reason why a proof cannot be run.
 #[derive(Debug, thiserror::Error)]
@@ -26,12 +26,15 @@ pub enum ProofError {
     /// The solutions cannot be used.
     #[error(transparent)]
     Solutions(#[from] SolutionsError),
-    /// A file cannot be read.
+    /// A file cannot be read or written.
     #[error(transparent)]
-    Read(#[from] ReadError),
+    File(#[from] PathError),
     /// A solution cannot be built or run.
     #[error(transparent)]
     Workbench(#[from] WorkbenchError),
+    /// There is no submission that answers the practice exam by heart.
+    #[error(transparent)]
+    ByHeart(#[from] ByHeartError),
     /// The practice exam cannot be used.
     #[error(transparent)]
     Exam(#[from] ExamSourceError),
@@ -47,12 +50,4 @@ pub enum ProofError {
     /// The lists of failed items cannot be written as text.
     #[error("cannot write the lists of failed items: {0}")]
     FailedItems(#[from] toml::ser::Error),
-    /// Results cannot be saved.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
 }

@@ -3,24 +3,25 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::Write;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
+use grader::files::{self, AtPath, PathError};
+use indicatif::ParallelProgressIterator;
 use judging::content_hash::ContentHash;
 use rayon::prelude::*;
 
 use crate::exams;
 use crate::proof::ProofError;
 use crate::proof::grade::{grade_mistake, variant_losses};
+use crate::proof::progress::progress_bar;
 use crate::proof::summary::{ProofSummary, SeedResult};
 use crate::seed::Seed;
 use crate::solutions::catalogue::CatalogueError;
 use crate::solutions::failed_items::FailedItems;
 use crate::solutions::{Solutions, SolutionsError};
-use crate::text_file::ReadError;
 
 /// Grades all solutions with the exam of one seed. With a seed from which the lists of failed items
 /// come, a mistake must fail all of its items. With any other seed, one of them can pass by luck:
@@ -78,15 +79,9 @@ pub fn prove(
         .scratch()
         .join("proofs")
         .join(format!("{}.jsonl", cache_key(solutions, listed_seeds)?));
-    let cache = ProofCache::open(&path).map_err(|source| ProofError::Write {
-        path: path.clone(),
-        source,
-    })?;
+    let cache = ProofCache::open(path)?;
     let wants_mistakes = |seed: u64| seed - seeds.start < with_mistakes;
-    let bar = ProgressBar::new(seeds.end - seeds.start).with_style(
-        ProgressStyle::with_template("{wide_bar} {pos} of {len} seeds, {eta} left")
-            .expect("the template is valid"),
-    );
+    let bar = progress_bar(seeds.end - seeds.start, "seeds");
     let results: Result<Vec<SeedResult>, ProofError> = seeds
         .clone()
         .into_par_iter()
@@ -98,10 +93,7 @@ pub fn prove(
                 None => {
                     let result =
                         prove_seed(solutions, seed, wants_mistakes(seed), seed < listed_seeds)?;
-                    cache.append(&result).map_err(|source| ProofError::Write {
-                        path: path.clone(),
-                        source,
-                    })?;
+                    cache.append(&result)?;
                     Ok(result)
                 }
             }
@@ -118,44 +110,43 @@ pub fn prove(
 /// The saved results of earlier runs of the same proof.
 struct ProofCache {
     seeds: BTreeMap<u64, SeedResult>,
+    path: PathBuf,
     file: Mutex<File>,
 }
 
 impl ProofCache {
-    fn open(path: &Path) -> io::Result<Self> {
-        fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
-        let text = fs::read_to_string(path).unwrap_or_default();
+    fn open(path: PathBuf) -> Result<Self, PathError> {
+        files::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
+        let text = fs::read_to_string(&path).unwrap_or_default();
         // The last line is incomplete if a run was killed while writing it.
         let seeds = text
             .lines()
             .filter_map(|line| serde_json::from_str::<SeedResult>(line).ok())
             .map(|result| (result.seed, result))
             .collect();
-        let file = OpenOptions::new().create(true).append(true).open(path)?;
+        let file = OpenOptions::new().create(true).append(true).open(&path);
+        let file = file.at("write", &path)?;
         Ok(ProofCache {
             seeds,
+            path,
             file: Mutex::new(file),
         })
     }
 
-    fn append(&self, result: &SeedResult) -> io::Result<()> {
-        let line = serde_json::to_string(result)?;
+    fn append(&self, result: &SeedResult) -> Result<(), PathError> {
+        let line = serde_json::to_string(result).expect("all map keys are strings");
         let mut file = self.file.lock().expect("no thread panics while writing");
         // Starts with a line break, in case a killed run has left an incomplete line.
-        writeln!(file, "\n{line}")
+        writeln!(file, "\n{line}").at("write", &self.path)
     }
 }
 
 /// Returns a hash of everything that a proof depends on: this program, all solutions, and the lists
 /// of failed items.
-fn cache_key(solutions: &Solutions, listed_seeds: u64) -> Result<String, ReadError> {
+fn cache_key(solutions: &Solutions, listed_seeds: u64) -> Result<String, PathError> {
     let program = std::env::current_exe().unwrap_or_default();
-    let bytes = fs::read(&program).map_err(|source| ReadError {
-        path: program,
-        source,
-    })?;
     let mut hash = ContentHash::default()
-        .with(&bytes)
+        .with(&files::read(program)?)
         .with(&listed_seeds.to_le_bytes());
     for (mistake, sources) in &solutions.mistakes {
         hash.add(format!("{mistake:?}{sources:?}").as_bytes());

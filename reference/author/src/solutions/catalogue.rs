@@ -1,9 +1,9 @@
 //! The catalogue of known mistakes, which are small changes to the reference:
 //! `mistakes/TASK/*.toml` in the folder of an assignment's solutions.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
+use grader::files::{self, PathError};
 use grader::handed_out::HandedOut;
 use judging::assignment::Task;
 use judging::section::Section;
@@ -11,7 +11,7 @@ use serde::Deserialize;
 
 use crate::solutions::failed_items::{FailedItems, FailedItemsError};
 use crate::solutions::sources::Sources;
-use crate::text_file::{ReadError, read};
+use crate::solutions::toml_file::{TomlFileError, read_toml};
 
 /// A known wrong solution.
 #[derive(Clone, Debug, Deserialize)]
@@ -60,17 +60,12 @@ pub struct Change {
 /// The reason why the catalogue cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum CatalogueError {
-    /// A file or folder cannot be read.
+    /// A folder cannot be read.
     #[error(transparent)]
-    Read(#[from] ReadError),
-    /// A file of the catalogue is invalid.
-    #[error("{}: {source}", path.display())]
-    Toml {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The parse error, with its line and column.
-        source: toml::de::Error,
-    },
+    File(#[from] PathError),
+    /// A file of the catalogue cannot be read or is invalid.
+    #[error(transparent)]
+    Toml(#[from] TomlFileError),
     /// The list of failed items cannot be used.
     #[error(transparent)]
     FailedItems(#[from] FailedItemsError),
@@ -114,12 +109,8 @@ pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>, Cat
     let failed = FailedItems::load(root, handed_out)?;
     let mut all: Vec<Mistake> = Vec::new();
     for task in handed_out.assignment.tasks() {
-        for path in files(&folder.join(task.id()))? {
-            let file: File =
-                toml::from_str(&read(&path)?).map_err(|source| CatalogueError::Toml {
-                    path: path.clone(),
-                    source,
-                })?;
+        for path in toml_files(&folder.join(task.id()))? {
+            let file: File = read_toml(&path)?;
             for mut mistake in file.mistake {
                 mistake.fails = failed.of_mistake(&mistake.id).to_vec();
                 let known = all.iter().any(|other| other.id == mistake.id);
@@ -134,20 +125,15 @@ pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>, Cat
     Ok(all)
 }
 
-fn files(folder: &Path) -> Result<Vec<PathBuf>, ReadError> {
+fn toml_files(folder: &Path) -> Result<Vec<PathBuf>, PathError> {
     if !folder.exists() {
         return Ok(Vec::new());
     }
-    let entries = fs::read_dir(folder).map_err(|source| ReadError {
-        path: folder.to_owned(),
-        source,
-    })?;
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    let mut paths = files::read_dir(folder)?;
     paths.retain(|path| {
         path.extension()
             .is_some_and(|extension| extension == "toml")
     });
-    paths.sort();
     Ok(paths)
 }
 

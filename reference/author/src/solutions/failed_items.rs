@@ -3,13 +3,13 @@
 //! seed.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use grader::handed_out::HandedOut;
 use serde::{Deserialize, Serialize};
 
 use crate::generated_file::GeneratedFile;
-use crate::text_file::{ReadError, read};
+use crate::solutions::toml_file::{TomlFileError, read_toml};
 
 /// The path of the file, relative to the folder of an assignment's solutions.
 pub const FILE: &str = "mistakes/fails.toml";
@@ -27,19 +27,8 @@ pub struct FailedItems {
 
 /// The reason why the file cannot be used.
 #[derive(Debug, thiserror::Error)]
-pub enum FailedItemsError {
-    /// The file cannot be read.
-    #[error(transparent)]
-    Read(#[from] ReadError),
-    /// The file is invalid.
-    #[error("{}: {source}; run `cargo author mistakes`", path.display())]
-    Toml {
-        /// The file.
-        path: PathBuf,
-        /// The parse error, with its line and column.
-        source: toml::de::Error,
-    },
-}
+#[error("{0}; run `cargo author mistakes`")]
+pub struct FailedItemsError(#[from] TomlFileError);
 
 impl FailedItems {
     /// Reads the file of an assignment in the workspace at `root`. A missing file lists no items, so
@@ -49,7 +38,7 @@ impl FailedItems {
         if !path.exists() {
             return Ok(FailedItems::default());
         }
-        toml::from_str(&read(&path)?).map_err(|source| FailedItemsError::Toml { path, source })
+        Ok(read_toml(&path)?)
     }
 
     /// Returns the items that a mistake fails, or none if the mistake is not in the file.

@@ -6,21 +6,25 @@
 //! is built and run like any submission. The exams take their recorded keys and their hints from
 //! solutions, and the proof grades them.
 
+pub mod by_heart;
 pub mod catalogue;
 pub mod failed_items;
 pub mod mutants;
 pub mod recording;
 pub mod sources;
+pub mod toml_file;
 pub mod variants;
 pub mod workbench;
+
+use grader::files::PathError;
 
 use crate::solutions::catalogue::{CatalogueError, Mistake, mistakes};
 use crate::solutions::failed_items::FailedItems;
 use crate::solutions::recording::{Recorder, RecordingError};
 use crate::solutions::sources::Sources;
-use crate::solutions::variants::{Variant, VariantsError, variants};
+use crate::solutions::toml_file::TomlFileError;
+use crate::solutions::variants::{Variant, VariantError, variants};
 use crate::solutions::workbench::{Workbench, WorkbenchError};
-use crate::text_file::ReadError;
 
 /// The reason why solutions cannot be read, built or run.
 #[derive(Debug, thiserror::Error)]
@@ -28,12 +32,15 @@ pub enum SolutionsError {
     /// The mistakes cannot be used.
     #[error(transparent)]
     Catalogue(#[from] CatalogueError),
-    /// The variants cannot be used.
+    /// The list of variants cannot be used.
     #[error(transparent)]
-    Variants(#[from] VariantsError),
+    Variants(#[from] TomlFileError),
+    /// A variant cannot be used.
+    #[error(transparent)]
+    Variant(#[from] VariantError),
     /// A file cannot be read.
     #[error(transparent)]
-    Read(#[from] ReadError),
+    File(#[from] PathError),
     /// A solution cannot be built or run.
     #[error(transparent)]
     Workbench(#[from] WorkbenchError),
@@ -71,7 +78,7 @@ impl Solutions {
                 Ok((mistake, sources))
             })
             .collect();
-        let variants: Result<Vec<_>, ReadError> = variants(root)?
+        let variants: Result<Vec<_>, VariantError> = variants(root)?
             .into_iter()
             .map(|variant| {
                 let sources = variant.apply(&reference, root)?;

@@ -5,12 +5,12 @@ use std::io;
 use std::time::Duration;
 
 use glam::Vec3;
+use grader::files::{self, PathError};
 use grader::probe::{Budget, Fault};
 use protocol::{Answer, ElementOutcome, Question};
 
 use crate::solutions::sources::Sources;
 use crate::solutions::workbench::{BuiltSolution, Workbench, WorkbenchError};
-use crate::text_file::{ReadError, read};
 
 /// The path of the radiance item's scene, relative to the workspace root.
 const SCENE: &str = "scenes/cornell-box.json";
@@ -25,7 +25,7 @@ const BUDGET: Budget = Budget {
 pub enum RecordingError {
     /// The scene or the reference could not be read.
     #[error(transparent)]
-    Read(#[from] ReadError),
+    File(#[from] PathError),
     /// The reference could not be built.
     #[error("cannot build the reference: {0}")]
     Build(#[from] WorkbenchError),
@@ -51,7 +51,7 @@ pub struct Recorder {
 impl Recorder {
     /// Reads the scene and the reference's files, and builds the reference.
     pub fn open(workbench: &Workbench) -> Result<Self, RecordingError> {
-        let scene = read(&workbench.root().join(SCENE))?;
+        let scene = files::read_to_string(workbench.root().join(SCENE))?;
         let sources = Sources::reference(workbench.root(), workbench.handed_out())?;
         let reference = workbench.build(&sources, "reference")?;
         Ok(Recorder {
@@ -64,6 +64,11 @@ impl Recorder {
     /// Returns the reference's files.
     pub fn reference(&self) -> &Sources {
         &self.sources
+    }
+
+    /// Returns the reference, which was built from these files.
+    pub fn built_reference(&self) -> &BuiltSolution {
+        &self.reference
     }
 
     /// Returns the text of the Cornell box's scene file.

@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
+use grader::files::{self, PathError};
 use grader::handed_out::{HandedOut, TaskFile};
 use grader::submission::Submission;
-
-use crate::text_file::{ReadError, read};
 
 /// The task files of a solution of an assignment, in lecture order.
 #[derive(Clone, Debug)]
@@ -18,15 +17,25 @@ pub struct Sources {
 
 impl Sources {
     /// Reads the files of an assignment's reference in the workspace at `root`.
-    pub fn reference(root: &Path, handed_out: &'static HandedOut) -> Result<Self, ReadError> {
+    pub fn reference(root: &Path, handed_out: &'static HandedOut) -> Result<Self, PathError> {
         let folder = root.join(handed_out.reference);
-        let text = |file: &TaskFile| Ok((*file, read(&folder.join(file.name))?));
+        let text = |file: &TaskFile| Ok((*file, files::read_to_string(folder.join(file.name))?));
         let files: Result<_, _> = handed_out.files.iter().map(text).collect();
         Ok(Sources {
             handed_out,
             files: files?,
             crates: Vec::new(),
         })
+    }
+
+    /// Returns the files of an assignment's starter.
+    pub fn starter(handed_out: &'static HandedOut) -> Self {
+        let files = handed_out.files.iter();
+        Sources {
+            handed_out,
+            files: files.map(|file| (*file, file.starter.to_owned())).collect(),
+            crates: Vec::new(),
+        }
     }
 
     /// Returns the assignment that the files solve.
@@ -49,6 +58,13 @@ impl Sources {
             }
         }
         self
+    }
+
+    /// Writes the files to a folder, which is created if it does not exist.
+    pub fn write(&self, folder: &Path) -> std::io::Result<()> {
+        std::fs::create_dir_all(folder)?;
+        let mut files = self.files.iter();
+        files.try_for_each(|(file, text)| std::fs::write(folder.join(file.name), text))
     }
 
     /// Allows these crates in addition to those that submissions may use.

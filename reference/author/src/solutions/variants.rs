@@ -1,13 +1,15 @@
-//! Variants: known correct solutions that differ from the reference. Each file
-//! `reference/variants/STEM/NAME.rs` replaces the reference's `STEM.rs`.
+//! Variants: known correct solutions that differ from the reference. With the given code of the
+//! reference's `STEM.rs`, each file `reference/variants/STEM/NAME.rs` replaces that file.
 
 use std::path::{Path, PathBuf};
 
+use grader::files::{self, PathError};
 use judging::assignment::{RAYS, Task};
+use projection::{GivenCodeError, given_code};
 use serde::Deserialize;
 
 use crate::solutions::sources::Sources;
-use crate::text_file::{ReadError, read};
+use crate::solutions::toml_file::{TomlFileError, read_toml};
 
 /// The folder of the variants.
 const FOLDER: &str = "reference/variants";
@@ -32,34 +34,32 @@ pub struct Variant {
     pub crates: Vec<String>,
 }
 
-/// The reason why the list of variants cannot be used.
+/// The reason why a variant cannot be used.
 #[derive(Debug, thiserror::Error)]
-pub enum VariantsError {
-    /// A file cannot be read.
+pub enum VariantError {
+    /// Its file cannot be read.
     #[error(transparent)]
-    Read(#[from] ReadError),
-    /// The list is invalid.
+    File(#[from] PathError),
+    /// It cannot be completed with given code.
     #[error("{}: {source}", path.display())]
-    Toml {
-        /// The path of the list.
+    GivenCode {
+        /// The path of the variant.
         path: PathBuf,
-        /// The parse error, with its line and column.
-        source: toml::de::Error,
+        /// The reason.
+        source: GivenCodeError,
     },
 }
 
 /// Reads the list of all variants of the workspace at `root`.
-pub fn variants(root: &Path) -> Result<Vec<Variant>, VariantsError> {
+pub fn variants(root: &Path) -> Result<Vec<Variant>, TomlFileError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct File {
         variant: Vec<Variant>,
     }
 
-    let path = root.join(FOLDER).join("variants.toml");
-    let file: Result<File, _> = toml::from_str(&read(&path)?);
-    file.map(|file| file.variant)
-        .map_err(|source| VariantsError::Toml { path, source })
+    let file: File = read_toml(&root.join(FOLDER).join("variants.toml"))?;
+    Ok(file.variant)
 }
 
 impl Variant {
@@ -79,10 +79,16 @@ impl Variant {
         RAYS.tasks().filter(of_file).collect()
     }
 
-    /// Returns the reference with one task file replaced by this variant.
-    pub fn apply(&self, reference: &Sources, root: &Path) -> Result<Sources, ReadError> {
-        let text = read(&root.join(self.path()))?;
-        let sources = reference.clone().with_file(&self.file(), text);
+    /// Returns the reference with one task file replaced by this variant and its given code.
+    pub fn apply(&self, reference: &Sources, root: &Path) -> Result<Sources, VariantError> {
+        let path = root.join(self.path());
+        let own = files::read_to_string(&path)?;
+        let file = self.file();
+        let given = given_code(reference.text(&file).unwrap_or_default(), &own)
+            .map_err(|source| VariantError::GivenCode { path, source })?;
+        let sources = reference
+            .clone()
+            .with_file(&file, format!("{own}\n{given}"));
         Ok(sources.with_crates(&self.crates))
     }
 }

@@ -1,18 +1,19 @@
 //! Errors of the render command, as shown to the user.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use glam::UVec2;
 use protocol::Panic;
 
 use crate::scene::SceneError;
+use crate::suggestion::suggestion;
 
 /// An error that prevents a picture from being rendered or written.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum RenderError {
-    #[error("cannot find the scene {}{}", .path.display(), list_of_scenes(.known))]
+    #[error("cannot find the scene {}{}", .path.display(), list_of_scenes(.path, .known))]
     SceneNotFound { path: PathBuf, known: Vec<String> },
     #[error("{0}")]
     Scene(#[from] SceneError),
@@ -77,11 +78,17 @@ impl fmt::Display for SubmissionPanic {
     }
 }
 
-/// Returns the last part of an error message: a list of the known scenes.
-fn list_of_scenes(known: &[String]) -> String {
+/// Returns the last part of an error message: the scene that may be meant, and a list of the known
+/// scenes.
+fn list_of_scenes(path: &Path, known: &[String]) -> String {
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
     match known {
         [] => String::new(),
-        known => format!("; the folder `scenes` contains: {}", known.join(", ")),
+        known => format!(
+            "{}; the folder `scenes` contains: {}",
+            suggestion(&name, known),
+            known.join(", ")
+        ),
     }
 }
 

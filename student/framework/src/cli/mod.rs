@@ -1,6 +1,7 @@
 //! The command that renders a scene with a submission's code.
 
 mod error;
+pub mod examples;
 mod files;
 mod image_file;
 mod options;

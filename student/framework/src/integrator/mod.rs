@@ -88,12 +88,19 @@ impl<'a> Integrator<'a> {
     pub fn pixel_radiance(&self, pixel: UVec2, stats: &mut RenderStats) -> Vec3 {
         let mut sum = Vec3::ZERO;
         for sample in 0..self.settings.samples {
-            match self.trace_path(pixel, sample, stats) {
-                Ok(light) => sum += light,
-                Err(path::InvalidSample) => stats.invalid_paths += 1,
-            }
+            sum += self.sample_radiance(pixel, sample, stats);
         }
         sum / self.settings.samples.max(1) as f32
+    }
+
+    /// Returns the radiance of one path through a pixel, or zero if the path was discarded. The
+    /// pixel's radiance is the mean of its samples, added in order.
+    pub fn sample_radiance(&self, pixel: UVec2, sample: u32, stats: &mut RenderStats) -> Vec3 {
+        self.trace_path(pixel, sample, stats)
+            .unwrap_or_else(|path::InvalidSample| {
+                stats.invalid_paths += 1;
+                Vec3::ZERO
+            })
     }
 }
 

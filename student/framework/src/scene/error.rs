@@ -5,6 +5,8 @@ use std::fmt;
 use std::path::Path;
 use std::path::PathBuf;
 
+use crate::suggestion::suggestion;
+
 /// A position in a text file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextPosition {
@@ -43,12 +45,16 @@ pub enum SceneErrorKind {
     #[error("{0}")]
     Syntax(String),
     /// A shape uses a material that the scene does not define.
-    #[error("there is no material `{name}`; the scene defines: {known}")]
+    #[error(
+        "there is no material `{name}`{}; the scene defines: {}",
+        suggestion(name, known),
+        known.join(", ")
+    )]
     UnknownMaterial {
         /// The name that the shape uses.
         name: String,
         /// The names that the scene defines.
-        known: String,
+        known: Vec<String>,
     },
     /// The scene uses a mesh, but was not read from a file.
     #[error("meshes are separate files, so only a scene that is read from a file can use one")]

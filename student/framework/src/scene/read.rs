@@ -24,7 +24,7 @@ pub(super) fn scene(
     let index_of = |name: &str| {
         let index = names.iter().position(|known| known == name);
         index.map(|index| index as u32).ok_or_else(|| {
-            let known = names.join(", ");
+            let known = names.clone();
             let name = name.to_owned();
             let position = TextPosition::of_value(text, "material", &name);
             SceneError::new(position, SceneErrorKind::UnknownMaterial { name, known })

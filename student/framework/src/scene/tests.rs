@@ -126,7 +126,9 @@ fn reports_the_position_of_an_unknown_material_and_lists_the_known_ones() {
     let shape = SPHERE.replace("\"red\"", "\"rde\"");
     let message = with_shape(&shape);
     assert!(
-        message.starts_with("scene:6:65: there is no material `rde`; the scene defines: red"),
+        message.starts_with(
+            "scene:6:65: there is no material `rde` (did you mean red?); the scene defines: red"
+        ),
         "{message}"
     );
 }

@@ -3,9 +3,10 @@
 
 use std::env;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+
+use grader::files::{self, AtPath, PathError};
 
 use crate::bundle::crates::{self, CratesError};
 
@@ -28,13 +29,8 @@ pub enum HomeError {
     #[error(transparent)]
     Crates(#[from] CratesError),
     /// A file operation failed.
-    #[error("cannot create {}: {source}", path.display())]
-    Io {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
 }
 
 impl Home {
@@ -47,16 +43,12 @@ impl Home {
             folder: parent.join("home"),
             programs: programs.to_owned(),
         };
-        let io_error = |source| HomeError::Io {
-            path: home.folder.clone(),
-            source,
-        };
         if home.folder.exists() {
-            fs::remove_dir_all(&home.folder).map_err(io_error)?;
+            fs::remove_dir_all(&home.folder).at("remove", &home.folder)?;
         }
         let registry = home.cargo_home().join("registry");
         for (path, contents) in crates::registry_files(lock)? {
-            write_file(&registry.join(path), &contents).map_err(io_error)?;
+            files::write_with_parents(registry.join(path), &contents)?;
         }
         Ok(home)
     }
@@ -104,9 +96,4 @@ impl Home {
             // files.
             .env("CARGO_TARGET_DIR", self.folder.with_file_name("built"));
     }
-}
-
-fn write_file(path: &Path, contents: &[u8]) -> io::Result<()> {
-    path.parent().map_or(Ok(()), fs::create_dir_all)?;
-    fs::write(path, contents)
 }

@@ -6,11 +6,11 @@ mod home;
 mod shell_commands;
 
 use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
+use grader::files::{self, AtPath, PathError};
 use grader::handed_out::HandedOut;
 use serde::Deserialize;
 use zip::result::ZipError;
@@ -36,13 +36,8 @@ pub enum CheckError {
     #[error(transparent)]
     Home(#[from] HomeError),
     /// A file operation failed.
-    #[error("cannot read, write or run {}: {source}", path.display())]
-    Io {
-        /// The path of the file, folder or program.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] PathError),
 }
 
 /// The fields of a score file that are checked.
@@ -72,12 +67,12 @@ pub fn check(
             "the archive does not unpack to the bundle's files".to_owned(),
         ]);
     }
-    let root = &root.canonicalize().map_err(io_error(root))?;
+    let root = &root.canonicalize().at("read", root)?;
     let test_folder = root.join(TEST_FOLDER);
     let lock = bundle.text("Cargo.lock").unwrap_or_default();
     let home = Home::create(&test_folder, lock)?;
     let folder = test_folder.join(archive::TOP_FOLDER);
-    unpack_fresh(&folder, &unpacked).map_err(io_error(&folder))?;
+    unpack_fresh(&folder, &unpacked)?;
 
     let commands =
         shell_commands::commands(DOCUMENTS.into_iter().filter_map(|path| unpacked.text(path)));
@@ -94,7 +89,7 @@ pub fn check(
     let from = root.join(handed_out.reference);
     let to = folder.join(handed_out.student).join("src");
     for file in handed_out.files {
-        fs::copy(from.join(file.name), to.join(file.name)).map_err(io_error(&to))?;
+        files::copy(from.join(file.name), to.join(file.name))?;
     }
     for run in run_commands(&commands, &home, &folder)? {
         if run.code != Some(0) {
@@ -105,14 +100,9 @@ pub fn check(
     Ok(problems)
 }
 
-fn io_error(path: &Path) -> impl FnOnce(io::Error) -> CheckError {
-    let path = path.to_owned();
-    move |source| CheckError::Io { path, source }
-}
-
-fn unpack_fresh(folder: &Path, bundle: &Bundle) -> io::Result<()> {
+fn unpack_fresh(folder: &Path, bundle: &Bundle) -> Result<(), PathError> {
     if folder.exists() {
-        fs::remove_dir_all(folder)?;
+        fs::remove_dir_all(folder).at("remove", folder)?;
     }
     archive::write_files(bundle, folder)
 }
@@ -131,7 +121,7 @@ fn run_commands(
         let mut command = Command::new(home.program(program));
         home.apply_to(&mut command);
         let output = command.args(arguments).current_dir(folder).output();
-        let output = output.map_err(io_error(Path::new(program)))?;
+        let output = output.at("run", program)?;
         let run = CommandRun {
             command: words.join(" "),
             code: output.status.code(),

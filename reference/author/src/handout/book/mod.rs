@@ -7,6 +7,7 @@ mod pictures;
 
 use std::path::Path;
 
+use grader::files::PathError;
 use mdbook_driver::MDBook;
 use mdbook_driver::book::{Book, BookItem};
 use mdbook_driver::errors::Error;
@@ -14,7 +15,6 @@ use mdbook_driver::errors::Error;
 use self::formulas::render_formulas;
 use self::pages::problems;
 use self::pictures::inline_figures;
-use crate::text_file::ReadError;
 
 /// The reason why the book cannot be built.
 #[derive(Debug, thiserror::Error)]
@@ -27,7 +27,7 @@ pub enum BookError {
     Pages(Vec<String>),
     /// A page or chapter cannot be read.
     #[error(transparent)]
-    Unreadable(#[from] ReadError),
+    File(#[from] PathError),
     /// mdBook failed.
     #[error("mdBook: {0:#}")]
     Driver(Error),

@@ -3,18 +3,18 @@
 
 use std::path::Path;
 
+use grader::files::{self, PathError};
 use judging::section::CHAPTERS;
 
 use crate::handout::links::SUMMARY;
 use crate::handout::pages::{Page, pages};
-use crate::text_file::{ReadError, read};
 
 /// Returns the problems with the pages in the folder `book`, built from the workspace at `root`.
-pub fn problems(root: &Path, book: &Path) -> Result<Vec<String>, ReadError> {
+pub fn problems(root: &Path, book: &Path) -> Result<Vec<String>, PathError> {
     let mut problems = Vec::new();
     let chapters = pages(&root.join(CHAPTERS))?;
     for chapter in chapters.iter().filter(|chapter| chapter.name != SUMMARY) {
-        let html = read(&book.join(chapter.name.replace(".md", ".html")))?;
+        let html = files::read_to_string(book.join(chapter.name.replace(".md", ".html")))?;
         problems.extend(page_problems(chapter, &html));
     }
     Ok(problems)

@@ -7,7 +7,7 @@ use glam::{DVec3, dvec3};
 use judging::exam::{ExamQuestion, Key};
 use protocol::{Interval, Question, Ray};
 
-use crate::items::DeclaredItem;
+use crate::items::{DeclaredItem, draw_items};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::{Rng, Seed};
@@ -30,7 +30,7 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         hits::axis_parallel,
         hits::flat,
     ];
-    all.into_iter().map(|item| item(seed)).collect()
+    draw_items(seed, &all)
 }
 
 fn bbox_question(bounds: Bounds, queries: Vec<Query>) -> ExamQuestion {

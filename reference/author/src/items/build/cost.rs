@@ -36,7 +36,8 @@ pub const MIN_ADJACENT_COST: f64 = 1.2;
 
 /// Creates an item with one question about a random mesh, for which correct builders come close to
 /// the exact sweep, and builders that compare only adjacent buckets do not.
-fn cost_item(declaration: Declaration, mut rng: Rng, mesh: MeshFn) -> DeclaredItem {
+fn cost_item(seed: Seed, declaration: Declaration, mesh: MeshFn) -> DeclaredItem {
+    let mut rng = seed.rng(declaration.id);
     let question = rng.retry(|rng| {
         let shapes = mesh(rng);
         let question = cost_question(meshes::number_shapes(rng.shuffled(shapes)), 4);
@@ -44,7 +45,7 @@ fn cost_item(declaration: Declaration, mut rng: Rng, mesh: MeshFn) -> DeclaredIt
             && lowest_adjacent_cost(&question) >= MIN_ADJACENT_COST)
             .then_some(question)
     });
-    item(declaration, vec![question])
+    item(seed, declaration, vec![question])
 }
 
 /// Returns the highest relative cost among correct bucketed builders. For some meshes, all planes
@@ -93,6 +94,7 @@ type MeshFn = fn(&mut Rng) -> Vec<Shape>;
 
 pub(super) fn cost_strands(seed: Seed) -> DeclaredItem {
     cost_item(
+        seed,
         Declaration {
             id: "build.cost_strands",
             points: 1,
@@ -103,13 +105,13 @@ pub(super) fn cost_strands(seed: Seed) -> DeclaredItem {
             group: None,
             needs: &[],
         },
-        seed.rng("build.cost_strands"),
         |rng| meshes::strands(rng, 750),
     )
 }
 
 pub(super) fn cost_sheets(seed: Seed) -> DeclaredItem {
     cost_item(
+        seed,
         Declaration {
             id: "build.cost_sheets",
             points: 1,
@@ -120,13 +122,13 @@ pub(super) fn cost_sheets(seed: Seed) -> DeclaredItem {
             group: None,
             needs: &[],
         },
-        seed.rng("build.cost_sheets"),
         |rng| meshes::sheets(rng, 900),
     )
 }
 
 pub(super) fn cost_town(seed: Seed) -> DeclaredItem {
     cost_item(
+        seed,
         Declaration {
             id: "build.cost_town",
             points: 2,
@@ -137,7 +139,6 @@ pub(super) fn cost_town(seed: Seed) -> DeclaredItem {
             group: None,
             needs: &[],
         },
-        seed.rng("build.cost_town"),
         |rng| meshes::town(rng, 1200),
     )
 }

@@ -11,7 +11,7 @@ use judging::exam::{ExamQuestion, Key, TreeCheck};
 use protocol::{Question, Shape};
 
 use super::meshes;
-use crate::items::{Declaration, DeclaredItem};
+use crate::items::{Declaration, DeclaredItem, draw_items};
 use crate::seed::Seed;
 
 pub use cost::{MAX_CORRECT_COST, MIN_ADJACENT_COST, relative_cost};
@@ -36,14 +36,14 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         cost::cost_sheets,
         cost::cost_town,
     ];
-    all.into_iter().map(|item| item(seed)).collect()
+    draw_items(seed, &all)
 }
 
 /// Creates an item, and adds a control question, whose answer is wrong if there is no tree or if
 /// half of the primitives are in one leaf. The control's primitives are far apart, so that no
 /// heuristic prefers to keep them together: the maximum leaf size is tested by another item.
-fn item(declaration: Declaration, mut questions: Vec<ExamQuestion>) -> DeclaredItem {
-    let mut rng = Seed(0).rng("build.control");
+fn item(seed: Seed, declaration: Declaration, mut questions: Vec<ExamQuestion>) -> DeclaredItem {
+    let mut rng = seed.rng("build.control");
     let soup = meshes::soup(&mut rng, 24, 2.0, 0.1);
     questions.push(build_question(&[Partition, Split], soup, 4));
     super::item(declaration, questions)

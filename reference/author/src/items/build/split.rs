@@ -43,6 +43,7 @@ pub(super) fn one_split(seed: Seed) -> DeclaredItem {
         }
     }
     item(
+        seed,
         Declaration {
             id: "build.one_split",
             points: 1,

@@ -8,7 +8,7 @@ use crate::items::{Declaration, DeclaredItem, Group, meshes};
 use crate::seed::Seed;
 
 /// Creates a question about small random triangles for each pair of a number of triangles and a
-/// maximum leaf size.
+/// maximum leaf size. There are up to seven triangles more.
 fn soup_questions(
     name: &str,
     seed: Seed,
@@ -28,6 +28,7 @@ fn soup_questions_of_size(
 ) -> Vec<ExamQuestion> {
     let mut rng = seed.rng(name);
     let question = |&(count, max_leaf_size): &(usize, u32)| {
+        let count = count + rng.index(8);
         let shapes = meshes::soup(&mut rng, count, 3.0, size);
         build_question(checks, shapes, max_leaf_size)
     };
@@ -36,6 +37,7 @@ fn soup_questions_of_size(
 
 pub(super) fn partition(seed: Seed) -> DeclaredItem {
     item(
+        seed,
         Declaration {
             id: "build.partition",
             points: 2,
@@ -57,6 +59,7 @@ pub(super) fn partition(seed: Seed) -> DeclaredItem {
 
 pub(super) fn contains(seed: Seed) -> DeclaredItem {
     item(
+        seed,
         Declaration {
             id: "build.contains",
             points: 2,
@@ -73,6 +76,7 @@ pub(super) fn contains(seed: Seed) -> DeclaredItem {
 
 pub(super) fn tight(seed: Seed) -> DeclaredItem {
     item(
+        seed,
         Declaration {
             id: "build.tight",
             points: 1,
@@ -91,6 +95,7 @@ pub(super) fn leaf_size(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.leaf_size.crowd");
     let crowd = build_question(&[LeafSize], meshes::soup(&mut rng, 100, 0.3, 2.5), 1);
     item(
+        seed,
         Declaration {
             id: "build.leaf_size",
             points: 2,
@@ -120,6 +125,7 @@ pub(super) fn leaf_size(seed: Seed) -> DeclaredItem {
 
 pub(super) fn stops(seed: Seed) -> DeclaredItem {
     item(
+        seed,
         Declaration {
             id: "build.stops",
             points: 1,

@@ -17,6 +17,7 @@ pub(super) fn negative(seed: Seed) -> DeclaredItem {
     });
     let shapes = meshes::number_shapes(triangles);
     item(
+        seed,
         Declaration {
             id: "build.negative",
             points: 1,
@@ -41,6 +42,7 @@ pub(super) fn coincident(seed: Seed) -> DeclaredItem {
     let mut some = meshes::soup(&mut rng, 17, 3.0, 0.4);
     some.extend(vec![same; 30]);
     item(
+        seed,
         Declaration {
             id: "build.coincident",
             points: 1,
@@ -66,12 +68,14 @@ pub(super) fn coincident(seed: Seed) -> DeclaredItem {
 pub(super) fn concentric(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.concentric");
     let center = rng.point(2.0).as_vec3();
+    let step = rng.uniform(0.2, 0.3) as f32;
     let shells = (1..=13).map(|i| Shape::Sphere {
         center,
-        radius: 0.25 * i as f32,
+        radius: step * i as f32,
         material: 0,
     });
     item(
+        seed,
         Declaration {
             id: "build.concentric",
             points: 1,
@@ -93,11 +97,14 @@ pub(super) fn concentric(seed: Seed) -> DeclaredItem {
 pub(super) fn coplanar(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.coplanar");
     let question = |axis: usize| {
-        let mut height = DVec3::ZERO;
-        height[axis] = rng.uniform(-2.0, 2.0);
-        let (x, y) = (DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]);
+        let start = rng.point(4.0);
+        let size = rng.uniform(0.7, 1.3);
+        let (x, y) = (
+            size * DVec3::AXES[(axis + 1) % 3],
+            size * DVec3::AXES[(axis + 2) % 3],
+        );
         let cells = (0..64).map(|cell| {
-            let corner = height + f64::from(cell % 8) * x + f64::from(cell / 8) * y;
+            let corner = start + f64::from(cell % 8) * x + f64::from(cell / 8) * y;
             meshes::flat_triangle([corner, corner + x, corner + y], 0)
         });
         build_question(
@@ -107,6 +114,7 @@ pub(super) fn coplanar(seed: Seed) -> DeclaredItem {
         )
     };
     item(
+        seed,
         Declaration {
             id: "build.coplanar",
             points: 1,
@@ -121,19 +129,24 @@ pub(super) fn coplanar(seed: Seed) -> DeclaredItem {
     )
 }
 
-pub(super) fn collinear(_: Seed) -> DeclaredItem {
+pub(super) fn collinear(seed: Seed) -> DeclaredItem {
+    let mut rng = seed.rng("build.collinear");
     let question = |axis: usize| {
+        let start = rng.point(4.0);
+        let step = rng.uniform(0.6, 0.9);
+        let radius = rng.uniform(0.2, 0.3) as f32;
         let row = (0..40).map(|i| {
-            let center = 0.75 * f64::from(i) * DVec3::AXES[axis];
+            let center = start + step * f64::from(i) * DVec3::AXES[axis];
             Shape::Sphere {
                 center: center.as_vec3(),
-                radius: 0.25,
+                radius,
                 material: 0,
             }
         });
         build_question(&[Partition, Split, Contains], meshes::number_shapes(row), 3)
     };
     item(
+        seed,
         Declaration {
             id: "build.collinear",
             points: 1,
@@ -169,6 +182,7 @@ pub(super) fn outlier(seed: Seed) -> DeclaredItem {
     });
     let growing = meshes::number_shapes(growing);
     item(
+        seed,
         Declaration {
             id: "build.outlier",
             points: 1,
@@ -192,6 +206,7 @@ pub(super) fn one_or_none(seed: Seed) -> DeclaredItem {
     let one = meshes::soup(&mut rng, 1, 2.0, 0.5);
     let two = meshes::soup(&mut rng, 2, 2.0, 0.5);
     item(
+        seed,
         Declaration {
             id: "build.one_or_none",
             points: 1,

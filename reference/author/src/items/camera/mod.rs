@@ -7,11 +7,14 @@
 mod ray;
 mod sensor;
 
+#[cfg(test)]
+pub(super) use sensor::corners;
+
 use glam::{UVec2, Vec2, uvec2};
 use judging::exam::{ExamQuestion, Key, RayCheck};
 use protocol::{PinholeCamera, Question, Sample, Samples};
 
-use crate::items::DeclaredItem;
+use crate::items::{DeclaredItem, draw_items};
 use crate::oracle;
 use crate::seed::{Rng, Seed};
 
@@ -33,7 +36,7 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         ray::origin_and_range,
         ray::picture,
     ];
-    all.into_iter().map(|item| item(seed)).collect()
+    draw_items(seed, &all)
 }
 
 fn camera_question(checks: &[RayCheck], camera: PinholeCamera, samples: Samples) -> ExamQuestion {

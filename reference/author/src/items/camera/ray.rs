@@ -83,7 +83,8 @@ pub(super) fn large_film(seed: Seed) -> DeclaredItem {
         ),
         offset: vec2(random_offset(&mut rng), random_offset(&mut rng)),
     });
-    let question = direction_question(camera(40.0, 16.0 / 9.0, film), samples.collect());
+    let samples = samples.collect();
+    let question = direction_question(camera(rng.uniform(35.0, 50.0), 16.0 / 9.0, film), samples);
     item(
         Declaration {
             id: "camera.large_film",
@@ -101,9 +102,9 @@ pub(super) fn large_film(seed: Seed) -> DeclaredItem {
 /// Creates a question with very different directions, so that no constant answer passes an item
 /// about length, origin or range.
 fn spread_question(checks: &[RayCheck], rng: &mut Rng) -> ExamQuestion {
-    let film = uvec2(7, 7);
+    let film = UVec2::splat(rng.integer(7, 19));
     let samples = (0..16).map(|_| Sample {
-        pixel: uvec2(random_below(rng, 7), random_below(rng, 7)),
+        pixel: uvec2(random_below(rng, film.x), random_below(rng, film.y)),
         offset: MIDDLE,
     });
     let samples = Samples::List(samples.collect());

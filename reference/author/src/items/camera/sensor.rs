@@ -5,9 +5,26 @@ use protocol::Sample;
 
 use super::{MIDDLE, camera, direction_question, middle_row};
 use crate::items::{Declaration, DeclaredItem, Group, item};
-use crate::seed::Seed;
+use crate::seed::{Rng, Seed};
 
-pub(super) fn corners(_: Seed) -> DeclaredItem {
+/// Returns an odd size of a film, which has a row in its middle.
+fn odd_size(rng: &mut Rng, min: u32, max: u32) -> u32 {
+    2 * rng.integer(min / 2, max / 2) + 1
+}
+
+/// Returns the aspect ratio of a film with square pixels.
+fn aspect_of(film: UVec2) -> f64 {
+    f64::from(film.x) / f64::from(film.y)
+}
+
+pub(in crate::items) fn corners(seed: Seed) -> DeclaredItem {
+    let mut rng = seed.rng("camera.corners");
+    // Only a film with an odd size has a pixel in its middle.
+    let sizes = [
+        odd_size(&mut rng, 3, 9),
+        2 * rng.integer(3, 8),
+        odd_size(&mut rng, 11, 17),
+    ];
     // tan 45° = 1, so the sensor is 2 × 2.
     let question = |n: u32| {
         let film = UVec2::splat(n);
@@ -35,7 +52,7 @@ pub(super) fn corners(_: Seed) -> DeclaredItem {
             group: Some(Group::CameraRays),
             needs: &[],
         },
-        [3, 5, 64].map(question).to_vec(),
+        sizes.map(question).to_vec(),
     )
 }
 
@@ -62,10 +79,16 @@ pub(super) fn field_of_view(seed: Seed) -> DeclaredItem {
     )
 }
 
-pub(super) fn aspect_ratio(_: Seed) -> DeclaredItem {
+pub(super) fn aspect_ratio(seed: Seed) -> DeclaredItem {
+    let mut rng = seed.rng("camera.aspect_ratio");
+    let films = [
+        uvec2(rng.integer(13, 19), odd_size(&mut rng, 7, 11)),
+        uvec2(rng.integer(7, 10), odd_size(&mut rng, 13, 17)),
+        uvec2(rng.integer(18, 24), odd_size(&mut rng, 5, 7)),
+    ];
     let question = |film: UVec2| {
-        let aspect = f64::from(film.x) / f64::from(film.y);
-        direction_question(camera(60.0, aspect, film), middle_row(film))
+        let fov = rng.uniform(50.0, 70.0);
+        direction_question(camera(fov, aspect_of(film), film), middle_row(film))
     };
     item(
         Declaration {
@@ -78,9 +101,7 @@ pub(super) fn aspect_ratio(_: Seed) -> DeclaredItem {
             group: Some(Group::CameraRays),
             needs: &[],
         },
-        [uvec2(15, 9), uvec2(9, 15), uvec2(21, 7)]
-            .map(question)
-            .to_vec(),
+        films.map(question).to_vec(),
     )
 }
 
@@ -110,15 +131,19 @@ pub(super) fn other_aspect(seed: Seed) -> DeclaredItem {
     )
 }
 
-pub(super) fn film(_: Seed) -> DeclaredItem {
+pub(super) fn film(seed: Seed) -> DeclaredItem {
+    let mut rng = seed.rng("camera.film");
+    let films = [
+        uvec2(odd_size(&mut rng, 13, 21), odd_size(&mut rng, 3, 7)),
+        uvec2(odd_size(&mut rng, 3, 7), odd_size(&mut rng, 13, 21)),
+    ];
     let question = |film: UVec2| {
         let columns = (0..film.y).map(|y| Sample {
             pixel: uvec2(film.x / 2, y),
             offset: MIDDLE,
         });
         let samples = middle_row(film).into_iter().chain(columns).collect();
-        let aspect = f64::from(film.x) / f64::from(film.y);
-        direction_question(camera(90.0, aspect, film), samples)
+        direction_question(camera(90.0, aspect_of(film), film), samples)
     };
     item(
         Declaration {
@@ -131,11 +156,13 @@ pub(super) fn film(_: Seed) -> DeclaredItem {
             group: Some(Group::CameraRays),
             needs: &[],
         },
-        [uvec2(17, 5), uvec2(5, 17)].map(question).to_vec(),
+        films.map(question).to_vec(),
     )
 }
 
-pub(super) fn bottom_left(_: Seed) -> DeclaredItem {
+pub(super) fn bottom_left(seed: Seed) -> DeclaredItem {
+    let mut rng = seed.rng("camera.bottom_left");
+    let sizes = [rng.integer(6, 9), rng.integer(10, 15)];
     let question = |n: u32| {
         let film = UVec2::splat(n);
         let samples = (0..n).map(|i| Sample {
@@ -155,6 +182,6 @@ pub(super) fn bottom_left(_: Seed) -> DeclaredItem {
             group: Some(Group::CameraRays),
             needs: &[],
         },
-        [8, 11].map(question).to_vec(),
+        sizes.map(question).to_vec(),
     )
 }

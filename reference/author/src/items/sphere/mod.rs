@@ -6,7 +6,7 @@ mod surface;
 use judging::exam::{ExamQuestion, HitCheck};
 use protocol::{Ray, Shape};
 
-use crate::items::DeclaredItem;
+use crate::items::{DeclaredItem, draw_items};
 use crate::oracle::sphere::Sphere;
 use crate::oracle::{Ray64, scan};
 use crate::seed::{Rng, Seed};
@@ -29,7 +29,7 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         surface::origin_and_material,
         surface::picture,
     ];
-    all.into_iter().map(|item| item(seed)).collect()
+    draw_items(seed, &all)
 }
 
 fn random_sphere(rng: &mut Rng, radius: f64) -> Sphere {

@@ -135,11 +135,12 @@ pub(super) fn origin_and_material(seed: Seed) -> DeclaredItem {
 
 pub(super) fn picture(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("sphere.picture");
+    let side = rng.sign();
     let mut sphere = |x: f64, y: f64, z: f64, radius: f64| {
-        let center = dvec3(x, y, z) + rng.point(0.1);
+        let center = dvec3(side * x, y, z) + rng.point(0.3) * dvec3(1.0, 0.3, 1.0);
         Shape::Sphere {
             center: center.as_vec3(),
-            radius: radius as f32,
+            radius: (radius * rng.uniform(0.9, 1.1)) as f32,
             material: 0,
         }
     };

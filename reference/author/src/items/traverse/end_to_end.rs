@@ -51,10 +51,11 @@ pub(super) fn picture(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.picture");
     let tree = soup_tree(&mut rng, 300, 0.4, 4);
     let mut tree = tree.with_roots_at_both_ends(&mut rng);
-    let eye = DVec3::new(0.4, 0.7, 4.5);
+    let side = rng.sign();
+    let eye = DVec3::new(rng.uniform(0.2, 0.8), rng.uniform(-0.8, 0.8), 4.5 * side);
     let camera = picture::camera_along(eye.as_vec3(), (-eye).normalize(), 0.5, 64);
-    // An unreferenced triangle covers the left half of the view, just in front of the tree.
-    let corner = |x: f64, y: f64| DVec3::new(x, y, 3.0);
+    // An unreferenced triangle covers one half of the view, just in front of the tree.
+    let corner = |x: f64, y: f64| DVec3::new(x, y, 3.0 * side);
     let curtain = [corner(-4.0, -4.0), corner(0.3, 0.6), corner(-4.0, 4.0)];
 
     let scan = Scan::new(&tree.shapes);

@@ -16,7 +16,7 @@ use judging::exam::{ExamQuestion, HitCheck};
 use protocol::Ray;
 
 use super::meshes;
-use crate::items::DeclaredItem;
+use crate::items::{DeclaredItem, draw_items};
 use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
 use crate::tree::{Tree, construction, decoy};
@@ -42,7 +42,7 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         end_to_end::own_tree,
         end_to_end::picture,
     ];
-    all.into_iter().map(|item| item(seed)).collect()
+    draw_items(seed, &all)
 }
 
 /// The material of the first unreferenced primitive. Materials of primitives in leaves start at 0.

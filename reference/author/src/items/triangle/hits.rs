@@ -209,13 +209,41 @@ pub(super) fn tiny(seed: Seed) -> DeclaredItem {
     )
 }
 
+/// A coordinate system along the axes, with small integers as its origin: the axes are permuted, and
+/// some are reversed.
+struct Frame {
+    origin: Vec3,
+    axes: [Vec3; 3],
+}
+
+impl Frame {
+    fn random(rng: &mut Rng) -> Self {
+        let mut coordinate = || rng.integer(0, 8) as f32 - 4.0;
+        let origin = vec3(coordinate(), coordinate(), coordinate());
+        let axes = rng.shuffled(vec![Vec3::X, Vec3::Y, Vec3::Z]);
+        let axes = [axes[0], axes[1], axes[2]].map(|axis| axis * rng.sign() as f32);
+        Frame { origin, axes }
+    }
+
+    fn dir(&self, x: f32, y: f32, z: f32) -> Vec3 {
+        x * self.axes[0] + y * self.axes[1] + z * self.axes[2]
+    }
+
+    fn point(&self, x: f32, y: f32, z: f32) -> Vec3 {
+        self.origin + self.dir(x, y, z)
+    }
+}
+
 /// Returns the item about degenerate triangles. Its coordinates are small integers, so that the
 /// determinant is exactly zero in every correct formula.
 pub(super) fn degenerate(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("triangle.degenerate");
-    let flat = |corners: [Vec3; 3]| {
-        let vertices = corners.map(|corner| Vertex::new(corner, Vec3::Z, Vec2::ZERO));
-        shape(&vertices, 0)
+    let frame = Frame::random(&mut rng);
+    let flat = |corners: [[f32; 2]; 3]| {
+        let vertex = |[x, y]: [f32; 2]| {
+            Vertex::new(frame.point(x, y, 0.0), frame.dir(0.0, 0.0, 1.0), Vec2::ZERO)
+        };
+        shape(&corners.map(vertex), 0)
     };
     let control = |rng: &mut Rng| {
         let vertices = random_triangle(rng);
@@ -224,25 +252,13 @@ pub(super) fn degenerate(seed: Seed) -> DeclaredItem {
             .collect();
         shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
     };
-    let down = |x: f32, y: f32| Ray::new(vec3(x, y, 4.0), Vec3::NEG_Z);
-    let along = |y: f32, z: f32| Ray::new(vec3(-4.0, y, z), Vec3::X);
+    let down = |x: f32, y: f32| Ray::new(frame.point(x, y, 4.0), frame.dir(0.0, 0.0, -1.0));
+    let along = |y: f32, z: f32| Ray::new(frame.point(-4.0, y, z), frame.dir(1.0, 0.0, 0.0));
 
-    let line = flat([
-        vec3(0.0, 1.0, 0.0),
-        vec3(1.0, 1.0, 0.0),
-        vec3(3.0, 1.0, 0.0),
-    ]);
-    let point = flat([vec3(1.0, 1.0, 0.0); 3]);
-    let coinciding_corners = flat([
-        vec3(1.0, 2.0, 0.0),
-        vec3(1.0, 2.0, 0.0),
-        vec3(3.0, 2.0, 0.0),
-    ]);
-    let half_square = flat([
-        vec3(0.0, 0.0, 0.0),
-        vec3(4.0, 0.0, 0.0),
-        vec3(0.0, 4.0, 0.0),
-    ]);
+    let line = flat([[0.0, 1.0], [1.0, 1.0], [3.0, 1.0]]);
+    let point = flat([[1.0, 1.0]; 3]);
+    let coinciding_corners = flat([[1.0, 2.0], [1.0, 2.0], [3.0, 2.0]]);
+    let half_square = flat([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]]);
     let question = |shape: Shape, rays: Vec<Ray>| shapes_question(&[], vec![shape], rays);
     item(
         Declaration {
@@ -259,9 +275,15 @@ pub(super) fn degenerate(seed: Seed) -> DeclaredItem {
             question(line, vec![down(1.0, 1.0), down(2.0, 1.0), down(2.0, 3.0)]),
             question(point, vec![down(1.0, 1.0), down(0.0, 0.0)]),
             question(coinciding_corners, vec![down(2.0, 2.0), down(1.0, 2.0)]),
+            // On both sides of the plane, as t = z / 0 is +∞ on one of them and −∞ on the other.
             question(
                 half_square,
-                vec![along(1.0, 0.0), along(1.0, 2.0), along(-1.0, 0.0)],
+                vec![
+                    along(1.0, 0.0),
+                    along(1.0, 2.0),
+                    along(1.0, -2.0),
+                    along(-1.0, 0.0),
+                ],
             ),
             control(&mut rng),
         ],

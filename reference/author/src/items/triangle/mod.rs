@@ -9,7 +9,7 @@ use aim::{Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond
 use judging::exam::{ExamQuestion, HitCheck};
 use protocol::Ray;
 
-use crate::items::DeclaredItem;
+use crate::items::{DeclaredItem, draw_items};
 use crate::seed::Seed;
 
 /// Returns the items of the task `triangle`.
@@ -31,7 +31,7 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         surface::origin_and_material,
         scene::picture,
     ];
-    all.into_iter().map(|item| item(seed)).collect()
+    draw_items(seed, &all)
 }
 
 /// Creates one question for each of four triangles, with rays that hit the triangle from this side

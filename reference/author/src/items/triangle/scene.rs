@@ -31,13 +31,29 @@ pub(super) fn picture(seed: Seed) -> DeclaredItem {
 /// Returns the triangles in front of a camera at the origin that looks down −z with a field of view
 /// of 90 degrees.
 fn picture_shapes(rng: &mut Rng) -> Vec<Shape> {
+    // Quarter turns around the camera's axis are exact in single precision.
+    let quarter_turns = rng.index(4);
+    let turned = |vector: Vec3| {
+        (0..quarter_turns).fold(vector, |vector, _| vec3(-vector.y, vector.x, vector.z))
+    };
     let mut shapes = Vec::new();
-    let mut add = |vertices: [Vertex; 3]| shapes.push(shape(&vertices, 0));
+    let mut add = |vertices: [Vertex; 3]| {
+        let turned = vertices.map(
+            |Vertex {
+                 position,
+                 normal,
+                 uv,
+             }| { Vertex::new(turned(position), turned(normal), uv) },
+        );
+        shapes.push(shape(&turned, 0));
+    };
 
-    // A square whose diagonal passes exactly through the middles of pixels.
+    // A square whose diagonal passes exactly through the middles of pixels, which are 1/8 apart.
+    let mut eighths = || rng.integer(0, 6) as f32 / 8.0;
+    let middle = vec2(-2.25 + eighths(), -2.25 + eighths());
     let corner = |x: f32, y: f32| {
         let uv = vec2(0.3 + 0.15 * x, 0.4 + 0.15 * y);
-        Vertex::new(vec3(x - 2.0, y - 2.0, -4.0), Vec3::Z, uv)
+        Vertex::new(vec3(middle.x + x, middle.y + y, -4.0), Vec3::Z, uv)
     };
     let corners = [
         corner(-1.0, -1.0),
@@ -50,6 +66,7 @@ fn picture_shapes(rng: &mut Rng) -> Vec<Shape> {
 
     // A smooth hill of 5 × 4 squares.
     let height = rng.uniform(0.5, 0.8);
+    let foot = dvec3(rng.uniform(1.0, 1.6), rng.uniform(1.5, 2.2), -5.0);
     let hill = |i: usize, j: usize| {
         let (x, y) = (i as f64 / 5.0, j as f64 / 4.0);
         let (u, v) = (2.0 * x - 1.0, 2.0 * y - 1.0);
@@ -57,7 +74,7 @@ fn picture_shapes(rng: &mut Rng) -> Vec<Shape> {
         let slope_x = -2.0 * height * u * (1.0 - v * v);
         let slope_y = -2.0 * height * v * (1.0 - u * u);
         let normal = dvec3(-slope_x / 2.2, -slope_y / 1.6, 1.0).normalize();
-        let position = dvec3(1.3 + 2.2 * u, 1.7 + 1.6 * v, -5.0 + up);
+        let position = foot + dvec3(2.2 * u, 1.6 * v, up);
         let uv = vec2(0.05 + 0.9 * x as f32, 0.05 + 0.9 * y as f32);
         Vertex::new(position.as_vec3(), normal.as_vec3(), uv)
     };

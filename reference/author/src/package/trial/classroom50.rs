@@ -6,13 +6,14 @@ use std::path::Path;
 use std::time::Duration;
 
 use grader::doctor::package;
+use grader::files::{self, AtPath};
 use grader::handed_out::RAYS;
 use serde_json::Value;
 
 use crate::bundle::{Bundle, archive};
 use crate::package::trial::runner::{CHECKOUT, Runner, StepResult};
 use crate::package::trial::submission::TrialSubmission;
-use crate::package::trial::{TrialError, check_time, io_error};
+use crate::package::trial::{TrialError, check_time};
 
 /// The folder of the trial, relative to the workspace's root.
 const TRIAL_FOLDER: &str = "target/package/classroom50";
@@ -38,15 +39,15 @@ const VARIABLES: [&str; 10] = [
 /// Runs the trial of the package in `folder`, and returns the problems found.
 pub fn check(workspace: &Path, folder: &Path) -> Result<Vec<String>, TrialError> {
     let mut problems = package::problems(folder, &RAYS)?;
-    let workspace = &workspace.canonicalize().map_err(io_error(workspace))?;
-    let packed = fs::read(folder.join("pathtracing.zip")).map_err(io_error(folder))?;
+    let workspace = &workspace.canonicalize().at("read", workspace)?;
+    let packed = files::read(folder.join("pathtracing.zip"))?;
     let grader = archive::unzip(&packed)?;
     let lock = grader.text("Cargo.lock").unwrap_or_default();
     let Some(runner) = Runner::create(&workspace.join(TRIAL_FOLDER), lock)? else {
         return Ok(problems);
     };
     let target = runner.host_path(AUTOGRADER_FOLDER);
-    archive::write_files(&autograder_files(folder)?, &target).map_err(io_error(&target))?;
+    archive::write_files(&autograder_files(folder)?, &target)?;
     for submission in [
         TrialSubmission::Reference,
         TrialSubmission::Starter,
@@ -82,7 +83,7 @@ pub fn check(workspace: &Path, folder: &Path) -> Result<Vec<String>, TrialError>
 fn autograder_files(folder: &Path) -> Result<Bundle, TrialError> {
     let mut bundle = Bundle::default();
     for name in ["autograder.py", "pathtracing.zip"] {
-        let contents = fs::read(folder.join(name)).map_err(io_error(folder))?;
+        let contents = files::read(folder.join(name))?;
         bundle.insert(name, contents);
     }
     Ok(bundle)

@@ -5,12 +5,13 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
+use grader::files::AtPath;
 use grader::handed_out::RAYS;
 
 use crate::bundle::{Bundle, archive};
 use crate::package::trial::runner::{Runner, StepResult};
 use crate::package::trial::submission::TrialSubmission;
-use crate::package::trial::{TrialError, check_time, io_error};
+use crate::package::trial::{TrialError, check_time};
 
 /// The folder of the trial, relative to the workspace's root.
 const TRIAL_FOLDER: &str = "target/package/github";
@@ -25,7 +26,7 @@ const VARIABLES: [&str; 1] = ["CARGO_TARGET_DIR=/home/runner/built"];
 /// Runs the trial of the template repository, and returns the problems found.
 pub fn check(workspace: &Path, template: &Bundle) -> Result<Vec<String>, TrialError> {
     let mut problems = Vec::new();
-    let workspace = &workspace.canonicalize().map_err(io_error(workspace))?;
+    let workspace = &workspace.canonicalize().at("read", workspace)?;
     let lock = template.text("Cargo.lock").unwrap_or_default();
     let Some(runner) = Runner::create(&workspace.join(TRIAL_FOLDER), lock)? else {
         return Ok(problems);
@@ -40,7 +41,7 @@ pub fn check(workspace: &Path, template: &Bundle) -> Result<Vec<String>, TrialEr
         TrialSubmission::Empty,
     ] {
         runner.create_checkout(|checkout| {
-            archive::write_files(template, checkout).map_err(io_error(checkout))?;
+            archive::write_files(template, checkout)?;
             replace_task_files(submission, workspace, &checkout.join("student/src"))
         })?;
         for command in &commands {
@@ -71,12 +72,12 @@ fn replace_task_files(
     submission.write_to(workspace, folder)?;
     for file in RAYS.files {
         let (from, to) = (folder.join(file.name), source.join(file.name));
-        fs::remove_file(&to).map_err(io_error(&to))?;
+        fs::remove_file(&to).at("remove", &to)?;
         if from.exists() {
-            fs::rename(&from, &to).map_err(io_error(&from))?;
+            fs::rename(&from, &to).at("rename", &from)?;
         }
     }
-    fs::remove_dir_all(folder).map_err(io_error(folder))
+    Ok(fs::remove_dir_all(folder).at("remove", folder)?)
 }
 
 /// Returns the workflow's cargo commands. The other commands install the toolchain, which the

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use grader::doctor::package;
+use grader::files::{self, AtPath};
 use grader::handed_out::RAYS;
 use serde::Deserialize;
 use zip::ZipArchive;
@@ -13,7 +14,7 @@ use zip::ZipArchive;
 use crate::package::trial::machine::{Job, JobResult, Limits, Machine, User};
 use crate::package::trial::submission::TrialSubmission;
 use crate::package::trial::thief::ProtectedData;
-use crate::package::trial::{TrialError, check_time, io_error};
+use crate::package::trial::{TrialError, check_time};
 
 /// The folder of the trial, relative to the workspace's root.
 const TRIAL_FOLDER: &str = "target/package/gradescope";
@@ -53,15 +54,18 @@ struct Test {
 /// Runs the trial of the package in the file `zip`, and returns the problems found.
 pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, TrialError> {
     let mut problems = package::problems(zip, &RAYS)?;
-    let workspace = &workspace.canonicalize().map_err(io_error(workspace))?;
+    let workspace = &workspace.canonicalize().at("read", workspace)?;
     let Some(machine) = Machine::create(&workspace.join(TRIAL_FOLDER))? else {
         return Ok(problems);
     };
     unpack(&machine, zip)?;
+    // Gradescope's own images have no Rust, and setup.sh downloads it. A course's image may have it.
+    let path = machine.install_rustup()?;
     let exam = machine.host_path("autograder/source/pathtracing/exam.json");
-    let exam = fs::read_to_string(&exam).map_err(io_error(&exam))?;
+    let exam = files::read_to_string(&exam)?;
     let setup = run(
         &machine,
+        &path,
         Limits::None,
         &["bash", "/autograder/source/setup.sh"],
     )?;
@@ -79,7 +83,12 @@ pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, TrialError> {
         let folder = machine.host_path("autograder/submission");
         submission.write_to(workspace, &folder)?;
         clear_results(&machine)?;
-        let job = run(&machine, Limits::Platform, &["/autograder/run_autograder"])?;
+        let job = run(
+            &machine,
+            &path,
+            Limits::Platform,
+            &["/autograder/run_autograder"],
+        )?;
         check_time(submission.description(), &job, TIME_LIMIT, &mut problems);
         problems.extend(problem(&machine, submission, &job));
         if submission == TrialSubmission::Thief {
@@ -96,21 +105,26 @@ pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, TrialError> {
 /// Unpacks the zip as Gradescope does after an upload.
 fn unpack(machine: &Machine, zip: &Path) -> Result<(), TrialError> {
     let source = machine.host_path("autograder/source");
-    fs::create_dir_all(&source).map_err(io_error(&source))?;
-    let file = fs::File::open(zip).map_err(io_error(zip))?;
+    files::create_dir_all(&source)?;
+    let file = fs::File::open(zip).at("read", zip)?;
     ZipArchive::new(file)?.extract(&source)?;
     let entry = machine.host_path("autograder/run_autograder");
-    fs::copy(source.join("run_autograder"), &entry).map_err(io_error(&entry))?;
+    files::copy(source.join("run_autograder"), &entry)?;
     let metadata = machine.host_path("autograder/submission_metadata.json");
-    fs::write(&metadata, METADATA).map_err(io_error(&metadata))
+    Ok(files::write(&metadata, METADATA)?)
 }
 
-fn run(machine: &Machine, limits: Limits, command: &[&str]) -> Result<JobResult, TrialError> {
+fn run(
+    machine: &Machine,
+    path: &str,
+    limits: Limits,
+    command: &[&str],
+) -> Result<JobResult, TrialError> {
     machine.run(Job {
         user: User::Container,
         limits,
         folder: "/autograder",
-        variables: &[],
+        variables: &[path],
         command,
     })
 }
@@ -118,7 +132,7 @@ fn run(machine: &Machine, limits: Limits, command: &[&str]) -> Result<JobResult,
 fn clear_results(machine: &Machine) -> Result<(), TrialError> {
     let results = machine.host_path("autograder/results");
     machine.remove(&results)?;
-    fs::create_dir_all(&results).map_err(io_error(&results))
+    Ok(files::create_dir_all(&results)?)
 }
 
 fn read(machine: &Machine, path: &str) -> String {

@@ -4,17 +4,24 @@
 //! This needs root, directly or with `sudo`.
 
 use std::env;
-use std::fs;
+use std::fs::{self, Permissions};
+use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use crate::package::trial::{TrialError, io_error};
+use grader::files::{self, AtPath};
+
+use crate::package::trial::TrialError;
 
 /// The script that runs a command on the simulated machine.
 const ENTER_SCRIPT: &str = include_str!("../templates/trial/machine.sh");
+/// The script in place of `cargo` and `rustc` on a machine with rustup.
+const PROXY_SCRIPT: &str = include_str!("../templates/trial/rust_proxy.sh");
 /// The script that runs a command with limited CPU time and memory.
 const LIMIT_SCRIPT: &str = include_str!("../templates/trial/limits.sh");
+/// The folders with the system's programs.
+const SYSTEM_PATH: &str = "/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin";
 /// The arguments of `unshare` for the machine's own namespaces.
 const NAMESPACES: [&str; 5] = ["--mount", "--net", "--pid", "--fork", "--kill-child"];
 /// The exit code of [`LIMIT_SCRIPT`] if there are no usable control groups.
@@ -105,12 +112,30 @@ impl Machine {
             is_limited: true,
         };
         machine.remove(root)?;
-        fs::create_dir_all(root).map_err(io_error(root))?;
+        files::create_dir_all(root)?;
         machine.is_limited = machine.can_limit()?;
         if !machine.is_limited {
             skip_or_fail("control groups cannot be created: the trial runs without limits")?;
         }
         Ok(Some(machine))
+    }
+
+    /// Installs Rust for root as rustup does: with proxies that look for the toolchain in the home
+    /// folder. Returns the setting of `PATH` with these proxies, and without the toolchain itself.
+    pub fn install_rustup(&self) -> Result<String, TrialError> {
+        let toolchains = self.host_path("root/.rustup/toolchains");
+        files::create_dir_all(&toolchains)?;
+        let default = toolchains.join("default");
+        symlink(&self.toolchain, &default).at("create", &default)?;
+        let proxies = self.host_path("root/.cargo/bin");
+        files::create_dir_all(&proxies)?;
+        for name in ["cargo", "rustc"] {
+            let proxy = proxies.join(name);
+            files::write(&proxy, PROXY_SCRIPT)?;
+            let mode = Permissions::from_mode(0o755);
+            fs::set_permissions(&proxy, mode).at("change", &proxy)?;
+        }
+        Ok(format!("PATH=/root/.cargo/bin:{SYSTEM_PATH}"))
     }
 
     /// Converts a path on the machine to a path on the host.
@@ -122,7 +147,7 @@ impl Machine {
     pub fn remove(&self, folder: &Path) -> Result<(), TrialError> {
         let mut command = self.root_command("rm");
         command.arg("-rf").arg(folder);
-        command.status().map_err(io_error(folder)).map(drop)
+        Ok(command.status().map(drop).at("remove", folder)?)
     }
 
     /// Runs a job on the machine.
@@ -152,12 +177,10 @@ impl Machine {
             .args(job.variables)
             .args(job.command);
         let start = Instant::now();
-        let output = command.output().map_err(io_error(Path::new("unshare")))?;
+        let output = command.output().at("run", "unshare")?;
         let text = [output.stdout, output.stderr].concat();
-        let usage = is_limited
-            .then(|| fs::read_to_string(usage_file))
-            .transpose();
-        let usage = usage.map_err(io_error(&self.root))?;
+        let usage = is_limited.then(|| files::read_to_string(usage_file));
+        let usage = usage.transpose()?;
         Ok(JobResult {
             code: output.status.code(),
             output: String::from_utf8_lossy(&text).into_owned(),
@@ -169,16 +192,14 @@ impl Machine {
     /// Returns the setting of `PATH`, which `env -i` would remove.
     fn path_variable(&self) -> String {
         let toolchain = self.toolchain.display();
-        format!("PATH={toolchain}/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin")
+        format!("PATH={toolchain}/bin:{SYSTEM_PATH}")
     }
 
     fn can_limit(&self) -> Result<bool, TrialError> {
         let mut command = self.root_command("sh");
-        command
-            .args(["-c", LIMIT_SCRIPT, "sh", "/dev/null", "true"])
-            .status()
-            .map(|status| status.code() != Some(NO_LIMITS_CODE))
-            .map_err(io_error(Path::new("sh")))
+        command.args(["-c", LIMIT_SCRIPT, "sh", "/dev/null", "true"]);
+        let status = command.status().at("run", "sh")?;
+        Ok(status.code() != Some(NO_LIMITS_CODE))
     }
 
     fn root_command(&self, program: &str) -> Command {

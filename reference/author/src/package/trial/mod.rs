@@ -8,11 +8,10 @@ mod runner;
 mod submission;
 mod thief;
 
-use std::io;
-use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use grader::doctor::package::PackageError;
+use grader::files::PathError;
 use zip::result::ZipError;
 
 use crate::bundle::BundleError;
@@ -54,18 +53,8 @@ pub enum TrialError {
     #[error("cannot unpack the package: {0}")]
     Zip(#[from] ZipError),
     /// A file operation failed.
-    #[error("cannot read, write or run {}: {source}", path.display())]
-    Io {
-        /// The path of the file, folder or program.
-        path: PathBuf,
-        /// The system's error.
-        source: io::Error,
-    },
-}
-
-fn io_error(path: &Path) -> impl FnOnce(io::Error) -> TrialError {
-    let path = path.to_owned();
-    move |source| TrialError::Io { path, source }
+    #[error(transparent)]
+    File(#[from] PathError),
 }
 
 /// Prints the time that a submission took, and adds a problem if it is more than half of the

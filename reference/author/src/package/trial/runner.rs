@@ -5,9 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use grader::files::{self, AtPath};
+
 use crate::bundle::crates;
+use crate::package::trial::TrialError;
 use crate::package::trial::machine::{Job, JobResult, Limits, Machine, User};
-use crate::package::trial::{TrialError, io_error};
 
 const HOME: &str = "/home/runner";
 /// The folder in which GitHub's runners check out a repository with this name.
@@ -48,7 +50,7 @@ impl Runner {
         };
         let registry = machine.host_path(HOME).join(".cargo/registry");
         for (path, contents) in crates::registry_files(lock)? {
-            write_file(&registry.join(path), &contents)?;
+            files::write_with_parents(registry.join(path), &contents)?;
         }
         Ok(Some(Runner(machine)))
     }
@@ -66,10 +68,10 @@ impl Runner {
         let checkout = &self.host_path(CHECKOUT);
         for folder in [checkout, &self.host_path("/home/runner/step")] {
             self.0.remove(folder)?;
-            fs::create_dir_all(folder).map_err(io_error(folder))?;
+            files::create_dir_all(folder)?;
         }
         for file in ["output", "summary.md"] {
-            write_file(&self.host_path("/home/runner/step").join(file), b"")?;
+            files::write(self.host_path("/home/runner/step").join(file), "")?;
         }
         fill(checkout)?;
         for words in [
@@ -87,7 +89,7 @@ impl Runner {
             .args(words.split(' '))
             .env("GIT_COMMITTER_DATE", "2026-11-20T21:09:58+01:00")
             .current_dir(checkout);
-            git.output().map_err(io_error(Path::new("git")))?;
+            git.output().at("run", "git")?;
         }
         Ok(())
     }
@@ -110,11 +112,4 @@ impl Runner {
             summary: fs::read_to_string(summary).unwrap_or_default(),
         })
     }
-}
-
-fn write_file(path: &Path, contents: &[u8]) -> Result<(), TrialError> {
-    if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(io_error(folder))?;
-    }
-    fs::write(path, contents).map_err(io_error(path))
 }

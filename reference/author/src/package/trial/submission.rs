@@ -3,9 +3,10 @@
 use std::fs;
 use std::path::Path;
 
+use grader::files::{self, AtPath};
 use grader::handed_out::RAYS;
 
-use crate::package::trial::{TrialError, io_error, thief};
+use crate::package::trial::{TrialError, thief};
 
 /// A submission of a trial, by its contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,23 +43,22 @@ impl TrialSubmission {
     /// Writes the submission's files into a folder, which is emptied first.
     pub fn write_to(self, workspace: &Path, folder: &Path) -> Result<(), TrialError> {
         if folder.exists() {
-            fs::remove_dir_all(folder).map_err(io_error(folder))?;
+            fs::remove_dir_all(folder).at("remove", folder)?;
         }
-        fs::create_dir_all(folder).map_err(io_error(folder))?;
+        files::create_dir_all(folder)?;
         let from = match self {
             TrialSubmission::Reference => workspace.join("reference/src"),
             TrialSubmission::Starter => workspace.join("grader/starter"),
             TrialSubmission::Empty => return Ok(()),
             TrialSubmission::Thief => {
                 for (file, text) in thief::files(workspace)? {
-                    fs::write(folder.join(file), text).map_err(io_error(folder))?;
+                    files::write(folder.join(file), text)?;
                 }
                 return Ok(());
             }
         };
         for file in RAYS.files {
-            let from = from.join(file.name);
-            fs::copy(&from, folder.join(file.name)).map_err(io_error(&from))?;
+            files::copy(from.join(file.name), folder.join(file.name))?;
         }
         Ok(())
     }

@@ -4,11 +4,12 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use grader::files;
 use grader::handed_out::RAYS;
 
 use crate::bundle::Bundle;
 use crate::bundle::secrets::Secrets;
-use crate::package::trial::{TrialError, io_error};
+use crate::package::trial::TrialError;
 
 /// The attacks, each given by a file, the first line of one of its methods, and the code to insert
 /// after that line.
@@ -74,7 +75,7 @@ const KEY_PREFIX_LENGTH: usize = 30;
 pub fn files(workspace: &Path) -> Result<Vec<(&'static str, String)>, TrialError> {
     let one = |(file, head, attack): (&'static str, &str, &str)| {
         let path = workspace.join("grader/starter").join(file);
-        let text = std::fs::read_to_string(&path).map_err(io_error(&path))?;
+        let text = files::read_to_string(&path)?;
         match text.matches(head).count() {
             1 => Ok((file, text.replace(head, &format!("{head}{attack}")))),
             _ => Err(TrialError::MissingAttackPoint {

@@ -10,7 +10,7 @@ pub mod table;
 
 use std::ops::Range;
 
-use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
+use indicatif::ParallelProgressIterator;
 use judging::judge::Threshold;
 use rayon::prelude::*;
 
@@ -18,6 +18,7 @@ use crate::exams;
 use crate::proof::ProofError;
 use crate::proof::calibrate::margins::{DeviationSample, Margin, Margins};
 use crate::proof::grade::tasks_and_dependents;
+use crate::proof::progress::progress_bar;
 use crate::seed::Seed;
 use crate::solutions::Solutions;
 use crate::solutions::sources::Sources;
@@ -157,11 +158,4 @@ impl<'a> BuiltSolutions<'a> {
         }
         Ok(margins)
     }
-}
-
-fn progress_bar(count: u64, unit: &'static str) -> ProgressBar {
-    let style = ProgressStyle::with_template("{wide_bar} {pos} of {len} {msg}, {eta} left");
-    ProgressBar::new(count)
-        .with_style(style.expect("the template is valid"))
-        .with_message(unit)
 }

@@ -4,12 +4,12 @@ use std::fmt::Write;
 use std::ops::Range;
 use std::path::Path;
 
+use grader::files::{self, PathError};
 use judging::judge::Threshold;
 
 use crate::generated_file::GeneratedFile;
 use crate::proof::calibrate::Calibration;
 use crate::proof::calibrate::margins::{DeviationSample, MIN_MARGIN, Margin};
-use crate::text_file::{ReadError, read};
 
 /// The path of the table, relative to the workspace's root.
 pub const PATH: &str = "reference/calibration.md";
@@ -30,7 +30,7 @@ pub fn generated_file(calibration: &Calibration) -> GeneratedFile {
 pub enum TableError {
     /// The file cannot be read.
     #[error(transparent)]
-    Read(#[from] ReadError),
+    File(#[from] PathError),
     /// Thresholds have changed since the table was written.
     #[error(
         "{PATH} is out of date for these thresholds: {}; run `cargo author calibrate`",
@@ -41,7 +41,7 @@ pub enum TableError {
 
 /// Checks that the table of the workspace at `root` contains the current value of every threshold.
 pub fn check(root: &Path) -> Result<(), TableError> {
-    match outdated_thresholds(&read(&root.join(PATH))?) {
+    match outdated_thresholds(&files::read_to_string(root.join(PATH))?) {
         outdated if outdated.is_empty() => Ok(()),
         outdated => Err(TableError::Outdated(outdated)),
     }

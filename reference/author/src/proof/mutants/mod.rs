@@ -6,20 +6,21 @@ pub mod findings;
 use std::path::Path;
 
 use grader::exam_source::ExamSourceError;
+use grader::files::{self, PathError};
 use grader::handed_out::RAYS;
-use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
+use indicatif::ParallelProgressIterator;
 use judging::exam::Exam;
 use rayon::prelude::*;
 
 use crate::exams;
 use crate::generated_file::Mode;
 use crate::proof::mutants::findings::{Findings, MutantOutcome};
+use crate::proof::progress::progress_bar;
 use crate::solutions::mutants::cargo_mutants::{self, CargoMutantsError};
 use crate::solutions::mutants::equivalent::{EquivalentsError, equivalent_mutants};
 use crate::solutions::mutants::list::{self, MutantList, OutdatedListError};
 use crate::solutions::sources::Sources;
 use crate::solutions::workbench::{Workbench, WorkbenchError};
-use crate::text_file::{ReadError, read};
 
 /// The step of a sample: it contains one in this many mutants, in the order of their names.
 const SAMPLE_STEP: usize = 8;
@@ -29,7 +30,7 @@ const SAMPLE_STEP: usize = 8;
 pub enum MutantsError {
     /// A file cannot be read.
     #[error(transparent)]
-    Read(#[from] ReadError),
+    File(#[from] PathError),
     /// The list of cargo-mutants cannot be used.
     #[error(transparent)]
     CargoMutants(#[from] CargoMutantsError),
@@ -111,7 +112,8 @@ pub fn list(root: &Path, mode: Mode) -> Result<MutantList, MutantsError> {
 }
 
 fn committed_list(root: &Path) -> Result<MutantList, MutantsError> {
-    Ok(serde_json::from_str(&read(&root.join(list::PATH))?)?)
+    let text = files::read_to_string(root.join(list::PATH))?;
+    Ok(serde_json::from_str(&text)?)
 }
 
 /// Builds the selected mutants, and grades each with the practice exam.
@@ -125,10 +127,7 @@ pub fn run(list: &MutantList, selection: MutantSelection) -> Result<Findings, Mu
     }
 
     let all = list.solutions(&reference)?;
-    let bar = ProgressBar::new(all.len() as u64).with_style(
-        ProgressStyle::with_template("{wide_bar} {pos} of {len} mutants, {eta} left")
-            .expect("the template is valid"),
-    );
+    let bar = progress_bar(all.len() as u64, "mutants");
     let outcomes: Result<_, WorkbenchError> = all
         .into_par_iter()
         .enumerate()

@@ -1,11 +1,11 @@
 //! The list of mutants that are equivalent to the reference, each with the reason. It is written by
 //! hand: `reference/mutants/equivalent.toml`.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::Deserialize;
 
-use crate::text_file::{ReadError, read};
+use crate::solutions::toml_file::{TomlFileError, read_toml};
 
 /// The file of the list, relative to the workspace's root.
 pub const PATH: &str = "reference/mutants/equivalent.toml";
@@ -23,17 +23,9 @@ pub struct EquivalentMutant {
 /// The reason why the list cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum EquivalentsError {
-    /// The file cannot be read.
+    /// The file cannot be read or is invalid.
     #[error(transparent)]
-    Read(#[from] ReadError),
-    /// The file is invalid.
-    #[error("{}: {source}", path.display())]
-    Toml {
-        /// The path of the file.
-        path: PathBuf,
-        /// The parse error, with its line and column.
-        source: toml::de::Error,
-    },
+    Toml(#[from] TomlFileError),
     /// An entry has no reason, or a name occurs twice.
     #[error("{PATH}: `{0}` must have a reason and occur only once")]
     Entry(String),
@@ -47,12 +39,7 @@ pub fn equivalent_mutants(root: &Path) -> Result<Vec<EquivalentMutant>, Equivale
         equivalent: Vec<EquivalentMutant>,
     }
 
-    let path = root.join(PATH);
-    let file: Result<File, _> = toml::from_str(&read(&path)?);
-    let all = match file {
-        Ok(file) => file.equivalent,
-        Err(source) => return Err(EquivalentsError::Toml { path, source }),
-    };
+    let File { equivalent: all } = read_toml(&root.join(PATH))?;
     for (index, EquivalentMutant { name, why }) in all.iter().enumerate() {
         let is_duplicate = all[..index].iter().any(|other| other.name == *name);
         if is_duplicate || why.trim().is_empty() {

@@ -1,0 +1,101 @@
+//! `--estimate`: how long a class takes, from the first submissions that are graded.
+
+use std::fmt::Write;
+use std::time::Duration;
+
+/// The numbers of machines for which the time is given.
+const MACHINES: [usize; 6] = [1, 2, 4, 8, 16, 64];
+/// The number of submissions whose cost is given, apart from the class.
+const MANY: f64 = 1e6;
+
+/// The times of some submissions, from which the rest is estimated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Estimate {
+    /// The time that each submission of the sample occupied a core.
+    pub times: Vec<Duration>,
+    /// The number of submissions that are still to be graded.
+    pub remaining: usize,
+    /// The number of submissions that are graded at a time.
+    pub slots: usize,
+}
+
+impl Estimate {
+    /// Returns the mean time per submission on one core, or `None` if nothing was measured.
+    fn mean(&self) -> Option<Duration> {
+        let count = u32::try_from(self.times.len()).ok()?;
+        self.times.iter().sum::<Duration>().checked_div(count)
+    }
+
+    /// Returns the time that some machines like this one take for the rest. Each submission is
+    /// graded by one core of one of them.
+    fn remaining_time(&self, mean: Duration, machines: usize) -> Duration {
+        let rounds = self.remaining.div_ceil(machines * self.slots);
+        mean * u32::try_from(rounds).unwrap_or(u32::MAX)
+    }
+
+    /// Renders the estimate.
+    pub fn render(&self) -> String {
+        let Some(mean) = self.mean() else {
+            return "\n  nothing to estimate: every submission is graded\n\n".to_owned();
+        };
+        let mut text = String::new();
+        let seconds = mean.as_secs_f64();
+        let count = match self.times.len() {
+            1 => "1 submission".to_owned(),
+            count => format!("{count} submissions"),
+        };
+        let mut line =
+            |line: String| writeln!(text, "  {line}").expect("writing to a string succeeds");
+        line(format!(
+            "\n  estimate from {count}: {seconds:.1} s per submission on one core"
+        ));
+        line(format!(
+            "{} more submissions, {} at a time:",
+            self.remaining, self.slots
+        ));
+        for machines in MACHINES {
+            let time = format_duration(self.remaining_time(mean, machines));
+            let machines = match machines {
+                1 => "this machine".to_owned(),
+                machines => format!("{machines} machines like this"),
+            };
+            line(format!("  {machines:24} {time}"));
+        }
+        line(format!(
+            "a million submissions: {:.0} core-hours",
+            MANY * seconds / 3600.0
+        ));
+        line("the results are kept: without --estimate, the rest is graded\n".to_owned());
+        text
+    }
+}
+
+/// Formats a duration with its two largest units.
+fn format_duration(duration: Duration) -> String {
+    let seconds = duration.as_secs_f64().ceil() as u64;
+    match (seconds / 3600, seconds / 60 % 60, seconds % 60) {
+        (0, 0, seconds) => format!("{seconds} s"),
+        (0, minutes, seconds) => format!("{minutes} min {seconds} s"),
+        (hours, minutes, _) => format!("{hours} h {minutes} min"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rest_is_divided_among_cores_and_machines() {
+        let estimate = Estimate {
+            times: [1500, 500, 2500, 1500].map(Duration::from_millis).to_vec(),
+            remaining: 9_999,
+            slots: 2,
+        };
+        insta::assert_snapshot!(estimate.render());
+        let done = Estimate {
+            times: Vec::new(),
+            ..estimate
+        };
+        assert!(done.render().contains("nothing to estimate"));
+    }
+}

@@ -1,0 +1,145 @@
+//! One archive with the pages to hand back. Its files are named as Canvas and Moodle expect them
+//! when they are uploaded again; for other platforms, after the people.
+//!
+//! Canvas takes the first two numbers between underscores for the user and the attachment, and
+//! shows the page under the attachment's name, so an attachment that is a zip is answered with a
+//! zip. Moodle splits a name at its underscores into full name, participant, plug-in type, plug-in
+//! and file name, so the full name must not contain any.
+
+use std::collections::BTreeSet;
+use std::io::{self, Cursor, Write};
+
+use grader::report::html::with_counted;
+use judging::sanitize::safe_folder_name;
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
+
+use crate::entry::{Person, WHO};
+use crate::model::{ClassRow, GradedClass, PersonGrade};
+use crate::store::{Store, StoreError};
+
+/// The name of the archive in the output folder.
+pub const ARCHIVE: &str = "hand-back.zip";
+/// The end of a page's name, after the person's.
+const PAGE: &str = "feedback.html";
+
+/// An archive to hand back.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct HandBack {
+    /// The bytes of the archive.
+    pub archive: Vec<u8>,
+    /// The number of pages in it.
+    pub pages: usize,
+    /// The people whose pages are not in it, with the reasons.
+    pub left_out: Vec<String>,
+}
+
+/// A reason why the archive cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum HandBackError {
+    /// A page cannot be read.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    /// The archive cannot be written, for example because it would be too large.
+    #[error("cannot write {ARCHIVE}: {0}")]
+    Archive(#[from] io::Error),
+}
+
+/// Makes the archive. Pages of people whose points do not count, or are not clear yet, are left out.
+pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, HandBackError> {
+    let mut files = Files::new();
+    let mut left_out = Vec::new();
+    for row in &class.rows {
+        let id = &row.result.id;
+        let ready = |(_, grade): &(&Person, &PersonGrade)| grade.counted.is_some();
+        let (ready, others): (Vec<_>, Vec<_>) = row.people().partition(ready);
+        for (person, grade) in others {
+            let (name, status) = (person.display_name(), row.status(grade));
+            left_out.push(format!("{name}: {status}: {}", row.why(grade)));
+        }
+        if ready.is_empty() {
+            continue;
+        }
+        let page = store.read_feedback(id)?;
+        match &row.result.info.hand_back_as {
+            // The platform passes the page on to the members of a group.
+            Some(name) => files.add_as(name, &safe_folder_name(&names(&ready)), &page)?,
+            None => {
+                for (person, grade) in ready {
+                    let own = with_counted(&page, &own_texts(row, person, grade));
+                    files.add(&format!("{}_{PAGE}", file_name(person)), own.as_bytes())?;
+                }
+            }
+        }
+    }
+    let pages = files.used.len();
+    Ok(HandBack {
+        archive: files.finish()?,
+        pages,
+        left_out,
+    })
+}
+
+fn names(people: &[(&Person, &PersonGrade)]) -> String {
+    let names: Vec<&str> = people
+        .iter()
+        .map(|(person, _)| person.display_name())
+        .collect();
+    names.join(" + ")
+}
+
+fn file_name(person: &Person) -> String {
+    safe_folder_name(person.display_name())
+}
+
+/// Returns the sentences on a person's own page, which do not mention the rest of the group.
+fn own_texts(row: &ClassRow, person: &Person, grade: &PersonGrade) -> Vec<String> {
+    let name = person.display_name();
+    let name = (name != row.result.id).then(|| name.to_owned());
+    name.into_iter().chain(grade.explanation()).collect()
+}
+
+/// The archive that is being written.
+struct Files {
+    writer: ZipWriter<Cursor<Vec<u8>>>,
+    /// The names in the archive, in lower case.
+    used: BTreeSet<String>,
+}
+
+impl Files {
+    fn new() -> Self {
+        Files {
+            writer: ZipWriter::new(Cursor::new(Vec::new())),
+            used: BTreeSet::new(),
+        }
+    }
+
+    /// Adds a page under the name that the platform expects. `who` is the names of the people, as
+    /// part of a file name.
+    fn add_as(&mut self, name: &str, who: &str, page: &str) -> io::Result<()> {
+        let name = name.replace(WHO, &who.replace('_', " "));
+        if !name.to_lowercase().ends_with(".zip") {
+            return self.add(&name, page.as_bytes());
+        }
+        let mut inner = Files::new();
+        inner.add(&format!("{who}_{PAGE}"), page.as_bytes())?;
+        self.add(&name, &inner.finish()?)
+    }
+
+    /// Adds a file, with a number in its name if there is already one of that name.
+    fn add(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        let (stem, end) = name.rsplit_once('.').unwrap_or((name, ""));
+        let numbered = (2..).map(|number| format!("{stem}-{number}.{end}"));
+        let mut names = std::iter::once(name.to_owned()).chain(numbered);
+        let free = names.find(|name| self.used.insert(name.to_lowercase()));
+        let free = free.expect("there are enough numbers");
+        // Without a time, the archive depends only on the pages.
+        let options = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
+        self.writer.start_file(free, options)?;
+        self.writer.write_all(bytes)
+    }
+
+    fn finish(self) -> io::Result<Vec<u8>> {
+        Ok(self.writer.finish()?.into_inner())
+    }
+}

@@ -1,0 +1,241 @@
+//! Manual points: points that staff add or take off by hand, and comments, from a CSV file with a
+//! row for each student and task. They are kept separate from what was graded.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use grader::handed_out::HandedOut;
+use serde::Serialize;
+
+use crate::attempts::attempts_by_person;
+use crate::entry::Person;
+use crate::outcome::ScoreSummary;
+use crate::table::{Table, TableError};
+
+/// The columns of the file.
+const COLUMNS: [&str; 5] = ["student", "task", "delta", "comment", "author"];
+const REMEDY: &str = "manual points need the columns student, task, delta, comment and author";
+
+/// Points that staff gave somebody for a task, and the reason.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct ManualPoints {
+    /// The row in the file, as spreadsheets number it.
+    pub row: usize,
+    /// The student's identifier or name, as it is written in the file.
+    #[serde(skip)]
+    pub student: String,
+    /// The task's id.
+    pub task: String,
+    /// The points to add; negative to take off.
+    pub delta: i32,
+    /// The reason, for the student.
+    pub comment: String,
+    /// The person who gave the points.
+    pub author: String,
+}
+
+/// The manual points of a class.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ManualPointsList {
+    path: PathBuf,
+    all: Vec<ManualPoints>,
+}
+
+/// Problems with a file of manual points. Each names a row.
+#[derive(Debug, thiserror::Error)]
+pub enum ManualPointsError {
+    /// The table cannot be read.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// A row is invalid.
+    #[error("{}, row {row}: {problem}", path.display())]
+    Row {
+        /// The path of the file.
+        path: PathBuf,
+        /// The row, as spreadsheets number it.
+        row: usize,
+        /// The problem, with a remedy.
+        problem: String,
+    },
+}
+
+impl ManualPointsList {
+    /// Reads a file, and checks each row by itself.
+    pub fn read(path: &Path, handed_out: &HandedOut) -> Result<Self, ManualPointsError> {
+        let table = Table::read(path)?;
+        let mut columns = [0; 5];
+        for (index, name) in columns.iter_mut().zip(COLUMNS) {
+            *index = table
+                .column(name)
+                .ok_or_else(|| TableError::MissingColumn {
+                    path: path.to_owned(),
+                    column: name.to_owned(),
+                    remedy: REMEDY.to_owned(),
+                })?;
+        }
+        let mut list = ManualPointsList {
+            path: path.to_owned(),
+            all: Vec::new(),
+        };
+        for (row, cells) in (2..).zip(&table.rows) {
+            let [student, task, delta, comment, author] =
+                columns.map(|index| cells[index].trim().to_owned());
+            let points = parse_row(row, student, &task, &delta, comment, author, handed_out);
+            list.all
+                .push(points.map_err(|problem| list.error(row, problem))?);
+        }
+        Ok(list)
+    }
+
+    /// Checks that each row belongs to exactly one of these people, and that no two rows belong to
+    /// the same person and task. A person who is in several submissions is in the list once for
+    /// each.
+    pub fn check_students(&self, people: &[&Person]) -> Result<(), ManualPointsError> {
+        let ids = person_ids(people);
+        let mut rows: BTreeMap<(usize, &str), usize> = BTreeMap::new();
+        for points in &self.all {
+            let found = (0..people.len()).filter(|index| points.is_for(people[*index]));
+            let found: Vec<usize> = found.collect();
+            let Some(first) = found.first().copied() else {
+                let problem = format!(
+                    "nobody with the name or identifier {:?} handed something in: write the email \
+                     address, the student number, the account name or the full name",
+                    points.student
+                );
+                return Err(self.error(points.row, problem));
+            };
+            if let Some(other) = found.iter().find(|other| ids[**other] != ids[first]) {
+                let problem = format!(
+                    "{:?} could be {} or {}: write the email address or the student number",
+                    points.student,
+                    people[first].display_name(),
+                    people[*other].display_name()
+                );
+                return Err(self.error(points.row, problem));
+            }
+            if let Some(other) = rows.insert((ids[first], points.task.as_str()), points.row) {
+                let problem = format!(
+                    "row {other} has points for the same student and task: write them in one row"
+                );
+                return Err(self.error(points.row, problem));
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the manual points of a person.
+    pub fn of(&self, person: &Person) -> Vec<ManualPoints> {
+        let own = self.all.iter().filter(|points| points.is_for(person));
+        own.cloned().collect()
+    }
+
+    /// Checks that no task gets more points than it has, or fewer than 0.
+    pub fn check_range(
+        &self,
+        points: &[ManualPoints],
+        score: &ScoreSummary,
+    ) -> Result<(), ManualPointsError> {
+        for ManualPoints {
+            row, task, delta, ..
+        } in points
+        {
+            let Some(graded) = score.tasks.iter().find(|graded| graded.id == *task) else {
+                let problem = format!("the exam has no items of the task {task}: remove the row");
+                return Err(self.error(*row, problem));
+            };
+            let (earned, most) = (graded.points, graded.max_points);
+            let sum = earned.checked_add_signed(*delta);
+            if sum.is_none_or(|sum| sum > most) {
+                let problem = format!(
+                    "{delta:+} points are out of range: {earned} of {most} points were earned for \
+                     {task}"
+                );
+                return Err(self.error(*row, problem));
+            }
+        }
+        Ok(())
+    }
+
+    fn error(&self, row: usize, problem: String) -> ManualPointsError {
+        ManualPointsError::Row {
+            path: self.path.clone(),
+            row,
+            problem,
+        }
+    }
+}
+
+/// Returns a number for each person in the list, which is equal for all records of one person.
+fn person_ids(people: &[&Person]) -> Vec<usize> {
+    let mut ids = vec![0; people.len()];
+    let records = people.iter().map(|person| std::slice::from_ref(*person));
+    for (id, attempts) in attempts_by_person(records).into_iter().enumerate() {
+        for (index, _) in attempts {
+            ids[index] = id;
+        }
+    }
+    ids
+}
+
+impl ManualPoints {
+    fn is_for(&self, person: &Person) -> bool {
+        let student = self.student.to_lowercase();
+        let mut texts = person.identifiers();
+        texts.any(|text| text.to_lowercase() == student)
+    }
+}
+
+impl fmt::Display for ManualPoints {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let ManualPoints {
+            task,
+            delta,
+            comment,
+            author,
+            ..
+        } = self;
+        let points = match delta.abs() {
+            1 => "point",
+            _ => "points",
+        };
+        write!(f, "{task}: {delta:+} {points} by {author}")?;
+        match comment.as_str() {
+            "" => Ok(()),
+            comment => write!(f, ": {comment}"),
+        }
+    }
+}
+
+fn parse_row(
+    row: usize,
+    student: String,
+    task: &str,
+    delta: &str,
+    comment: String,
+    author: String,
+    handed_out: &HandedOut,
+) -> Result<ManualPoints, String> {
+    let mut tasks = handed_out.assignment.tasks.iter();
+    let Some(task) = tasks.find(|known| known.id == task) else {
+        let known = handed_out.assignment.tasks.iter().map(|task| task.id);
+        return Err(format!(
+            "there is no task {task:?}; the tasks are {}",
+            known.collect::<Vec<_>>().join(", ")
+        ));
+    };
+    if student.is_empty() || author.is_empty() {
+        return Err("the columns student and author must not be empty".to_owned());
+    }
+    let delta: i32 = delta.parse().map_err(|_| {
+        format!("delta is {delta:?}: it must be a whole number of points, such as 2 or -1")
+    })?;
+    Ok(ManualPoints {
+        row,
+        student,
+        task: task.id.to_owned(),
+        delta,
+        comment,
+        author,
+    })
+}

@@ -1,0 +1,180 @@
+//! `class.html`: the class on one self-contained page, with everyone's points, their distribution,
+//! the most common mistakes, and a link to each report.
+
+mod changes;
+mod submissions;
+mod times;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use grader::report::html::prose;
+use grader::svg::number;
+use judging::sanitize::sanitize;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use sha2::{Digest, Sha256};
+
+use crate::distribution::Distribution;
+use crate::drift::Changes;
+use crate::model::GradedClass;
+use crate::summary::ClassSummary;
+
+const STYLE: &str = include_str!("page.css");
+/// The script that sorts the table of submissions.
+const SCRIPT: &str = include_str!("page.js");
+
+/// Renders the page of a class.
+pub fn render_page(class: &GradedClass, summary: &ClassSummary, changes: &Changes) -> String {
+    let count = match class.rows.len() {
+        1 => "1 submission".to_owned(),
+        count => format!("{count} submissions"),
+    };
+    let title = format!("{count}, {} exam", class.exam);
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(content_security_policy());
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { (sanitized(&title)) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header {
+                    h1 { (sanitized(&title)) }
+                    p {
+                        (summary.graded) " graded, " (summary.nothing_to_grade)
+                        " with nothing to grade, " (summary.not_graded) " not graded, "
+                        (summary.missing) " without a submission."
+                    }
+                }
+                main {
+                    (distribution(summary))
+                    (mistake_sections(summary))
+                    (times::section(class))
+                    (changes::sections(changes))
+                    (submissions::section(class))
+                }
+                footer {
+                    p {
+                        "Exam " code { (sanitized(&class.exam)) } ", "
+                        code { (sanitized(class.exam_hash.get(..12).unwrap_or_default())) }
+                        "; isolation " code { (sanitized(&class.isolation)) }
+                        ". The same data for programs: "
+                        code { "class.json" } ", " code { "grades.csv" } ", in the same folder."
+                    }
+                }
+                script { (PreEscaped(SCRIPT)) }
+            }
+        }
+    };
+    page.into_string()
+}
+
+/// Returns a content security policy that forbids external resources, and allows only [`STYLE`] and
+/// [`SCRIPT`].
+fn content_security_policy() -> String {
+    let [style, script] = [STYLE, SCRIPT].map(|text| STANDARD.encode(Sha256::digest(text)));
+    format!(
+        "default-src 'none'; style-src 'sha256-{style}'; script-src 'sha256-{script}'; \
+         base-uri 'none'; form-action 'none'"
+    )
+}
+
+fn distribution(summary: &ClassSummary) -> Markup {
+    let all = summary.points.iter().map(|points| ("All tasks", points));
+    let tasks = summary
+        .tasks
+        .iter()
+        .map(|task| (task.title.as_str(), &task.points));
+    html! {
+        section aria-labelledby="spread" {
+            h2 #spread { "Points" }
+            div .wide tabindex="0" role="region" aria-labelledby="spread" { table {
+                caption { "Number of submissions by points: each column is a tenth of the maximum" }
+                thead {
+                    tr {
+                        th scope="col" { "Task" }
+                        th scope="col" { "Distribution" }
+                        th scope="col" .number { "Mean" }
+                        th scope="col" .number { "Median" }
+                        th scope="col" .number { "Maximum" }
+                    }
+                }
+                tbody {
+                    @for (title, distribution) in all.chain(tasks) {
+                        tr {
+                            th scope="row" { (sanitized(title)) }
+                            td { (bars(distribution)) }
+                            td .number { (format!("{:.1}", distribution.mean)) }
+                            td .number { (distribution.median) }
+                            td .number { (distribution.of) }
+                        }
+                    }
+                }
+            } }
+        }
+    }
+}
+
+/// Renders a distribution as ten columns, with the numbers as text for screen readers.
+fn bars(distribution: &Distribution) -> Markup {
+    let highest = distribution.bins.iter().max().copied().unwrap_or(0).max(1);
+    let counts: Vec<String> = distribution.bins.iter().map(ToString::to_string).collect();
+    let label = format!(
+        "from the lowest tenth to the highest: {}",
+        counts.join(", ")
+    );
+    let columns = distribution.bins.iter().enumerate();
+    let columns = columns.map(|(index, count)| (12 * index, 40.0 * *count as f64 / highest as f64));
+    html! {
+        svg .bars viewBox="0 0 118 42" role="img" aria-label=(label) {
+            @for (x, height) in columns {
+                rect x=(x) y=(number(41.0 - height)) width="10" height=(number(height)) {}
+            }
+            path d="M0 41.5H118" {}
+        }
+    }
+}
+
+fn mistake_sections(summary: &ClassSummary) -> Markup {
+    html! {
+        section aria-labelledby="mistakes" {
+            h2 #mistakes { "Most common mistakes" }
+            @if summary.mistakes.is_empty() { p { "No known mistake was recognised." } }
+            ul .counted {
+                @for mistake in &summary.mistakes {
+                    li { strong { (mistake.count) " × " } (prose(&mistake.hint)) }
+                }
+            }
+        }
+        section aria-labelledby="failed" {
+            h2 #failed { "Items failed most often" }
+            ul .counted {
+                @for failed in &summary.failed_most {
+                    li {
+                        strong { (failed.count) " × " }
+                        (prose(&failed.title)) " " code { (sanitized(&failed.item)) }
+                    }
+                }
+            }
+        }
+        @if !summary.outliers.is_empty() {
+            section aria-labelledby="look" {
+                h2 #look { "Submissions that need attention" }
+                ul {
+                    @for outlier in &summary.outliers {
+                        li { strong { (sanitized(&outlier.title())) } ": " (sanitized(&outlier.why)) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Returns untrusted text, shortened and without control characters that could affect the text
+/// around it.
+fn sanitized(text: &str) -> Markup {
+    html! { (sanitize(text, 300)) }
+}

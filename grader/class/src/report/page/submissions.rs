@@ -1,0 +1,96 @@
+//! The table of all submissions.
+
+use maud::{Markup, html};
+
+use super::sanitized;
+use crate::model::{ClassRow, GradedClass};
+use crate::outcome::ScoreSummary;
+
+pub(super) fn section(class: &GradedClass) -> Markup {
+    let first = class.scores().next();
+    let tasks = first.map_or(&[][..], |(_, score)| score.tasks.as_slice());
+    html! {
+        section aria-labelledby="students" {
+            h2 #students { "Submissions" }
+            div .wide tabindex="0" role="region" aria-labelledby="students" {
+                table .sortable {
+                    thead {
+                        tr {
+                            th scope="col" { "Who" }
+                            th scope="col" .number { "Counts" }
+                            th scope="col" .number { "Points" }
+                            @for task in tasks { th scope="col" .number { (sanitized(&task.title)) } }
+                            th scope="col" { "Notes" }
+                        }
+                    }
+                    tbody {
+                        @for row in &class.rows { (submission_row(row, tasks.len())) }
+                        @for person in &class.missing {
+                            tr {
+                                th scope="row" { (sanitized(person.display_name())) }
+                                td .number { "–" }
+                                td .number { "–" }
+                                @for _ in tasks { td {} }
+                                td { "nothing submitted" }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
+    let who = sanitized(&row.result.info.display_names());
+    html! {
+        tr {
+            @match row.result.score() {
+                Some(score) => (score_cells(row, score, who)),
+                None => {
+                    th scope="row" { (who) }
+                    td .number { "–" }
+                    td .number { "–" }
+                    @for _ in 0..tasks { td {} }
+                    td { (notes(row)) }
+                },
+            }
+        }
+    }
+}
+
+fn score_cells(row: &ClassRow, score: &ScoreSummary, who: Markup) -> Markup {
+    let counts = row.grades.iter().map(|grade| match grade.counted {
+        Some(counted) => counted.points.to_string(),
+        None => "–".to_owned(),
+    });
+    let mut counts: Vec<String> = counts.collect();
+    counts.dedup();
+    html! {
+        th scope="row" { a href=(report_link(&row.result.id)) { (who) } }
+        td .number { strong { (counts.join(" / ")) } }
+        td .number { (score.points) }
+        @for task in &score.tasks {
+            td .number .less[task.points < task.max_points] { (task.points) }
+        }
+        td { (notes(row)) }
+    }
+}
+
+/// Renders the reason why people have no final points, or else what counts, and the comments of
+/// staff.
+fn notes(row: &ClassRow) -> Markup {
+    html! { @for text in &row.notes() { p { (sanitized(text)) } } }
+}
+
+/// Returns the link to a report. An id may have letters of any language, which are percent-encoded.
+pub(super) fn report_link(id: &str) -> String {
+    let byte = |byte: u8| match byte {
+        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' => {
+            char::from(byte).to_string()
+        }
+        other => format!("%{other:02X}"),
+    };
+    let id: String = id.bytes().map(byte).collect();
+    format!("students/{id}/report.html")
+}

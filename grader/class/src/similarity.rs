@@ -1,0 +1,214 @@
+//! Input for similarity checkers such as JPlag, Dolos and MOSS: for each task file a folder, with a
+//! numbered file for each submission, which has only what its students wrote. This is not a
+//! detector: it compares nothing but whole submissions, for equality.
+//!
+//! The folder can be given to a service, since it has no names. The key to the numbers and the list
+//! of identical submissions are written beside it.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use grader::files::{self, PathError};
+use grader::handed_out::HandedOut;
+use judging::content_hash::ContentHash;
+
+use crate::entry::{Entry, EntryInfo};
+use crate::input::collect_submission;
+use crate::paths::contains;
+use crate::report::text::one_line;
+use crate::table::{Table, safe_cell};
+
+/// A reason why the folder cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum SimilarityError {
+    /// The folder has files.
+    #[error("{} is not empty: name a new folder for --similarity-input", .0.display())]
+    NotEmpty(PathBuf),
+    /// The folder is in the input or the output, or contains one of them.
+    #[error(
+        "{} and {} must not contain each other, or names and reports would get to the checker: \
+         choose another folder for --similarity-input",
+        folder.display(),
+        other.display()
+    )]
+    Overlap {
+        /// The folder.
+        folder: PathBuf,
+        /// The input or the output.
+        other: PathBuf,
+    },
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] PathError),
+}
+
+/// A submission, and the lines that its students wrote in each file.
+struct OwnWork<'a> {
+    number: usize,
+    entry: &'a Entry,
+    /// The lines, by the name of the file. Files without any are left out.
+    files: BTreeMap<&'static str, String>,
+}
+
+impl OwnWork<'_> {
+    fn content_hash(&self) -> String {
+        let parts = self
+            .files
+            .iter()
+            .flat_map(|(file, text)| [*file, text.as_str()]);
+        let hash = parts.fold(ContentHash::default(), |hash, part| {
+            hash.with(part.as_bytes())
+        });
+        hash.hex()
+    }
+}
+
+/// Checks that the folder is empty, and apart from the input and the output.
+pub fn check_folder(folder: &Path, others: &[&Path]) -> Result<(), SimilarityError> {
+    if fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) {
+        return Err(SimilarityError::NotEmpty(folder.to_owned()));
+    }
+    for other in others {
+        if contains(folder, other) || contains(other, folder) {
+            return Err(SimilarityError::Overlap {
+                folder: folder.to_owned(),
+                other: (*other).to_owned(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Writes the folder, the key and the list of identical submissions. Returns the text for the
+/// terminal.
+pub fn write_input(
+    folder: &Path,
+    entries: &[Entry],
+    handed_out: &'static HandedOut,
+) -> Result<String, SimilarityError> {
+    let mut all = Vec::new();
+    for entry in entries {
+        let Ok(submission) = collect_submission(entry, handed_out) else {
+            continue;
+        };
+        let own = submission.files.iter().filter_map(|(file, text)| {
+            let own = file.own_lines(text.as_ref().ok()?);
+            (!own.is_empty()).then_some((file.name, own))
+        });
+        let files: BTreeMap<&'static str, String> = own.collect();
+        if !files.is_empty() {
+            all.push(OwnWork {
+                number: 0,
+                entry,
+                files,
+            });
+        }
+    }
+    // In the order of the entries, the numbers would give away names to those who have a list of the
+    // class.
+    let mut order: Vec<&mut OwnWork> = all.iter_mut().collect();
+    order.sort_by_cached_key(|work| work.content_hash());
+    for (number, work) in (1..).zip(order) {
+        work.number = number;
+    }
+    for work in &all {
+        for (file, text) in &work.files {
+            let folder = folder.join(file.trim_end_matches(".rs"));
+            let path = folder.join(format!("{:04}.rs", work.number));
+            files::write_with_parents(path, text)?;
+        }
+    }
+    let key = beside(folder, "key.csv");
+    files::write(&key, key_table(&all).to_csv())?;
+    let identical = identical(&all);
+    let list = beside(folder, "identical.csv");
+    files::write(&list, identical_table(&identical).to_csv())?;
+    Ok(render(folder, &key, &list, all.len(), &identical))
+}
+
+/// Returns the path of a file beside a folder, whose name begins with the folder's.
+fn beside(folder: &Path, end: &str) -> PathBuf {
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    folder.with_file_name(format!("{name}-{end}"))
+}
+
+fn key_table(all: &[OwnWork]) -> Table {
+    let mut table = Table::new(&["number", "submission", "names"]);
+    for work in all {
+        table.rows.push(vec![
+            format!("{:04}", work.number),
+            safe_cell(&work.entry.id),
+            safe_cell(&work.entry.info.display_names()),
+        ]);
+    }
+    table
+}
+
+/// Returns the groups of submissions in which students wrote the same.
+fn identical<'a, 'e>(all: &'a [OwnWork<'e>]) -> Vec<Vec<&'a OwnWork<'e>>> {
+    let mut same: BTreeMap<Vec<(&str, String)>, Vec<&OwnWork>> = BTreeMap::new();
+    for work in all {
+        let texts = work.files.iter().map(|(file, text)| {
+            let words: Vec<&str> = text.split_whitespace().collect();
+            (*file, words.join(" "))
+        });
+        same.entry(texts.collect()).or_default().push(work);
+    }
+    let mut groups: Vec<Vec<&OwnWork>> =
+        same.into_values().filter(|works| works.len() > 1).collect();
+    groups.sort_by_key(|works| works[0].entry.id.as_str());
+    groups
+}
+
+fn identical_table(groups: &[Vec<&OwnWork>]) -> Table {
+    let mut table = Table::new(&["set", "submission", "names", "expected"]);
+    for (number, works) in (1..).zip(groups) {
+        for work in works {
+            let expected = if is_one_group(works) {
+                "same group"
+            } else {
+                ""
+            };
+            table.rows.push(vec![
+                i32::to_string(&number),
+                safe_cell(&work.entry.id),
+                safe_cell(&work.entry.info.display_names()),
+                expected.to_owned(),
+            ]);
+        }
+    }
+    table
+}
+
+/// Returns whether the roster has all of these people in the same group, who may hand in the same.
+fn is_one_group(works: &[&OwnWork]) -> bool {
+    let group = |info: &EntryInfo| info.people.first().map(|person| person.group.clone());
+    let first = group(&works[0].entry.info).filter(|group| !group.is_empty());
+    let people = works.iter().flat_map(|work| &work.entry.info.people);
+    first.is_some_and(|first| people.into_iter().all(|person| person.group == first))
+}
+
+fn render(
+    folder: &Path,
+    key: &Path,
+    list: &Path,
+    count: usize,
+    identical: &[Vec<&OwnWork>],
+) -> String {
+    let mut text = format!("\n  own lines of {count} submissions, for a similarity checker\n");
+    for works in identical {
+        let names = works.iter().map(|work| work.entry.id.as_str());
+        let names: Vec<&str> = names.collect();
+        let expected = if is_one_group(works) {
+            " (same group)"
+        } else {
+            ""
+        };
+        text += &format!("  identical{expected}: {}\n", one_line(&names.join(", ")));
+    }
+    for path in [folder, key, list] {
+        text += &format!("  {}\n", path.display());
+    }
+    text
+}

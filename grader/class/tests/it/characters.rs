@@ -1,0 +1,201 @@
+//! Characters that could affect the text around them, such as escape sequences and direction marks.
+//! Nothing that a student chooses may bring them to the teacher's terminal, tables or pages.
+
+use class::drift::{Changes, Drift, ItemChange, RegradeChanges, RemovedEntry};
+use class::entry::{Entry, EntryInfo, Person, Source};
+use class::gradebook::{CellChange, FilledGradebook};
+use class::hand_back::HandBack;
+use class::layout::{Layout, RecognisedClass, UnmatchedPath};
+use class::manual::ManualPoints;
+use class::model::{ClassRow, GradedClass};
+use class::outcome::{EntryOutcome, EntryResult, Hint, ItemScore, ScoreSummary, TaskScore};
+use class::report::grades::grades_table;
+use class::report::page::render_page;
+use class::report::preview::render_preview;
+use class::report::text::{
+    render_gradebook, render_hand_back, render_regrade, render_removed, render_resubmitted,
+    render_summary,
+};
+use class::summary::ClassSummary;
+use class::table::Table;
+use grader::handed_out::RAYS;
+use grader::policy::Policy;
+use judging::sanitize::affects_surroundings;
+
+/// Returns a text with every character that could affect others.
+fn hostile_text() -> String {
+    let characters = (0..=u32::from(char::MAX)).filter_map(char::from_u32);
+    let hostile: String = characters.filter(|c| affects_surroundings(*c)).collect();
+    format!("a{hostile}z")
+}
+
+fn info(text: &str) -> EntryInfo {
+    EntryInfo {
+        people: vec![Person {
+            name: text.to_owned(),
+            email: text.to_owned(),
+            sid: text.to_owned(),
+            login: text.to_owned(),
+            number: text.to_owned(),
+            group: text.to_owned(),
+            extension: text.to_owned(),
+            is_named_by_file: true,
+        }],
+        late: true,
+        submitted: Some(text.to_owned()),
+        from: text.to_owned(),
+        hand_back_as: Some(text.to_owned()),
+    }
+}
+
+fn score(text: &str) -> ScoreSummary {
+    let item = ItemScore {
+        id: text.to_owned(),
+        title: text.to_owned(),
+        points: 0,
+        max_points: 1,
+        verdict: "wrong".to_owned(),
+        message: text.to_owned(),
+        hints: vec![Hint {
+            hint: text.to_owned(),
+        }],
+    };
+    ScoreSummary {
+        points: 0,
+        max_points: 1,
+        tasks: vec![TaskScore {
+            id: "sphere".to_owned(),
+            title: text.to_owned(),
+            points: 0,
+            max_points: 1,
+            items: vec![item],
+        }],
+    }
+}
+
+/// Returns a class with this text wherever a student can write.
+fn class_with(text: &str) -> GradedClass {
+    let outcomes = [
+        EntryOutcome::Graded(Box::new(score(text))),
+        EntryOutcome::NothingToGrade(text.to_owned()),
+        EntryOutcome::Fault(text.to_owned()),
+    ];
+    let row = |outcome| {
+        let (id, info) = (text.to_owned(), info(text));
+        let manual = ManualPoints {
+            row: 2,
+            student: text.to_owned(),
+            task: text.to_owned(),
+            delta: 1,
+            comment: text.to_owned(),
+            author: text.to_owned(),
+        };
+        let result = EntryResult { id, info, outcome };
+        ClassRow::new(result, &Policy::default(), vec![vec![manual]])
+    };
+    GradedClass {
+        exam: text.to_owned(),
+        exam_hash: text.to_owned(),
+        isolation: text.to_owned(),
+        rows: outcomes.map(row).into(),
+        missing: info(text).people,
+    }
+}
+
+fn preview_with(text: &str) -> String {
+    let entry = Entry {
+        id: text.to_owned(),
+        info: info(text),
+        source: Source::Missing(text.to_owned()),
+    };
+    let class = RecognisedClass {
+        layout: Layout::Canvas,
+        // Two entries of the same person, which are reported.
+        entries: vec![entry.clone(), entry],
+        unmatched: vec![UnmatchedPath {
+            name: text.to_owned(),
+            why: text.to_owned(),
+        }],
+    };
+    render_preview(&class, &info(text).people, &RAYS)
+}
+
+/// Returns everything that a teacher reads, by name.
+fn outputs(text: &str) -> Vec<(&'static str, String)> {
+    let class = class_with(text);
+    let summary = ClassSummary::new(&class);
+    let drifts = vec![Drift {
+        id: text.to_owned(),
+        was: 1,
+        now: None,
+        items: vec![ItemChange {
+            item: text.to_owned(),
+            was: None,
+            now: None,
+            why: text.to_owned(),
+        }],
+    }];
+    let changes = Changes {
+        regrade: Some(RegradeChanges {
+            drifts: drifts.clone(),
+            causes: Vec::new(),
+        }),
+        resubmitted: drifts,
+        removed: vec![RemovedEntry {
+            id: text.to_owned(),
+            names: text.to_owned(),
+            points: None,
+        }],
+    };
+    let gradebook = FilledGradebook {
+        title: text.to_owned(),
+        table: Table::new(&["Name"]),
+        changes: vec![CellChange {
+            who: text.to_owned(),
+            was: text.to_owned(),
+            now: "1".to_owned(),
+        }],
+        warnings: vec![text.to_owned()],
+    };
+    vec![
+        ("class.html", render_page(&class, &summary, &changes)),
+        ("grades.csv", grades_table(&class).to_csv()),
+        ("the summary", render_summary(&summary)),
+        (
+            "the changes of a regrade",
+            render_regrade(changes.regrade.as_ref().expect("it was just set")),
+        ),
+        (
+            "the changed submissions",
+            render_resubmitted(&changes.resubmitted),
+        ),
+        ("the removed entries", render_removed(&changes.removed)),
+        ("the changes of a gradebook", render_gradebook(&gradebook)),
+        (
+            "the archive to hand back",
+            render_hand_back(&HandBack {
+                archive: Vec::new(),
+                pages: 0,
+                left_out: vec![text.to_owned()],
+            }),
+        ),
+        ("the preview", preview_with(text)),
+    ]
+}
+
+#[test]
+fn no_output_has_a_character_that_affects_the_text_around_it() {
+    let hostile = hostile_text();
+    for (output, text) in outputs(&hostile) {
+        // The styles of the terminal's headings.
+        let text = ["0", "1", "2"].iter().fold(text, |text, style| {
+            text.replace(&format!("\u{1b}[{style}m"), "")
+        });
+        let dangerous: Vec<char> = text
+            .chars()
+            .filter(|c| *c != '\n' && affects_surroundings(*c))
+            .collect();
+        assert_eq!(dangerous, [] as [char; 0], "{output}: {text:?}");
+        assert!(text.contains("\\u{1b}"), "{output} does not show the text");
+    }
+}

@@ -1,0 +1,151 @@
+//! The archive with the pages to hand back, named as each platform expects it.
+
+use std::fs::File;
+use std::io::{Cursor, Read, Seek, Write};
+
+use zip::write::SimpleFileOptions;
+use zip::{ZipArchive, ZipWriter};
+
+use crate::harness::{TestClass, successful_stdout, workspace};
+
+const ITEMS: [&str; 1] = ["camera.offset"];
+
+/// Returns a zip with the reference's task files.
+fn solution() -> Vec<u8> {
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+    for file in grader::handed_out::RAYS.file_names() {
+        let text = std::fs::read(workspace().join("reference/src").join(file)).unwrap();
+        writer
+            .start_file(file, SimpleFileOptions::default())
+            .unwrap();
+        writer.write_all(&text).unwrap();
+    }
+    writer.finish().unwrap().into_inner()
+}
+
+/// Returns the names in an archive, and the text of each file.
+fn contents(archive: impl Read + Seek) -> Vec<(String, Vec<u8>)> {
+    let mut archive = ZipArchive::new(archive).unwrap();
+    let mut files = Vec::new();
+    for index in 0..archive.len() {
+        let mut file = archive.by_index(index).unwrap();
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).unwrap();
+        files.push((file.name().unwrap().into_owned(), bytes));
+    }
+    files
+}
+
+fn hand_back(class: &TestClass, more: &[&str]) -> (Vec<(String, Vec<u8>)>, String) {
+    let exam = class.small_exam(&ITEMS);
+    let text = successful_stdout(&class.grade(&exam, &[&["--hand-back"], more].concat()));
+    let archive = File::open(class.out().join("hand-back.zip")).unwrap();
+    (contents(archive), text)
+}
+
+fn names(files: &[(String, Vec<u8>)]) -> Vec<&str> {
+    files.iter().map(|(name, _)| name.as_str()).collect()
+}
+
+/// Canvas finds the submission by the numbers of the user and of one of their attachments.
+#[test]
+fn canvas_gets_each_page_under_the_name_of_an_attachment() {
+    let bvh = std::fs::read(workspace().join("reference/src/bvh.rs")).unwrap();
+    let class = TestClass::named("submissions")
+        .with("doejane_7001_9001_hw.zip", solution())
+        .with("doejane_7001_9002_notes.pdf", "text")
+        .with("leeann_LATE_7002_9003_bvh.rs", bvh)
+        .with("anon_xK3f9_9040_hw-1.zip", solution())
+        .with("emptyeve_7005_text.html", "text");
+    let gradebook = class.write_beside(
+        "canvas-export.csv",
+        "Student,ID,SIS User ID,SIS Login ID,Section,Path (7)\n\
+         \"Doe, Jane\",7001,u1,jane,A,\n\"Lee, Ann\",7002,u2,ann,A,\n",
+    );
+    let (files, text) = hand_back(&class, &["--canvas", &gradebook]);
+    let expected = [
+        "anon_xK3f9_9040_hw-1.zip",
+        "doejane_7001_9001_hw.zip",
+        "leeann_LATE_7002_9003_bvh.rs.html",
+    ];
+    assert_eq!(names(&files), expected);
+    assert!(text.contains("to hand back: 3 pages"), "{text}");
+    assert!(
+        text.contains("not in it: emptyeve: nothing to grade"),
+        "{text}"
+    );
+    let inner = contents(Cursor::new(&files[1].1));
+    assert_eq!(names(&inner), ["Doe__Jane_feedback.html"]);
+    let page = String::from_utf8(inner[0].1.clone()).unwrap();
+    assert!(page.contains("Doe, Jane") && page.ends_with("</html>"));
+    // The name in the gradebook is also in the table and on the class's page.
+    assert!(
+        class
+            .read("grades.csv")
+            .contains("doejane_7001,\"Doe, Jane\",")
+    );
+    assert!(class.read("class.html").contains("Doe, Jane"));
+}
+
+/// Moodle splits the name at its first four underscores: the second part is the participant.
+#[test]
+fn moodle_gets_each_page_as_a_feedback_file_of_the_participant() {
+    let class = TestClass::named("CG-Path tracing-77")
+        .with_reference("José Núñez_301_assignsubmission_file_")
+        .with("An_n Lee_302_assignsubmission_file_/hw.zip", solution());
+    let (files, _) = hand_back(&class, &[]);
+    let expected = [
+        "An n Lee_302_assignfeedback_file_feedback.html",
+        "José Núñez_301_assignfeedback_file_feedback.html",
+    ];
+    assert_eq!(names(&files), expected);
+    for (name, _) in &files {
+        let parts: Vec<&str> = name.splitn(5, '_').collect();
+        assert!(parts[1].parse::<u32>().is_ok(), "{name}");
+        assert_eq!(parts[2..], ["assignfeedback", "file", "feedback.html"]);
+    }
+}
+
+#[test]
+fn elsewhere_each_person_gets_a_page_with_a_safe_name() {
+    let class = TestClass::named("class")
+        .with_reference("a")
+        .with_reference("b")
+        .with_reference("c")
+        .with_reference("d")
+        .with_reference("e")
+        .with_reference("f");
+    let roster = class.write_beside(
+        "roster.csv",
+        "name,username,group,datetime\n../../Ann,a,,\nCON,b,,\n-rf,c,,\n\
+         Zoë Lee,d,One,2026-11-20 12:00Z\nBea Berg,bea,One,\nZOË LEE,e,,\nLate,f,,yesterday\n",
+    );
+    let policy = "[late]\ndue = 2026-11-20T23:59:59Z\n";
+    let policy = class.write_beside("policy.toml", policy);
+    let manual = class.write_beside(
+        "manual.csv",
+        "student,task,delta,comment,author\nBea Berg,camera,-1,late,Tess\n",
+    );
+    let lists = [
+        "--roster",
+        &roster,
+        "--policy",
+        &policy,
+        "--manual-points",
+        &manual,
+    ];
+    let (files, text) = hand_back(&class, &lists);
+    let expected = [
+        "_.._Ann_feedback.html",
+        "_CON_feedback.html",
+        "_-rf_feedback.html",
+        "Zoë_Lee_feedback.html",
+        "Bea_Berg_feedback.html",
+        "ZOË_LEE_feedback-2.html",
+    ];
+    assert_eq!(names(&files), expected);
+    assert!(text.contains("not in it: Late: time unclear"), "{text}");
+    // Nobody reads the comments for another member of the group.
+    let page = |index: usize| String::from_utf8(files[index].1.clone()).unwrap();
+    assert!(page(4).contains("by Tess: late") && !page(3).contains("Tess"));
+}

@@ -1,0 +1,109 @@
+//! The input for similarity checkers, and the list of identical submissions.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::harness::{TestClass, class_command, exit_code_and_stderr, successful_stdout};
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(files(&path));
+        } else {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+fn run(class: &TestClass, folder: &Path, more: &[&str]) -> (i32, String, String) {
+    let mut command = class_command();
+    command.arg(class.input()).arg("--dry-run");
+    command.arg("--similarity-input").arg(folder).args(more);
+    let output = command.output().unwrap();
+    let (code, error) = exit_code_and_stderr(&output);
+    let text = if code == 0 {
+        successful_stdout(&output)
+    } else {
+        String::new()
+    };
+    (code, text, error)
+}
+
+#[test]
+fn writes_numbered_own_lines_and_names_identical_submissions_beside_them() {
+    let class = TestClass::named("class")
+        .with_reference("ann lee")
+        .with_reference("bob")
+        // Comments and spaces are no difference.
+        .with_replaced("bob/sphere.rs", "use glam", "// Bob O'Hara\n\nuse glam")
+        .with_reference("carl")
+        .with_replaced(
+            "carl/sphere.rs",
+            "use glam",
+            "const MINE: f32 = 1.0;\nuse glam",
+        )
+        .with_starter("dora")
+        .with_starter("eve")
+        .with_folder("empty")
+        .with_reference("z1")
+        .with_replaced("z1/bvh.rs", "use glam", "const Z: f32 = 1.0;\nuse glam")
+        .with_reference("z2")
+        .with_replaced("z2/bvh.rs", "use glam", "const Z: f32 = 1.0;\nuse glam");
+    let roster = class.write_beside(
+        "roster.csv",
+        "name,username,group\nZoë,z1,One\nZed,z2,One\n",
+    );
+    let folder = class.path_beside("own");
+    let (_, text, _) = run(&class, &folder, &["--roster", &roster]);
+    assert!(text.contains("  identical: ann_lee, bob\n"), "{text}");
+    assert!(
+        text.contains("  identical (same group): z1, z2\n"),
+        "{text}"
+    );
+    // Those who have written nothing are identical, too, and not worth a word.
+    assert!(!text.contains("identical: dora"), "{text}");
+
+    let written = files(&folder);
+    assert_eq!(written.len(), 5 * 5, "{written:?}");
+    for path in &written {
+        let (path, text) = (path.to_str().unwrap(), fs::read_to_string(path).unwrap());
+        for name in ["ann", "bob", "carl", "Zo", "Zed"] {
+            assert!(!path[path.find("own").unwrap()..].contains(name), "{path}");
+            assert!(!text.contains(name), "{path}");
+        }
+        assert!(
+            !text.contains("//") && !text.contains("pub struct"),
+            "{text}"
+        );
+    }
+    let key = fs::read_to_string(class.path_beside("own-key.csv")).unwrap();
+    assert!(key.contains(",ann_lee,ann lee\n"), "{key}");
+    let carl = key.lines().find(|line| line.ends_with(",carl,carl"));
+    let number = carl.unwrap().split(',').next().unwrap();
+    let carl = fs::read_to_string(folder.join(format!("sphere/{number}.rs"))).unwrap();
+    assert!(carl.contains("MINE"), "{carl}");
+    let list = fs::read_to_string(class.path_beside("own-identical.csv")).unwrap();
+    assert!(list.contains("2,z1,Zoë,same group\n"), "{list}");
+}
+
+#[test]
+fn the_folder_must_be_empty_and_apart_from_input_and_output() {
+    let class = TestClass::named("class").with_reference("ann");
+    let (code, _, error) = run(&class, &class.input().join("own"), &[]);
+    assert_eq!(code, 2);
+    assert!(error.contains("must not contain each other"), "{error}");
+    let (code, _, error) = run(&class, &class.path_beside("."), &[]);
+    assert!(code == 2 && error.contains("is not empty"), "{error}");
+    let out = class.out();
+    let out = out.to_str().unwrap();
+    let (code, _, error) = run(&class, &class.out().join("own"), &["--out", out]);
+    assert!(
+        code == 2 && error.contains("must not contain each other"),
+        "{error}"
+    );
+    assert!(!class.out().exists());
+}

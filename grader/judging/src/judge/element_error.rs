@@ -1,0 +1,127 @@
+//! The error of a single element, in words. It does not affect points.
+
+use protocol::Answer;
+
+use super::{Deviation, FailureKind, Measurement, judge, measure, mismatches};
+use crate::exam::{ExamQuestion, single_answer};
+
+/// Returns what is wrong with the answer to one element, and by how much, such as "distance; the
+/// error is 12 times the tolerance". Returns `None` if it is correct.
+///
+/// # Panics
+///
+/// If the question has no such element.
+pub fn element_error(question: &ExamQuestion, answer: &Answer, element: usize) -> Option<String> {
+    let Some(answer) = single_answer(answer, element) else {
+        return Some("there is no answer".to_owned());
+    };
+    let question = question.single(element);
+    // A picture may be wrong at some positions; this asks about one of them.
+    if let Some(mismatches) = mismatches(&question, &answer) {
+        let mismatch = mismatches.into_iter().flatten().next()?;
+        let what = mismatch.aspect.name();
+        return Some(with_size(what, mismatch.deviation));
+    }
+    Some(match judge(&question, &answer).failure?.kind {
+        FailureKind::Wrong { what, .. } => {
+            let measured = measure(&question, &answer).into_iter();
+            let deviations = measured.map(Measurement::deciding_deviation);
+            let sizes = deviations.filter(|deviation| deviation.threshold.is_some());
+            let largest = sizes
+                .map(|Deviation { value, .. }| value)
+                .fold(0.0, f64::max);
+            with_size(&what, largest)
+        }
+        FailureKind::Panicked(_) => "a panic".to_owned(),
+        FailureKind::Protocol(why) => why,
+    })
+}
+
+/// Appends the size of the error, if it has one.
+fn with_size(what: &str, deviation: f64) -> String {
+    if !(deviation > 1.0 && deviation.is_finite()) {
+        return what.to_owned();
+    }
+    let times = match deviation {
+        1e6.. => format!("{deviation:.0e}"),
+        10.0.. => format!("{deviation:.0}"),
+        _ => format!("{deviation:.1}"),
+    };
+    format!("{what}; the error is {times} times the tolerance")
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{Vec2, Vec3};
+    use protocol::{ElementOutcome, Question, Ray, Rays, Shape, Trace};
+
+    use super::*;
+    use crate::exam::{ExpectedHit, HitCheck, Key, Surface};
+
+    fn question(key: Key) -> ExamQuestion {
+        let ray = |x| Ray::new(Vec3::new(x, 0.0, 0.0), Vec3::NEG_Z);
+        let shapes = vec![Shape::Sphere {
+            center: Vec3::NEG_Z * 3.0,
+            radius: 1.0,
+            material: 0,
+        }];
+        let rays = Rays::List(vec![ray(5.0), ray(0.0)]);
+        ExamQuestion::new(Question::Shapes { shapes, rays }, key)
+    }
+
+    /// A miss, and a hit at this distance.
+    fn answer(distance: f32) -> Answer {
+        let hit = Trace {
+            distance,
+            position: Vec3::NEG_Z * 2.0,
+            normal: Vec3::Z,
+            uv: Vec2::ZERO,
+            origin: Vec3::ZERO,
+            material: 0,
+        };
+        Answer::Hits(vec![
+            ElementOutcome::Value(None),
+            ElementOutcome::Value(Some(hit)),
+        ])
+    }
+
+    #[test]
+    fn names_the_quantity_and_the_size_of_the_error_in_a_table() {
+        let expected = ExpectedHit {
+            distance: 2.0,
+            position: Vec3::NEG_Z * 2.0,
+            normal: Vec3::Z,
+            uv: Vec2::ZERO,
+            material: 0,
+        };
+        let question = question(Key::Hits {
+            checks: vec![HitCheck::Distance],
+            hits: vec![None, Some(expected)],
+        });
+        assert_eq!(element_error(&question, &answer(2.0), 1), None);
+        let error = element_error(&question, &answer(2.002), 1).expect("this is wrong");
+        assert!(error.starts_with("distance; the error is "), "{error}");
+        // The other element is correct, whatever this one is.
+        assert_eq!(element_error(&question, &answer(2.002), 0), None);
+        let none = Answer::Hits(Vec::new());
+        let error = element_error(&question, &none, 1);
+        assert_eq!(error.as_deref(), Some("there is no answer"));
+    }
+
+    #[test]
+    fn one_wrong_position_of_a_picture_is_an_error() {
+        let wall = Surface {
+            depth: 2.0,
+            normal: Vec3::Z,
+            uv: Vec2::ZERO,
+        };
+        let question = question(Key::FirstHits {
+            hits: vec![Some(wall), Some(wall)],
+            alternatives: vec![(0, None)],
+        });
+        assert_eq!(element_error(&question, &answer(2.0), 0), None);
+        assert_eq!(element_error(&question, &answer(2.0), 1), None);
+        let error = element_error(&question, &answer(4.0), 1).expect("this is wrong");
+        assert!(error.starts_with("depth; the error is "), "{error}");
+    }
+}

@@ -1,0 +1,200 @@
+//! Removes from a score what students may not see, and sanitizes the rest.
+
+use judging::sanitize::{sanitize, sanitize_line};
+
+use crate::format::ItemView;
+use crate::format::sentence::{Disclosure, Sentence};
+use crate::format::student_view::shows_everything;
+use crate::policy::Visibility;
+use crate::rerun_command::RerunCommand;
+use crate::score::{
+    BuildReport, Evidence, FileReport, ItemScore, Score, TaskScore, Timings, Verdict, VerdictKind,
+};
+
+/// Returns the score without the parts that students may not see now. Every field is listed here,
+/// so that a new one is not shown before it is decided who may see it.
+pub(super) fn visible_score(score: &Score, items: &[ItemView]) -> Score {
+    Score {
+        schema: score.schema,
+        submission: sanitize_line(&score.submission, usize::MAX),
+        exam: score.exam.clone(),
+        isolation: score.isolation,
+        complete: score.complete,
+        // Students run the grader again on their own machines, where their own submission is the
+        // default.
+        rerun_command: RerunCommand::default(),
+        points: score.points,
+        max_points: score.max_points,
+        tasks: score
+            .tasks
+            .iter()
+            .map(|task| visible_task(task, items))
+            .collect(),
+        // The compiler ran before any question was sent, so its messages cannot repeat one.
+        build: sanitized_build(&score.build),
+        timings: match shows_everything(items) {
+            true => score.timings.clone(),
+            false => Timings::default(),
+        },
+    }
+}
+
+fn visible_task(task: &TaskScore, items: &[ItemView]) -> TaskScore {
+    let of_task: Vec<&ItemView> = items.iter().filter(|entry| entry.task == task.id).collect();
+    let mut all_open = of_task.iter();
+    let all_open = all_open.all(|entry| entry.visibility == Visibility::All);
+    TaskScore {
+        id: task.id,
+        title: task.title.clone(),
+        points: task.points,
+        max_points: task.max_points,
+        items: items_shown_now(task, &of_task),
+        // Printed text may repeat the questions.
+        printed: task
+            .printed
+            .as_ref()
+            .filter(|_| all_open)
+            .map(|printed| sanitize(printed, usize::MAX)),
+    }
+}
+
+/// Removes everything from an item that students may not see at this visibility, including the ids
+/// of `hidden` items. Every field is listed here, so that a new one is not shown before it is
+/// decided who may see it.
+pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemScore {
+    let verdict = without_hidden_id(&item.verdict, hidden);
+    let sentence = match Disclosure::new(&verdict, item.carried_forward, visibility) {
+        Disclosure::Everything => {
+            let names_hidden = hidden.iter().any(|id| item.message.contains(id));
+            let sentence = Sentence::new(&verdict, item.carried_forward).to_string();
+            let message = if names_hidden {
+                sentence
+            } else {
+                item.message.clone()
+            };
+            return ItemScore {
+                message: sanitize(&message, usize::MAX),
+                verdict,
+                evidence: item.evidence.as_ref().map(sanitized_evidence),
+                staff: None,
+                ..item.clone()
+            };
+        }
+        Disclosure::Points => return redact_to_points(item),
+        Disclosure::Feedback(sentence) => sentence.to_string(),
+    };
+    let has_wrong_answer = verdict.kind() == VerdictKind::Failed;
+    ItemScore {
+        id: item.id.clone(),
+        title: item.title.clone(),
+        points: item.points,
+        max_points: item.max_points,
+        verdict,
+        message: sentence,
+        at: None,
+        look: item.look.clone().filter(|_| has_wrong_answer),
+        section: item.section.clone(),
+        hints: item.hints.clone(),
+        evidence: None,
+        carried_forward: item.carried_forward,
+        pictures: Vec::new(),
+        staff: None,
+    }
+}
+
+fn sanitized_evidence(evidence: &Evidence) -> Evidence {
+    Evidence {
+        number: evidence.number,
+        asked: sanitize(&evidence.asked, usize::MAX),
+        got: sanitize(&evidence.got, usize::MAX),
+        wanted: sanitize(&evidence.wanted, usize::MAX),
+    }
+}
+
+fn sanitized_build(build: &BuildReport) -> BuildReport {
+    let file = |file: &FileReport| FileReport {
+        file: sanitize_line(&file.file, usize::MAX),
+        line: file.line,
+        message: sanitize(&file.message, usize::MAX),
+    };
+    let notes = build.notes.iter();
+    BuildReport {
+        not_compiled: build.not_compiled.iter().map(file).collect(),
+        notes: notes.map(|note| sanitize_line(note, usize::MAX)).collect(),
+    }
+}
+
+/// Replaces the id of a hidden item by that of its task.
+fn without_hidden_id(verdict: &Verdict, hidden: &[String]) -> Verdict {
+    if let Verdict::Blocked { by } = verdict
+        && hidden.contains(by)
+    {
+        let by = by.split('.').next().unwrap_or_default().to_owned();
+        return Verdict::Blocked { by };
+    }
+    verdict.clone()
+}
+
+/// Keeps only the id, the title and the points of an item, with a verdict that follows from the
+/// points.
+fn redact_to_points(item: &ItemScore) -> ItemScore {
+    ItemScore {
+        id: item.id.clone(),
+        title: item.title.clone(),
+        points: item.points,
+        max_points: item.max_points,
+        verdict: if item.verdict == Verdict::Pending {
+            Verdict::Pending
+        } else {
+            verdict_from_points(item.points, item.max_points)
+        },
+        message: String::new(),
+        at: None,
+        look: None,
+        section: None,
+        hints: Vec::new(),
+        evidence: None,
+        carried_forward: false,
+        pictures: Vec::new(),
+        staff: None,
+    }
+}
+
+fn verdict_from_points(points: u32, max_points: u32) -> Verdict {
+    match points {
+        0 => Verdict::Wrong,
+        _ if points < max_points => Verdict::Partial,
+        _ => Verdict::Pass,
+    }
+}
+
+/// Returns the items of a task that students may see now, and one item that sums up the others.
+fn items_shown_now(task: &TaskScore, of_task: &[&ItemView]) -> Vec<ItemScore> {
+    let (open, hidden): (Vec<&ItemView>, Vec<&ItemView>) = of_task
+        .iter()
+        .partition(|entry| entry.visibility.is_shown_now());
+    let mut items: Vec<ItemScore> = open.iter().map(|entry| entry.item.clone()).collect();
+    let hidden: Vec<&ItemScore> = hidden.iter().map(|entry| &entry.item).collect();
+    let Some(first) = hidden.first() else {
+        return items;
+    };
+    let is_pending = hidden.iter().any(|item| item.verdict == Verdict::Pending);
+    let points = hidden.iter().map(|item| item.points).sum();
+    let max_points = hidden.iter().map(|item| item.max_points).sum();
+    items.push(ItemScore {
+        id: format!("{}.not_shown", task.id),
+        title: match hidden.len() {
+            1 => "one item that is not shown".to_owned(),
+            count => format!("{count} items that are not shown"),
+        },
+        points,
+        max_points,
+        verdict: if is_pending {
+            Verdict::Pending
+        } else {
+            verdict_from_points(points, max_points)
+        },
+        ..redact_to_points(first)
+    });
+    items
+}

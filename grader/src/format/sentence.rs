@@ -1,0 +1,121 @@
+//! The sentences that students read about the items of an exam that they do not have.
+//!
+//! When a submission's program is graded, it sees the questions. Whatever it chooses and a student
+//! reads later could therefore carry questions out: the text of a panic, an exit code, the number
+//! of wrong answers. So the sentence about an item follows from its verdict alone, and contains
+//! nothing else but the id of an item of the exam.
+
+use std::fmt;
+
+use crate::policy::Visibility;
+use crate::score::Verdict;
+
+/// The part of an item's result that students may read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Disclosure<'a> {
+    /// Everything, including what the submission's program wrote.
+    Everything,
+    /// The points, the exam's own texts, and a sentence.
+    Feedback(Sentence<'a>),
+    /// The title and the points.
+    Points,
+}
+
+impl<'a> Disclosure<'a> {
+    /// Returns what students may read about an item with this verdict. `by_reference` says whether
+    /// it was graded with the reference's parts.
+    pub fn new(verdict: &'a Verdict, by_reference: bool, visibility: Visibility) -> Self {
+        match visibility {
+            Visibility::All => Disclosure::Everything,
+            Visibility::Feedback | Visibility::AfterDue | Visibility::AfterPublished => {
+                Disclosure::Feedback(Sentence::new(verdict, by_reference))
+            }
+            Visibility::Points | Visibility::Hidden => Disclosure::Points,
+        }
+    }
+}
+
+/// A sentence about an item.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sentence<'a> {
+    reason: Reason<'a>,
+    by_reference: bool,
+}
+
+impl<'a> Sentence<'a> {
+    /// Returns the sentence about an item with this verdict. `by_reference` says whether it was
+    /// graded with the reference's parts.
+    pub fn new(verdict: &'a Verdict, by_reference: bool) -> Self {
+        Sentence {
+            reason: Reason::new(verdict),
+            by_reference,
+        }
+    }
+}
+
+/// The reason why an item has its points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Reason<'a> {
+    Passed,
+    PartlyWrong,
+    Wrong,
+    Panicked,
+    Unwritten,
+    TimedOut,
+    OutOfMemory,
+    Crashed,
+    InvalidAnswer,
+    NotCompiled,
+    /// Depends on the item or task with this id.
+    DependsOn(&'a str),
+    NotGraded,
+}
+
+impl<'a> Reason<'a> {
+    fn new(verdict: &'a Verdict) -> Self {
+        match verdict {
+            Verdict::Pass => Reason::Passed,
+            Verdict::Partial => Reason::PartlyWrong,
+            Verdict::Wrong => Reason::Wrong,
+            Verdict::Panicked => Reason::Panicked,
+            Verdict::Unimplemented => Reason::Unwritten,
+            Verdict::TimedOut => Reason::TimedOut,
+            Verdict::OutOfMemory => Reason::OutOfMemory,
+            Verdict::Crashed => Reason::Crashed,
+            Verdict::Protocol => Reason::InvalidAnswer,
+            Verdict::NotCompiled => Reason::NotCompiled,
+            Verdict::Blocked { by } => Reason::DependsOn(by),
+            Verdict::Pending => Reason::NotGraded,
+        }
+    }
+}
+
+impl fmt::Display for Reason<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Reason::Passed | Reason::NotGraded => "",
+            Reason::PartlyWrong => "some answers are wrong",
+            Reason::Wrong => "an answer is wrong",
+            Reason::Panicked => "the code panicked",
+            Reason::Unwritten => "the method still contains `todo!`",
+            Reason::TimedOut => "the code took too long: is there an endless loop?",
+            Reason::OutOfMemory => "out of memory: does something grow without limit?",
+            Reason::Crashed => "the program crashed: is there an endless recursion?",
+            Reason::InvalidAnswer => "the program sent an invalid answer",
+            Reason::NotCompiled => "the file is missing or does not compile",
+            Reason::DependsOn(id) => return write!(f, "depends on {id}: fix that first"),
+        })
+    }
+}
+
+impl fmt::Display for Sentence<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        const BY_REFERENCE: &str = "graded with the reference's other files, because an item that \
+                                    it depends on failed";
+        match (self.reason, self.by_reference) {
+            (reason, false) => reason.fmt(f),
+            (Reason::Passed, true) => f.write_str(BY_REFERENCE),
+            (reason, true) => write!(f, "{reason}; {BY_REFERENCE}"),
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! The lines that a student wrote: without comments, and without the lines that were handed out.
+
+use crate::handed_out::TaskFile;
+use crate::handed_out::tokens::{tokens, without_comments};
+
+impl TaskFile {
+    /// Returns the lines of `text` that are not the starter's, without comments and empty lines. Two
+    /// lines are equal if their tokens are. Only lines in the same order as in the starter count as
+    /// handed out, so that the braces of a student's own code are kept.
+    pub fn own_lines(&self, text: &str) -> String {
+        let (text, starter) = (without_comments(text), without_comments(self.starter));
+        let (lines, given) = (code_lines(&text), code_lines(&starter));
+        let is_given = longest_common(&lines, &given);
+        let own = lines.iter().zip(is_given).filter(|(_, is_given)| !is_given);
+        let own = own.map(|((line, _), _)| format!("{}\n", line.trim_end()));
+        own.collect()
+    }
+}
+
+/// A line of code, with its tokens.
+type CodeLine<'a> = (&'a str, Vec<&'a str>);
+
+/// Returns the lines that have tokens.
+fn code_lines(text: &str) -> Vec<CodeLine<'_>> {
+    let lines = text.lines().map(|line| (line, tokens(line)));
+    lines.filter(|(_, tokens)| !tokens.is_empty()).collect()
+}
+
+/// The maximum size of the table of [`longest_common`]: no file that a student writes by hand comes
+/// close to it.
+const MAX_TABLE: usize = 10_000_000;
+
+/// Returns for each line whether it belongs to a longest common subsequence with `given`.
+fn longest_common(lines: &[CodeLine], given: &[CodeLine]) -> Vec<bool> {
+    if lines.len().saturating_mul(given.len()) > MAX_TABLE {
+        let is_given = |line: &CodeLine| given.iter().any(|other| other.1 == line.1);
+        return lines.iter().map(is_given).collect();
+    }
+    // lengths[i][j] is the length for the lines from `i` on, and the given ones from `j` on.
+    let mut lengths = vec![vec![0u32; given.len() + 1]; lines.len() + 1];
+    for i in (0..lines.len()).rev() {
+        for j in (0..given.len()).rev() {
+            lengths[i][j] = if lines[i].1 == given[j].1 {
+                lengths[i + 1][j + 1] + 1
+            } else {
+                lengths[i + 1][j].max(lengths[i][j + 1])
+            };
+        }
+    }
+    let mut is_given = vec![false; lines.len()];
+    let (mut i, mut j) = (0, 0);
+    while i < lines.len() && j < given.len() {
+        if lines[i].1 == given[j].1 {
+            is_given[i] = true;
+            (i, j) = (i + 1, j + 1);
+        } else if lengths[i + 1][j] >= lengths[i][j + 1] {
+            i += 1;
+        } else {
+            j += 1;
+        }
+    }
+    is_given
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::handed_out::RAYS;
+
+    #[test]
+    fn only_what_was_added_is_left() {
+        let sphere = RAYS.task_file("sphere.rs").unwrap();
+        assert_eq!(sphere.own_lines(sphere.starter), "");
+        let stub = sphere
+            .starter
+            .lines()
+            .find(|line| line.contains("todo!("))
+            .unwrap();
+        let own = "        // Mine.\n        if ray.dir.x > 0.0 { /* no */\n            return None;\n        }\n        None";
+        let text = sphere.starter.replacen(stub, own, 1).replace("    ", "\t");
+        let expected = "\t\tif ray.dir.x > 0.0 {\n\t\t\treturn None;\n\t\t}\n\t\tNone\n";
+        assert_eq!(sphere.own_lines(&text), expected);
+        assert_eq!(sphere.own_lines("fn (\n}\n"), "fn (\n");
+    }
+}

@@ -1,0 +1,179 @@
+//! The final points of a submission, and the sentence that explains them.
+
+use std::fmt;
+
+use crate::policy::PercentBase;
+
+/// The final points of a submission, and the facts that explain them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CountedPoints {
+    /// The final points that the submission gets.
+    pub points: u32,
+    /// Final points of a perfect submission on time.
+    pub max_points: u32,
+    /// The points that the submission earned in the exam.
+    pub earned: u32,
+    /// The points of the exam.
+    pub earned_of: u32,
+    /// The points that staff added by hand, or took off.
+    pub manual: i32,
+    /// Number of started days after the due time, including free days.
+    pub late_days: u32,
+    /// The consequence of being late.
+    pub deduction: Deduction,
+}
+
+/// The consequence of being late.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Deduction {
+    /// Being late costs nothing: the submission is on time, or the policy has no such rule.
+    None,
+    /// All late days are free.
+    FreeDays,
+    /// A percentage is deducted.
+    Percent {
+        /// The percentage, for all charged days together.
+        percent: u32,
+        /// The points to which the percentage refers.
+        of: PercentBase,
+        /// The number of late days that are free.
+        free_days: u32,
+    },
+    /// The points are limited to this percentage of all points.
+    Limit(u32),
+    /// Nothing counts after this many days.
+    Closed {
+        /// The number of days.
+        after_days: u32,
+    },
+}
+
+impl fmt::Display for CountedPoints {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{} of {} points", self.points, self.max_points)
+    }
+}
+
+impl CountedPoints {
+    /// Returns a sentence that says how many points count, and why.
+    pub fn explanation(&self) -> String {
+        let Self {
+            earned, earned_of, ..
+        } = self;
+        let manual = match (self.manual, self.manual.unsigned_abs()) {
+            (0, _) => String::new(),
+            (1.., 1) => ", 1 point added by hand".to_owned(),
+            (1.., points) => format!(", {points} points added by hand"),
+            (_, 1) => ", 1 point taken off by hand".to_owned(),
+            (_, points) => format!(", {points} points taken off by hand"),
+        };
+        let lateness = self.lateness().map(|text| format!(", {text}"));
+        format!(
+            "{self} count towards the grade: {earned} of {earned_of} points earned{manual}{}.",
+            lateness.unwrap_or_default()
+        )
+    }
+
+    /// Returns [`explanation`](Self::explanation), or `None` if the points count as they were
+    /// earned, on time.
+    pub fn explanation_if_changed(&self) -> Option<String> {
+        self.is_changed().then(|| self.explanation())
+    }
+
+    /// Returns the rules that apply to this submission, without its points, from which the points
+    /// of hidden items could be computed. `None` if the points count as they were earned, on time.
+    pub fn rules(&self) -> Option<String> {
+        let mut rules = Vec::new();
+        if self.max_points != self.earned_of {
+            let Self {
+                max_points,
+                earned_of,
+                ..
+            } = self;
+            rules.push(format!("{earned_of} points count as {max_points}"));
+        }
+        rules.extend(self.lateness());
+        let is_changed = !rules.is_empty();
+        is_changed.then(|| format!("Towards the grade: {}.", rules.join("; ")))
+    }
+
+    fn is_changed(&self) -> bool {
+        (self.points, self.max_points) != (self.earned, self.earned_of)
+            || self.late_days > 0
+            || self.manual != 0
+    }
+
+    /// Returns the number of late days and their consequence, or `None` if there are none.
+    fn lateness(&self) -> Option<String> {
+        let days = match self.late_days {
+            0 => return None,
+            1 => "handed in 1 day late".to_owned(),
+            days => format!("handed in {days} days late"),
+        };
+        Some(match self.deduction {
+            Deduction::None => format!("{days}, which costs nothing"),
+            Deduction::FreeDays => format!("{days}, which is within the free days"),
+            Deduction::Percent {
+                percent,
+                of,
+                free_days,
+            } => {
+                let base = match of {
+                    PercentBase::Earned => "the points earned",
+                    PercentBase::Possible => "all points",
+                };
+                let free = match free_days {
+                    0 => String::new(),
+                    1 => "; after 1 free day".to_owned(),
+                    days => format!("; after {days} free days"),
+                };
+                let joint = if free.is_empty() { ", so" } else { "," };
+                format!("{days}{free}{joint} {percent} % of {base} are deducted")
+            }
+            Deduction::Limit(percent) => {
+                format!("{days}, and late work counts for at most {percent} % of all points")
+            }
+            Deduction::Closed { after_days: 0 } => {
+                format!("{days}, and late work counts for nothing")
+            }
+            Deduction::Closed { after_days: 1 } => {
+                format!("{days}, and nothing counts after 1 day")
+            }
+            Deduction::Closed { after_days } => {
+                format!("{days}, and nothing counts after {after_days} days")
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::policy::{Lateness, Policy};
+
+    /// Returns the explanation for 90 of 100 points, this many hours late.
+    fn explanation(policy: &str, hours: u64) -> String {
+        let policy: Policy = toml::from_str(policy).unwrap();
+        let late = Lateness {
+            seconds: hours * 60 * 60,
+        };
+        policy.counted_points(90, 100, late).explanation()
+    }
+
+    #[test]
+    fn explains_each_consequence_of_being_late() {
+        let late = |rules: &str| explanation(&format!("[late]\n{rules}"), 47);
+        insta::assert_snapshot!(
+            [
+                explanation("[points]\nout_of = 50", 0),
+                late(""),
+                late("free_days = 2\npercent_per_day = 10"),
+                late("free_days = 1\npercent_per_day = 10"),
+                late("percent_per_day = 10\npercent_of = 'possible'"),
+                late("percent_per_day = 10\nmost_percent = 50"),
+                late("closed_after_days = 1"),
+                late("closed_after_days = 0"),
+            ]
+            .join("\n")
+        );
+    }
+}

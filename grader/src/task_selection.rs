@@ -1,0 +1,114 @@
+//! The tasks to grade, as people name them.
+
+use judging::assignment::{Assignment, Task, TaskInfo};
+
+use crate::nearest_name::suggestion;
+
+/// The tasks to grade.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum TaskSelection {
+    /// All tasks.
+    #[default]
+    All,
+    /// Some of the tasks. They give no score.
+    Only(Vec<Task>),
+}
+
+impl TaskSelection {
+    /// Selects tasks by name: the id of a task, or a file or its name without `.rs`, which means
+    /// all tasks in it. Upper and lower case are the same. Several names are separated by commas.
+    ///
+    /// # Errors
+    ///
+    /// A message for the command line if a name is unknown.
+    pub fn parse(text: &str, assignment: &Assignment) -> Result<Self, String> {
+        let mut selected = Vec::new();
+        for name in text.split(',').map(str::trim) {
+            let tasks = tasks_named(name, assignment);
+            if tasks.is_empty() {
+                let names = assignment
+                    .tasks
+                    .iter()
+                    .flat_map(|task| [task.id, stem(task)]);
+                return Err(format!(
+                    "unknown task{}; the tasks are {}",
+                    suggestion(name, names),
+                    assignment.id_list()
+                ));
+            }
+            selected.extend(tasks);
+        }
+        Ok(TaskSelection::Only(selected))
+    }
+
+    /// Returns whether the task is selected.
+    pub fn includes(&self, task: Task) -> bool {
+        match self {
+            TaskSelection::All => true,
+            TaskSelection::Only(tasks) => tasks.contains(&task),
+        }
+    }
+
+    /// Returns whether all tasks are selected, so that there is a score.
+    pub fn is_all(&self) -> bool {
+        *self == TaskSelection::All
+    }
+}
+
+/// Returns the task with this id or, if there is none, the tasks in the file with this name.
+fn tasks_named(name: &str, assignment: &Assignment) -> Vec<Task> {
+    let is = |known: &str| known.eq_ignore_ascii_case(name);
+    let tasks = || assignment.tasks.iter();
+    let by_id: Vec<Task> = tasks()
+        .filter(|task| is(task.id))
+        .map(TaskInfo::task)
+        .collect();
+    if !by_id.is_empty() {
+        return by_id;
+    }
+    let by_file = tasks().filter(|task| is(task.file) || is(stem(task)));
+    by_file.map(TaskInfo::task).collect()
+}
+
+/// Returns the name of a task's file without `.rs`.
+fn stem(task: &TaskInfo) -> &'static str {
+    task.file.strip_suffix(".rs").unwrap_or(task.file)
+}
+
+#[cfg(test)]
+mod tests {
+    use judging::assignment::RAYS;
+
+    use super::*;
+
+    fn selected(text: &str) -> Result<Vec<String>, String> {
+        match TaskSelection::parse(text, &RAYS)? {
+            TaskSelection::All => panic!("a name selects some tasks only"),
+            TaskSelection::Only(tasks) => Ok(tasks.iter().map(Task::to_string).collect()),
+        }
+    }
+
+    #[test]
+    fn selects_tasks_by_id_and_by_file() {
+        assert_eq!(selected("Sphere"), Ok(vec!["sphere".to_owned()]));
+        let both = Ok(vec!["build".to_owned(), "traverse".to_owned()]);
+        for name in ["bvh", "BVH.rs", "build,traverse", "build, traverse"] {
+            assert_eq!(selected(name), both, "{name}");
+        }
+    }
+
+    #[test]
+    fn suggests_the_nearest_name() {
+        let error = selected("sphre").unwrap_err();
+        assert_eq!(
+            error,
+            "unknown task (did you mean sphere?); the tasks are camera, triangle, sphere, bbox, \
+             build, traverse"
+        );
+        assert!(
+            selected("light")
+                .unwrap_err()
+                .starts_with("unknown task; the tasks are")
+        );
+    }
+}

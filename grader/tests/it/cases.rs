@@ -1,0 +1,82 @@
+//! Faulty submissions that several tests grade: the reference with a small change.
+
+use crate::harness::Submission;
+
+impl Submission {
+    /// Uses a field of `Ray` that does not exist, so `sphere.rs` does not compile.
+    pub fn not_compiling() -> Self {
+        Submission::reference("not_compiling").with_replaced(
+            "sphere.rs",
+            "let a = ray.dir.length_squared();",
+            "let a = ray.direction.length_squared();",
+        )
+    }
+
+    /// Panics in `Sphere::hit` if the sphere's centre has a negative x.
+    pub fn panicking() -> Self {
+        Submission::reference("panicking").with_replaced(
+            "sphere.rs",
+            "let root = discriminant.sqrt();",
+            "let roots = [discriminant.sqrt()];
+        let root = roots[usize::from(self.center.x < 0.0)];",
+        )
+    }
+
+    /// Computes forever if a ray misses the sphere.
+    pub fn looping() -> Self {
+        Submission::reference("looping").with_replaced(
+            "sphere.rs",
+            "if discriminant < 0.0 {
+            return None;
+        }",
+            "while discriminant < 0.0 {}",
+        )
+    }
+
+    /// Ends the process in `Camera::sample_ray` from the fifth column of pixels on.
+    pub fn exiting() -> Self {
+        Submission::reference("exiting").with_replaced(
+            "camera.rs",
+            "let height =",
+            "if pixel.x > 3 {
+            std::process::exit(0);
+        }
+        let height =",
+        )
+    }
+
+    /// Returns NaN as the distance of a sphere's hit.
+    pub fn not_a_number() -> Self {
+        Submission::reference("not_a_number").with_replaced(
+            "sphere.rs",
+            "distance: t,",
+            "distance: t / 0.0 * 0.0,",
+        )
+    }
+
+    /// Calls a helper in `bbox.rs` from `bvh.rs`.
+    pub fn with_helper_in_another_file() -> Self {
+        Submission::reference("helper")
+            .with_replaced(
+                "bbox.rs",
+                "    /// Grows the box to contain `point` as well.",
+                "    /// Returns the box around two boxes.
+    pub fn union(a: BBox, b: BBox) -> BBox {
+        BBox::new(a.min.min(b.min), a.max.max(b.max))
+    }
+
+    /// Grows the box to contain `point` as well.",
+            )
+            .with_replaced(
+                "bvh.rs",
+                "            bbox.enclose(item.bbox);
+        }
+
+        let index",
+                "            bbox = BBox::union(bbox, item.bbox);
+        }
+
+        let index",
+            )
+    }
+}

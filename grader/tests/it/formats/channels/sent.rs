@@ -1,0 +1,177 @@
+//! The channels: everything in a score that a submission's program chooses.
+
+use std::time::Duration;
+
+use grader::handed_out::RAYS;
+use grader::probe::{Crash, Fault, TimeLimit};
+use grader::score::{ItemScore, Score};
+use grader::verdict::{ItemOutcome, item_score, substituted_score};
+use judging::exam::Item;
+use judging::judge::{Credit, Failure, FailureKind, Judgement};
+use protocol::Panic;
+
+/// A place in a score into which a program can write bits.
+pub struct Channel {
+    /// The name, for people.
+    pub name: &'static str,
+    write: fn(&mut Score, &Item, u32),
+}
+
+impl Channel {
+    /// Returns the score after the program has sent these bits with an item.
+    pub fn send(&self, mut score: Score, item: &Item, bits: u32) -> Score {
+        (self.write)(&mut score, item, bits);
+        score.update_totals();
+        score
+    }
+}
+
+/// Returns all channels.
+pub fn channels() -> Vec<Channel> {
+    let channel = |name, write| Channel { name, write };
+    vec![
+        channel("exit code", |score, item, bits| {
+            record_fault(score, item, Fault::Crashed(Crash::Exited(bits as i32)));
+        }),
+        channel("signal", |score, item, bits| {
+            record_fault(score, item, Fault::Crashed(Crash::Signal(bits as i32)));
+        }),
+        channel("length of a frame", |score, item, bits| {
+            let why = format!("a frame has {bits} bytes, and at most 100 are allowed");
+            record_fault(score, item, Fault::Protocol(why));
+        }),
+        channel("time of a time-out", |score, item, bits| {
+            let limit = Duration::from_millis(bits.into());
+            record_fault(score, item, Fault::TimedOut(TimeLimit::Wall(limit)));
+        }),
+        channel("CPU time of a time-out", |score, item, bits| {
+            let limit = Duration::from_millis(bits.into());
+            record_fault(score, item, Fault::TimedOut(TimeLimit::Cpu(limit)));
+        }),
+        channel("element that crashes", |score, item, bits| {
+            let culprit = Some((0, bits as usize % item.questions[0].question.count()));
+            let fault = Fault::Crashed(Crash::Signal(11));
+            record(score, item, &ItemOutcome::Fault { fault, culprit });
+        }),
+        channel("message of a panic", |score, item, bits| {
+            let message = bits.to_string();
+            record_failure(score, item, panic(message, "sphere.rs:34"), None);
+        }),
+        channel("location of a panic", |score, item, bits| {
+            let location = format!("sphere.rs:{bits}:{bits}");
+            record_failure(score, item, panic("oh".to_owned(), &location), None);
+        }),
+        channel("location of a `todo!`", |score, item, bits| {
+            let location = format!("sphere.rs:{bits}");
+            let message = "not yet implemented".to_owned();
+            record_failure(score, item, panic(message, &location), None);
+        }),
+        channel("number of wrong answers", |score, item, bits| {
+            record_failure(
+                score,
+                item,
+                wrong("distance", "1"),
+                Some((bits as usize, 9)),
+            );
+        }),
+        channel("wrong answer", |score, item, bits| {
+            record_failure(score, item, wrong("distance", &bits.to_string()), None);
+        }),
+        channel("wrong quantity", |score, item, bits| {
+            record_failure(score, item, wrong(&bits.to_string(), "1"), None);
+        }),
+        channel("answer of the wrong kind", |score, item, bits| {
+            record_failure(score, item, FailureKind::Protocol(bits.to_string()), None);
+        }),
+        channel("answer with the reference's parts", |score, item, bits| {
+            let outcome = ItemOutcome::Answered(vec![failed(wrong("uv", &bits.to_string()), None)]);
+            let line = item_score(item, &outcome, &RAYS);
+            // The program's own answer and the one with the reference's parts may both carry bits.
+            let own = ItemScore {
+                message: bits.to_string(),
+                ..line.clone()
+            };
+            score.record(substituted_score("bbox.through", &own, line));
+        }),
+        channel("printed text", |score, item, bits| {
+            let mut tasks = score.tasks.iter_mut();
+            let task = tasks.find(|task| task.id == item.task).unwrap();
+            task.printed = Some(bits.to_string());
+        }),
+        channel("time", |score, _, bits| {
+            score.timings.exam_ms = bits.into();
+        }),
+    ]
+}
+
+/// Fails to compile if there is a new way in which a program can fail. Add a channel for each
+/// number and text in it.
+#[expect(dead_code, reason = "it only has to compile")]
+fn has_a_channel(fault: &Fault, failure: &FailureKind) {
+    match fault {
+        Fault::TimedOut(TimeLimit::Cpu(_) | TimeLimit::Wall(_))
+        | Fault::OutOfMemory
+        | Fault::Crashed(
+            Crash::StackOverflow | Crash::Exited(_) | Crash::Signal(_) | Crash::Killed,
+        )
+        | Fault::Protocol(_) => {}
+    }
+    match failure {
+        FailureKind::Wrong {
+            what: _,
+            got: _,
+            wanted: _,
+        }
+        | FailureKind::Panicked(Panic {
+            message: _,
+            location: _,
+        })
+        | FailureKind::Protocol(_) => {}
+    }
+}
+
+fn record(score: &mut Score, item: &Item, outcome: &ItemOutcome) {
+    score.record(item_score(item, outcome, &RAYS));
+}
+
+fn record_fault(score: &mut Score, item: &Item, fault: Fault) {
+    let culprit = None;
+    record(score, item, &ItemOutcome::Fault { fault, culprit });
+}
+
+fn record_failure(
+    score: &mut Score,
+    item: &Item,
+    kind: FailureKind,
+    count: Option<(usize, usize)>,
+) {
+    record(
+        score,
+        item,
+        &ItemOutcome::Answered(vec![failed(kind, count)]),
+    );
+}
+
+fn failed(kind: FailureKind, count: Option<(usize, usize)>) -> Judgement {
+    Judgement {
+        credit: Credit::NONE,
+        failure: Some(Failure {
+            element: 0,
+            kind,
+            count,
+        }),
+    }
+}
+
+fn panic(message: String, location: &str) -> FailureKind {
+    let location = location.to_owned();
+    FailureKind::Panicked(Panic { message, location })
+}
+
+fn wrong(what: &str, got: &str) -> FailureKind {
+    FailureKind::Wrong {
+        what: what.to_owned(),
+        got: got.to_owned(),
+        wanted: "2".to_owned(),
+    }
+}

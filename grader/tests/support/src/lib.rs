@@ -1,0 +1,10 @@
+//! Tests of pages in headless Chromium, which is controlled over the DevTools protocol. If Chromium
+//! is not installed, [`Chromium::start`] prints a notice and the tests pass, or fail if `CI` is set.
+
+mod axe;
+mod chromium;
+mod devtools;
+
+pub use axe::violations;
+pub use chromium::Chromium;
+pub use devtools::{DESKTOP, Tab, Viewer};

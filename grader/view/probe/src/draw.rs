@@ -1,0 +1,168 @@
+//! Draws pixels, and records single rays and paths.
+
+use std::time::{Duration, Instant};
+
+use framework::attempt::attempt;
+use framework::integrator::{Integrator, RenderStats};
+use glam::{UVec2, Vec2};
+use protocol::{ElementOutcome, Panic, Ray, Trace};
+
+use crate::messages::{Draw, Drawn, Follow, Followed, Quantity, Target, TestCounts, Values};
+use crate::record;
+use crate::stage::Stage;
+
+/// Draws pixels until all are drawn or the time is over.
+pub(crate) fn draw(stage: &Stage, integrator: &Integrator, request: &Draw) -> Drawn {
+    let mut stats = RenderStats::default();
+    let mut pixels = Pixels::new(request);
+    let values = match request.quantity {
+        Quantity::Hit => Values::Hits(pixels.each(None, |pixel| {
+            stats.rays += 1;
+            stage.first_hit(pixel)
+        })),
+        Quantity::Light { sample } => Values::Light(pixels.each(Default::default(), |pixel| {
+            integrator.sample_radiance(pixel, sample, &mut stats)
+        })),
+        Quantity::Tests => Values::Tests(pixels.each(TestCounts::default(), |pixel| {
+            stats.rays += 1;
+            record::take_counts();
+            stage.first_hit(pixel);
+            record::take_counts()
+        })),
+    };
+    Drawn {
+        values,
+        panics: pixels.panics,
+        rays: stats.rays,
+        invalid_paths: stats.invalid_paths,
+    }
+}
+
+/// The pixels of a request, and the panics in them.
+struct Pixels<'a> {
+    request: &'a Draw,
+    panics: Vec<(Panic, Vec<u32>)>,
+}
+
+impl<'a> Pixels<'a> {
+    fn new(request: &'a Draw) -> Self {
+        Pixels {
+            request,
+            panics: Vec::new(),
+        }
+    }
+
+    /// Computes the value of each pixel, until the time is over. A pixel with a panic gets
+    /// `replacement`.
+    fn each<T: Clone>(&mut self, replacement: T, mut value: impl FnMut(UVec2) -> T) -> Vec<T> {
+        let deadline = Instant::now() + Duration::from_millis(self.request.milliseconds.into());
+        let mut values = Vec::new();
+        let mut clock = Clock {
+            deadline,
+            left: 1,
+            interval: 1,
+            read_at: Instant::now(),
+        };
+        for (index, pixel) in (0..).zip(self.request.pixels()) {
+            match attempt(|| value(pixel)) {
+                ElementOutcome::Value(value) => values.push(value),
+                ElementOutcome::Panicked(panic) => {
+                    self.add_panic(panic, index);
+                    values.push(replacement.clone());
+                }
+                ElementOutcome::Skipped => unreachable!("`attempt` never skips"),
+            }
+            if clock.is_over() {
+                break;
+            }
+        }
+        values
+    }
+
+    /// Adds a panic to the list. The messages of a panic at one location can differ in each pixel,
+    /// so only the first is kept.
+    fn add_panic(&mut self, panic: Panic, index: u32) {
+        let same = |(known, _): &&mut (Panic, Vec<u32>)| known.location == panic.location;
+        match self.panics.iter_mut().find(same) {
+            Some((_, indices)) => indices.push(index),
+            None => self.panics.push((panic, vec![index])),
+        }
+    }
+}
+
+/// A deadline. Reading the time takes a tenth as long as a short path, so the clock is read less
+/// often while pixels are fast.
+struct Clock {
+    deadline: Instant,
+    /// The number of pixels until the clock is read again.
+    left: u32,
+    interval: u32,
+    read_at: Instant,
+}
+
+impl Clock {
+    /// The time between two readings above which the clock is read after each pixel.
+    const SLOW: Duration = Duration::from_millis(1);
+    /// The maximum number of pixels between two readings.
+    const MAX_INTERVAL: u32 = 64;
+
+    /// Returns whether the time is over, after one more pixel.
+    fn is_over(&mut self) -> bool {
+        self.left -= 1;
+        if self.left > 0 {
+            return false;
+        }
+        let now = Instant::now();
+        self.interval = if now.saturating_duration_since(self.read_at) < Self::SLOW {
+            (2 * self.interval).min(Self::MAX_INTERVAL)
+        } else {
+            1
+        };
+        self.left = self.interval;
+        self.read_at = now;
+        now >= self.deadline
+    }
+}
+
+impl Stage<'_> {
+    /// Returns the hit of the ray through the centre of a pixel, like the framework's pictures of
+    /// first hits.
+    fn first_hit(&self, pixel: UVec2) -> Option<Trace> {
+        let ray = self.world.camera_ray(pixel, Vec2::splat(0.5));
+        self.world.hit(&self.scene.camera.placement.to_world(&ray))
+    }
+}
+
+/// Records a ray or a path.
+pub(crate) fn follow(stage: &Stage, integrator: &Integrator, request: &Follow) -> Followed {
+    let mut stats = RenderStats::default();
+    let hit = |ray: &Ray| {
+        stage.world.hit(ray);
+        None
+    };
+    record::start(request);
+    let outcome = attempt(|| match request.target {
+        Target::Centre(pixel) => {
+            stage.first_hit(pixel);
+            None
+        }
+        Target::Path { pixel, sample } => {
+            Some(integrator.sample_radiance(pixel, sample, &mut stats))
+        }
+        Target::Ray(ray) => hit(&ray),
+    });
+    let rays = record::finish();
+    match outcome {
+        ElementOutcome::Value(radiance) => Followed {
+            rays,
+            radiance,
+            panic: None,
+        },
+        ElementOutcome::Panicked(panic) => Followed {
+            rays,
+            radiance: None,
+            panic: Some(panic),
+        },
+        ElementOutcome::Skipped => unreachable!("`attempt` never skips"),
+    }
+}

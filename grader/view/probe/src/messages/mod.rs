@@ -1,0 +1,272 @@
+//! Requests of the viewer, and the probe's responses. They are framed like the grader's questions:
+//! see [`protocol::wire`].
+
+mod recorded;
+
+use glam::{Mat3, UVec2, Vec3};
+use protocol::{ElementOutcome, Interval, Panic, PinholeCamera, Ray, Trace, Tree};
+use serde::{Deserialize, Serialize};
+
+use crate::scene_data::SceneData;
+
+pub use recorded::{Followed, FollowedRay, Test};
+
+/// A request of the viewer.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum Request {
+    /// Replaces the scene, and builds the tree. All other requests need a scene.
+    Open(Box<SceneData>),
+    /// Replaces the camera, and keeps the tree.
+    Aim(Aim),
+    /// Draws some pixels.
+    Draw(Draw),
+    /// Returns the tree.
+    Tree,
+    /// Records the tests of a ray or of a path.
+    Follow(Follow),
+    /// Calls `BBox::hit` of boxes.
+    Boxes(BoxQueries),
+}
+
+/// A camera and its position, and the settings of paths.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Aim {
+    /// The parameters of the submission's camera.
+    pub pinhole: PinholeCamera,
+    /// The position of the camera in world space.
+    pub position: Vec3,
+    /// The camera's axes in world space, as columns.
+    pub axes: Mat3,
+    /// The maximum number of times that a path is scattered.
+    pub bounces: u32,
+    /// The seed of all random numbers.
+    pub seed: u64,
+}
+
+/// A rectangle of the film, of which some pixels are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Draw {
+    /// The lower left pixel.
+    pub origin: UVec2,
+    /// The number of pixels, across and up.
+    pub size: UVec2,
+    /// Draws only pixels whose coordinates are multiples of this.
+    pub stride: u32,
+    /// Leaves out pixels whose coordinates are multiples of this, because they have been drawn; 0
+    /// leaves out none.
+    pub drawn_stride: u32,
+    /// The number of these pixels that have been drawn already.
+    pub first: u32,
+    /// The quantity to compute for each pixel.
+    pub quantity: Quantity,
+    /// The time in milliseconds after which the probe returns the pixels that it has drawn. It
+    /// draws at least one.
+    pub milliseconds: u32,
+}
+
+/// The quantity that is computed for a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Quantity {
+    /// The hit of the ray through the centre of the pixel.
+    Hit,
+    /// The radiance of one path.
+    Light {
+        /// The number of the path, from 0.
+        sample: u32,
+    },
+    /// The number of tests for the ray through the centre of the pixel. Needs the recording
+    /// program.
+    Tests,
+}
+
+impl Draw {
+    /// Returns the pixels to draw, in order, without those that have been drawn already.
+    pub fn pixels(self) -> impl Iterator<Item = UVec2> {
+        let Draw {
+            origin,
+            size,
+            stride,
+            drawn_stride,
+            first,
+            ..
+        } = self;
+        let multiples = move |from: u32, length: u32| {
+            (from.next_multiple_of(stride)..from + length).step_by(stride as usize)
+        };
+        let is_drawn = move |x: u32, y: u32| {
+            drawn_stride > 0 && x.is_multiple_of(drawn_stride) && y.is_multiple_of(drawn_stride)
+        };
+        multiples(origin.y, size.y)
+            .flat_map(move |y| multiples(origin.x, size.x).map(move |x| (x, y)))
+            .filter(move |&(x, y)| !is_drawn(x, y))
+            .map(UVec2::from)
+            .skip(first as usize)
+    }
+}
+
+/// A ray or a path to record.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Follow {
+    /// The ray or path.
+    pub target: Target,
+    /// The maximum number of tests that are listed. All of them are counted.
+    pub max_tests: u32,
+}
+
+/// A ray or a path to record.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Target {
+    /// The ray through the centre of this pixel.
+    Centre(UVec2),
+    /// One path through this pixel, with its shadow rays.
+    Path {
+        /// The pixel.
+        pixel: UVec2,
+        /// The number of the path, from 0.
+        sample: u32,
+    },
+    /// This ray, in world space.
+    Ray(Ray),
+}
+
+/// Boxes to test with one ray.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BoxQueries {
+    /// The ray.
+    pub ray: Ray,
+    /// The corners of each box.
+    pub boxes: Vec<(Vec3, Vec3)>,
+}
+
+/// A response to a request.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Response {
+    /// The response to `Open`.
+    Opened(Opened),
+    /// The response to `Aim`.
+    Aimed,
+    /// The response to `Draw`.
+    Drawn(Drawn),
+    /// The response to `Tree`.
+    Tree(ElementOutcome<Tree>),
+    /// The response to `Follow`.
+    Followed(Followed),
+    /// The response to `Boxes`: the part of the ray's range that is in each box, or `None`.
+    Spans(Vec<Option<Interval>>),
+    /// There is no scene, or its tree could not be built.
+    NotOpen,
+}
+
+/// The result of opening a scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Opened {
+    /// The parts of the submission that are not written yet, each with its panic.
+    pub missing: Vec<(Part, Panic)>,
+    /// The size of the tree, or the panic of `Bvh::build`.
+    pub tree: ElementOutcome<TreeSize>,
+}
+
+/// A part of a submission that can be found missing when a scene is opened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Part {
+    /// `Camera::sample_ray`. The viewer's camera is used instead.
+    Camera,
+    /// `Triangle::hit`. Triangles are left out.
+    Triangle,
+    /// `Sphere::hit`. Spheres are left out.
+    Sphere,
+    /// `BBox::hit`.
+    BBox,
+}
+
+/// The size of a tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TreeSize {
+    /// The number of nodes.
+    pub nodes: u32,
+    /// The number of primitives.
+    pub primitives: u32,
+}
+
+/// Some pixels of a picture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Drawn {
+    /// One value per pixel, in the order of [`Draw::pixels`].
+    pub values: Values,
+    /// Each panic, with the indices of the pixels in which it occurred.
+    pub panics: Vec<(Panic, Vec<u32>)>,
+    /// The number of rays that were traced.
+    pub rays: u64,
+    /// The number of paths that are black because a hit was unusable.
+    pub invalid_paths: u64,
+}
+
+/// The values of pixels. A pixel with a panic has a value without meaning.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Values {
+    /// First hits.
+    Hits(Vec<Option<Trace>>),
+    /// The radiance of one path per pixel.
+    Light(Vec<Vec3>),
+    /// Numbers of tests.
+    Tests(Vec<TestCounts>),
+}
+
+impl Values {
+    /// Returns the number of pixels.
+    pub fn len(&self) -> usize {
+        match self {
+            Values::Hits(list) => list.len(),
+            Values::Light(list) => list.len(),
+            Values::Tests(list) => list.len(),
+        }
+    }
+
+    /// Returns whether there are no pixels.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// Numbers of tests.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TestCounts {
+    /// The number of calls of `BBox::hit`.
+    pub boxes: u32,
+    /// The number of calls of `Primitive::hit`.
+    pub primitives: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use glam::uvec2;
+
+    use super::*;
+
+    #[test]
+    fn three_strides_cover_each_pixel_once() {
+        let draw = |stride, drawn_stride| Draw {
+            origin: uvec2(64, 0),
+            size: uvec2(13, 6),
+            stride,
+            drawn_stride,
+            first: 0,
+            quantity: Quantity::Hit,
+            milliseconds: 0,
+        };
+        let all: Vec<UVec2> = [draw(4, 0), draw(2, 4), draw(1, 2)]
+            .into_iter()
+            .flat_map(Draw::pixels)
+            .collect();
+        let distinct: BTreeSet<[u32; 2]> = all.iter().map(UVec2::to_array).collect();
+        assert_eq!((all.len(), distinct.len()), (13 * 6, 13 * 6));
+        assert_eq!(all[0], uvec2(64, 0));
+        let rest = Draw {
+            first: 70,
+            ..draw(1, 0)
+        };
+        assert_eq!(rest.pixels().count(), 8);
+    }
+}

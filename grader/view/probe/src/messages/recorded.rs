@@ -1,0 +1,60 @@
+//! Recorded tests.
+
+use glam::Vec3;
+use protocol::{Interval, Panic, Ray, Trace};
+use serde::{Deserialize, Serialize};
+
+use super::TestCounts;
+
+/// The recorded tests of a ray, or of all rays of a path.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Followed {
+    /// The rays, in the order in which they were traced.
+    pub rays: Vec<FollowedRay>,
+    /// The radiance of the path.
+    pub radiance: Option<Vec3>,
+    /// The panic that ended the recording.
+    pub panic: Option<Panic>,
+}
+
+/// The recorded tests of one ray.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FollowedRay {
+    /// The ray that was passed to `Bvh::hit`.
+    pub ray: Ray,
+    /// The result of `Bvh::hit`. `Trace::material` is the index of the shape. `None` if it missed,
+    /// or panicked.
+    pub hit: Option<Trace>,
+    /// The tests, in order. Tests beyond the maximum number are left out.
+    pub tests: Vec<Test>,
+    /// The numbers of all tests.
+    pub counts: TestCounts,
+}
+
+/// A call of `BBox::hit` or `Primitive::hit`, with its result.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Test {
+    /// A call of `BBox::hit`.
+    Box {
+        /// The lower corner of the box.
+        min: Vec3,
+        /// The upper corner of the box.
+        max: Vec3,
+        /// The `times` that were passed.
+        times: Interval,
+        /// The result.
+        inside: Option<Interval>,
+        /// The address of the box. Nodes with equal boxes have different ones, if the traversal does
+        /// not copy them.
+        address: u64,
+    },
+    /// A call of `Primitive::hit`.
+    Primitive {
+        /// The index of the shape in the scene.
+        shape: u32,
+        /// The range of the ray that was passed.
+        range: Interval,
+        /// The distance of the hit.
+        distance: Option<f32>,
+    },
+}

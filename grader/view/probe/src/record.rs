@@ -1,0 +1,161 @@
+//! Records the tests that a submission's traversal makes.
+//!
+//! The recording program is compiled from the same files as the drawing program, except that the
+//! viewer has renamed `BBox::hit` and `Primitive::hit`, and that methods with the old names call
+//! them and then [`box_test`] or [`primitive_test`]. So the submission's traversal runs unchanged.
+
+use std::cell::{Cell, RefCell};
+
+use framework::submission::{Aggregate, Hierarchy};
+use glam::Vec3;
+use protocol::{Interval, Ray, Trace, TreeNode};
+
+use crate::messages::{Follow, FollowedRay, Test, TestCounts};
+
+thread_local! {
+    /// The number of tests since the last [`take_counts`].
+    static COUNTS: Cell<TestCounts> = const { Cell::new(TestCounts { boxes: 0, primitives: 0 }) };
+    /// The recorded rays, if tests are being listed.
+    static LIST: RefCell<Option<List>> = const { RefCell::new(None) };
+    /// Whether tests are being listed, so that counting does not access `LIST`.
+    static LISTING: Cell<bool> = const { Cell::new(false) };
+}
+
+struct List {
+    rays: Vec<FollowedRay>,
+    /// The number of tests that may still be listed.
+    left: u32,
+}
+
+/// Records a call of `BBox::hit`, and returns its result. `bbox` is the box with these corners. Only
+/// its address is used.
+pub fn box_test<B>(
+    bbox: &B,
+    [min, max]: [Vec3; 2],
+    times: Interval,
+    inside: Option<Interval>,
+) -> Option<Interval> {
+    COUNTS.set(TestCounts {
+        boxes: COUNTS.get().boxes.saturating_add(1),
+        ..COUNTS.get()
+    });
+    if LISTING.get() {
+        let test = Test::Box {
+            min,
+            max,
+            times,
+            inside,
+            address: std::ptr::from_ref(bbox).addr() as u64,
+        };
+        push(test);
+    }
+    inside
+}
+
+/// Records a call of `Primitive::hit`, and returns its result. `material` is the index of the shape.
+pub fn primitive_test(material: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace> {
+    COUNTS.set(TestCounts {
+        primitives: COUNTS.get().primitives.saturating_add(1),
+        ..COUNTS.get()
+    });
+    if LISTING.get() {
+        let test = Test::Primitive {
+            shape: material,
+            range: ray.range,
+            distance: hit.map(|trace| trace.distance),
+        };
+        push(test);
+    }
+    hit
+}
+
+/// Adds a test to the current ray. A test outside of any ray is not listed.
+fn push(test: Test) {
+    LIST.with_borrow_mut(|list| {
+        let Some(list) = list else { return };
+        let Some(ray) = list.rays.last_mut() else {
+            return;
+        };
+        match test {
+            Test::Box { .. } => ray.counts.boxes = ray.counts.boxes.saturating_add(1),
+            Test::Primitive { .. } => {
+                ray.counts.primitives = ray.counts.primitives.saturating_add(1);
+            }
+        }
+        if let Some(left) = list.left.checked_sub(1) {
+            list.left = left;
+            ray.tests.push(test);
+        }
+    });
+}
+
+/// Returns the number of tests since the last call.
+pub(crate) fn take_counts() -> TestCounts {
+    COUNTS.take()
+}
+
+/// Starts listing tests.
+pub(crate) fn start(follow: &Follow) {
+    LIST.set(Some(List {
+        rays: Vec::new(),
+        left: follow.max_tests,
+    }));
+    LISTING.set(true);
+}
+
+/// Stops listing tests, and returns the rays.
+pub(crate) fn finish() -> Vec<FollowedRay> {
+    LISTING.set(false);
+    LIST.take().map_or(Vec::new(), |list| list.rays)
+}
+
+/// A tree whose rays are listed.
+pub(crate) struct Recorded(pub(crate) Box<dyn Hierarchy>);
+
+impl Aggregate for Recorded {
+    fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
+        let Recorded(tree) = self;
+        if !LISTING.get() {
+            return tree.closest_hit(ray);
+        }
+        LIST.with_borrow_mut(|list| {
+            if let Some(list) = list {
+                list.rays.push(FollowedRay {
+                    ray: *ray,
+                    hit: None,
+                    tests: Vec::new(),
+                    counts: TestCounts::default(),
+                });
+            }
+        });
+        let hit = tree.closest_hit(ray);
+        LIST.with_borrow_mut(|list| {
+            if let Some(last) = list.as_mut().and_then(|list| list.rays.last_mut()) {
+                last.hit = hit;
+            }
+        });
+        hit
+    }
+}
+
+impl Hierarchy for Recorded {
+    fn root(&self) -> usize {
+        self.0.root()
+    }
+
+    fn node_count(&self) -> usize {
+        self.0.node_count()
+    }
+
+    fn node(&self, index: usize) -> TreeNode {
+        self.0.node(index)
+    }
+
+    fn primitive_count(&self) -> usize {
+        self.0.primitive_count()
+    }
+
+    fn material(&self, index: usize) -> u32 {
+        self.0.material(index)
+    }
+}

@@ -1,0 +1,167 @@
+//! An open scene: the submission's camera and tree, and the parts that are not written yet.
+
+use framework::attempt::attempt;
+use framework::scene::Scene;
+use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission, World};
+use glam::{UVec2, Vec2, Vec3};
+use protocol::{ElementOutcome, Interval, Panic, Ray, Shape, Trace, TreeNode};
+
+use crate::camera::ViewerCamera;
+use crate::messages::{Aim, Opened, Part, TreeSize};
+use crate::record::Recorded;
+use crate::scene_data::{SceneData, TreeSource};
+
+/// An open scene.
+pub(crate) struct Stage<'a> {
+    submission: &'a dyn Submission,
+    pub(crate) scene: Scene,
+    pub(crate) world: World,
+    pub(crate) aim: Aim,
+    has_camera: bool,
+}
+
+impl<'a> Stage<'a> {
+    /// Opens a scene. Shapes whose `hit` is not written yet are left out, so that the others can be
+    /// seen. Returns no stage if the tree cannot be built.
+    pub(crate) fn open(submission: &'a dyn Submission, data: SceneData) -> (Opened, Option<Self>) {
+        let (aim, numbered, source) = (data.aim, data.numbered, data.tree.clone());
+        let mut scene = data.into_scene();
+        let missing = missing_parts(submission, &scene);
+        let has = |part| missing.iter().all(|(known, _)| *known != part);
+        // A tree of the exam refers to all shapes.
+        if !matches!(source, TreeSource::Prebuilt(_)) {
+            scene.shapes.retain(|shape| match shape {
+                Shape::Triangle { .. } | Shape::FlatTriangle { .. } => has(Part::Triangle),
+                Shape::Sphere { .. } => has(Part::Sphere),
+            });
+        }
+        let build = || match &source {
+            TreeSource::Build => submission.build(&scene.shapes, scene.max_leaf_size),
+            TreeSource::Prebuilt(tree) => {
+                submission.prebuilt_tree(&scene.shapes, &tree.nodes, tree.root as usize)
+            }
+            TreeSource::List => Box::new(List(submission.primitive_list(&scene.shapes))),
+        };
+        let has_camera = has(Part::Camera);
+        let (tree, world) = match attempt(|| {
+            let tree = build();
+            let camera = camera(submission, &aim, has_camera);
+            let size = TreeSize {
+                nodes: TreeNode::saturating_index(tree.node_count()),
+                primitives: TreeNode::saturating_index(tree.primitive_count()),
+            };
+            let tree: Box<dyn Hierarchy> = if numbered {
+                Box::new(Recorded(tree))
+            } else {
+                tree
+            };
+            (size, World::from_parts(camera, tree))
+        }) {
+            ElementOutcome::Value((size, world)) => (ElementOutcome::Value(size), Some(world)),
+            ElementOutcome::Panicked(panic) => (ElementOutcome::Panicked(panic), None),
+            ElementOutcome::Skipped => unreachable!("`attempt` never skips"),
+        };
+        let stage = world.map(|world| Stage {
+            submission,
+            scene,
+            world,
+            aim,
+            has_camera,
+        });
+        (Opened { missing, tree }, stage)
+    }
+
+    /// Replaces the camera.
+    pub(crate) fn aim(&mut self, aim: Aim) {
+        let camera = attempt(|| camera(self.submission, &aim, self.has_camera));
+        if let ElementOutcome::Value(camera) = camera {
+            self.world.set_camera(camera);
+        }
+        self.scene.camera = aim.camera();
+        self.aim = aim;
+    }
+
+    /// Calls `BBox::hit` for the whole range of the ray.
+    pub(crate) fn intersect_box(&self, corners: (Vec3, Vec3), ray: &Ray) -> Option<Interval> {
+        let (min, max) = corners;
+        let test = || self.submission.intersect_box(min, max, ray, ray.range);
+        match attempt(test) {
+            ElementOutcome::Value(inside) => inside,
+            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
+        }
+    }
+}
+
+fn camera(submission: &dyn Submission, aim: &Aim, has_camera: bool) -> Box<dyn CameraRays> {
+    if has_camera {
+        submission.camera(&aim.pinhole)
+    } else {
+        Box::new(ViewerCamera::new(&aim.pinhole))
+    }
+}
+
+/// Finds the parts that are not written yet by calling each once.
+fn missing_parts(submission: &dyn Submission, scene: &Scene) -> Vec<(Part, Panic)> {
+    let ray = Ray::new(Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0));
+    let is_sphere = |shape: &&Shape| matches!(shape, Shape::Sphere { .. });
+    let hit = |shape: Option<&Shape>| {
+        if let Some(shape) = shape {
+            submission.primitive_list(&[*shape]).closest_hit(&ray);
+        }
+    };
+    let camera = || {
+        let camera = submission.camera(&scene.camera.pinhole);
+        camera.ray(UVec2::ZERO, Vec2::splat(0.5));
+    };
+    let bbox = || {
+        submission.intersect_box(Vec3::NEG_ONE, Vec3::ONE, &ray, Interval::AHEAD);
+    };
+    let outcomes = [
+        (Part::Camera, attempt(camera)),
+        (
+            Part::Triangle,
+            attempt(|| hit(scene.shapes.iter().find(|shape| !is_sphere(shape)))),
+        ),
+        (
+            Part::Sphere,
+            attempt(|| hit(scene.shapes.iter().find(is_sphere))),
+        ),
+        (Part::BBox, attempt(bbox)),
+    ];
+    let missing = |(part, outcome)| match outcome {
+        ElementOutcome::Panicked(panic) if Panic::is_unimplemented(&panic) => Some((part, panic)),
+        ElementOutcome::Panicked(_) | ElementOutcome::Value(()) | ElementOutcome::Skipped => None,
+    };
+    outcomes.into_iter().filter_map(missing).collect()
+}
+
+/// A list of primitives as a tree without nodes.
+struct List(Box<dyn Aggregate>);
+
+impl Aggregate for List {
+    fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
+        self.0.closest_hit(ray)
+    }
+}
+
+impl Hierarchy for List {
+    fn root(&self) -> usize {
+        0
+    }
+
+    fn node_count(&self) -> usize {
+        0
+    }
+
+    fn node(&self, index: usize) -> TreeNode {
+        unreachable!("a list has no node {index}")
+    }
+
+    fn primitive_count(&self) -> usize {
+        0
+    }
+
+    fn material(&self, index: usize) -> u32 {
+        unreachable!("the primitives of a list are not read, so not {index}")
+    }
+}

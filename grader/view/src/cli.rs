@@ -1,0 +1,103 @@
+//! The command line of `cargo view`.
+
+use std::path::PathBuf;
+
+use clap::{Parser, value_parser};
+use glam::UVec2;
+use grader::question_ref::QuestionRef;
+
+/// The port that is used if it is free.
+pub const DEFAULT_PORT: u16 = 8420;
+
+/// Shows your tracer at work in a browser
+#[derive(Clone, Debug, Parser)]
+#[command(
+    name = "cargo view",
+    bin_name = "cargo view",
+    version,
+    max_term_width = 100
+)]
+pub struct Arguments {
+    /// A scene in the folder `scenes`, or a scene file
+    #[arg(default_value = "cornell-box", conflicts_with = "item")]
+    pub scene: String,
+
+    /// Show a question of the practice exam, such as traverse.prunes#3, or an item's first question
+    #[arg(long, value_name = "ITEM#N")]
+    pub item: Option<QuestionRef>,
+
+    /// Number of pixels across and up [default: as in the scene]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<UVec2>,
+
+    /// Number of paths per pixel
+    #[arg(long, value_name = "N", default_value_t = 32, value_parser = value_parser!(u32).range(1..=4096))]
+    pub samples: u32,
+
+    /// Maximum number of times that a path is scattered
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = value_parser!(u32).range(..=10_000))]
+    pub bounces: u32,
+
+    /// Seed of all random numbers
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub seed: u64,
+
+    /// Port of the page on this machine [default: 8420, or any free one]
+    #[arg(long, value_name = "N")]
+    pub port: Option<u16>,
+
+    /// Do not open the page in a browser
+    #[arg(long)]
+    pub no_open: bool,
+
+    /// Another name by which the page is reached, such as that of a tunnel; may be repeated
+    #[arg(long, value_name = "NAME")]
+    pub allow_host: Vec<String>,
+
+    /// Number of programs that draw at the same time [default: one per core]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=256))]
+    pub threads: Option<u16>,
+
+    /// Show the reference's code (course staff)
+    #[arg(long, conflicts_with = "submission")]
+    pub reference: bool,
+
+    /// Show the code of a submission, a folder or an archive (course staff)
+    #[arg(long, value_name = "PATH")]
+    pub submission: Option<PathBuf>,
+
+    /// Run the submission in a sandbox, because it is someone else's
+    #[arg(long, requires = "submission")]
+    pub untrusted: bool,
+}
+
+fn size(text: &str) -> Result<UVec2, String> {
+    let side = |text: &str| {
+        text.trim()
+            .parse()
+            .ok()
+            .filter(|side| (1..=2048).contains(side))
+    };
+    let sides = text
+        .split_once('x')
+        .and_then(|(x, y)| Some(UVec2::new(side(x)?, side(y)?)));
+    sides.ok_or_else(|| "expected a size such as 640x480, with sides from 1 to 2048".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_size_is_two_sides_within_bounds() {
+        assert_eq!(size("640x480"), Ok(UVec2::new(640, 480)));
+        assert!(size("640").is_err() && size("0x3").is_err() && size("2049x1").is_err());
+    }
+}

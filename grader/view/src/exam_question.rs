@@ -1,0 +1,218 @@
+//! Questions of the practice exam as scenes. Only the exam that is embedded in the grader is shown:
+//! a final exam is never in a file that this program reads.
+
+use std::sync::Arc;
+
+use framework::scene::{Camera, Material, Placement, Scene};
+use glam::{Mat3, UVec2, Vec3};
+use grader::exam_source::ExamSource;
+use grader::handed_out::RAYS;
+use grader::nearest_name::suggestion;
+use grader::question_ref::QuestionRef;
+use judging::describe;
+use judging::exam::ExamQuestion;
+use protocol::{PinholeCamera, Question, Ray, Rays, Shape, Tree};
+use view_probe::scene_data::{SceneData, TreeSource};
+
+use crate::error::ViewError;
+use crate::model::bounds::{Bounds, corners};
+use crate::model::viewpoint::Viewpoint;
+use crate::subject::{ExamRay, PathSettings, Subject, aim};
+
+/// The film on which a question is drawn.
+const FILM: UVec2 = UVec2::new(480, 360);
+/// The vertical field of view, in degrees.
+const FOV: f32 = 35.0;
+
+/// Returns the subject that shows a question of the practice exam.
+pub fn subject_of_question(
+    reference: &QuestionRef,
+    settings: PathSettings,
+) -> Result<Subject, ViewError> {
+    let exam = ExamSource::Practice.load(&RAYS)?.exam;
+    let item = exam.items.iter().find(|item| item.id == reference.item);
+    let item = item.ok_or_else(|| {
+        let ids = || exam.items.iter().map(|item| item.id.as_str());
+        ViewError::Question(format!(
+            "the practice exam has no item `{}`{}; it has: {}",
+            reference.item,
+            suggestion(&reference.item, ids()),
+            ids().collect::<Vec<_>>().join(", ")
+        ))
+    })?;
+    let number = reference.number.unwrap_or(1);
+    let (question, element) = item.element(number).ok_or_else(|| {
+        ViewError::Question(format!(
+            "{} has {} questions, so there is no number {}",
+            reference.item,
+            item.count(),
+            number
+        ))
+    })?;
+    let name = format!("{}#{number}", reference.item);
+    subject(
+        &name,
+        &item.title,
+        &item.questions[question],
+        element,
+        settings,
+    )
+}
+
+fn subject(
+    name: &str,
+    title: &str,
+    question: &ExamQuestion,
+    element: usize,
+    settings: PathSettings,
+) -> Result<Subject, ViewError> {
+    let (shapes, tree, ray, boxes, leaf) = match &question.question {
+        Question::Shapes { shapes, rays } => (
+            shapes.clone(),
+            TreeSource::List,
+            ray(rays, element),
+            Vec::new(),
+            1,
+        ),
+        Question::Traverse {
+            shapes,
+            nodes,
+            root,
+            rays,
+        } => {
+            let tree = Tree {
+                nodes: nodes.clone(),
+                root: *root,
+                order: Vec::new(),
+            };
+            (
+                shapes.clone(),
+                TreeSource::Prebuilt(tree),
+                ray(rays, element),
+                Vec::new(),
+                1,
+            )
+        }
+        Question::BuildAndTraverse {
+            shapes,
+            max_leaf_size,
+            rays,
+        } => (
+            shapes.clone(),
+            TreeSource::Build,
+            ray(rays, element),
+            Vec::new(),
+            *max_leaf_size,
+        ),
+        Question::Build {
+            shapes,
+            max_leaf_size,
+        } => (
+            shapes.clone(),
+            TreeSource::Build,
+            None,
+            Vec::new(),
+            *max_leaf_size,
+        ),
+        Question::BBox { min, max, queries } => {
+            let ray = queries.get(element).map(|(ray, times)| Ray {
+                range: *times,
+                ..*ray
+            });
+            let corners = vec![[min.to_array(), max.to_array()]];
+            (Vec::new(), TreeSource::List, ray, corners, 1)
+        }
+        Question::Radiance { scene, .. } => {
+            let scene = Scene::from_text(scene)?;
+            return Ok(Subject::of_scene(name, &scene, settings));
+        }
+        Question::Camera { .. } | Question::Done => {
+            return Err(ViewError::Question(format!(
+                "{name} is about the camera alone, so there is no scene to show: \
+                 run `cargo grade --replay {name}`"
+            )));
+        }
+    };
+    let exam_ray = ExamRay {
+        ray,
+        boxes,
+        asked: describe::element(&question.question, element),
+        wanted: describe::answer::wanted(question, element),
+    };
+    let bounds = bounds(&shapes, &exam_ray);
+    let viewpoint = viewpoint(&bounds, ray.as_ref());
+    let camera = camera(&viewpoint);
+    let scene = Scene {
+        about: title.to_owned(),
+        camera,
+        environment: Vec3::splat(0.8),
+        materials: materials(&shapes),
+        shapes,
+        max_leaf_size: leaf as usize,
+    };
+    let mut data = SceneData::new(&scene, aim(&camera, settings));
+    data.tree = tree;
+    Ok(Subject {
+        name: name.to_owned(),
+        about: title.to_owned(),
+        data: Arc::new(data),
+        bounds,
+        extent: scene.extent(),
+        camera,
+        viewpoint,
+        question: Some(exam_ray),
+    })
+}
+
+fn ray(rays: &Rays, element: usize) -> Option<Ray> {
+    rays.to_vec().get(element).copied()
+}
+
+/// Returns the box around the shapes and boxes of a question. The ray is left out, since it may
+/// begin far away.
+fn bounds(shapes: &[Shape], question: &ExamRay) -> Bounds {
+    let boxes = question.boxes.iter().flatten().copied().map(Vec3::from);
+    Bounds::of_points(shapes.iter().flat_map(corners).chain(boxes))
+}
+
+/// Returns a viewpoint that sees the ray from the side, a little from behind and above.
+fn viewpoint(bounds: &Bounds, ray: Option<&Ray>) -> Viewpoint {
+    let along = ray.map_or(Vec3::new(-0.4, -0.3, -1.0), |ray| ray.dir);
+    let up = if along.y.abs() < 0.9 {
+        Vec3::Y
+    } else {
+        Vec3::Z
+    };
+    let aside = along.cross(up).normalize_or(Vec3::X);
+    let toward = match ray {
+        Some(_) => -aside + 0.35 * along - 0.35 * up,
+        None => along,
+    };
+    let aspect = FILM.x as f32 / FILM.y as f32;
+    Viewpoint::looking(toward, up, bounds, FOV, aspect)
+}
+
+fn camera(viewpoint: &Viewpoint) -> Camera {
+    let Placement { position, axes } = viewpoint.placement;
+    Camera {
+        pinhole: PinholeCamera {
+            vertical_fov: FOV,
+            aspect_ratio: FILM.x as f32 / FILM.y as f32,
+            film: FILM,
+        },
+        placement: Placement {
+            position,
+            axes: Mat3::from_cols(axes.x_axis, axes.y_axis, axes.z_axis),
+        },
+        fixed_aspect: false,
+    }
+}
+
+/// Returns a grey material for each number that the shapes use.
+fn materials(shapes: &[Shape]) -> Vec<Material> {
+    let most = shapes.iter().map(Shape::material).max().unwrap_or(0);
+    // Exams number their shapes, so that there are about as many materials as shapes.
+    let count = (most as usize + 1).min(shapes.len().max(1));
+    let albedo = Vec3::splat(0.7);
+    vec![Material::Lambertian { albedo }; count]
+}

@@ -1,0 +1,10 @@
+//! A small HTTP server for one page on the loopback address: one thread per connection, one request
+//! per connection. `httparse` parses the requests.
+
+mod request;
+mod response;
+mod serve;
+
+pub use request::{Method, Request, RequestError};
+pub use response::{Response, Status};
+pub use serve::serve;

@@ -1,0 +1,211 @@
+//! Reads requests.
+
+use std::io::Read;
+
+/// The maximum length of a request's line and headers, in bytes.
+const MAX_HEAD_BYTES: usize = 16 << 10;
+/// The maximum length of a request's body, in bytes. The longest command has about 100.
+const MAX_BODY_BYTES: usize = 16 << 10;
+/// The maximum number of headers. Browsers send about 20.
+const MAX_HEADERS: usize = 64;
+
+/// The methods that the server knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Reads something.
+    Get,
+    /// Changes something.
+    Post,
+}
+
+/// A request.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Request {
+    /// The method.
+    pub method: Method,
+    /// The path, such as `/state`, without the query.
+    pub path: String,
+    /// The query, without the question mark.
+    pub query: String,
+    /// The headers, with names in lower case.
+    headers: Vec<(String, String)>,
+    /// The body.
+    pub body: Vec<u8>,
+}
+
+/// A reason why a request cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum RequestError {
+    /// The connection ended or failed before the request was complete.
+    #[error("the connection ended: {0}")]
+    Io(#[from] std::io::Error),
+    /// The request is not valid HTTP/1.1, or uses a part of it that the server does not support.
+    #[error("the request is malformed: {0}")]
+    Malformed(String),
+    /// The request is too long.
+    #[error("the request is too long")]
+    TooLong,
+    /// The method is neither GET nor POST.
+    #[error("the method is not supported")]
+    Method,
+}
+
+impl Request {
+    /// Reads one request.
+    pub fn read(from: &mut impl Read) -> Result<Self, RequestError> {
+        let mut bytes = Vec::new();
+        let (mut request, head, length) = loop {
+            read_more(from, &mut bytes)?;
+            if let Some(parsed) = Request::parse_head(&bytes)? {
+                break parsed;
+            }
+            if bytes.len() > MAX_HEAD_BYTES {
+                return Err(RequestError::TooLong);
+            }
+        };
+        if head > MAX_HEAD_BYTES || length > MAX_BODY_BYTES {
+            return Err(RequestError::TooLong);
+        }
+        while bytes.len() < head + length {
+            read_more(from, &mut bytes)?;
+        }
+        request.body = bytes[head..head + length].to_vec();
+        Ok(request)
+    }
+
+    /// Parses the line and the headers. Returns the request without its body, the length of the
+    /// head and the length of the body, or `None` if the head is incomplete.
+    fn parse_head(bytes: &[u8]) -> Result<Option<(Self, usize, usize)>, RequestError> {
+        let mut headers = [httparse::EMPTY_HEADER; MAX_HEADERS];
+        let mut parsed = httparse::Request::new(&mut headers);
+        let malformed = |error: httparse::Error| RequestError::Malformed(error.to_string());
+        let httparse::Status::Complete(head) = parsed.parse(bytes).map_err(malformed)? else {
+            return Ok(None);
+        };
+        let method = match parsed.method {
+            Some("GET") => Method::Get,
+            Some("POST") => Method::Post,
+            Some(_) | None => return Err(RequestError::Method),
+        };
+        let target = parsed.path.unwrap_or("/");
+        let (path, query) = target.split_once('?').unwrap_or((target, ""));
+        let text = |value: &[u8]| String::from_utf8_lossy(value).into_owned();
+        let headers = parsed.headers.iter();
+        let headers = headers.map(|header| (header.name.to_lowercase(), text(header.value)));
+        let request = Request {
+            method,
+            path: path.to_owned(),
+            query: query.to_owned(),
+            headers: headers.collect(),
+            body: Vec::new(),
+        };
+        // A body in chunks has no length. No page of this server sends one.
+        if request.header("transfer-encoding").is_some() {
+            return Err(RequestError::Malformed(
+                "a body without a length".to_owned(),
+            ));
+        }
+        let length = match request.header("content-length") {
+            None => 0,
+            Some(length) => length
+                .parse()
+                .map_err(|_| RequestError::Malformed("an invalid length".to_owned()))?,
+        };
+        Ok(Some((request, head, length)))
+    }
+
+    /// Returns the value of a header, given its name in lower case. Returns `None` if the header is
+    /// missing or occurs twice, since two values of `Host` could deceive a check.
+    pub fn header(&self, name: &str) -> Option<&str> {
+        let mut values = self.headers.iter().filter(|(known, _)| known == name);
+        match (values.next(), values.next()) {
+            (Some((_, value)), None) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Returns the value of a cookie.
+    pub fn cookie(&self, name: &str) -> Option<&str> {
+        let cookies = self.header("cookie")?.split(';');
+        cookies
+            .filter_map(|cookie| cookie.trim().split_once('='))
+            .find(|(known, _)| *known == name)
+            .map(|(_, value)| value)
+    }
+
+    /// Returns the value of a parameter in the query. It is not decoded: the server's own links have
+    /// only letters and digits there.
+    pub fn parameter(&self, name: &str) -> Option<&str> {
+        let parameters = self.query.split('&');
+        parameters
+            .filter_map(|parameter| parameter.split_once('='))
+            .find(|(known, _)| *known == name)
+            .map(|(_, value)| value)
+    }
+}
+
+fn read_more(from: &mut impl Read, bytes: &mut Vec<u8>) -> Result<(), RequestError> {
+    let mut buffer = [0; 4 << 10];
+    match from.read(&mut buffer)? {
+        0 => Err(RequestError::Io(std::io::ErrorKind::UnexpectedEof.into())),
+        read => {
+            bytes.extend_from_slice(&buffer[..read]);
+            Ok(())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Request, RequestError> {
+        Request::read(&mut text.as_bytes())
+    }
+
+    #[test]
+    fn reads_the_path_the_headers_and_the_body() {
+        let text = "POST /command?n=7&m=x HTTP/1.1\r\nHost: a:1\r\nCookie: x=1; view=2\r\n\
+                    Content-Length: 2\r\n\r\n{}";
+        let request = read(text).unwrap();
+        assert_eq!((request.method, &*request.path), (Method::Post, "/command"));
+        assert_eq!(request.header("host"), Some("a:1"));
+        assert_eq!(
+            (request.cookie("view"), request.cookie("none")),
+            (Some("2"), None)
+        );
+        assert_eq!(
+            (request.parameter("n"), request.parameter("m")),
+            (Some("7"), Some("x"))
+        );
+        assert_eq!(request.body, b"{}");
+    }
+
+    #[test]
+    fn a_header_that_occurs_twice_has_no_value() {
+        let request = read("GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n").unwrap();
+        assert_eq!(request.header("host"), None);
+    }
+
+    #[test]
+    fn rejects_what_it_does_not_support() {
+        let long = format!("GET /{} HTTP/1.1\r\n\r\n", "x".repeat(20_000));
+        assert!(matches!(read(&long), Err(RequestError::TooLong)));
+        let body = "POST / HTTP/1.1\r\nContent-Length: 99999999\r\n\r\n";
+        assert!(matches!(read(body), Err(RequestError::TooLong)));
+        let chunks = "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n";
+        assert!(matches!(read(chunks), Err(RequestError::Malformed(_))));
+        assert!(matches!(
+            read("PUT / HTTP/1.1\r\n\r\n"),
+            Err(RequestError::Method)
+        ));
+        assert!(matches!(
+            read("\u{1}\r\n\r\n"),
+            Err(RequestError::Malformed(_))
+        ));
+        assert!(matches!(
+            read("GET / HTTP/1.1\r\n"),
+            Err(RequestError::Io(_))
+        ));
+    }
+}

@@ -1,0 +1,37 @@
+//! Shows a submission's tracer at work in a browser: the picture while it is drawn, the tree, and
+//! the tests that the submission's traversal makes for one ray.
+//!
+//! The submission's files are compiled as for grading, but with the crate `view_probe` instead of
+//! the grader's probe. This crate starts the programs, keeps the state of the page, and serves the
+//! page on the loopback address.
+//!
+//! Layers, from top to bottom. A module imports only from layers below its own:
+//!
+//! | layer | modules |
+//! |---|---|
+//! | the command | [`run`], [`cli`], [`browser`] |
+//! | the page | [`routes`], with the files in `page`; [`access`] |
+//! | threads | [`workers`], [`watcher`], [`composer`]; [`studio`], the state that they share |
+//! | the state | [`session`] |
+//! | inputs | [`subject`], [`exam_question`], [`program`], [`recording`], [`probe`] |
+//! | pure parts | [`model`]: camera, order of drawing, tree, rules of traversal |
+//! | the network | [`http`] |
+
+pub mod access;
+pub mod browser;
+pub mod cli;
+pub mod composer;
+pub mod error;
+pub mod exam_question;
+pub mod http;
+pub mod model;
+pub mod probe;
+pub mod program;
+pub mod recording;
+pub mod routes;
+pub mod run;
+pub mod session;
+pub mod studio;
+pub mod subject;
+pub mod watcher;
+pub mod workers;

@@ -1,0 +1,21 @@
+//! `cargo view`: shows a tracer at work.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use grader::sandbox;
+use view::cli::Arguments;
+use view::run::run;
+
+fn main() -> ExitCode {
+    if let Some(code) = sandbox::run_as_launcher() {
+        return code;
+    }
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            anstream::eprintln!("error: {error}");
+            ExitCode::from(error.exit_code())
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! The tests of a ray, or of all rays of a path, as the page shows them.
+
+mod remarks;
+mod types;
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use glam::{UVec2, Vec3};
+use protocol::{Shape, Trace};
+use view_probe::messages::{Followed, FollowedRay, Test};
+
+use crate::model::rules::{self, MARGIN, NodeAddresses, NodeSpan, Row, Rule, Violation};
+use crate::model::tree::TreeModel;
+
+pub use types::{ExplainedHit, ExplainedRay, ExplainedTest, Explanation, Outcome};
+
+/// The scene that the rays are traced in.
+pub struct Context<'a> {
+    /// The tree, whose primitives have their numbers as materials.
+    pub tree: &'a TreeModel,
+    /// The leaf of each shape.
+    pub leaves: &'a HashMap<u32, u32>,
+    /// All shapes.
+    pub shapes: &'a [Shape],
+    /// Whether the shapes are tested as a list, because the question is not about a tree.
+    pub is_list: bool,
+    /// The place of the nodes in memory, if it is known.
+    pub addresses: Option<NodeAddresses>,
+}
+
+/// Returns the nodes whose spans [`explain_ray`] needs.
+pub fn needed_nodes(ray: &FollowedRay, context: &Context) -> Vec<u32> {
+    let rows = rules::rows(ray, context.tree, context.leaves, context.addresses);
+    let mut nodes = rules::judged_nodes(&rows, context.tree);
+    let tested: BTreeSet<u32> = rows
+        .iter()
+        .flat_map(|row| row.nodes.first())
+        .copied()
+        .collect();
+    nodes.extend(tested);
+    nodes.into_iter().collect()
+}
+
+/// Returns the corners of a node's box, and those of a box that is larger by the margin.
+pub fn corners_with_margin(node: u32, tree: &TreeModel) -> Option<[(Vec3, Vec3); 2]> {
+    let node = tree.node(node)?;
+    let margin = MARGIN * node.min.distance(node.max);
+    Some([(node.min, node.max), (node.min - margin, node.max + margin)])
+}
+
+/// Explains the rays of a recording. `spans` has the spans of the needed nodes, for each ray.
+pub fn explain(
+    pixel: Option<UVec2>,
+    sample: Option<u32>,
+    followed: &Followed,
+    spans: &[BTreeMap<u32, NodeSpan>],
+    context: &Context,
+) -> Explanation {
+    let rays = followed.rays.iter().zip(spans).enumerate();
+    let mut bounce = 0;
+    let explained = rays.map(|(index, (ray, spans))| {
+        let kind = match (pixel, ray.ray.range.max.is_finite()) {
+            (None, _) => "ray of the exam".to_owned(),
+            (Some(_), _) if index == 0 => "camera ray".to_owned(),
+            (Some(_), true) => "shadow ray, to a light".to_owned(),
+            (Some(_), false) => {
+                bounce += 1;
+                format!("ray after bounce {bounce}")
+            }
+        };
+        explain_ray(kind, ray, spans, context)
+    });
+    Explanation {
+        pixel: pixel.map(|pixel| pixel.to_array()),
+        sample,
+        rays: explained.collect(),
+        radiance: followed.radiance.map(|radiance| radiance.to_array()),
+        panic: followed
+            .panic
+            .clone()
+            .map(|panic| [panic.message, panic.location]),
+    }
+}
+
+fn explain_ray(
+    kind: String,
+    ray: &FollowedRay,
+    spans: &BTreeMap<u32, NodeSpan>,
+    context: &Context,
+) -> ExplainedRay {
+    let rows = rules::rows(ray, context.tree, context.leaves, context.addresses);
+    let violations = rules::violations(ray, &rows, context.tree, spans);
+    let entered: BTreeSet<u32> = rows
+        .iter()
+        .flat_map(|row| row.enters.iter().chain(&row.may_enter))
+        .copied()
+        .collect();
+    let mut state = State {
+        closest: None,
+        at_the_end: closest_hit(ray),
+        tested: BTreeSet::new(),
+    };
+    let all = rows.iter().zip(&ray.tests).enumerate();
+    let tests: Vec<ExplainedTest> = all
+        .map(|(index, (row, test))| {
+            let mut explained = state.explain(row, test, ray, &entered, spans, context);
+            explained.marks = marks(index, &violations);
+            explained
+        })
+        .collect();
+    let closest = state.closest;
+    let ray_end = |t: f32| t.is_finite().then_some(t);
+    ExplainedRay {
+        kind,
+        origin: ray.ray.origin.to_array(),
+        dir: ray.ray.dir.to_array(),
+        range: [ray_end(ray.ray.range.min), ray_end(ray.ray.range.max)],
+        hit: ray.hit.as_ref().map(explained_hit),
+        notes: remarks::remarks(ray, &tests, closest, context),
+        rows: tests,
+        boxes: ray.counts.boxes,
+        primitives: ray.counts.primitives,
+    }
+}
+
+fn marks(row: usize, violations: &[Violation]) -> Vec<(Rule, u32)> {
+    let here = violations.iter().filter(|violation| violation.row == row);
+    here.map(|violation| (violation.rule, violation.node))
+        .collect()
+}
+
+fn explained_hit(trace: &Trace) -> ExplainedHit {
+    ExplainedHit {
+        distance: trace.distance,
+        position: trace.position.to_array(),
+        shape: trace.material,
+    }
+}
+
+/// The state of a traversal while its tests are explained one after the other.
+struct State {
+    closest: Option<f32>,
+    /// The closest hit after all tests. A node is often skipped long after its box was tested.
+    at_the_end: Option<f32>,
+    tested: BTreeSet<u32>,
+}
+
+impl State {
+    fn explain(
+        &mut self,
+        row: &Row,
+        test: &Test,
+        ray: &FollowedRay,
+        entered: &BTreeSet<u32>,
+        spans: &BTreeMap<u32, NodeSpan>,
+        context: &Context,
+    ) -> ExplainedTest {
+        let level = row.nodes.first().and_then(|node| context.tree.level(*node));
+        let base = ExplainedTest {
+            is_box: true,
+            nodes: row.nodes.clone(),
+            level,
+            shape: None,
+            corners: None,
+            triangle: None,
+            outcome: Outcome::Missed,
+            at: Vec::new(),
+            closest: self.closest,
+            marks: Vec::new(),
+            again: false,
+        };
+        match *test {
+            Test::Box {
+                min, max, inside, ..
+            } => {
+                let whole = row.nodes.first().and_then(|node| spans.get(node)?.inside);
+                let beyond = |from: f32| self.at_the_end.is_some_and(|closest| from > closest);
+                let outcome = match inside {
+                    Some(_) if row.nodes.iter().any(|node| entered.contains(node)) => {
+                        Outcome::Entered
+                    }
+                    Some(inside) if beyond(inside.min) => Outcome::SkippedBeyond,
+                    Some(_) => Outcome::NotEntered,
+                    None if whole.is_some() => Outcome::OutsideTimes,
+                    None => Outcome::Missed,
+                };
+                let span = inside.or(whole);
+                ExplainedTest {
+                    corners: Some([min.to_array(), max.to_array()]),
+                    outcome,
+                    at: span.map_or(Vec::new(), |span| vec![span.min, span.max]),
+                    ..base
+                }
+            }
+            Test::Primitive {
+                shape, distance, ..
+            } => {
+                let outcome = match distance {
+                    None => Outcome::NoHit,
+                    Some(t) if ray.ray.range.contains(t) && self.closest.is_none_or(|c| t < c) => {
+                        self.closest = Some(t);
+                        Outcome::Closest
+                    }
+                    Some(_) => Outcome::Farther,
+                };
+                let shown = context.shapes.get(shape as usize);
+                ExplainedTest {
+                    is_box: false,
+                    shape: Some(shape),
+                    corners: shown.and_then(sphere_corners),
+                    triangle: shown.and_then(triangle_corners),
+                    outcome,
+                    at: distance.into_iter().collect(),
+                    closest: self.closest,
+                    again: !self.tested.insert(shape),
+                    ..base
+                }
+            }
+        }
+    }
+}
+
+/// Returns the distance of the closest hit that the listed tests found.
+fn closest_hit(ray: &FollowedRay) -> Option<f32> {
+    let distances = ray.tests.iter().filter_map(|test| match test {
+        Test::Primitive { distance, .. } => *distance,
+        Test::Box { .. } => None,
+    });
+    let in_range = distances.filter(|distance| ray.ray.range.contains(*distance));
+    in_range.reduce(f32::min)
+}
+
+fn sphere_corners(shape: &Shape) -> Option<[[f32; 3]; 2]> {
+    match *shape {
+        Shape::Sphere { center, radius, .. } => {
+            Some([(center - radius).to_array(), (center + radius).to_array()])
+        }
+        Shape::Triangle { .. } | Shape::FlatTriangle { .. } => None,
+    }
+}
+
+fn triangle_corners(shape: &Shape) -> Option<[[f32; 3]; 3]> {
+    match *shape {
+        Shape::Triangle { vertices, .. } => Some(vertices.map(|vertex| vertex.position.to_array())),
+        Shape::FlatTriangle { corners, .. } => Some(corners.map(|corner| corner.to_array())),
+        Shape::Sphere { .. } => None,
+    }
+}

@@ -1,0 +1,103 @@
+//! An explanation as it is sent to the page.
+
+use serde::Serialize;
+
+use crate::model::rules::Rule;
+
+/// An explained pixel.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Explanation {
+    /// The pixel, from the bottom left, or `None` for a ray of the exam.
+    pub pixel: Option<[u32; 2]>,
+    /// The number of the path, or `None` for the ray through the centre.
+    pub sample: Option<u32>,
+    /// The rays, in the order in which they were traced.
+    pub rays: Vec<ExplainedRay>,
+    /// The radiance of the path.
+    pub radiance: Option<[f32; 3]>,
+    /// The panic that ended the recording: its message and its location.
+    pub panic: Option<[String; 2]>,
+}
+
+/// An explained ray.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExplainedRay {
+    /// The use of the ray, such as "camera ray".
+    pub kind: String,
+    /// The origin.
+    pub origin: [f32; 3],
+    /// The direction.
+    pub dir: [f32; 3],
+    /// The range; an infinite end is `None`.
+    pub range: [Option<f32>; 2],
+    /// The result of `Bvh::hit`.
+    pub hit: Option<ExplainedHit>,
+    /// The tests, in order.
+    pub rows: Vec<ExplainedTest>,
+    /// The number of box tests, also of those that are not listed.
+    pub boxes: u32,
+    /// The number of primitive tests, also of those that are not listed.
+    pub primitives: u32,
+    /// Remarks about all tests together.
+    pub notes: Vec<String>,
+}
+
+/// The result of `Bvh::hit`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ExplainedHit {
+    /// The distance.
+    pub distance: f32,
+    /// The position.
+    pub position: [f32; 3],
+    /// The index of the shape.
+    pub shape: u32,
+}
+
+/// A test.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExplainedTest {
+    /// Whether a box was tested, and not a primitive.
+    pub is_box: bool,
+    /// The nodes that have this box, or the leaf of the primitive.
+    pub nodes: Vec<u32>,
+    /// The level of the first of them.
+    pub level: Option<u32>,
+    /// The index of the shape.
+    pub shape: Option<u32>,
+    /// The lower and the upper corner of the box.
+    pub corners: Option<[[f32; 3]; 2]>,
+    /// The corners of the triangle.
+    pub triangle: Option<[[f32; 3]; 3]>,
+    /// The outcome.
+    pub outcome: Outcome,
+    /// The part of the ray in the box, or the distance of the hit.
+    pub at: Vec<f32>,
+    /// The closest hit after this test.
+    pub closest: Option<f32>,
+    /// The rules that are broken with this test, each with the node.
+    pub marks: Vec<(Rule, u32)>,
+    /// Whether the primitive had been tested for this ray before.
+    pub again: bool,
+}
+
+/// The outcome of a test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// The ray hits the box, and the node was entered.
+    Entered,
+    /// The ray hits the box, but the node was not entered.
+    NotEntered,
+    /// The ray hits the box, but it begins beyond the closest hit, and was not entered.
+    SkippedBeyond,
+    /// The ray hits the box, but outside the `times` that were passed.
+    OutsideTimes,
+    /// The ray misses the box.
+    Missed,
+    /// The primitive is the closest hit so far.
+    Closest,
+    /// The primitive is hit, but not as the closest.
+    Farther,
+    /// The primitive is not hit.
+    NoHit,
+}

@@ -1,0 +1,236 @@
+//! Rules that every correct traversal keeps, checked without knowing a correct answer. They use the
+//! submission's own `BBox::hit`, and the margins of the exam: whatever is within 1 % of a box's
+//! diagonal is not judged.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use protocol::{Interval, TreeNode};
+use serde::Serialize;
+use view_probe::messages::{FollowedRay, Test};
+
+use crate::model::tree::TreeModel;
+
+/// The share of a box's diagonal within which nothing is judged.
+pub const MARGIN: f32 = 0.01;
+
+/// The parts of the ray that are in a node's box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeSpan {
+    /// The part of the ray's range that is in the box, or `None` if it misses the box.
+    pub inside: Option<Interval>,
+    /// The same for a box that is larger by the margin on each side.
+    pub inside_larger: Option<Interval>,
+}
+
+/// The nodes that a test belongs to.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Row {
+    /// The nodes whose box was tested: several if their boxes are equal. For a primitive, its leaf.
+    pub nodes: Vec<u32>,
+    /// The node that has been entered with this test, if it was not entered before: the parent of
+    /// the tested box, or the primitive's leaf.
+    pub enters: Option<u32>,
+    /// Nodes that may have been entered with this test: the parents, if several nodes have the
+    /// tested box.
+    pub may_enter: Vec<u32>,
+}
+
+/// A violation of a rule, at a test.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Violation {
+    /// The index of the test.
+    pub row: usize,
+    /// The rule.
+    pub rule: Rule,
+    /// The node that should not have been entered then.
+    pub node: u32,
+}
+
+/// A rule of traversal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rule {
+    /// A node whose box the ray misses is not entered.
+    MissedBox,
+    /// A node whose box begins beyond the closest hit so far is not entered.
+    BeyondClosestHit,
+    /// Of two children whose boxes the ray hits, the one that it enters first is visited first.
+    FartherChildFirst,
+}
+
+/// The place of a submission's nodes in memory, to tell nodes with equal boxes apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NodeAddresses {
+    /// The address of the box of node 0.
+    first: i128,
+    /// The distance between the boxes of two nodes, in bytes.
+    stride: i128,
+}
+
+impl NodeAddresses {
+    /// Finds the addresses from the tests of nodes whose boxes no other node has. Returns `None` if
+    /// they are not those of a list of nodes, because the traversal copies the nodes.
+    pub fn find<'a>(tests: impl Iterator<Item = &'a Test>, tree: &TreeModel) -> Option<Self> {
+        let known = tests.filter_map(|test| match test {
+            Test::Box {
+                min, max, address, ..
+            } => match tree.with_box(*min, *max) {
+                [node] => Some((i128::from(*node), i128::from(*address))),
+                _ => None,
+            },
+            Test::Primitive { .. } => None,
+        });
+        let known: Vec<(i128, i128)> = known.collect();
+        let (node, address) = *known.first()?;
+        let (other_node, other_address) = *known.iter().find(|(other, _)| *other != node)?;
+        let stride = (other_address - address) / (other_node - node);
+        let addresses = NodeAddresses {
+            first: address - node * stride,
+            stride,
+        };
+        let fits = |(node, address): &(i128, i128)| addresses.of(*node) == *address;
+        (stride > 0 && known.iter().all(fits)).then_some(addresses)
+    }
+
+    fn of(self, node: i128) -> i128 {
+        self.first + node * self.stride
+    }
+
+    /// Returns the nodes at this address, or all of them if none is.
+    fn choose(self, nodes: &[u32], address: u64) -> Vec<u32> {
+        let is_there = |node: &&u32| self.of(i128::from(**node)) == i128::from(address);
+        match nodes.iter().find(is_there) {
+            Some(node) => vec![*node],
+            None => nodes.to_vec(),
+        }
+    }
+}
+
+/// Finds the nodes that the tests of a ray belong to. `leaves` has the leaf of each shape.
+pub fn rows(
+    ray: &FollowedRay,
+    tree: &TreeModel,
+    leaves: &HashMap<u32, u32>,
+    addresses: Option<NodeAddresses>,
+) -> Vec<Row> {
+    let mut entered = BTreeSet::new();
+    let mut rows = Vec::new();
+    for test in &ray.tests {
+        let (nodes, inner) = match test {
+            Test::Box {
+                min, max, address, ..
+            } => {
+                let nodes = tree.with_box(*min, *max);
+                let nodes = match addresses {
+                    Some(addresses) => addresses.choose(nodes, *address),
+                    None => nodes.to_vec(),
+                };
+                let parents = nodes.iter().filter_map(|node| tree.parent(*node));
+                let parents = parents.collect();
+                (nodes, parents)
+            }
+            Test::Primitive { shape, .. } => {
+                let leaf: Vec<u32> = leaves.get(shape).copied().into_iter().collect();
+                (leaf.clone(), leaf)
+            }
+        };
+        let (enters, may_enter) = match inner[..] {
+            [node] => (Some(node), Vec::new()),
+            _ => (None, inner),
+        };
+        rows.push(Row {
+            nodes,
+            enters: enters.filter(|node| entered.insert(*node)),
+            may_enter,
+        });
+    }
+    rows
+}
+
+/// Returns the nodes whose spans [`violations`] needs: all that are entered, and their siblings.
+pub fn judged_nodes(rows: &[Row], tree: &TreeModel) -> BTreeSet<u32> {
+    let entered = rows.iter().filter_map(|row| row.enters);
+    entered
+        .flat_map(|node| [Some(node), sibling(node, tree)])
+        .flatten()
+        .collect()
+}
+
+/// Finds the violations in the tests of a ray. `spans` has the spans of the judged nodes.
+pub fn violations(
+    ray: &FollowedRay,
+    rows: &[Row],
+    tree: &TreeModel,
+    spans: &BTreeMap<u32, NodeSpan>,
+) -> Vec<Violation> {
+    let mut closest = f32::INFINITY;
+    let mut visited = BTreeSet::new();
+    let mut violations = Vec::new();
+    for (index, (row, test)) in rows.iter().zip(&ray.tests).enumerate() {
+        if let Some(node) = row.enters {
+            // The root has no sibling, and its box need not be tested.
+            if node != tree.tree.root
+                && let Some(rule) = broken_rule(node, closest, &visited, tree, spans)
+            {
+                violations.push(Violation {
+                    row: index,
+                    rule,
+                    node,
+                });
+            }
+        }
+        // A node is visited as soon as something below it is.
+        for node in row.enters.iter().chain(&row.may_enter) {
+            let mut above = Some(*node);
+            while let Some(node) = above.filter(|node| visited.insert(*node)) {
+                above = tree.parent(node);
+            }
+        }
+        if let Test::Primitive {
+            distance: Some(distance),
+            ..
+        } = test
+            && ray.ray.range.contains(*distance)
+        {
+            closest = closest.min(*distance);
+        }
+    }
+    violations
+}
+
+fn broken_rule(
+    node: u32,
+    closest: f32,
+    visited: &BTreeSet<u32>,
+    tree: &TreeModel,
+    spans: &BTreeMap<u32, NodeSpan>,
+) -> Option<Rule> {
+    let span = spans.get(&node)?;
+    let Some(inside) = span.inside else {
+        return span.inside_larger.is_none().then_some(Rule::MissedBox);
+    };
+    if inside.min > closest + MARGIN * diagonal(tree.node(node)?) {
+        return Some(Rule::BeyondClosestHit);
+    }
+    let parent = tree.node(tree.parent(node)?)?;
+    let other = sibling(node, tree)?;
+    let of_other = spans.get(&other)?.inside?;
+    // A visit of an empty leaf tests nothing, so it cannot be seen.
+    if tree.count(other) == 0 {
+        return None;
+    }
+    let is_farther = inside.min > of_other.min + MARGIN * diagonal(parent);
+    (is_farther && !visited.contains(&other)).then_some(Rule::FartherChildFirst)
+}
+
+fn sibling(node: u32, tree: &TreeModel) -> Option<u32> {
+    let parent = tree.node(tree.parent(node)?)?;
+    Some(if parent.l == node { parent.r } else { parent.l })
+}
+
+fn diagonal(node: &TreeNode) -> f32 {
+    node.min.distance(node.max)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,148 @@
+use glam::{Vec3, vec3};
+use protocol::{Ray, Tree};
+use view_probe::messages::TestCounts;
+
+use super::*;
+
+/// Three leaves in a row along x: 1 at 0..1, 2 at 2..3, 3 at 2..3 but far above; 4 is the parent
+/// of 2 and 3.
+fn tree() -> TreeModel {
+    let node = |min: Vec3, max, start, size, l, r| TreeNode::new(min, max, start, size, l, r);
+    TreeModel::new(Tree {
+        nodes: vec![
+            node(Vec3::ZERO, vec3(3.0, 9.0, 1.0), 0, 0, 1, 4),
+            node(Vec3::ZERO, Vec3::ONE, 0, 1, 0, 0),
+            node(vec3(2.0, 0.0, 0.0), vec3(3.0, 1.0, 1.0), 1, 1, 0, 0),
+            node(vec3(2.0, 8.0, 0.0), vec3(3.0, 9.0, 1.0), 2, 1, 0, 0),
+            node(vec3(2.0, 0.0, 0.0), vec3(3.0, 9.0, 1.0), 0, 0, 2, 3),
+        ],
+        root: 0,
+        order: vec![0, 1, 2],
+    })
+}
+
+fn box_test(node: usize) -> Test {
+    let node = tree().tree.nodes[node];
+    Test::Box {
+        min: node.min,
+        max: node.max,
+        times: Interval::AHEAD,
+        inside: None,
+        address: 0,
+    }
+}
+
+fn primitive(shape: u32, distance: Option<f32>) -> Test {
+    Test::Primitive {
+        shape,
+        range: Interval::AHEAD,
+        distance,
+    }
+}
+
+/// Returns the rules that these tests of a ray along x break, with the nodes.
+fn broken(tests: &[Test]) -> Vec<(Rule, u32)> {
+    let ray = FollowedRay {
+        ray: Ray::new(vec3(-1.0, 0.5, 0.5), Vec3::X),
+        hit: None,
+        tests: tests.to_vec(),
+        counts: TestCounts::default(),
+    };
+    let span = |min, max| Some(Interval::new(min, max));
+    let spans = [
+        (1, span(1.0, 2.0)),
+        (2, span(3.0, 4.0)),
+        (3, None),
+        (4, span(3.0, 4.0)),
+    ];
+    let both = |inside| NodeSpan {
+        inside,
+        inside_larger: inside,
+    };
+    let spans = spans
+        .into_iter()
+        .map(|(node, inside)| (node, both(inside)))
+        .collect();
+    let rows = rows(&ray, &tree(), &tree().leaves_by_number(), None);
+    let found = violations(&ray, &rows, &tree(), &spans);
+    found
+        .iter()
+        .map(|violation| (violation.rule, violation.node))
+        .collect()
+}
+
+#[test]
+fn a_correct_traversal_breaks_no_rule() {
+    let all = [
+        box_test(1),
+        box_test(4),
+        primitive(0, None),
+        box_test(2),
+        box_test(3),
+        primitive(1, Some(3.5)),
+    ];
+    assert_eq!(broken(&all), []);
+    let pruned = [box_test(1), box_test(4), primitive(0, Some(1.5))];
+    assert_eq!(broken(&pruned), []);
+}
+
+#[test]
+fn each_rule_is_found_when_it_is_broken() {
+    let missed = [
+        box_test(1),
+        box_test(4),
+        primitive(0, None),
+        box_test(2),
+        primitive(2, None),
+    ];
+    assert_eq!(broken(&missed), [(Rule::MissedBox, 3)]);
+    let beyond = [primitive(0, Some(1.5)), box_test(2), primitive(1, None)];
+    assert_eq!(
+        broken(&beyond),
+        [(Rule::BeyondClosestHit, 4), (Rule::BeyondClosestHit, 2)]
+    );
+    let farther = [
+        box_test(1),
+        box_test(4),
+        box_test(2),
+        primitive(1, None),
+        primitive(0, None),
+    ];
+    assert_eq!(broken(&farther), [(Rule::FartherChildFirst, 4)]);
+}
+
+#[test]
+fn addresses_tell_nodes_with_equal_boxes_apart() {
+    let node = |max: f32, l, r| TreeNode::new(Vec3::ZERO, Vec3::splat(max), 0, 1, l, r);
+    let tree = TreeModel::new(Tree {
+        nodes: vec![
+            node(2.0, 1, 2),
+            node(2.0, 3, 4),
+            node(1.0, 0, 0),
+            node(2.0, 0, 0),
+            node(0.5, 0, 0),
+        ],
+        root: 0,
+        order: vec![0],
+    });
+    let test = |max: f32, address| Test::Box {
+        min: Vec3::ZERO,
+        max: Vec3::splat(max),
+        times: Interval::AHEAD,
+        inside: None,
+        address,
+    };
+    let tests = [test(1.0, 1096), test(0.5, 1192), test(2.0, 1048)];
+    let addresses = NodeAddresses::find(tests.iter(), &tree).unwrap();
+    assert_eq!(addresses.choose(&[0, 1, 3], 1048), [1]);
+    assert_eq!(addresses.choose(&[0, 1, 3], 1050), [0, 1, 3]);
+    let copied = [test(1.0, 500), test(0.5, 500), test(2.0, 500)];
+    assert_eq!(NodeAddresses::find(copied.iter(), &tree), None);
+    assert_eq!(NodeAddresses::find(tests[..1].iter(), &tree), None);
+}
+
+#[test]
+fn a_hit_outside_the_rays_range_is_not_the_closest() {
+    let behind = [primitive(0, Some(-5.0)), box_test(2), primitive(1, None)];
+    assert_eq!(broken(&behind), []);
+}

@@ -1,0 +1,70 @@
+use super::*;
+
+/// A root with an interior node (whose children hold 1 and 2 primitives) and a leaf with 1.
+fn tree() -> Tree {
+    let node = |low: f32, high: f32, start, size, l, r| {
+        TreeNode::new(Vec3::splat(low), Vec3::splat(high), start, size, l, r)
+    };
+    Tree {
+        nodes: vec![
+            node(0.0, 1.0, 0, 1, 0, 0),
+            node(0.0, 2.0, 0, 0, 0, 2),
+            node(1.0, 2.0, 1, 2, 0, 0),
+            node(0.0, 4.0, 0, 0, 1, 4),
+            node(2.0, 4.0, 3, 1, 0, 0),
+        ],
+        root: 3,
+        order: vec![9, 8, 7, 6],
+    }
+}
+
+#[test]
+fn levels_counts_and_costs_follow_from_the_tree() {
+    let model = TreeModel::new(tree());
+    assert_eq!(model.levels(), 3);
+    let info = model.info(1).unwrap();
+    assert_eq!((info.level, info.primitives, info.leaf), (1, 3, false));
+    assert_eq!(
+        (info.area, info.cost, info.overlap),
+        (0.25, 0.25, Some(0.5))
+    );
+    let leaf = model.info(2).unwrap();
+    assert_eq!((leaf.level, leaf.primitives, leaf.cost), (2, 2, 0.125));
+    // 1 + 1/4 for the interior nodes, 1/16 + 2/16 + 1/4 for the leaves.
+    assert_eq!(model.cost(), 1.0 + 0.25 + 0.0625 + 0.125 + 0.25);
+    assert_eq!(model.leaves_by_number()[&7], 2);
+    assert_eq!(model.with_box(Vec3::ZERO, Vec3::splat(2.0)), [1]);
+}
+
+#[test]
+fn a_level_lists_large_boxes_first() {
+    let model = TreeModel::new(tree());
+    let ids = |(nodes, count): (Vec<NodeInfo>, usize)| -> (Vec<u32>, usize) {
+        (nodes.iter().map(|node| node.node).collect(), count)
+    };
+    assert_eq!(ids(model.at_level(1, false, 9)), (vec![1, 4], 2));
+    assert_eq!(ids(model.at_level(1, true, 3)), (vec![1, 4, 0], 4));
+    assert_eq!(model.worst(1)[0].node, 1);
+}
+
+#[test]
+fn bars_are_beside_each_other() {
+    let bars = TreeModel::new(tree()).strip(0.0);
+    let of = |node| *bars.iter().find(|bar| bar.node == node).unwrap();
+    assert_eq!((of(3).start, of(3).width), (0.0, 1.0));
+    assert_eq!((of(2).start, of(2).width, of(2).level), (0.25, 0.5, 2));
+    assert_eq!((of(4).start, of(4).width), (0.75, 0.25));
+}
+
+#[test]
+fn invalid_trees_are_shown_as_far_as_they_are_trees() {
+    let mut cyclic = tree();
+    cyclic.nodes[1].r = 3;
+    cyclic.nodes[3].r = 77;
+    cyclic.nodes[0].size = 1000;
+    let model = TreeModel::new(cyclic);
+    assert_eq!(model.levels(), 3);
+    assert_eq!(model.info(0).unwrap().primitives, 4);
+    assert_eq!(model.info(2), None, "node 2 is not reached");
+    assert!(!TreeModel::new(Tree::default()).has_nodes());
+}

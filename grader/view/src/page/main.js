@@ -1,0 +1,166 @@
+// The page: shows each new state, and sends what the user chooses.
+import { follow, send } from "./server.js";
+import * as overlay from "./overlay.js";
+import * as pixel from "./pixel.js";
+import * as stage from "./stage.js";
+import * as tree from "./tree.js";
+
+const get = (id) => document.getElementById(id);
+
+/** Creates an element with attributes and children. Strings become text, never markup. */
+export function element(name, attributes, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.append(...children);
+  return made;
+}
+
+/** Formats a number with at most five digits. */
+export function number(x) {
+  if (x === null || !Number.isFinite(x)) return String(x ?? "∞");
+  return String(Number(x.toPrecision(5)));
+}
+
+let last = null;
+
+function show(state) {
+  showTexts(state);
+  showControls(state);
+  showErrors(state);
+  showNotes(state);
+  get("stage").classList.toggle("stale", state.is_stale || state.build === "failed");
+  get("waiting").hidden = state.picture > 0 && state.build !== "compiling" && !state.loading;
+  get("waiting").textContent = state.loading ? `Loading ${state.loading} …` : state.build === "compiling" ? "Compiling …"
+    : state.build === "failed" ? "No picture yet: see the errors." : "Drawing …";
+  stage.showPicture(state);
+  overlay.setCamera(state);
+  pixel.showExplanation(state);
+  tree.showTree(state);
+  document.body.dataset.version = state.version;
+  document.body.dataset.complete = state.is_picture_complete;
+  last = state;
+}
+
+function setText(id, text) {
+  if (get(id).textContent !== text) get(id).textContent = text;
+}
+
+function showTexts(state) {
+  setText("subject", state.subject);
+  setText("about", state.about);
+  const rate = state.rays_per_second >= 1e6 ? `${(state.rays_per_second / 1e6).toFixed(1)} million`
+    : Math.round(state.rays_per_second).toLocaleString("en");
+  const programs = state.view === "tests" ? 1 : state.programs;
+  const parts = [`${state.film[0]} × ${state.film[1]}`];
+  if (state.view === "shaded") parts.push(`${state.complete_samples} of ${state.samples} samples`);
+  if (state.rays_per_second > 0) parts.push(`${rate} rays per second in ${programs} ${programs === 1 ? "program" : "programs"}`);
+  if (state.is_complete) parts.push(`finished in ${state.seconds.toFixed(1)} s`);
+  else if (state.seconds_left !== null) parts.push(`${Math.max(1, Math.round(state.seconds_left))} s left`);
+  setText("status", parts.join("; "));
+  const legends = {
+    normals: "x, y and z of the normal, from −1 to 1, as red, green and blue",
+    depth: "distance: the nearest hit is white, the farthest almost black",
+    uv: "u and v as red and green",
+    bvh: "number of boxes around the hit, from blue (few) to red (many)",
+  };
+  if (state.view === "tests") {
+    get("legend").replaceChildren("tests for the pixel: few", element("span", { class: "ramp" }), `many (${state.most_tests ?? "…"})`);
+  } else {
+    setText("legend", legends[state.view] ?? "");
+  }
+  // Announced by screen readers, so it changes seldom.
+  setText("news", state.build === "compiling" ? "Compiling" : state.build === "failed" ? "The files do not compile"
+    : state.is_picture_complete ? "The picture is complete" : "");
+  const question = get("question");
+  question.hidden = !state.question;
+  get("pick-question").hidden = !state.question?.has_ray;
+  if (state.question && question.dataset.of !== state.subject) {
+    question.dataset.of = state.subject;
+    question.replaceChildren(element("p", {}, `asked: ${state.question.asked}`),
+      ...state.question.wanted.map((text) => element("p", {}, `wanted: ${text}`)));
+    overlay.setLines("level", state.question.boxes.flatMap(([min, max]) =>
+      overlay.boxLines(min, max, { colour: overlay.COLOURS.level, width: 2 })));
+  }
+}
+
+/** Fills a list of choices if they have changed, and selects one unless the user is choosing. */
+function choices(id, list, selected) {
+  const select = get(id);
+  const key = JSON.stringify(list);
+  if (select.dataset.key !== key) {
+    select.dataset.key = key;
+    select.replaceChildren(...list.map(([value, text]) => element("option", { value }, text)));
+  }
+  if (document.activeElement !== select || last === null) select.value = selected;
+}
+
+function showControls(state) {
+  const scenes = state.scenes.map((name) => [name, name]);
+  if (state.question) scenes.unshift(["", state.subject]);
+  choices("scene", scenes, state.loading ?? (state.question ? "" : state.subject));
+  const [w, h] = state.own_film;
+  const sizes = [0.25, 0.5, 1, 2].map((f) => [Math.max(1, Math.round(w * f)), Math.max(1, Math.round(h * f))]);
+  if (!sizes.some(([x, y]) => x === state.film[0] && y === state.film[1])) sizes.push(state.film);
+  choices("film", sizes.filter(([x, y]) => x <= 2048 && y <= 2048).map(([x, y]) => [`${x}x${y}`, `${x} × ${y}`]), state.film.join("x"));
+  const counts = [...new Set([1, 4, 16, 32, 64, 256, 1024, 4096, state.samples])].sort((a, b) => a - b);
+  choices("samples", counts.map((n) => [n, String(n)]), state.samples);
+  if (document.activeElement !== get("exposure")) get("exposure").value = state.exposure;
+  const radio = document.querySelector(`input[name=view][value=${state.view}]`);
+  if (radio) radio.checked = true;
+  get("pick-x").max = state.film[0] - 1;
+  get("pick-y").max = state.film[1] - 1;
+  if (state.pinned?.pixel && JSON.stringify(state.pinned) !== JSON.stringify(last?.pinned)) {
+    [get("pick-x").value, get("pick-y").value] = state.pinned.pixel;
+  }
+}
+
+function showErrors(state) {
+  get("errors").hidden = state.build !== "failed";
+  const key = JSON.stringify(state.errors);
+  const list = get("error-list");
+  if (list.dataset.key === key) return;
+  list.dataset.key = key;
+  list.replaceChildren(...state.errors.flatMap((error) => [
+    element("h3", {}, error.line === null ? error.file : `${error.file}:${error.line}`),
+    element("pre", { tabindex: 0 }, error.text)]));
+}
+
+function showNotes(state) {
+  const list = get("notes");
+  const key = JSON.stringify([state.notes, state.panics]);
+  if (list.dataset.key === key) return;
+  list.dataset.key = key;
+  const at = (location) => location ? ` (${location})` : "";
+  const pixels = (n) => n === 1 ? "1 pixel" : `${n.toLocaleString("en")} samples of pixels`;
+  list.replaceChildren(
+    ...state.notes.map((note) => element("li", {}, note.text + at(note.location))),
+    ...state.panics.map((panic) => element("li", {},
+      `${pixels(panic.count)}, first (${panic.pixel.join(", ")}): ${panic.message}${at(panic.location)}`)));
+}
+
+function listen() {
+  const sample = () => get("pick-sample").value === "" ? null : Number(get("pick-sample").value);
+  stage.listen(sample);
+  tree.listen();
+  get("lines").addEventListener("pointermove", (event) => {
+    if (event.buttons === 0) tree.nodeAt(overlay.project, event.offsetX, event.offsetY);
+  });
+  get("views").addEventListener("change", (event) => send({ view: event.target.value }));
+  get("scene").addEventListener("change", (event) => event.target.value && send({ scene: event.target.value }));
+  get("film").addEventListener("change", (event) => send({ film: event.target.value.split("x").map(Number) }));
+  get("samples").addEventListener("change", (event) => send({ samples: Number(event.target.value) }));
+  get("exposure").addEventListener("change", (event) => send({ exposure: Number(event.target.value) }));
+  get("controls").addEventListener("click", (event) => {
+    if ("own" in event.target.dataset) send("own_camera");
+    if (event.target.dataset.side) send({ side: event.target.dataset.side });
+  });
+  get("pick").addEventListener("submit", (event) => {
+    event.preventDefault();
+    send({ pick: { pixel: [Number(get("pick-x").value), Number(get("pick-y").value)], sample: sample() } });
+  });
+  get("pick-question").addEventListener("click", () => send("pick_question"));
+  get("unpick").addEventListener("click", () => send("unpick"));
+}
+
+listen();
+follow(show, (isConnected) => { get("offline").hidden = isConnected; });

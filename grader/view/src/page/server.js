@@ -1,0 +1,64 @@
+// Talks to the viewer: sends commands, and waits for news.
+
+/** Sends a command, such as { view: "depth" }. Returns the reason if it is refused. */
+export async function send(command) {
+  const answer = await fetch("/command", { method: "POST", body: JSON.stringify(command) });
+  return answer.ok ? null : answer.text();
+}
+
+/** Returns some data, or null if there is none. */
+export async function load(path) {
+  const answer = await fetch(path);
+  return answer.ok ? answer.json() : null;
+}
+
+/** Calls `show` with each new state, and `connected` with whether the viewer answers. */
+export async function follow(show, connected) {
+  let version = 0;
+  for (;;) {
+    // A hidden tab waits, so that ten tabs need no ten connections.
+    if (document.hidden) {
+      await new Promise((seen) => document.addEventListener("visibilitychange", seen, { once: true }));
+      continue;
+    }
+    try {
+      const answer = await fetch(`/state?after=${version}`);
+      connected(answer.ok);
+      if (answer.status === 200) {
+        const state = await answer.json();
+        version = state.version;
+        show(state);
+      } else if (!answer.ok) {
+        await pause(2000);
+      }
+    } catch {
+      connected(false);
+      await pause(1000);
+    }
+  }
+}
+
+function pause(milliseconds) {
+  return new Promise((done) => setTimeout(done, milliseconds));
+}
+
+const movements = [];
+let isMoving = false;
+
+/** Moves the camera. Movements are sent one after the other; those of the same kind that wait are added up. */
+export async function move(kind, amounts) {
+  const last = movements.at(-1);
+  if (last?.kind === kind) {
+    last.amounts = last.amounts.map((amount, i) =>
+      kind === "dolly" ? amount * amounts[i] : amount + amounts[i]);
+  } else {
+    movements.push({ kind, amounts: [...amounts] });
+  }
+  if (isMoving) return;
+  isMoving = true;
+  while (movements.length > 0) {
+    const { kind, amounts } = movements.shift();
+    await send({ move: { [kind]: amounts.length === 1 ? amounts[0] : amounts } }).catch(() => null);
+  }
+  isMoving = false;
+}

@@ -1,0 +1,149 @@
+// The tree: boxes over the picture, a strip with a row for each level, and the worst nodes.
+import { load, send } from "./server.js";
+import { boxLines, COLOURS, setLines } from "./overlay.js";
+import { element, number } from "./main.js";
+
+const strip = document.getElementById("strip");
+const level = document.getElementById("level");
+const isOn = document.getElementById("boxes-on");
+const below = document.getElementById("below");
+let shown = "";
+let summary = null;
+let boxes = [];
+let selected = null;
+
+/** Shows the tree of a state, unless it is shown already. */
+export async function showTree(state) {
+  const has = state.has_tree && state.tree_number !== shown;
+  document.getElementById("tree-content").hidden = !state.has_tree;
+  document.getElementById("tree-hint").hidden = state.has_tree;
+  if (!state.has_tree) {
+    shown = "";
+    if (boxes.length > 0) setLines("level", boxes = []);
+    selected = null;
+    setLines("node", []);
+    return;
+  }
+  if (!has) return;
+  shown = state.tree_number;
+  summary = await load("/tree");
+  if (!summary) return;
+  level.max = summary.levels - 1;
+  document.getElementById("tree-facts").textContent =
+    `${count(summary.primitives, "primitive")}, ${count(summary.nodes, "node")}, ${count(summary.levels, "level")}; `
+    + `SAH cost ${number(summary.cost)}: the expected number of tests of a ray that hits the root's box.`;
+  showWorst();
+  drawStrip();
+  await showLevel();
+}
+
+function count(n, word) {
+  return `${n.toLocaleString("en")} ${word}${n === 1 ? "" : "s"}`;
+}
+
+async function showLevel() {
+  document.getElementById("level-value").textContent = level.value;
+  const text = document.getElementById("boxes-count");
+  if (!isOn.checked || !summary) {
+    boxes = [];
+    text.textContent = "";
+    setLines("level", []);
+    return;
+  }
+  const found = await load(`/boxes?level=${level.value}&below=${below.checked}`);
+  if (!found) return;
+  boxes = found.boxes;
+  const rest = found.count > boxes.length ? `, of which the ${boxes.length} largest are drawn` : "";
+  text.textContent = count(found.count, "box").replace("boxs", "boxes") + rest;
+  setLines("level", boxes.flatMap((node) =>
+    boxLines(node.min, node.max, { colour: node.leaf ? COLOURS.entered : COLOURS.level })));
+}
+
+function facts(node) {
+  const share = (x) => `${(100 * x).toFixed(1)} %`;
+  const overlap = node.overlap === null ? "" : `, a ray that hits it hits ${number(node.overlap)} of its children on average`;
+  return `${node.leaf ? "Leaf" : "Node"} ${node.node}, level ${node.level}: ${count(node.primitives, "primitive")}, `
+    + `area ${share(node.area)} of the root's, ${share(node.cost / summary.cost)} of the SAH cost${overlap}.`;
+}
+
+function select(node) {
+  selected = node;
+  document.getElementById("node").textContent = node ? facts(node) : "";
+  setLines("node", node ? boxLines(node.min, node.max, { colour: COLOURS.node, width: 3 }) : []);
+  drawStrip();
+}
+
+function showWorst() {
+  const table = document.getElementById("worst");
+  const headings = ["node", "level", "primitives", "area", "share of the cost", "children hit"];
+  table.replaceChildren(element("thead", {}, element("tr", {}, ...headings.map((text) =>
+    element("th", { scope: "col" }, text)))));
+  const body = element("tbody", {});
+  for (const node of summary.worst) {
+    const button = element("button", { type: "button", "aria-label": `Show node ${node.node}` }, String(node.node));
+    button.addEventListener("click", () => select(node));
+    const cells = [button, node.level, `${node.primitives}${node.leaf ? " (leaf)" : ""}`,
+      `${(100 * node.area).toFixed(1)} %`, `${(100 * node.cost / summary.cost).toFixed(1)} %`,
+      node.overlap === null ? "–" : number(node.overlap)];
+    body.append(element("tr", {}, ...cells.map((cell) => element("td", {}, cell instanceof Node ? cell : String(cell)))));
+  }
+  table.append(body);
+}
+
+function drawStrip() {
+  if (!summary) return;
+  const scale = window.devicePixelRatio || 1;
+  strip.width = Math.max(1, strip.clientWidth * scale);
+  strip.height = Math.max(1, strip.clientHeight * scale);
+  const context = strip.getContext("2d");
+  const row = strip.height / summary.levels;
+  for (const bar of summary.bars) {
+    const isLevel = isOn.checked && (bar.level === Number(level.value) || below.checked && bar.level > level.value);
+    context.fillStyle = selected?.node === bar.node ? "#e08a00" : bar.leaf ? (isLevel ? "#138a4a" : "#7bbf9a") : isLevel ? "#0b57c2" : "#8fb0dd";
+    const width = Math.max(1, bar.width * strip.width - scale);
+    context.fillRect(bar.start * strip.width, bar.level * row, width, Math.max(1, row - scale));
+  }
+}
+
+function barAt(event) {
+  if (!summary) return null;
+  const x = event.offsetX / strip.clientWidth;
+  const wanted = Math.floor(event.offsetY / strip.clientHeight * summary.levels);
+  return summary.bars.find((bar) => bar.level === wanted && bar.start <= x && x < bar.start + bar.width) ?? null;
+}
+
+/** Listens to the controls. */
+export function listen() {
+  document.getElementById("load-tree").addEventListener("click", () => send("tree"));
+  const change = () => { showLevel(); drawStrip(); };
+  level.addEventListener("input", () => { isOn.checked = true; change(); });
+  isOn.addEventListener("change", change);
+  below.addEventListener("change", change);
+  let hovered = null;
+  strip.addEventListener("pointermove", async (event) => {
+    const bar = barAt(event);
+    if (!bar || bar.node === hovered) return;
+    hovered = bar.node;
+    const node = await load(`/node?node=${bar.node}`);
+    if (node && hovered === bar.node) select(node);
+  });
+  new ResizeObserver(drawStrip).observe(strip);
+}
+
+/** Names the smallest drawn box that contains a position in the picture. */
+export function nodeAt(project, x, y) {
+  const around = (node) => {
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) =>
+      project([i & 1 ? node.max[0] : node.min[0], i & 2 ? node.max[1] : node.min[1], i & 4 ? node.max[2] : node.min[2]]));
+    if (corners.some((corner) => corner === null)) return Infinity;
+    const [xs, ys] = [corners.map((c) => c[0]), corners.map((c) => c[1])];
+    const inside = Math.min(...xs) <= x && x <= Math.max(...xs) && Math.min(...ys) <= y && y <= Math.max(...ys);
+    return inside ? (Math.max(...xs) - Math.min(...xs)) * (Math.max(...ys) - Math.min(...ys)) : Infinity;
+  };
+  let [best, size] = [null, Infinity];
+  for (const node of boxes) {
+    const area = around(node);
+    if (area < size) [best, size] = [node, area];
+  }
+  if (best && best.node !== selected?.node) select(best);
+}

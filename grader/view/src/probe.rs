@@ -1,0 +1,188 @@
+//! A running program of the submission, and the exchange of requests and responses with it.
+//! Nothing that it does can block the viewer.
+
+use std::io::{BufReader, Read, Write};
+use std::path::Path;
+use std::process::Command;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use grader::capture::Capture;
+use grader::probe::{Crash, Fault, TimeLimit};
+use grader::sandbox::{ExitReason, Process, Profile};
+use grader::system::{self, Limits};
+use protocol::wire::{self, Frame, WireError};
+use view_probe::messages::{Request, Response};
+
+use crate::program::Program;
+
+/// The maximum address space of a program, in bytes: enough for some millions of triangles.
+const MEMORY_LIMIT: u64 = 4 << 30;
+/// The maximum CPU time of a program. It only ends one that has been forgotten: each request has a
+/// limit of its own.
+const CPU_LIMIT: Duration = Duration::from_secs(24 * 3600);
+/// The maximum size of a response: a tree with some millions of nodes.
+const MAX_RESPONSE_BYTES: usize = 512 << 20;
+/// The maximum size of the output that is kept, in bytes.
+const MAX_OUTPUT_BYTES: usize = 16 << 10;
+/// The polling interval for a program that is computing.
+const POLL_INTERVAL: Duration = Duration::from_millis(5);
+/// The wall time that each request has in addition to a multiple of its CPU time.
+const WALL_RESERVE: Duration = Duration::from_secs(5);
+/// The time in which a program that has closed its pipe must end.
+const EXIT_TIMEOUT: Duration = Duration::from_secs(2);
+
+/// A running program.
+#[derive(Debug)]
+pub struct Probe {
+    process: Process,
+    requests: Sender<Vec<u8>>,
+    responses: Receiver<Result<Frame, WireError>>,
+    output: Capture,
+    nonce: u64,
+    // Its file must exist while it runs.
+    _program: Program,
+}
+
+/// A reason why a request got no response. The program has ended.
+#[derive(Debug)]
+pub enum NoResponse {
+    /// The submission's code failed.
+    Fault(Fault),
+    /// The response is no longer wanted.
+    Abandoned,
+}
+
+impl Probe {
+    /// Starts a program. On Linux it ends with the thread that started it.
+    pub fn start(program: &Program) -> std::io::Result<Self> {
+        let (path, sandbox) = program.executable();
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let mut command = Command::new(&path);
+        system::clear_environment(&mut command);
+        let limits = Limits {
+            memory: MEMORY_LIMIT,
+            cpu: CPU_LIMIT,
+            file: 0,
+        };
+        let mut process = sandbox.start(command, folder, Profile::Probe, limits)?;
+        let stdin = process.child.stdin.take().expect("the stream is piped");
+        let stdout = process.child.stdout.take().expect("the stream is piped");
+        let stderr = process.child.stderr.take().expect("the stream is piped");
+        let (requests, to_write) = channel();
+        let (answered, responses) = channel();
+        thread::spawn(move || write(stdin, to_write));
+        thread::spawn(move || read(stdout, answered));
+        Ok(Probe {
+            process,
+            requests,
+            responses,
+            output: Capture::start(stderr, MAX_OUTPUT_BYTES),
+            nonce: 0,
+            _program: program.clone(),
+        })
+    }
+
+    /// Sends a request and waits for the response, for at most `limit` of CPU time. Ends the
+    /// program if it fails, or as soon as `is_abandoned`.
+    pub fn ask(
+        &mut self,
+        request: &Request,
+        limit: Duration,
+        is_abandoned: impl Fn() -> bool,
+    ) -> Result<Response, NoResponse> {
+        self.nonce += 1;
+        let frame = wire::encode(self.nonce, request)
+            .map_err(|error| NoResponse::Fault(Fault::Protocol(error.to_string())))?;
+        // If the thread has ended, the missing response is noticed below.
+        self.requests.send(frame).ok();
+        let started_at = Instant::now();
+        let cpu_before = self.process.cpu_time();
+        // The first part of the time is spent waiting for the pipe alone, which costs nothing.
+        let frame = loop {
+            match self.responses.recv_timeout(POLL_INTERVAL) {
+                Ok(Ok(frame)) => break frame,
+                Ok(Err(WireError::EndOfStream | WireError::Io(_)))
+                | Err(RecvTimeoutError::Disconnected) => {
+                    return Err(NoResponse::Fault(self.post_mortem()));
+                }
+                Ok(Err(error)) => {
+                    self.process.kill();
+                    return Err(NoResponse::Fault(Fault::Protocol(error.to_string())));
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            if is_abandoned() {
+                self.process.kill();
+                return Err(NoResponse::Abandoned);
+            }
+            let cpu = self.process.cpu_time().zip(cpu_before);
+            let cpu = cpu.map(|(now, before)| now.saturating_sub(before));
+            // Generous: on a busy machine, wall time says nothing about the code.
+            let wall = 4 * limit + WALL_RESERVE;
+            if cpu.is_some_and(|cpu| cpu >= limit) {
+                self.process.kill();
+                return Err(NoResponse::Fault(Fault::TimedOut(TimeLimit::Cpu(limit))));
+            }
+            if started_at.elapsed() >= wall {
+                self.process.kill();
+                return Err(NoResponse::Fault(Fault::TimedOut(TimeLimit::Wall(wall))));
+            }
+        };
+        let response = if frame.nonce == self.nonce {
+            frame.decode().map_err(|error| error.to_string())
+        } else {
+            Err("a response that belongs to no request".to_owned())
+        };
+        response.map_err(|why| {
+            self.process.kill();
+            NoResponse::Fault(Fault::Protocol(why))
+        })
+    }
+
+    /// Determines why the program ended.
+    fn post_mortem(&mut self) -> Fault {
+        let deadline = Instant::now() + EXIT_TIMEOUT;
+        while self.process.exit_reason().is_none() && Instant::now() < deadline {
+            thread::sleep(Duration::from_millis(1));
+        }
+        let reason = self.process.kill();
+        self.output.wait_for_end(Duration::from_millis(200));
+        let output = self.output.head();
+        match reason {
+            Some(ExitReason::Code(code)) => Fault::Crashed(Crash::Exited(code)),
+            Some(ExitReason::Signal(_)) if output.contains("has overflowed its stack") => {
+                Fault::Crashed(Crash::StackOverflow)
+            }
+            Some(ExitReason::Signal(_)) if output.contains("memory allocation of ") => {
+                Fault::OutOfMemory
+            }
+            Some(ExitReason::Signal(signal)) => Fault::Crashed(Crash::Signal(signal)),
+            None => Fault::Crashed(Crash::Signal(0)),
+        }
+    }
+}
+
+fn write(mut stdin: impl Write, frames: Receiver<Vec<u8>>) {
+    for frame in frames {
+        if stdin
+            .write_all(&frame)
+            .and_then(|()| stdin.flush())
+            .is_err()
+        {
+            return; // The reading thread notices that the pipe is closed.
+        }
+    }
+}
+
+fn read(stdout: impl Read, answered: Sender<Result<Frame, WireError>>) {
+    let mut stdout = BufReader::with_capacity(1 << 16, stdout);
+    loop {
+        let frame = wire::read(&mut stdout, MAX_RESPONSE_BYTES);
+        let is_over = frame.is_err();
+        if answered.send(frame).is_err() || is_over {
+            return;
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Builds a submission's two programs: the one that draws, and the one that records tests.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use grader::build::{Build, BuildError, Builder, NotCompiled};
+use grader::handed_out::{GivenFile, HandedOut, RAYS};
+use grader::sandbox::Sandbox;
+use grader::select_isolation::{IsolationRequest, with_requested_level};
+use grader::submission::{Submission, SubmissionError};
+use grader::verdict::file_message;
+use grader::workspace::Workspace;
+use serde::Serialize;
+
+use crate::error::ViewError;
+use crate::recording::RECORDED;
+
+/// The package that is linked with the submission, and its folder.
+const PROBE: (&str, &str) = ("view_probe", "grader/view/probe");
+/// The `main` function of both programs.
+const ENTRY: &str = "
+/// Answers the viewer's requests.
+fn main() -> std::process::ExitCode {
+    view_probe::main(&world::Student)
+}
+";
+
+/// The submission to view, and the compiler.
+#[derive(Clone, Debug)]
+pub struct Programs {
+    builder: Builder,
+    drawing: &'static HandedOut,
+    recording: &'static HandedOut,
+    folder: PathBuf,
+    /// Whether the folder is a package, whose files are in `src`.
+    is_package: bool,
+}
+
+/// A compiled program. Its file is deleted when this is dropped.
+#[derive(Clone, Debug)]
+pub struct Program {
+    build: Arc<Build>,
+    /// The time that the build took.
+    pub took: Duration,
+}
+
+/// An error in a file of the submission.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct FileError {
+    /// The name of the file.
+    pub file: String,
+    /// The line, from 1.
+    pub line: Option<u32>,
+    /// The compiler's message.
+    pub text: String,
+}
+
+impl Programs {
+    /// Prepares the compiler, in a sandbox if `isolation` requires one.
+    pub fn prepare(
+        workspace: &Workspace,
+        folder: PathBuf,
+        is_package: bool,
+        isolation: IsolationRequest,
+    ) -> Result<Self, ViewError> {
+        let (package, path) = PROBE;
+        let path = workspace.root().join(path);
+        let builder = Builder::prepare_with_package(package, &path, workspace)?;
+        let programs = Programs {
+            builder: with_requested_level(builder, isolation)?,
+            drawing: handed_out(|file| *file),
+            recording: handed_out(with_recording),
+            folder,
+            is_package,
+        };
+        // A missing submission is reported before the server starts.
+        programs.collect()?;
+        Ok(programs)
+    }
+
+    /// Returns the folder or archive of the submission.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Reads the submission's files as they are now.
+    pub fn collect(&self) -> Result<Submission, SubmissionError> {
+        if self.is_package {
+            Submission::collect_package(&self.folder, self.drawing)
+        } else {
+            Submission::collect(&self.folder, self.drawing)
+        }
+    }
+
+    /// Builds the program that draws. Calls `report` with errors as soon as the compiler has found
+    /// them. A submission with errors gives no program.
+    pub fn build_drawing(
+        &self,
+        submission: &Submission,
+        report: impl FnMut(Vec<FileError>),
+    ) -> Result<Result<Program, Vec<FileError>>, BuildError> {
+        self.build(submission, report)
+    }
+
+    /// Builds the program that records tests.
+    pub fn build_recording(
+        &self,
+        submission: &Submission,
+    ) -> Result<Result<Program, Vec<FileError>>, BuildError> {
+        let mut changed = submission.clone();
+        changed.handed_out = self.recording;
+        for method in RECORDED {
+            for (file, text) in &mut changed.files {
+                if file.name == method.file
+                    && let Ok(text) = text
+                    && let Some(recorded) = method.apply(text)
+                {
+                    *text = recorded;
+                }
+            }
+        }
+        self.build(&changed, |_| {})
+    }
+
+    fn build(
+        &self,
+        submission: &Submission,
+        mut report: impl FnMut(Vec<FileError>),
+    ) -> Result<Result<Program, Vec<FileError>>, BuildError> {
+        let started_at = Instant::now();
+        let build = self.builder.build_with_progress(submission, |files| {
+            report(file_errors(files.iter().map(|(file, why)| (*file, why))));
+        })?;
+        let errors = file_errors(build.not_compiled.iter().map(|(file, why)| (*file, why)));
+        let took = started_at.elapsed();
+        Ok(if errors.is_empty() && build.probe.is_some() {
+            Ok(Program {
+                build: Arc::new(build),
+                took,
+            })
+        } else {
+            Err(errors)
+        })
+    }
+}
+
+impl Program {
+    /// Returns the path of the program, and the sandbox to start it in.
+    pub fn executable(&self) -> (PathBuf, Sandbox) {
+        let path = self.build.probe.clone().unwrap_or_default();
+        let launcher = self.build.launcher(&path);
+        (launcher.program, launcher.sandbox)
+    }
+}
+
+fn file_errors<'a>(files: impl Iterator<Item = (&'static str, &'a NotCompiled)>) -> Vec<FileError> {
+    let error = |(file, why): (&'static str, &NotCompiled)| FileError {
+        file: file.to_owned(),
+        line: match why {
+            NotCompiled::Error { line, .. } => *line,
+            NotCompiled::Unreadable(_)
+            | NotCompiled::MissingDeclaration(_)
+            | NotCompiled::Compiler(_) => None,
+        },
+        text: file_message(file, why),
+    };
+    files.map(error).collect()
+}
+
+/// Returns the assignment with the viewer's `main` function, and with changed given files. It exists
+/// as long as the process.
+fn handed_out(given: impl Fn(&GivenFile) -> GivenFile) -> &'static HandedOut {
+    let given: Vec<GivenFile> = RAYS.given.iter().map(given).collect();
+    Box::leak(Box::new(HandedOut {
+        assignment: RAYS.assignment,
+        practice_exam: RAYS.practice_exam,
+        files: RAYS.files,
+        given: given.leak(),
+        main: RAYS.main,
+        entry: ENTRY,
+        student: RAYS.student,
+        starter: RAYS.starter,
+        reference: RAYS.reference,
+        substitutions: &[],
+    }))
+}
+
+/// Returns a given file in which calls are recorded.
+fn with_recording(file: &GivenFile) -> GivenFile {
+    let mut methods = RECORDED.iter().filter(|method| method.file == file.name);
+    let text = methods.next().and_then(|method| method.apply(file.text));
+    GivenFile {
+        name: file.name,
+        text: text.map_or(file.text, |text| text.leak()),
+    }
+}

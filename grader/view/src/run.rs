@@ -1,0 +1,130 @@
+//! Starts everything.
+
+use std::io;
+use std::net::{Ipv4Addr, TcpListener};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::Instant;
+
+use grader::files::AtPath;
+use grader::handed_out::RAYS;
+use grader::select_isolation::IsolationRequest;
+use grader::workspace::Workspace;
+
+use crate::access::Access;
+use crate::cli::{Arguments, DEFAULT_PORT};
+use crate::error::ViewError;
+use crate::exam_question::subject_of_question;
+use crate::program::Programs;
+use crate::routes::Routes;
+use crate::session::Session;
+use crate::studio::Studio;
+use crate::subject::{PathSettings, SceneList, Subject};
+use crate::{browser, composer, http, watcher, workers};
+
+/// Serves the page until the process ends.
+pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
+    let workspace = Workspace::find()?;
+    let settings = PathSettings {
+        bounces: arguments.bounces,
+        seed: arguments.seed,
+    };
+    let mut scenes = SceneList::find(&workspace);
+    let subject = match &arguments.item {
+        Some(question) => subject_of_question(question, settings)?,
+        None => {
+            let name = scenes.name_of(&arguments.scene)?;
+            Subject::of_scene(&name, &scenes.load(&name)?, settings)
+        }
+    };
+    let listener = listen(arguments.port)?;
+    let port = listener.local_addr().map_err(ViewError::Listen)?.port();
+    let programs = programs(arguments, &workspace)?;
+    let submission = programs.collect()?;
+
+    let cores = arguments.threads.map_or_else(available_cores, usize::from);
+    let session = Session::new(
+        subject,
+        scenes.names(),
+        settings,
+        arguments.size,
+        arguments.samples,
+        cores,
+        Instant::now(),
+    );
+    let studio = Arc::new(Studio::new(session));
+    start_threads(&studio, &programs, submission, cores).map_err(ViewError::Listen)?;
+
+    let access = Access::new(port, &arguments.allow_host)?;
+    let url = format!("http://127.0.0.1:{port}{}", access.first_path());
+    anstream::println!("{}: open {url}", programs.folder().display());
+    anstream::println!("The page redraws after every save. Press Ctrl-C to stop.");
+    let redirection = if arguments.no_open {
+        None
+    } else {
+        let folder = std::env::temp_dir();
+        Some(browser::open(&url).at("write to", &folder)?)
+    };
+    let routes = Routes {
+        access,
+        studio,
+        scenes,
+        settings,
+        redirection: Mutex::new(redirection),
+    };
+    http::serve(&listener, move |request| routes.answer(request));
+    Ok(())
+}
+
+fn start_threads(
+    studio: &Arc<Studio>,
+    programs: &Programs,
+    submission: grader::submission::Submission,
+    cores: usize,
+) -> io::Result<()> {
+    watcher::start(studio, programs, submission)?;
+    workers::start(studio, cores)?;
+    let studio = Arc::clone(studio);
+    let thread = thread::Builder::new().name("composer".to_owned());
+    thread.spawn(move || composer::run(&studio))?;
+    Ok(())
+}
+
+/// Listens on this port, or on the usual one or any other if none is given.
+fn listen(port: Option<u16>) -> Result<TcpListener, ViewError> {
+    let bind = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
+    match port {
+        Some(port) => bind(port).map_err(|error| {
+            if error.kind() == io::ErrorKind::AddrInUse {
+                ViewError::PortInUse { port }
+            } else {
+                ViewError::Listen(error)
+            }
+        }),
+        None => bind(DEFAULT_PORT)
+            .or_else(|_| bind(0))
+            .map_err(ViewError::Listen),
+    }
+}
+
+fn programs(arguments: &Arguments, workspace: &Workspace) -> Result<Programs, ViewError> {
+    let isolation = if arguments.untrusted {
+        IsolationRequest::Untrusted
+    } else {
+        IsolationRequest::OwnWork
+    };
+    let (folder, is_package): (PathBuf, bool) = match &arguments.submission {
+        Some(path) => (workspace.resolve(path), false),
+        None if arguments.reference => {
+            let reference = workspace.reference(&RAYS);
+            (reference.ok_or(ViewError::NoReference)?, false)
+        }
+        None => (workspace.root().join(RAYS.student), true),
+    };
+    Programs::prepare(workspace, folder, is_package, isolation)
+}
+
+fn available_cores() -> usize {
+    thread::available_parallelism().map_or(1, usize::from)
+}

@@ -1,0 +1,177 @@
+//! The work that is to be done by the programs, and its results.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use view_probe::messages::{Aim, Draw, Quantity};
+use view_probe::scene_data::SceneData;
+
+use super::{BuildState, Pinned, Session, View};
+use crate::program::Program;
+use crate::subject::Subject;
+
+/// The time after which a program returns the pixels that it has drawn.
+const SLICE_MS: u32 = 30;
+/// The limit of CPU time for some pixels, and for one.
+const DRAW_LIMITS: [Duration; 2] = [Duration::from_secs(5), Duration::from_secs(2)];
+/// The limit of CPU time for opening a scene, and for each shape in it.
+const OPEN_LIMIT: [Duration; 2] = [Duration::from_secs(10), Duration::from_micros(60)];
+/// The memory of all drawing programs together that their number is limited to, in bytes.
+const MEMORY: u64 = 3 << 30;
+/// An estimate of the memory that a program needs for each shape, while it builds the tree.
+const BYTES_PER_SHAPE: u64 = 700;
+
+/// Identifies what a job belongs to. A result with an old key is dropped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Key {
+    /// Changes with the program.
+    pub program: u64,
+    /// Changes with the scene.
+    pub scene: u64,
+    /// Changes with the camera.
+    pub aim: u64,
+}
+
+/// A program, and the scene and camera that a job needs.
+#[derive(Clone, Debug)]
+pub struct Work<J> {
+    /// The key.
+    pub key: Key,
+    /// The program.
+    pub program: Program,
+    /// The scene.
+    pub subject: Arc<Subject>,
+    /// The camera.
+    pub aim: Aim,
+    /// The limit of CPU time for opening the scene.
+    pub open_limit: Duration,
+    /// The job.
+    pub job: J,
+}
+
+/// A job of a program that draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DrawJob {
+    /// Draw some pixels of a tile.
+    Draw {
+        /// The tile.
+        tile: usize,
+        /// The request.
+        draw: Draw,
+        /// The limit of CPU time.
+        limit: Duration,
+    },
+    /// Return the tree.
+    Tree,
+}
+
+/// A job of the program that records.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RecordingJob {
+    /// Count the tests of some pixels.
+    Draw {
+        /// The tile.
+        tile: usize,
+        /// The request.
+        draw: Draw,
+        /// The limit of CPU time.
+        limit: Duration,
+    },
+    /// Explain a pixel.
+    Explain(Pinned),
+}
+
+impl Session {
+    /// Returns the key of new work.
+    pub fn key(&self) -> Key {
+        self.numbers
+    }
+
+    /// Returns work for the drawing program with this index, if there is some.
+    pub fn next_drawing(&mut self, worker: usize, now: Instant) -> Option<Work<DrawJob>> {
+        let BuildState::Ready(program) = self.drawing.clone() else {
+            return None;
+        };
+        let is_idle = self.fault.is_some() || !self.is_watched(now);
+        if is_idle || worker >= self.programs() {
+            return None;
+        }
+        let job = if self.is_tree_wanted && self.tree.is_none() && !self.is_tree_busy {
+            self.is_tree_busy = true;
+            DrawJob::Tree
+        } else {
+            let milliseconds = if self.is_careful { 0 } else { SLICE_MS };
+            let taken = match self.view {
+                View::Shaded => self
+                    .light
+                    .take(|sample| Quantity::Light { sample }, milliseconds),
+                View::Normals | View::Depth | View::Uv | View::Bvh => {
+                    self.hits.take(|_| Quantity::Hit, milliseconds)
+                }
+                View::Tests => None,
+            };
+            let (tile, draw) = taken?;
+            let limit = DRAW_LIMITS[usize::from(self.is_careful)];
+            DrawJob::Draw { tile, draw, limit }
+        };
+        self.drawing_since.get_or_insert(now);
+        Some(self.work(program, job))
+    }
+
+    /// Returns work for the program that records, if there is some.
+    pub fn next_recording(&mut self, now: Instant) -> Option<Work<RecordingJob>> {
+        let Some(BuildState::Ready(program)) = self.recording.clone() else {
+            return None;
+        };
+        let is_unexplained = self.explanation.is_none() && self.explanation_fault.is_none();
+        if let Some(pinned) = self.pinned
+            && is_unexplained
+            && !self.is_explanation_busy
+        {
+            self.is_explanation_busy = true;
+            return Some(Work {
+                aim: pinned.aim,
+                ..self.work(program, RecordingJob::Explain(pinned))
+            });
+        }
+        if self.view != View::Tests || self.fault.is_some() || !self.is_watched(now) {
+            return None;
+        }
+        let milliseconds = if self.is_careful { 0 } else { SLICE_MS };
+        let (tile, draw) = self.tests.take(|_| Quantity::Tests, milliseconds)?;
+        self.drawing_since.get_or_insert(now);
+        let limit = DRAW_LIMITS[usize::from(self.is_careful)];
+        Some(self.work(program, RecordingJob::Draw { tile, draw, limit }))
+    }
+
+    fn work<J>(&self, program: Program, job: J) -> Work<J> {
+        let shapes = u32::try_from(self.subject.data.shapes.len()).unwrap_or(u32::MAX);
+        let [fixed, per_shape] = OPEN_LIMIT;
+        Work {
+            key: self.numbers,
+            program,
+            subject: Arc::clone(&self.subject),
+            aim: self.aim(),
+            open_limit: (fixed + shapes * per_shape).max(10 * self.last_opening),
+            job,
+        }
+    }
+
+    /// Returns the number of programs that draw at the same time: one per core, or fewer if the tree
+    /// is large, since each has a tree of its own.
+    pub fn programs(&self) -> usize {
+        let shapes = self.subject.data.shapes.len() as u64;
+        let fit = MEMORY / (shapes * BYTES_PER_SHAPE).max(1);
+        usize::try_from(fit)
+            .unwrap_or(usize::MAX)
+            .clamp(1, self.cores)
+    }
+
+    /// Returns the data of the scene for the program that records.
+    pub fn numbered(data: &SceneData) -> SceneData {
+        SceneData {
+            numbered: true,
+            ..data.clone()
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! The state as the page sees it.
+
+use std::time::Instant;
+
+use framework::math::tan;
+use serde::Serialize;
+
+use super::{BuildState, Note, PanicNote, Session, View};
+use crate::program::FileError;
+
+/// The state as the page sees it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ViewState {
+    version: u64,
+    subject: String,
+    about: String,
+    scenes: Vec<String>,
+    loading: Option<String>,
+    question: Option<QuestionState>,
+    view: View,
+    exposure: f32,
+    film: [u32; 2],
+    own_film: [u32; 2],
+    camera: CameraState,
+    build: &'static str,
+    errors: Vec<FileError>,
+    notes: Vec<Note>,
+    panics: Vec<PanicNote>,
+    picture: u64,
+    is_stale: bool,
+    samples: u32,
+    complete_samples: u32,
+    progress: f64,
+    is_complete: bool,
+    is_picture_complete: bool,
+    most_tests: Option<u32>,
+    rays_per_second: f64,
+    seconds: f64,
+    seconds_left: Option<f64>,
+    programs: usize,
+    has_tree: bool,
+    tree_levels: u32,
+    tree_number: String,
+    pinned: Option<PinnedState>,
+    explanation: Option<u64>,
+    explanation_fault: Option<String>,
+}
+
+/// The camera, for drawing over the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+struct CameraState {
+    position: [f32; 3],
+    /// To the right, up, and backward.
+    axes: [[f32; 3]; 3],
+    /// Half the height of the picture at distance one.
+    half_height: f32,
+    aspect_ratio: f32,
+    is_own: bool,
+}
+
+/// A question of the exam.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct QuestionState {
+    asked: String,
+    wanted: Vec<String>,
+    boxes: Vec<[[f32; 3]; 2]>,
+    has_ray: bool,
+}
+
+/// The explained pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+struct PinnedState {
+    pixel: Option<[u32; 2]>,
+    sample: Option<u32>,
+    /// Whether the camera is still where it was at the click, so that the pixel can be marked.
+    is_here: bool,
+}
+
+impl Session {
+    /// Returns the state as the page sees it.
+    pub fn view_state(&self, now: Instant) -> ViewState {
+        let camera = self.camera();
+        let (build, errors) = self.build_state();
+        let progress = match self.view {
+            View::Shaded => self.light.progress(),
+            View::Normals | View::Depth | View::Uv | View::Bvh => self.hits.progress(),
+            View::Tests => self.tests.progress(),
+        };
+        let running = self
+            .drawing_since
+            .map(|since| now.saturating_duration_since(since));
+        let seconds = (self.drawn_for + running.unwrap_or_default()).as_secs_f64();
+        let is_complete = self.is_complete();
+        let is_drawing = !is_complete && self.fault.is_none() && build == "ready";
+        let left = seconds * (1.0 - progress) / progress;
+        let question = self.subject.question.as_ref();
+        ViewState {
+            version: self.version,
+            subject: self.subject.name.clone(),
+            about: self.subject.about.clone(),
+            scenes: self.scenes.clone(),
+            loading: self.loading.clone(),
+            question: question.map(|question| QuestionState {
+                asked: question.asked.clone(),
+                wanted: question.wanted.clone(),
+                boxes: question.boxes.clone(),
+                has_ray: question.ray.is_some(),
+            }),
+            view: self.view,
+            exposure: self.exposure,
+            film: self.film.to_array(),
+            own_film: self.subject.camera.pinhole.film.to_array(),
+            camera: CameraState {
+                position: camera.placement.position.to_array(),
+                axes: camera.placement.axes.to_cols_array_2d(),
+                half_height: tan(0.5 * camera.pinhole.vertical_fov.to_radians()),
+                aspect_ratio: camera.pinhole.aspect_ratio,
+                is_own: self.viewpoint == self.subject.viewpoint,
+            },
+            build,
+            errors,
+            notes: self.notes(),
+            panics: self.panics.clone(),
+            picture: self.picture_number,
+            is_stale: self.is_stale,
+            samples: self.samples,
+            complete_samples: self.light.complete_samples().min(self.samples),
+            progress,
+            is_complete,
+            is_picture_complete: self.is_picture_complete,
+            most_tests: (self.view == View::Tests)
+                .then(|| self.most_tests())
+                .flatten(),
+            rays_per_second: self.rays_per_second(),
+            seconds,
+            seconds_left: (is_drawing && left.is_finite()).then_some(left),
+            programs: self.programs(),
+            has_tree: self.tree.as_ref().is_some_and(|tree| tree.has_nodes()),
+            tree_levels: self.tree.as_ref().map_or(0, |tree| tree.levels()),
+            tree_number: format!("{}.{}", self.numbers.program, self.numbers.scene),
+            pinned: self.pinned.map(|pinned| PinnedState {
+                pixel: pinned.pixel.map(|pixel| pixel.to_array()),
+                sample: pinned.sample,
+                is_here: pinned.aim == self.aim(),
+            }),
+            explanation: self
+                .explanation
+                .is_some()
+                .then_some(self.explanation_number),
+            explanation_fault: self.explanation_problem(),
+        }
+    }
+
+    fn build_state(&self) -> (&'static str, Vec<FileError>) {
+        match &self.drawing {
+            BuildState::Compiling => ("compiling", Vec::new()),
+            BuildState::Ready(_) => ("ready", Vec::new()),
+            BuildState::Failed(errors) => ("failed", errors.clone()),
+            BuildState::Broken(why) => (
+                "failed",
+                vec![FileError {
+                    file: String::new(),
+                    line: None,
+                    text: why.clone(),
+                }],
+            ),
+        }
+    }
+
+    /// Returns the reason why the pinned pixel is not explained.
+    fn explanation_problem(&self) -> Option<String> {
+        self.pinned?;
+        match &self.recording {
+            Some(BuildState::Failed(errors)) => Some(format!(
+                "Your files compile, but not with the changes that record the tests, so they cannot \
+                 be listed here: {}",
+                errors.first().map_or("", |error| &error.text)
+            )),
+            Some(BuildState::Broken(why)) => Some(why.clone()),
+            Some(BuildState::Compiling | BuildState::Ready(_)) | None => {
+                self.explanation_fault.clone()
+            }
+        }
+    }
+
+    /// Returns the largest number of tests of a pixel.
+    fn most_tests(&self) -> Option<u32> {
+        let drawn = self.tests.values().flatten();
+        drawn
+            .map(|counts| counts.boxes.saturating_add(counts.primitives))
+            .max()
+    }
+
+    /// Returns the rays per second, averaged over the last seconds of drawing.
+    fn rays_per_second(&self) -> f64 {
+        let (Some((first, _)), Some((last, _))) = (self.rays.front(), self.rays.back()) else {
+            return 0.0;
+        };
+        let rays: u64 = self.rays.iter().skip(1).map(|(_, rays)| rays).sum();
+        let seconds = last.saturating_duration_since(*first).as_secs_f64();
+        if seconds > 0.0 {
+            rays as f64 / seconds
+        } else {
+            0.0
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! The session, shared by the threads that compile, draw, record, compose pictures and answer the
+//! page.
+
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use grader::submission::Submission;
+
+use crate::composer::Picture;
+use crate::session::{DrawJob, RecordingJob, Session, Work};
+
+/// The number of pages that may wait for news at the same time. A browser opens six connections to
+/// one server, and others are needed for pictures.
+const MAX_WAITING: usize = 4;
+/// The time for which a page waits if more pages are open.
+const SHORT_WAIT: Duration = Duration::from_millis(500);
+
+/// The session, shared by threads.
+#[derive(Debug)]
+pub struct Studio {
+    shared: Mutex<Shared>,
+    /// Notified when the session has changed.
+    changed: Condvar,
+}
+
+#[derive(Debug)]
+struct Shared {
+    session: Session,
+    picture: Option<Arc<Picture>>,
+    /// The number of pages that are waiting.
+    waiting: usize,
+}
+
+impl Studio {
+    /// Shares a session.
+    pub fn new(session: Session) -> Self {
+        Studio {
+            shared: Mutex::new(Shared {
+                session,
+                picture: None,
+                waiting: 0,
+            }),
+            changed: Condvar::new(),
+        }
+    }
+
+    /// Runs `change` on the session, and wakes the threads that wait for work or news.
+    pub fn update<T>(&self, change: impl FnOnce(&mut Session, Instant) -> T) -> T {
+        let value = change(&mut self.lock().session, Instant::now());
+        self.changed.notify_all();
+        value
+    }
+
+    /// Runs `read` on the session.
+    pub fn read<T>(&self, read: impl FnOnce(&Session, Instant) -> T) -> T {
+        read(&self.lock().session, Instant::now())
+    }
+
+    /// Waits until there is work for a drawing program.
+    pub fn wait_for_drawing(&self, worker: usize) -> Work<DrawJob> {
+        self.wait_for(|session, now| session.next_drawing(worker, now))
+    }
+
+    /// Waits until there is work for the program that records.
+    pub fn wait_for_recording(&self) -> Work<RecordingJob> {
+        self.wait_for(Session::next_recording)
+    }
+
+    /// Waits until a program that records is wanted, and returns the files and their version.
+    pub fn wait_for_recording_wish(&self) -> (u64, Arc<Submission>) {
+        self.wait_for(|session, _| session.wanted_recording())
+    }
+
+    /// Waits until the picture has changed.
+    pub fn wait_for_dirt(&self) {
+        self.wait_for(|session, _| (session.is_dirty && session.has_picture()).then_some(()));
+    }
+
+    fn wait_for<T>(&self, mut find: impl FnMut(&mut Session, Instant) -> Option<T>) -> T {
+        let mut shared = self.lock();
+        loop {
+            if let Some(found) = find(&mut shared.session, Instant::now()) {
+                return found;
+            }
+            let waited = self.changed.wait(shared);
+            shared = waited.unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Waits until the session has another version than `known`, or until the time is over. Returns
+    /// whether it has. If many pages wait, none waits for long.
+    pub fn wait_for_news(&self, known: u64, limit: Duration) -> bool {
+        let mut shared = self.lock();
+        shared.session.watch(Instant::now());
+        shared.waiting += 1;
+        let limit = if shared.waiting > MAX_WAITING {
+            SHORT_WAIT
+        } else {
+            limit
+        };
+        // Drawing may have paused because no page was open.
+        self.changed.notify_all();
+        let is_known = |shared: &mut Shared| shared.session.version == known;
+        let waited = self.changed.wait_timeout_while(shared, limit, is_known);
+        let (mut shared, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        shared.waiting -= 1;
+        shared.session.watch(Instant::now());
+        shared.session.version != known
+    }
+
+    /// Replaces the picture.
+    pub fn show_picture(&self, picture: Picture) {
+        let mut shared = self.lock();
+        shared
+            .session
+            .show_picture(picture.key, picture.is_complete);
+        shared.picture = Some(Arc::new(picture));
+        self.changed.notify_all();
+    }
+
+    /// Returns the picture.
+    pub fn picture(&self) -> Option<Arc<Picture>> {
+        self.lock().picture.clone()
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Shared> {
+        self.shared.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

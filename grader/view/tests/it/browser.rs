@@ -1,0 +1,198 @@
+//! The page in a browser, used like a student does.
+
+use browser_support::{Chromium, DESKTOP, Tab, Viewer as Reader, violations};
+use serde_json::json;
+
+use crate::harness::{Submission, Viewer};
+
+const IS_COMPLETE: &str = "document.body.dataset.complete === 'true'";
+const HAS_TABLE: &str = "document.querySelector('#explanation tbody tr') !== null";
+const TEXT: &str = "document.body.innerText";
+
+/// Opens the address that the viewer has printed.
+fn open(viewer: &Viewer, chromium: &Chromium, reader: Reader) -> Tab {
+    let mut tab = chromium.tab();
+    tab.open_url(
+        &format!("http://127.0.0.1:{}{}", viewer.port, viewer.first),
+        reader,
+    );
+    // The page with the token leads on to the viewer by itself.
+    tab.wait_until_loaded();
+    tab
+}
+
+fn text(tab: &mut Tab, selector: &str) -> String {
+    let text = tab.eval(&format!("document.querySelector('{selector}').innerText"));
+    text.as_str().unwrap().to_owned()
+}
+
+/// Returns the middle of the picture in the window.
+fn middle(tab: &mut Tab) -> (f64, f64) {
+    let at = tab.eval(
+        "document.getElementById('stage').scrollIntoView(); \
+         (({ x, y, width, height }) => [x + width / 2, y + height / 2])\
+         (document.getElementById('pixels').getBoundingClientRect())",
+    );
+    (at[0].as_f64().unwrap(), at[1].as_f64().unwrap())
+}
+
+#[test]
+fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let submission = Submission::reference();
+    let arguments = ["checkered-teapot", "--size", "96x72", "--samples", "2"];
+    let viewer = Viewer::start(&submission, &arguments);
+    let mut tab = open(&viewer, &chromium, DESKTOP);
+    tab.wait_until(IS_COMPLETE, TEXT);
+    let own = viewer.wait_for_picture();
+
+    tab.eval("document.getElementById('stage').focus(); 0");
+    tab.press("ArrowRight", 39);
+    viewer.wait_for(|state| state["camera"] != own["camera"]);
+    tab.wait_until(IS_COMPLETE, TEXT);
+
+    let middle = middle(&mut tab);
+    tab.drag(middle, middle);
+    tab.wait_until(HAS_TABLE, TEXT);
+    let explanation = viewer.explanation();
+    assert_eq!(explanation["pixel"][0], 48, "the middle of 96 pixels");
+    let rows = explanation["rays"][0]["rows"].as_array().unwrap().len();
+    let shown = tab.eval("document.querySelectorAll('#explanation tbody tr').length");
+    assert_eq!(shown, rows);
+    let row = text(&mut tab, "#explanation tbody tr");
+    assert!(
+        row.contains("node 0 (level 0)") && row.contains("entered"),
+        "{row}"
+    );
+    // Step by step, forward and backward.
+    let steps = "document.querySelector('[aria-current=step] button').innerText";
+    tab.eval("document.querySelector('[aria-label=\"First step\"]').click(); 0");
+    tab.eval("document.querySelector('[aria-label=\"Step forward\"]').click(); 0");
+    assert_eq!(tab.eval(steps), "2");
+    tab.eval("document.querySelector('[aria-label=\"Step back\"]').click(); 0");
+    assert_eq!(tab.eval(steps), "1");
+
+    let before = viewer.wait_for_picture();
+    let correct = submission.read("bvh.rs");
+    submission.write(
+        "bvh.rs",
+        &correct.replace("pub fn hit(&self", "pub fn hit(&self,"),
+    );
+    submission.write("bvh.rs", &format!("{correct}\nlet oops\n"));
+    tab.wait_until("!document.getElementById('errors').hidden", TEXT);
+    let heading = text(&mut tab, "#errors h3");
+    let line = correct.lines().count() + 2;
+    assert_eq!(heading, format!("bvh.rs:{line}"));
+    assert!(text(&mut tab, "#errors pre").contains("let oops"));
+    assert_eq!(
+        tab.eval("document.getElementById('stage').className"),
+        "stale"
+    );
+
+    submission.write("bvh.rs", &correct);
+    tab.wait_until("document.getElementById('errors').hidden", TEXT);
+    tab.wait_until(IS_COMPLETE, TEXT);
+    tab.wait_until("document.getElementById('stage').className === ''", TEXT);
+    let after = viewer.wait_for_picture();
+    assert_eq!(after["camera"], before["camera"]);
+    assert_eq!(tab.errors(), [""; 0]);
+    let here = format!("http://127.0.0.1:{}/", viewer.port);
+    assert!(
+        tab.requests().iter().all(|url| url.starts_with(&here)),
+        "{:?}",
+        tab.requests()
+    );
+}
+
+#[test]
+fn the_keyboard_alone_explains_a_pixel_and_shows_the_tree() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let arguments = ["flat", "--size", "64x48", "--samples", "1"];
+    let viewer = Viewer::start(&Submission::reference(), &arguments);
+    let mut tab = open(&viewer, &chromium, DESKTOP);
+    tab.wait_until(IS_COMPLETE, TEXT);
+    tab.eval("document.getElementById('stage').focus(); 0");
+    tab.press("Enter", 13);
+    tab.wait_until(HAS_TABLE, TEXT);
+    tab.wait_until("!document.getElementById('tree-content').hidden", TEXT);
+    tab.eval("document.getElementById('level').focus(); 0");
+    tab.press("ArrowRight", 39);
+    tab.wait_until(
+        "document.getElementById('boxes-count').innerText.includes('box')",
+        TEXT,
+    );
+    assert_eq!(text(&mut tab, "#level-value"), "1");
+    tab.eval("document.querySelector('#worst button').focus(); 0");
+    tab.press("Enter", 13);
+    let node = text(&mut tab, "#node");
+    assert!(node.contains("of the SAH cost"), "{node}");
+}
+
+#[test]
+fn axe_finds_nothing_in_light_and_dark_mode_and_on_a_phone() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let submission = Submission::reference();
+    submission.write("sphere.rs", &Submission::starter().read("sphere.rs"));
+    let viewer = Viewer::start(
+        &submission,
+        &["spheres", "--size", "32x24", "--samples", "1"],
+    );
+    viewer.wait_for_picture();
+    viewer.explain([16, 4], Some(0));
+    assert_eq!(viewer.send(&json!({ "view": "tests" })), 204);
+    let phone = Reader {
+        width: 390,
+        dark: false,
+        reduced_motion: true,
+    };
+    let dark = Reader {
+        dark: true,
+        ..DESKTOP
+    };
+    for reader in [DESKTOP, dark, phone] {
+        let mut tab = open(&viewer, &chromium, reader);
+        tab.wait_until(HAS_TABLE, TEXT);
+        tab.wait_until("!document.getElementById('tree-content').hidden", TEXT);
+        assert_eq!(violations(&mut tab), [""; 0], "width {}", reader.width);
+        let width = tab.eval("document.documentElement.scrollWidth");
+        assert!(width.as_u64() <= Some(reader.width.into()), "{width}");
+    }
+    submission.write("bvh.rs", "not Rust");
+    let mut tab = open(&viewer, &chromium, dark);
+    tab.wait_until("!document.getElementById('errors').hidden", TEXT);
+    assert_eq!(violations(&mut tab), [""; 0]);
+}
+
+#[test]
+fn ten_tabs_show_the_picture_and_notice_that_the_viewer_has_ended() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let viewer = Viewer::start(
+        &Submission::reference(),
+        &["flat", "--size", "16x12", "--samples", "1"],
+    );
+    let mut tabs: Vec<Tab> = (0..10).map(|_| open(&viewer, &chromium, DESKTOP)).collect();
+    // A hidden tab waits until it is seen.
+    for tab in &mut tabs {
+        tab.bring_to_front();
+        tab.wait_until(IS_COMPLETE, TEXT);
+        tab.wait_until("document.getElementById('pixels').width === 16", TEXT);
+    }
+    assert_eq!(viewer.send(&json!({ "view": "depth" })), 204);
+    for tab in &mut tabs {
+        tab.bring_to_front();
+        tab.wait_until("document.querySelector('[value=depth]').checked", TEXT);
+    }
+    drop(viewer);
+    for tab in &mut tabs {
+        tab.bring_to_front();
+        tab.wait_until("!document.getElementById('offline').hidden", TEXT);
+    }
+}

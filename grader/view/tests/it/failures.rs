@@ -1,0 +1,176 @@
+//! Submissions that are not finished or fail: the page shows as much as there is, and says why.
+
+use serde_json::{Value, json};
+
+use crate::harness::{Submission, Viewer};
+
+/// Returns the texts and locations of a state's notes, one per line.
+fn notes(state: &Value) -> String {
+    let notes = state["notes"].as_array().unwrap().iter();
+    let line = |note: &Value| {
+        format!(
+            "{} ({})\n",
+            note["text"].as_str().unwrap(),
+            note["location"]
+        )
+    };
+    notes.map(line).collect()
+}
+
+/// Returns the number of pixels that mark a panic.
+fn panicked(viewer: &Viewer) -> usize {
+    let picture = viewer.picture();
+    picture
+        .iter()
+        .filter(|pixel| **pixel == [255, 0, 255])
+        .count()
+}
+
+#[test]
+fn the_starter_lists_the_tasks_that_are_missing_with_their_lines() {
+    let viewer = Viewer::start(&Submission::starter(), &["spheres", "--size", "16x12"]);
+    let state = viewer.wait_for_picture();
+    let notes = notes(&state);
+    for (task, file) in [
+        ("Task 1: camera rays: not written yet", "camera.rs:"),
+        ("Task 2: triangles: not written yet", "triangle.rs:"),
+        ("Task 2: spheres: not written yet", "sphere.rs:"),
+        ("Task 3: boxes: not written yet", "bbox.rs:"),
+    ] {
+        let line = notes.lines().find(|line| line.starts_with(task));
+        assert!(line.is_some_and(|line| line.contains(file)), "{notes}");
+    }
+}
+
+#[test]
+fn before_the_tree_and_the_spheres_the_rest_is_shown() {
+    let submission = Submission::reference();
+    let starter = Submission::starter();
+    submission.write("sphere.rs", &starter.read("sphere.rs"));
+    submission.write("bvh.rs", &starter.read("bvh.rs"));
+    let viewer = Viewer::start(
+        &submission,
+        &["spheres", "--size", "32x24", "--samples", "1"],
+    );
+    let state = viewer.wait_for_picture();
+    let notes = notes(&state);
+    assert!(notes.contains("spheres are left out"), "{notes}");
+    assert!(
+        notes.contains("no tree yet") && notes.contains("bvh.rs:"),
+        "{notes}"
+    );
+    assert!(
+        viewer.picture().iter().any(|pixel| *pixel != [0, 0, 0]),
+        "the floor is shown"
+    );
+    let explanation = viewer.explain([16, 2], None);
+    let ray = &explanation["rays"][0];
+    assert!(
+        ray["notes"][0]
+            .as_str()
+            .unwrap()
+            .contains("There is no tree yet"),
+        "{ray}"
+    );
+    assert_eq!(ray["boxes"], 0);
+}
+
+#[test]
+fn an_error_of_the_compiler_leaves_the_picture_until_it_is_fixed() {
+    let submission = Submission::reference();
+    let viewer = Viewer::start(&submission, &["flat", "--size", "24x20", "--samples", "2"]);
+    assert_eq!(
+        viewer.send(&json!({ "move": { "orbit": [0.3, 0.1] } })),
+        204
+    );
+    viewer.wait_for_picture();
+    viewer.explain([12, 10], None);
+    let before = viewer.wait_for_picture();
+    let picture = viewer.picture();
+
+    let correct = submission.read("bvh.rs");
+    submission.write("bvh.rs", &format!("{correct}\nfn broken( {{\n"));
+    let failed = viewer.wait_for(|state| state["build"] == "failed");
+    assert_eq!(failed["is_stale"], true);
+    let error = &failed["errors"][0];
+    assert_eq!(error["file"], "bvh.rs");
+    let line = correct.lines().count() as u64 + 2;
+    assert!(error["line"].as_u64().unwrap() >= line, "{error}");
+    assert!(viewer.picture() == picture, "the last picture stays");
+
+    submission.write("bvh.rs", &correct);
+    let after =
+        viewer.wait_for(|state| state["is_stale"] == false && state["is_picture_complete"] == true);
+    assert_eq!(after["errors"], json!([]));
+    assert_eq!(after["camera"], before["camera"]);
+    assert_eq!(after["pinned"], before["pinned"]);
+    assert!(viewer.picture() == picture);
+    assert_eq!(viewer.explanation()["pixel"], json!([12, 10]));
+}
+
+#[test]
+fn a_panic_paints_its_pixels_and_names_its_line() {
+    let submission = Submission::reference();
+    let signature = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
+    let panic = "assert!(pixel.x != 3, \"column {}\", pixel.x);";
+    submission.replace("camera.rs", signature, &format!("{signature} {panic}"));
+    let viewer = Viewer::start(&submission, &["flat", "--size", "20x10", "--samples", "1"]);
+    let state = viewer.wait_for_picture();
+    assert_eq!(panicked(&viewer), 10);
+    let note = &state["panics"][0];
+    assert_eq!(
+        (&note["message"], &note["count"]),
+        (&json!("column 3"), &json!(10))
+    );
+    let line = submission
+        .read("camera.rs")
+        .lines()
+        .position(|line| line.contains(panic));
+    let location = format!("camera.rs:{}", line.unwrap() + 1);
+    assert_eq!(note["location"], location);
+}
+
+#[test]
+fn a_hang_ends_and_its_pixel_is_found() {
+    let submission = Submission::reference();
+    let signature = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
+    let hang = "while pixel == UVec2::new(5, 6) { std::hint::black_box(()); }";
+    submission.replace("camera.rs", signature, &format!("{signature} {hang}"));
+    let viewer = Viewer::start(&submission, &["flat", "--size", "16x12", "--samples", "1"]);
+    let state = viewer.wait_for_picture();
+    assert_eq!(panicked(&viewer), 1);
+    let note = &state["panics"][0];
+    assert_eq!(note["pixel"], json!([5, 6]));
+    assert!(
+        note["message"].as_str().unwrap().contains("stopped after"),
+        "{note}"
+    );
+}
+
+#[test]
+fn a_stack_overflow_while_building_is_reported_and_can_be_fixed() {
+    let submission = Submission::reference();
+    let correct = submission.read("bvh.rs");
+    let recursion =
+        "if primitives.len() < usize::MAX { return Self::build(primitives, max_leaf_size); }";
+    let signature = correct
+        .lines()
+        .find(|line| line.contains("pub fn build("))
+        .unwrap();
+    submission.replace("bvh.rs", signature, &format!("{signature} {recursion}"));
+    let viewer = Viewer::start(&submission, &["flat", "--size", "8x8", "--samples", "1"]);
+    let state = viewer.wait_for(|state| {
+        state["notes"]
+            .as_array()
+            .is_some_and(|notes| !notes.is_empty())
+    });
+    let notes = notes(&state);
+    // The recursion may have been compiled to a loop.
+    assert!(
+        notes.contains("stack overflowed") || notes.contains("stopped after"),
+        "{notes}"
+    );
+    submission.write("bvh.rs", &correct);
+    let state = viewer.wait_for_picture();
+    assert_eq!(state["notes"], json!([]));
+}

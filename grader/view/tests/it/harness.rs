@@ -1,0 +1,234 @@
+//! Starts the viewer on a submission, and talks to it like its page.
+
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use grader::handed_out::RAYS;
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// The time after which a state is no longer expected. The first test compiles the dependencies.
+const TIMEOUT: Duration = Duration::from_secs(600);
+
+/// Returns the root folder of the workspace.
+pub fn workspace() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Returns a command that starts the viewer in the workspace's folder.
+pub fn view() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_view"));
+    command.current_dir(workspace()).arg("--no-open");
+    command
+}
+
+/// The files of a submission in a temporary folder.
+pub struct Submission {
+    folder: TempDir,
+}
+
+impl Submission {
+    /// Copies the reference's files.
+    pub fn reference() -> Self {
+        Submission::copy_of("reference/src")
+    }
+
+    /// Copies the starter's files.
+    pub fn starter() -> Self {
+        Submission::copy_of("grader/starter")
+    }
+
+    fn copy_of(source: &str) -> Self {
+        let folder = TempDir::new().unwrap();
+        for file in RAYS.file_names() {
+            let from = workspace().join(source).join(file);
+            fs::copy(from, folder.path().join(file)).unwrap();
+        }
+        Submission { folder }
+    }
+
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    pub fn read(&self, file: &str) -> String {
+        fs::read_to_string(self.path().join(file)).unwrap()
+    }
+
+    pub fn write(&self, file: &str, text: &str) {
+        fs::write(self.path().join(file), text).unwrap();
+    }
+
+    /// Replaces text in a file, and panics if the file does not contain it.
+    pub fn replace(&self, file: &str, from: &str, to: &str) {
+        let text = self.read(file);
+        assert!(text.contains(from), "{file} does not contain {from:?}");
+        self.write(file, &text.replace(from, to));
+    }
+}
+
+/// A response of the viewer.
+pub struct Answer {
+    pub status: u16,
+    pub head: String,
+    pub body: Vec<u8>,
+}
+
+/// A running viewer, which is killed when this is dropped.
+pub struct Viewer {
+    child: Child,
+    pub port: u16,
+    /// The path of the first address, with the token.
+    pub first: String,
+    cookie: String,
+}
+
+impl Viewer {
+    /// Starts the viewer on a submission.
+    pub fn start(submission: &Submission, arguments: &[&str]) -> Self {
+        Viewer::try_start(submission, arguments).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// Starts the viewer like [`Viewer::start`], or returns its error message.
+    pub fn try_start(submission: &Submission, arguments: &[&str]) -> Result<Self, String> {
+        let mut command = view();
+        command.arg("--submission").arg(submission.path());
+        Viewer::try_run(command.args(arguments))
+    }
+
+    /// Starts the viewer, and exchanges the token for the cookie.
+    fn try_run(command: &mut Command) -> Result<Self, String> {
+        let mut child = command
+            .args(["--port", "0"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        let stdout = child.stdout.take().unwrap();
+        let mut stderr = child.stderr.take().unwrap();
+        BufReader::new(stdout).read_line(&mut line).unwrap();
+        if line.is_empty() {
+            let mut error = String::new();
+            stderr.read_to_string(&mut error).unwrap();
+            child.wait().unwrap();
+            return Err(error);
+        }
+        let url = line.rsplit_once("open http://127.0.0.1:").unwrap().1.trim();
+        let (port, first) = url.split_once('/').unwrap();
+        let mut viewer = Viewer {
+            child,
+            port: port.parse().unwrap(),
+            first: format!("/{first}"),
+            cookie: String::new(),
+        };
+        let answer = viewer.request("GET", &viewer.first, "Host: localhost\r\n", "");
+        let cookie = answer.head.split("Set-Cookie: ").nth(1).unwrap();
+        viewer.cookie = cookie.split(';').next().unwrap().to_owned();
+        Ok(viewer)
+    }
+
+    /// Sends a request with exactly these headers.
+    pub fn request(&self, method: &str, path: &str, headers: &str, body: &str) -> Answer {
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        let length = body.len();
+        let head = format!("{method} {path} HTTP/1.1\r\n{headers}Content-Length: {length}\r\n\r\n");
+        stream.write_all((head + body).as_bytes()).unwrap();
+        let mut bytes = Vec::new();
+        stream.read_to_end(&mut bytes).unwrap();
+        let end = bytes
+            .windows(4)
+            .position(|window| window == b"\r\n\r\n")
+            .unwrap()
+            + 4;
+        let head = String::from_utf8(bytes[..end].to_vec()).unwrap();
+        Answer {
+            status: head.split(' ').nth(1).unwrap().parse().unwrap(),
+            head,
+            body: bytes[end..].to_vec(),
+        }
+    }
+
+    /// Returns the headers of the page.
+    pub fn headers(&self) -> String {
+        format!(
+            "Host: localhost\r\nOrigin: http://localhost\r\nCookie: {}\r\n",
+            self.cookie
+        )
+    }
+
+    pub fn get(&self, path: &str) -> Answer {
+        self.request("GET", path, &self.headers(), "")
+    }
+
+    /// Sends a command of the page. Returns the status.
+    pub fn send(&self, command: &Value) -> u16 {
+        self.request("POST", "/command", &self.headers(), &command.to_string())
+            .status
+    }
+
+    /// Waits for a state, following the news like the page.
+    #[track_caller]
+    pub fn wait_for(&self, is_expected: impl Fn(&Value) -> bool) -> Value {
+        let deadline = Instant::now() + TIMEOUT;
+        let mut version = 0;
+        let mut state = Value::Null;
+        while Instant::now() < deadline {
+            let answer = self.get(&format!("/state?after={version}"));
+            if answer.status == 204 {
+                continue;
+            }
+            state = serde_json::from_slice(&answer.body).unwrap();
+            version = state["version"].as_u64().unwrap();
+            if is_expected(&state) {
+                return state;
+            }
+        }
+        panic!("the state is still {state:#}");
+    }
+
+    /// Waits until the whole picture is shown.
+    #[track_caller]
+    pub fn wait_for_picture(&self) -> Value {
+        self.wait_for(|state| state["is_picture_complete"] == true)
+    }
+
+    /// Returns the pixels of the picture, row by row from the top.
+    pub fn picture(&self) -> Vec<[u8; 3]> {
+        let answer = self.get("/picture");
+        let decoder = png::Decoder::new(std::io::Cursor::new(answer.body));
+        let mut reader = decoder.read_info().unwrap();
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut bytes).unwrap();
+        bytes.as_chunks().0.to_vec()
+    }
+
+    /// Explains a pixel, and waits for the explanation.
+    #[track_caller]
+    pub fn explain(&self, pixel: [u32; 2], sample: Option<u32>) -> Value {
+        let command = json!({ "pick": { "pixel": pixel, "sample": sample } });
+        assert_eq!(self.send(&command), 204);
+        self.explanation()
+    }
+
+    /// Waits for the explanation of the pinned ray.
+    #[track_caller]
+    pub fn explanation(&self) -> Value {
+        self.wait_for(|state| {
+            assert_eq!(state["explanation_fault"], Value::Null);
+            state["explanation"].is_number()
+        });
+        serde_json::from_slice(&self.get("/explanation").body).unwrap()
+    }
+}
+
+impl Drop for Viewer {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}

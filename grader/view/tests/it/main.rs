@@ -1,0 +1,9 @@
+//! Tests of the real program: its rules of access, its pictures, and what it shows of submissions.
+
+mod access;
+mod browser;
+mod explanations;
+mod failures;
+mod harness;
+mod pictures;
+mod questions;

@@ -1,0 +1,139 @@
+//! Final exams share no question with the practice exam, whose answers everybody has. An item is
+//! drawn again as long as the practice exam's answers would earn points in it.
+
+use std::sync::LazyLock;
+
+use glam::Vec3;
+use judging::exam::{ExamQuestion, Item, Key};
+use judging::judge::{Credit, judge};
+use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Trace};
+
+use crate::items::DeclaredItem;
+use crate::seed::Seed;
+
+/// The items of the practice exam.
+static PRACTICE: LazyLock<Vec<DeclaredItem>> =
+    LazyLock::new(|| super::declared_items(Seed::PRACTICE).collect());
+
+/// Draws items. Those of a final exam differ from those of the practice exam in every question.
+pub(super) fn draw_items(seed: Seed, items: &[fn(Seed) -> DeclaredItem]) -> Vec<DeclaredItem> {
+    let items = items.iter().map(|item| match seed {
+        Seed::PRACTICE => item(seed),
+        seed => draw_distinct(seed, *item),
+    });
+    items.collect()
+}
+
+fn draw_distinct(seed: Seed, item: fn(Seed) -> DeclaredItem) -> DeclaredItem {
+    const MAX_ATTEMPTS: usize = 1000;
+    let is_distinct = |drawn: &DeclaredItem| {
+        let practice = PRACTICE.iter().map(DeclaredItem::item);
+        let mut same = practice.filter(|other| other.id == drawn.item().id);
+        !same.any(|other| shares_a_question(drawn.item(), other))
+    };
+    std::iter::successors(Some(seed), |seed| Some(seed.next()))
+        .take(MAX_ATTEMPTS)
+        .map(item)
+        .find(is_distinct)
+        .expect("some numbers differ from those of the practice exam")
+}
+
+/// Returns whether the correct answer to a question of the one item earns points for a question of
+/// the other.
+///
+/// Some questions are left out. If no ray hits anything, there is only one answer. A tree is an
+/// answer to its own primitives only, and these are drawn by the seed.
+pub fn shares_a_question(item: &Item, other: &Item) -> bool {
+    let answers: Vec<Answer> = other.questions.iter().filter_map(correct_answer).collect();
+    let is_drawn = |question: &&ExamQuestion| match &question.key {
+        Key::Hits { hits, .. } => hits.iter().any(Option::is_some),
+        Key::Rays { .. } | Key::FirstHits { .. } | Key::Spans { .. } | Key::Radiance { .. } => true,
+        Key::Tree { .. } => false,
+    };
+    let mut drawn = item.questions.iter().filter(is_drawn);
+    drawn.any(|question| {
+        let mut credits = answers.iter().map(|answer| judge(question, answer).credit);
+        credits.any(|credit: Credit| credit.apply(item.points) > 0)
+    })
+}
+
+/// Returns a correct answer to a question, or `None` if the answer is a tree.
+fn correct_answer(question: &ExamQuestion) -> Option<Answer> {
+    Some(match &question.key {
+        Key::Rays { directions, .. } => Answer::Rays(values(directions.iter().map(|&dir| Ray {
+            origin: Vec3::ZERO,
+            dir,
+            range: Interval::AHEAD,
+        }))),
+        Key::Hits { hits, .. } => {
+            let origins = rays(&question.question).into_iter().map(|ray| ray.origin);
+            Answer::Hits(values(hits.iter().zip(origins).map(|(hit, origin)| {
+                hit.map(|hit| Trace {
+                    distance: hit.distance,
+                    position: hit.position,
+                    normal: hit.normal,
+                    uv: hit.uv,
+                    origin,
+                    material: hit.material,
+                })
+            })))
+        }
+        Key::FirstHits { hits, .. } => Answer::Hits(values(hits.iter().map(|surface| {
+            surface.map(|surface| Trace {
+                distance: surface.depth,
+                position: Vec3::ZERO,
+                normal: surface.normal,
+                uv: surface.uv,
+                origin: Vec3::ZERO,
+                material: 0,
+            })
+        }))),
+        Key::Spans { spans } => Answer::Spans(values(spans.iter().copied())),
+        Key::Radiance { pixels, .. } => Answer::Picture(ElementOutcome::Value(pixels.clone())),
+        Key::Tree { .. } => return None,
+    })
+}
+
+fn values<T>(values: impl Iterator<Item = T>) -> Vec<ElementOutcome<T>> {
+    values.map(ElementOutcome::Value).collect()
+}
+
+fn rays(question: &Question) -> Vec<Ray> {
+    match question {
+        Question::Shapes { rays, .. }
+        | Question::Traverse { rays, .. }
+        | Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
+        Question::Camera { .. }
+        | Question::BBox { .. }
+        | Question::Build { .. }
+        | Question::Radiance { .. }
+        | Question::Done => Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::items::{bbox, build, camera};
+
+    #[test]
+    fn an_item_shares_its_questions_with_itself_except_trees() {
+        let seed = Seed(1);
+        for drawn in camera::items(seed).iter().chain(&bbox::items(seed)) {
+            assert!(shares_a_question(drawn.item(), drawn.item()), "{drawn:?}");
+        }
+        let trees = build::items(seed);
+        assert!(!shares_a_question(trees[0].item(), trees[0].item()));
+    }
+
+    #[test]
+    fn an_item_that_shares_a_question_is_drawn_again() {
+        // There are few sizes of a small film, so some seeds draw one of the practice exam's.
+        let sizes = |seed| camera::items(seed).remove(0);
+        let practice = sizes(Seed::PRACTICE);
+        let corners = crate::items::camera::corners;
+        let shares = |seed: &Seed| shares_a_question(corners(*seed).item(), practice.item());
+        let seed = (0..100).map(Seed).find(shares).unwrap();
+        assert!(!shares_a_question(sizes(seed).item(), practice.item()));
+    }
+}

@@ -1,0 +1,7 @@
+//! Runs the worked examples in the task files: `cargo examples sphere`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    framework::cli::examples::main()
+}

@@ -25,7 +25,7 @@ const WORST: usize = 12;
 const NARROWEST: f32 = 1.0 / 600.0;
 
 /// The files of the page: path, type and text.
-const FILES: [(&str, &str, &str); 9] = [
+const FILES: [(&str, &str, &str); 10] = [
     (
         "/",
         "text/html; charset=utf-8",
@@ -36,7 +36,9 @@ const FILES: [(&str, &str, &str); 9] = [
         "text/css; charset=utf-8",
         include_str!("page/style.css"),
     ),
-    ("/icon.svg", "image/svg+xml", include_str!("page/icon.svg")),
+    ("/icon.svg", "image/svg+xml", ICON),
+    // Browsers ask for this one if a page names no icon, like the entrance and the errors.
+    ("/favicon.ico", "image/svg+xml", ICON),
     ("/main.js", SCRIPT, include_str!("page/main.js")),
     ("/server.js", SCRIPT, include_str!("page/server.js")),
     ("/stage.js", SCRIPT, include_str!("page/stage.js")),
@@ -44,6 +46,7 @@ const FILES: [(&str, &str, &str); 9] = [
     ("/pixel.js", SCRIPT, include_str!("page/pixel.js")),
     ("/tree.js", SCRIPT, include_str!("page/tree.js")),
 ];
+const ICON: &str = include_str!("page/icon.svg");
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 const JSON: &str = "application/json";
 

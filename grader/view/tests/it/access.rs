@@ -11,6 +11,8 @@ fn only_the_users_browser_is_answered() {
     let viewer = Viewer::start(&Submission::starter(), &["--allow-host", "tunnel.example"]);
     let with = |headers: &str| viewer.request("GET", "/", headers, "").status;
     assert_eq!(viewer.get("/").status, 200);
+    let icon = viewer.get("/favicon.ico");
+    assert_eq!(icon.status, 200, "browsers ask for it by themselves");
     let page = viewer.headers();
     assert_eq!(with("Host: localhost\r\n"), 403, "no cookie");
     assert_eq!(with(&page.replace("localhost", "tunnel.example")), 200);

@@ -12,7 +12,7 @@ use std::time::Duration;
 use bench_support::cost::Cost;
 use grader::build::{Build, Builder};
 use grader::handed_out::RAYS;
-use grader::probe::Budget;
+use grader::probe::ItemLimits;
 use grader::sandbox;
 use grader::select_isolation::with_best_level;
 use grader::submission::Submission;
@@ -21,9 +21,7 @@ use protocol::Question;
 
 const COMPILES: usize = 15;
 const STARTS: usize = 100;
-const BUDGET: Budget = Budget {
-    cpu: Duration::from_secs(10),
-};
+const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(10));
 
 fn main() -> ExitCode {
     // The sandbox starts this program again as its launcher.
@@ -68,10 +66,10 @@ fn first_answer(build: &Build) {
     let program = build.probe.as_deref().expect("the reference compiles");
     let mut probe = build
         .launcher(program)
-        .start(BUDGET)
+        .start(LIMITS.cpu)
         .expect("the probe starts");
     let nothing: [&Question; 0] = [];
-    probe.ask(nothing, BUDGET).expect("the probe answers");
+    probe.ask(nothing, LIMITS).expect("the probe answers");
 }
 
 /// Measures `one` without (index 0) and with (index 1) the sandbox, `rounds` times each. Prints the

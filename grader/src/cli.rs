@@ -112,10 +112,11 @@ pub struct Arguments {
     #[arg(long, help_heading = STAFF_OPTIONS)]
     pub no_reference: bool,
 
-    /// CPU time limit of an item, in seconds
+    /// CPU time limit of an item, in seconds; default: 50 times the slowest item that has passed,
+    /// at least 2 and at most 10 seconds
     #[arg(long, value_name = "SECONDS", help_heading = STAFF_OPTIONS)]
-    #[arg(default_value_t = Budget::DEFAULT_SECONDS, value_parser = value_parser!(u64).range(1..=Budget::MAX_SECONDS))]
-    pub cpu_limit: u64,
+    #[arg(value_parser = value_parser!(u64).range(1..=Budget::MAX_SECONDS))]
+    pub cpu_limit: Option<u64>,
 
     /// The course's policy: how points count and what students see; --policy-default prints the
     /// default
@@ -163,7 +164,9 @@ impl Arguments {
             gradescope_metadata: self.gradescope_metadata,
             dependents: Dependents::new(self.no_reference),
             isolation,
-            budget: Budget::from_seconds(self.cpu_limit),
+            budget: self
+                .cpu_limit
+                .map_or(Budget::default(), Budget::from_seconds),
             hints: if self.hints {
                 HintDetail::Full
             } else {

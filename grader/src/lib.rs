@@ -18,6 +18,7 @@
 //! | a separate package | [`judging`]: exams, their keys, and the comparison of answers with keys |
 //! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`zipfile`]; [`files`], [`system`], [`nearest_name`] |
 
+pub mod alone;
 pub mod build;
 pub mod cache_lookup;
 pub mod cached_report;
@@ -51,6 +52,7 @@ pub mod submission;
 pub mod svg;
 pub mod system;
 pub mod task_selection;
+pub mod task_session;
 pub mod terminal;
 pub mod verdict;
 pub mod watch;

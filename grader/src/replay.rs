@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::grade::collect;
 use crate::nearest_name::suggestion;
 use crate::options::GradeOptions;
-use crate::probe::{Budget, Fault, Launcher, culprit};
+use crate::probe::{Budget, Culprit, Fault, Launcher};
 use crate::question_ref::QuestionRef;
 use crate::select_isolation::with_requested_level;
 use crate::verdict::file_message;
@@ -100,7 +100,8 @@ struct ExamRun(Result<Vec<Answer>, Fault>);
 impl ExamRun {
     fn new(launcher: &Launcher, item: &Item, budget: Budget) -> Result<Self, Error> {
         let questions = item.questions.iter().map(|question| &question.question);
-        Ok(ExamRun(launcher.start(budget)?.ask(questions, budget)))
+        let mut probe = launcher.start(budget.total_cpu())?;
+        Ok(ExamRun(probe.ask(questions, budget.single_item())))
     }
 
     /// Returns the indices of the first question that is answered wrongly and of the element in it,
@@ -111,7 +112,8 @@ impl ExamRun {
         item: &Item,
     ) -> Result<Option<(usize, usize)>, Error> {
         let Ok(answers) = &self.0 else {
-            return Ok(Some(culprit(launcher, item)?.unwrap_or((0, 0))));
+            let culprit = Culprit::find(launcher, item)?;
+            return Ok(Some(culprit.position.unwrap_or((0, 0))));
         };
         let judged = item.questions.iter().zip(answers).enumerate();
         let mut failures = judged.filter_map(|(index, (question, answer))| {
@@ -147,8 +149,8 @@ impl Replayed {
     ) -> Result<Self, Error> {
         let question_alone =
             question_subset(&item.questions[question].question, element..element + 1);
-        let mut probe = launcher.start(budget)?;
-        let answers = probe.ask([&question_alone], budget);
+        let mut probe = launcher.start(budget.total_cpu())?;
+        let answers = probe.ask([&question_alone], budget.single_item());
         Ok(Replayed {
             position: (question, element),
             answer: answers.and_then(|answers| {

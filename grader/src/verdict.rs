@@ -37,10 +37,36 @@ pub enum ItemOutcome<'a> {
         /// known.
         culprit: Option<(usize, usize)>,
     },
-    /// The item was not run, because other items of the task exceeded the time limit.
-    Skipped(Fault),
+    /// The item was not run.
+    NotRun(NotRun),
     /// Every question has an answer. Holds the judgements of these answers.
     Answered(Vec<Judgement>),
+}
+
+/// The reason why an item was not run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotRun {
+    /// Other items of its task ended with this fault, so that the task was stopped.
+    TaskStopped(Fault),
+    /// It depends on a task that was stopped.
+    NeedsStoppedTask,
+    /// The submission has used up its time.
+    BudgetUsedUp,
+}
+
+impl ItemOutcome<'_> {
+    /// Returns whether all answers are right.
+    pub fn is_pass(&self) -> bool {
+        match self {
+            ItemOutcome::Answered(judgements) => judgements
+                .iter()
+                .all(|judgement| judgement.credit == Credit::FULL),
+            ItemOutcome::Pending
+            | ItemOutcome::NotCompiled(_)
+            | ItemOutcome::Fault { .. }
+            | ItemOutcome::NotRun(_) => false,
+        }
+    }
 }
 
 /// Returns the score of a submission before any item is graded.
@@ -120,10 +146,12 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
                 wanted: "an answer".to_owned(),
             });
         }
-        ItemOutcome::Skipped(fault) => {
-            score.verdict = verdict_of(fault);
-            score.message =
-                "skipped, because other items of this task exceeded the time limit".to_owned();
+        ItemOutcome::NotRun(why) => {
+            score.verdict = match why {
+                NotRun::TaskStopped(fault) => verdict_of(fault),
+                NotRun::NeedsStoppedTask | NotRun::BudgetUsedUp => Verdict::TimedOut,
+            };
+            score.message = not_run_message(why).to_owned();
             score.section = item.section.clone();
         }
         ItemOutcome::Answered(judgements) => {
@@ -131,6 +159,21 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
         }
     }
     score
+}
+
+fn not_run_message(why: &NotRun) -> &'static str {
+    match why {
+        NotRun::TaskStopped(Fault::TimedOut(_)) => {
+            "not run, because another item of this task took too long"
+        }
+        NotRun::TaskStopped(Fault::OutOfMemory | Fault::Crashed(_) | Fault::Protocol(_)) => {
+            "not run, because two other items of this task crashed"
+        }
+        NotRun::NeedsStoppedTask => "not run, because a task that it depends on was stopped",
+        NotRun::BudgetUsedUp => {
+            "not run, because the items before it have used up the time of the whole submission"
+        }
+    }
 }
 
 fn not_compiled_message(file: &str, why: &NotCompiled) -> String {
@@ -256,14 +299,23 @@ fn wrong_answer_message(what: &str, failure: &Failure) -> String {
     }
 }
 
-/// Returns the id of the first item that this one depends on and that earned no points, if there is
-/// one.
-pub fn blocking_item<'a>(item: &'a Item, others: &Score) -> Option<&'a str> {
-    let earned_nothing = |id: &&String| {
-        let needed = others.items().find(|other| other.id == **id);
-        needed.is_some_and(|needed| needed.points == 0)
-    };
-    item.needs.iter().find(earned_nothing).map(String::as_str)
+/// An item that earned no points, and that another one depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlockingItem<'a> {
+    /// Its id.
+    pub id: &'a str,
+    /// Its task.
+    pub task: Task,
+}
+
+/// Returns the first item that this one depends on and that earned no points, if there is one.
+pub fn blocking_item<'a>(item: &'a Item, others: &Score) -> Option<BlockingItem<'a>> {
+    item.needs.iter().find_map(|id| {
+        let mut tasks = others.tasks.iter();
+        let earned_nothing = |other: &ItemScore| other.id == *id && other.points == 0;
+        let task = tasks.find(|task| task.items.iter().any(earned_nothing))?;
+        Some(BlockingItem { id, task: task.id })
+    })
 }
 
 /// Returns the score of an item that depends on the failed item `by`. If the item earned nothing,

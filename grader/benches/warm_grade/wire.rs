@@ -10,7 +10,7 @@ use bench_support::bare::BareRustc;
 use bench_support::cost::Cost;
 use bench_support::median::median;
 use glam::{Vec2, Vec3, vec3};
-use grader::probe::{Budget, Launcher};
+use grader::probe::{ItemLimits, Launcher};
 use protocol::{Question, Ray, Rays, Shape, Vertex, wire};
 
 const ROUNDS: usize = 7;
@@ -18,9 +18,7 @@ const RAYS: usize = 100_000;
 /// The number of additional repetitions in one process. Their time does not include reading the
 /// questions.
 const REPETITIONS: u32 = 20;
-const BUDGET: Budget = Budget {
-    cpu: Duration::from_secs(60),
-};
+const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(60));
 
 /// The end of a program that reads all questions, answers them once, and then repeats the answers
 /// as many times as its argument says.
@@ -80,8 +78,8 @@ fn round(folder: &Path, launcher: &Launcher, questions: &[Question]) -> [f64; 2]
         Cost::of_program(&mut command).cpu
     });
     let over_pipe = Cost::of(|| {
-        let mut probe = launcher.start(BUDGET).expect("the probe starts");
-        let answers = probe.ask(questions, BUDGET).expect("the probe answers");
+        let mut probe = launcher.start(LIMITS.cpu).expect("the probe starts");
+        let answers = probe.ask(questions, LIMITS).expect("the probe answers");
         assert_eq!(answers.len(), questions.len());
         // The CPU time of a child is known once it has ended.
         probe.finish();

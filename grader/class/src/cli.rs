@@ -97,7 +97,8 @@ pub struct GradingArguments {
     #[arg(long, value_name = "FILE")]
     pub policy: Option<PathBuf>,
 
-    /// CPU time limit per item, in seconds
+    /// CPU time limit of an item, in seconds; default: 50 times the slowest item that has passed,
+    /// at least 2 and at most 10 seconds
     #[arg(long, value_name = "SECONDS", value_parser = value_parser!(u64).range(1..=Budget::MAX_SECONDS))]
     pub cpu_limit: Option<u64>,
 

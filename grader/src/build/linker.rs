@@ -3,6 +3,7 @@
 
 use std::env;
 use std::ffi::OsStr;
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -68,7 +69,10 @@ impl SystemLinker {
         }
         let own = sysroot.join(BUNDLED_LINKER);
         if cfg!(all(target_os = "linux", target_arch = "x86_64")) && own.is_file() {
-            system::symlink(&own, &folder.join("ld.lld"))?;
+            let link = folder.join("ld.lld");
+            // An earlier attempt, which was killed, may have left it.
+            fs::remove_file(&link).ok();
+            system::symlink(&own, &link)?;
             command.args([
                 "-Clinker-features=-lld",
                 "-Clink-args=-fuse-ld=lld -B. -Wl,--threads=1,-O0",

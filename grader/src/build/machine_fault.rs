@@ -19,7 +19,7 @@ const LINKER_KILLED: &str = "signal: 9 (SIGKILL)";
 pub(super) enum MachineFault {
     /// The compiler was killed, most likely because the machine ran out of memory.
     #[error(
-        "the system killed the compiler (signal 9): give this machine more memory, or grade fewer submissions at once"
+        "the system killed the compiler (signal 9), even for a small program: give this machine more memory, or grade fewer submissions at once"
     )]
     Memory,
     /// The disk is full.

@@ -5,6 +5,7 @@ mod blame;
 pub mod build_dir;
 mod compile;
 mod compiler_sandbox;
+mod control;
 mod dependencies;
 pub mod diagnostics;
 mod linker;
@@ -15,6 +16,7 @@ mod rustc;
 mod self_test;
 mod substitution;
 mod toolchain;
+mod trial;
 mod verified_copy;
 
 use std::collections::BTreeMap;
@@ -38,6 +40,7 @@ use crate::submission::{Submission, TaskFileError};
 use crate::workspace::Workspace;
 
 pub use crate::build::blame::NotCompiled;
+pub use crate::build::control::Control;
 pub use crate::build::programs::{Build, SubstitutedProgram};
 pub use crate::build::self_test::SelfTestError;
 pub use crate::build::toolchain::file_fingerprint;
@@ -240,7 +243,10 @@ impl Builder {
             substitutions: self.substitutions(submission, &not_compiled, build_dir.path()),
             probe,
             not_compiled,
-            sandbox: self.rustc.sandbox.clone(),
+            control: Control {
+                rustc: self.rustc.clone(),
+                folder: build_dir.path().to_owned(),
+            },
             _build_dir: build_dir,
         })
     }

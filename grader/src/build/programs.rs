@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 
 use crate::build::blame::NotCompiled;
 use crate::build::build_dir::BuildDir;
+use crate::build::control::Control;
 use crate::build::substitution::Substitution;
 use crate::handed_out::HandedOut;
 use crate::probe::Launcher;
-use crate::sandbox::{Isolation, Sandbox};
+use crate::sandbox::Isolation;
 
 /// A built submission.
 #[derive(Debug)]
@@ -21,7 +22,7 @@ pub struct Build {
     /// Files whose tasks cannot be graded, with the reasons.
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
     pub(super) substitutions: Vec<Substitution>,
-    pub(super) sandbox: Sandbox,
+    pub(super) control: Control,
     /// The directory that contains the programs. It is removed when this value is dropped.
     pub(super) _build_dir: BuildDir,
 }
@@ -41,14 +42,19 @@ pub enum SubstitutedProgram<'a> {
 impl Build {
     /// Returns the isolation level at which the submission was compiled and will run.
     pub fn isolation(&self) -> Isolation {
-        self.sandbox.level()
+        self.control.rustc.sandbox.level()
+    }
+
+    /// Returns the honest program that shows whether the machine is the reason for a failure.
+    pub fn control(&self) -> &Control {
+        &self.control
     }
 
     /// Returns a launcher for one of the programs.
     pub fn launcher(&self, program: &Path) -> Launcher {
         Launcher {
             program: program.to_owned(),
-            sandbox: self.sandbox.clone(),
+            sandbox: self.control.rustc.sandbox.clone(),
         }
     }
 

@@ -10,7 +10,9 @@ use std::time::{Duration, Instant};
 
 use judging::content_hash::ContentHash;
 
+use crate::alone::{alone, beside_others};
 use crate::build::compiler_sandbox;
+use crate::build::control::Control;
 use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::{self, Diagnostic};
 use crate::build::machine_fault::MachineFault;
@@ -24,14 +26,22 @@ use crate::system::{self, Limits};
 
 const LIMITS: Limits = Limits {
     memory: 4 << 30,
+    data: None,
     cpu: Duration::from_secs(60),
     file: 256 << 20,
 };
+/// The memory that an honest submission may need, in bytes.
+const NEEDED_MEMORY: u64 = 512 << 20;
 /// Wall time limit of a compiler call. It ends a compiler that waits and therefore never exceeds
 /// its CPU time limit.
 const WALL_LIMIT: Duration = Duration::from_secs(90);
 /// Maximum size of the compiler messages that are stored, in bytes.
 const MAX_MESSAGE_BYTES: usize = 1 << 20;
+
+/// The message about a crate whose compiler is killed even if it runs alone.
+const KILLED_ALONE: &str = "the system killed the compiler (signal 9), and again when nothing else \
+                            was running, but not when it compiled another program: this code makes \
+                            it use too much memory";
 
 /// A crate to compile.
 #[derive(Debug)]
@@ -85,6 +95,15 @@ pub enum CompileOutcome {
     Failed(String),
 }
 
+/// Result of an attempt to compile.
+#[derive(Debug)]
+pub(super) enum CompileAttempt {
+    /// The compiler came to an end.
+    Ended(CompileOutcome),
+    /// The system killed the compiler or the linker, and no error names a file of the submission.
+    Killed,
+}
+
 /// The compiler, with everything that it needs to compile a submission.
 #[derive(Clone, Debug)]
 pub struct Rustc {
@@ -125,7 +144,35 @@ impl Rustc {
     }
 
     /// Compiles one crate. A failure of the machine is returned as an error, and not as an outcome.
+    ///
+    /// If the system kills the compiler, the crate is compiled again while nothing else of this
+    /// process runs. If that is killed, too, but an honest program compiles, the crate is the
+    /// reason.
     pub fn compile(&self, source: &Crate) -> io::Result<CompileOutcome> {
+        {
+            let _permit = beside_others();
+            if let CompileAttempt::Ended(outcome) = self.attempt(source)? {
+                return Ok(outcome);
+            }
+        }
+        let _permit = alone();
+        if let CompileAttempt::Ended(outcome) = self.attempt(source)? {
+            return Ok(outcome);
+        }
+        let control = Control {
+            rustc: self.clone(),
+            folder: source.folder.parent().unwrap_or(source.folder).to_owned(),
+        };
+        if control.compiles()? {
+            Ok(CompileOutcome::Failed(KILLED_ALONE.to_owned()))
+        } else {
+            Err(io::Error::other(MachineFault::Memory))
+        }
+    }
+
+    /// Compiles one crate. A failure of the machine is returned as an error, unless it is that the
+    /// compiler was killed.
+    pub(super) fn attempt(&self, source: &Crate) -> io::Result<CompileAttempt> {
         let mut command = Command::new(&self.toolchain.rustc);
         system::clear_environment(&mut command);
         system::keep_search_path(&mut command);
@@ -153,9 +200,10 @@ impl Rustc {
             compiler_sandbox::arguments(self, source, &mut command);
         }
         let profile = compiler_sandbox::profile(self, source);
+        let limits = LIMITS.within_available_memory(NEEDED_MEMORY);
         let mut process = self
             .sandbox
-            .start(command, source.folder, profile, LIMITS)?;
+            .start(command, source.folder, profile, limits)?;
         let messages = Capture::start(
             process.child.stderr.take().expect("the stream is piped"),
             MAX_MESSAGE_BYTES,
@@ -168,9 +216,9 @@ impl Rustc {
                 None if Instant::now() >= deadline => {
                     process.kill();
                     let seconds = WALL_LIMIT.as_secs();
-                    return Ok(CompileOutcome::Failed(format!(
+                    return Ok(CompileAttempt::Ended(CompileOutcome::Failed(format!(
                         "the compiler was stopped after {seconds} s"
-                    )));
+                    ))));
                 }
                 // The compiler closes its output just before it ends, so there is no need to poll
                 // before that.
@@ -183,16 +231,19 @@ impl Rustc {
         if exit_reason.is_success()
             && let Some(made) = self.output_file(source)?
         {
-            return Ok(CompileOutcome::Done(made));
+            return Ok(CompileAttempt::Ended(CompileOutcome::Done(made)));
         }
         let errors = diagnostics::errors(&messages.head());
-        MachineFault::check(exit_reason, &errors, source.task_files, source.folder)
-            .map_err(io::Error::other)?;
-        Ok(if errors.is_empty() {
+        match MachineFault::check(exit_reason, &errors, source.task_files, source.folder) {
+            Ok(()) => {}
+            Err(MachineFault::Memory) => return Ok(CompileAttempt::Killed),
+            Err(fault @ MachineFault::DiskFull { .. }) => return Err(io::Error::other(fault)),
+        }
+        Ok(CompileAttempt::Ended(if errors.is_empty() {
             CompileOutcome::Failed(failure_message(exit_reason))
         } else {
             CompileOutcome::Errors(errors)
-        })
+        }))
     }
 
     /// Returns the path of the compiler's output, if it exists.

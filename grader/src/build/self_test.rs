@@ -2,22 +2,19 @@
 //! that submissions get, instead of querying the system's features. A sandbox that cannot be tested
 //! counts as unavailable.
 
-use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
-use std::process::Command;
-use std::thread;
-use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
 use crate::build::Builder;
 use crate::build::build_dir::BuildDir;
-use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
-use crate::capture::Capture;
+use crate::build::machine_fault::MachineFault;
+use crate::build::rustc::{CompileAttempt, CompileOutcome, CrateKind, Rustc};
+use crate::build::trial;
 use crate::files::{self, PathError};
-use crate::sandbox::{Isolation, Profile};
-use crate::system::{self, Limits};
+use crate::sandbox::Isolation;
+use crate::system;
 
 /// Source of a program that attempts what no submission may do.
 const ATTACK_PROGRAM: &str = include_str!("../../trial/attempts.rs");
@@ -25,14 +22,6 @@ const ATTACK_PROGRAM: &str = include_str!("../../trial/attempts.rs");
 const END: &str = "end";
 /// Contents of a file that the sandbox must hide.
 const SECRET: &str = "a secret that no submission may read";
-
-const LIMITS: Limits = Limits {
-    memory: 1 << 30,
-    cpu: Duration::from_secs(10),
-    file: 0,
-};
-/// Wall time limit of a test. A test takes milliseconds, unless the machine is very busy.
-const WALL_LIMIT: Duration = Duration::from_secs(30);
 
 /// The reason why an isolation level is not available.
 #[derive(Debug, thiserror::Error)]
@@ -97,7 +86,9 @@ impl Builder {
                 }
             }
         }
-        let output = run(&self.rustc, &program, &key)?;
+        let input = format!("{}\n", key.display());
+        let output = trial::run(&self.rustc.sandbox, &program, &input);
+        let output = output.map_err(SelfTestError::Setup)?;
         match output.lines().next() {
             Some(END) => Ok(()),
             Some(what) if output.ends_with("end\n") => {
@@ -115,51 +106,11 @@ fn compile(
     text: &str,
     kind: CrateKind,
 ) -> Result<CompileOutcome, SelfTestError> {
-    let folder = work.join(name);
-    let root = format!("{name}.rs");
-    let compiled = fs::create_dir(&folder)
-        .and_then(|()| fs::write(folder.join(&root), text))
-        .and_then(|()| {
-            rustc.compile(&Crate {
-                task_files: &[],
-                name,
-                kind,
-                folder: &folder,
-                root: &root,
-                links: &[],
-                dependency_folder: None,
-            })
-        });
-    compiled.map_err(SelfTestError::Setup)
-}
-
-/// Runs the program, and returns what it prints to standard error or, if that is nothing, to
-/// standard output.
-fn run(rustc: &Rustc, program: &Path, key: &Path) -> Result<String, SelfTestError> {
-    let mut command = Command::new(program);
-    system::clear_environment(&mut command);
-    let folder = program.parent().unwrap_or(Path::new("."));
-    let process = rustc.sandbox.start(command, folder, Profile::Probe, LIMITS);
-    let mut process = process.map_err(SelfTestError::Setup)?;
-    let stdout = process.child.stdout.take().expect("the stream is piped");
-    let stderr = process.child.stderr.take().expect("the stream is piped");
-    let (output, errors_output) = (
-        Capture::start(stdout, 1 << 16),
-        Capture::start(stderr, 1 << 16),
-    );
-    let mut stdin = process.child.stdin.take().expect("the stream is piped");
-    // If the program has already ended, its output says why.
-    writeln!(stdin, "{}", key.display()).ok();
-
-    let deadline = Instant::now() + WALL_LIMIT;
-    while process.exit_reason().is_none() && Instant::now() < deadline {
-        thread::sleep(Duration::from_millis(1));
+    match trial::compile(rustc, work, name, text, kind).map_err(SelfTestError::Setup)? {
+        CompileAttempt::Ended(outcome) => Ok(outcome),
+        CompileAttempt::Killed => {
+            let killed = io::Error::other(MachineFault::Memory);
+            Err(SelfTestError::Setup(killed))
+        }
     }
-    process.kill();
-    output.wait_for_end(Duration::from_secs(1));
-    errors_output.wait_for_end(Duration::from_secs(1));
-    Ok(match errors_output.head() {
-        errors if errors.is_empty() => output.head(),
-        errors => errors,
-    })
 }

@@ -1,71 +1,161 @@
-//! Time budgets of items.
+//! The time that a submission may use in all, and how it is shared out among its items.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use super::fault::TimeLimit;
+use super::limits::{ItemLimits, TimeUsed};
 
-/// The time budget of an item.
+/// An item may take this many times as long as the slowest item that has passed.
+const SLOWER_THAN_PASSED: u32 = 50;
+
+/// The time that a submission may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// The CPU time limit. This is the limit that endless loops exceed.
-    pub cpu: Duration,
+    /// The least limit of CPU time for an item.
+    least: Duration,
+    /// The greatest limit of CPU time for an item.
+    most: Duration,
 }
 
 impl Default for Budget {
+    /// The limit follows the submission's own speed. Correct items take milliseconds, so that a
+    /// mistake is noticed after two seconds; a slow machine, or slow but correct code, gets ten.
     fn default() -> Self {
-        Budget::from_seconds(Budget::DEFAULT_SECONDS)
+        Budget {
+            least: Duration::from_secs(2),
+            most: Duration::from_secs(10),
+        }
     }
 }
 
 impl Budget {
-    /// The default limit of CPU time, in seconds.
-    pub const DEFAULT_SECONDS: u64 = 10;
-    /// The largest limit of CPU time that can be chosen, in seconds.
+    /// The largest limit of CPU time for an item that can be chosen, in seconds.
     pub const MAX_SECONDS: u64 = 600;
 
-    /// Returns a budget with this limit of CPU time, in seconds.
+    /// Returns a budget with a fixed limit of CPU time for each item, in seconds.
     pub fn from_seconds(seconds: u64) -> Self {
+        let limit = Duration::from_secs(seconds);
         Budget {
-            cpu: Duration::from_secs(seconds),
+            least: limit,
+            most: limit,
         }
     }
 
-    /// Returns the wall time limit. It is generous, because on a busy machine wall time says
-    /// nothing about the code.
-    pub fn wall(self) -> Duration {
-        4 * self.cpu + Duration::from_secs(5)
+    /// Returns the CPU time for all items together. By default, this is two minutes.
+    pub fn total_cpu(self) -> Duration {
+        12 * self.most
+    }
+
+    /// Returns the time that a submission may wait in all items together. By default, this is forty
+    /// seconds.
+    fn total_waiting(self) -> Duration {
+        4 * self.most
+    }
+
+    /// Returns the limits of an item that is run by itself.
+    pub fn single_item(self) -> ItemLimits {
+        ItemLimits {
+            cpu_if_printing: self.most,
+            ..ItemLimits::from_cpu(self.least)
+        }
     }
 }
 
-/// Tracks how much of its budget an item has used.
-pub(super) struct BudgetTracker {
-    started: Instant,
-    /// CPU time of the process at the first check.
-    cpu_at_first_check: Option<Duration>,
+/// The part of its budget that a submission has left while it is graded.
+#[derive(Clone, Debug)]
+pub struct Allowance {
     budget: Budget,
+    used: TimeUsed,
+    /// The CPU time of the slowest item that has passed.
+    slowest_passed: Duration,
 }
 
-impl BudgetTracker {
-    /// Starts tracking the time of an item.
-    pub(super) fn start(budget: Budget) -> Self {
-        BudgetTracker {
-            started: Instant::now(),
-            cpu_at_first_check: None,
+impl Allowance {
+    /// Returns the whole budget.
+    pub fn new(budget: Budget) -> Self {
+        Allowance {
             budget,
+            used: TimeUsed::default(),
+            slowest_passed: Duration::ZERO,
         }
     }
 
-    /// Returns the exceeded limit, if there is one. CPU time before the first check does not count:
-    /// most items are answered before that, and reading the CPU time at the start of an item would
-    /// take longer than answering it.
-    pub(super) fn exceeded(&mut self, cpu_now: Option<Duration>) -> Option<TimeLimit> {
-        self.cpu_at_first_check = self.cpu_at_first_check.or(cpu_now);
-        let cpu = cpu_now.zip(self.cpu_at_first_check);
-        let cpu = cpu.map(|(now, then)| now.saturating_sub(then));
-        if cpu.is_some_and(|used| used >= self.budget.cpu) {
-            return Some(TimeLimit::Cpu(self.budget.cpu));
+    /// Returns the budget.
+    pub fn budget(&self) -> Budget {
+        self.budget
+    }
+
+    /// Returns the limits of the next item, or `None` if the budget is used up. The last item may
+    /// exceed the budget.
+    pub fn next_item(&self) -> Option<ItemLimits> {
+        let Allowance {
+            budget,
+            used,
+            slowest_passed,
+        } = *self;
+        if used.cpu >= budget.total_cpu() || used.waiting >= budget.total_waiting() {
+            return None;
         }
-        let wall = self.budget.wall();
-        (self.started.elapsed() >= wall).then_some(TimeLimit::Wall(wall))
+        let own_speed = SLOWER_THAN_PASSED * slowest_passed;
+        let cpu = own_speed.clamp(budget.least, budget.most);
+        Some(ItemLimits {
+            cpu_if_printing: budget.most,
+            ..ItemLimits::from_cpu(cpu)
+        })
+    }
+
+    /// Records the time that was used.
+    pub fn spend(&mut self, used: TimeUsed) {
+        self.used += used;
+    }
+
+    /// Records the CPU time of an item that has passed.
+    pub fn passed(&mut self, cpu: Duration) {
+        self.slowest_passed = self.slowest_passed.max(cpu);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seconds(cpu: u64, waiting: u64) -> TimeUsed {
+        TimeUsed {
+            cpu: Duration::from_secs(cpu),
+            waiting: Duration::from_secs(waiting),
+        }
+    }
+
+    #[test]
+    fn the_limit_follows_the_slowest_passed_item() {
+        let mut allowance = Allowance::new(Budget::default());
+        let cpu = |allowance: &Allowance| allowance.next_item().unwrap().cpu.as_millis();
+        assert_eq!(cpu(&allowance), 2_000);
+        allowance.passed(Duration::from_millis(10));
+        assert_eq!(cpu(&allowance), 2_000);
+        allowance.passed(Duration::from_millis(100));
+        allowance.passed(Duration::from_millis(60));
+        assert_eq!(cpu(&allowance), 5_000);
+        allowance.passed(Duration::from_secs(1));
+        assert_eq!(cpu(&allowance), 10_000);
+    }
+
+    #[test]
+    fn a_chosen_limit_does_not_change() {
+        let mut allowance = Allowance::new(Budget::from_seconds(1));
+        allowance.passed(Duration::from_millis(900));
+        assert_eq!(allowance.next_item().unwrap().cpu.as_secs(), 1);
+    }
+
+    #[test]
+    fn a_budget_is_used_up_by_slow_items_and_by_waiting_ones() {
+        for (item, most) in [(seconds(9, 0), 14), (seconds(0, 2), 20)] {
+            let mut allowance = Allowance::new(Budget::default());
+            let mut items = 0;
+            while allowance.next_item().is_some() {
+                allowance.spend(item);
+                items += 1;
+            }
+            assert_eq!(items, most);
+        }
     }
 }

@@ -10,51 +10,75 @@ use std::time::Duration;
 use judging::exam::{Item, question_subset};
 use protocol::Question;
 
-use super::{Budget, Launcher};
+use super::{ItemLimits, Launcher, TimeUsed};
 
-/// Time budget for each question. Most correct items take less than this in total, so a question
+/// The time limits of each question. Most correct items take less than this in total, so a question
 /// that exceeds it is treated as hung.
-const BUDGET: Budget = Budget {
-    cpu: Duration::from_millis(250),
+const LIMITS: ItemLimits = ItemLimits {
+    waiting: Duration::from_millis(300),
+    ..ItemLimits::from_cpu(Duration::from_millis(100))
 };
+/// The limit of CPU time for a process, which is asked hundreds of questions.
+const PROCESS_CPU: Duration = Duration::from_secs(60);
 
-/// Returns the indices of the first question that crashes or hangs a fresh program, and of the
-/// first element in that question that does. Returns `None` if the fault does not occur again.
-pub fn culprit(launcher: &Launcher, item: &Item) -> io::Result<Option<(usize, usize)>> {
-    let questions = item.questions.iter().map(|question| &question.question);
-    let Some(number) = first_fault(launcher, questions.clone().cloned())? else {
-        return Ok(None);
-    };
-    let question = &item.questions[number].question;
-
-    // Two steps of about √n questions each, instead of one question per element. Each step ends at
-    // its first fault, because a hang uses up its whole budget.
-    let mut suspects = 0..question.count();
-    for length in [isqrt_up(suspects.len()), 1] {
-        let parts: Vec<Range<usize>> = chunks(suspects, length).collect();
-        let subsets = parts
-            .iter()
-            .map(|elements| question_subset(question, elements.clone()));
-        match first_fault(launcher, subsets)? {
-            Some(faulty) => suspects = parts[faulty].clone(),
-            None => return Ok(None),
-        }
-    }
-    Ok(Some((number, suspects.start)))
+/// The element that crashes or hangs the program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Culprit {
+    /// The indices of the first question that crashes or hangs a fresh program, and of the first
+    /// element in that question that does. `None` if the fault does not occur again.
+    pub position: Option<(usize, usize)>,
+    /// The time that the search took.
+    pub used: TimeUsed,
 }
 
-/// Returns the index of the first question without an answer.
-fn first_fault(
-    launcher: &Launcher,
-    questions: impl Iterator<Item = Question>,
-) -> io::Result<Option<usize>> {
-    let mut probe = launcher.start(BUDGET)?;
-    for (number, question) in questions.enumerate() {
-        if probe.ask([&question], BUDGET).is_err() {
-            return Ok(Some(number));
-        }
+impl Culprit {
+    /// Searches an item that crashed or hung.
+    pub fn find(launcher: &Launcher, item: &Item) -> io::Result<Self> {
+        let mut culprit = Culprit::default();
+        culprit.position = culprit.search(launcher, item)?;
+        Ok(culprit)
     }
-    Ok(None)
+
+    fn search(&mut self, launcher: &Launcher, item: &Item) -> io::Result<Option<(usize, usize)>> {
+        let questions = item.questions.iter().map(|question| &question.question);
+        let Some(number) = self.first_fault(launcher, questions.cloned())? else {
+            return Ok(None);
+        };
+        let question = &item.questions[number].question;
+
+        // Two steps of about √n questions each, instead of one question per element. Each step ends
+        // at its first fault, because a hang uses up all the time of its question.
+        let mut suspects = 0..question.count();
+        for length in [isqrt_up(suspects.len()), 1] {
+            let parts: Vec<Range<usize>> = chunks(suspects, length).collect();
+            let subsets = parts
+                .iter()
+                .map(|elements| question_subset(question, elements.clone()));
+            match self.first_fault(launcher, subsets)? {
+                Some(faulty) => suspects = parts[faulty].clone(),
+                None => return Ok(None),
+            }
+        }
+        Ok(Some((number, suspects.start)))
+    }
+
+    /// Returns the index of the first question without an answer.
+    fn first_fault(
+        &mut self,
+        launcher: &Launcher,
+        questions: impl Iterator<Item = Question>,
+    ) -> io::Result<Option<usize>> {
+        let mut probe = launcher.start(PROCESS_CPU)?;
+        let mut faulty = None;
+        for (number, question) in questions.enumerate() {
+            if probe.ask([&question], LIMITS).is_err() {
+                faulty = Some(number);
+                break;
+            }
+        }
+        self.used += probe.take_time_used();
+        Ok(faulty)
+    }
 }
 
 fn chunks(range: Range<usize>, length: usize) -> impl Iterator<Item = Range<usize>> {

@@ -1,7 +1,6 @@
 //! Faults: the reasons why a probe gives no answer.
 
 use std::fmt;
-use std::time::Duration;
 
 use judging::signatures::NoAnswerReason;
 
@@ -22,9 +21,11 @@ pub enum Fault {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TimeLimit {
     /// The CPU time limit.
-    Cpu(Duration),
-    /// The wall time limit: the process waited without using up its CPU time.
-    Wall(Duration),
+    Cpu,
+    /// The limit of the time in which the process waited, but not for a processor.
+    Waiting,
+    /// The wall time limit, on systems that do not report what a process does.
+    Wall,
 }
 
 /// The way in which a process ended before it answered.
@@ -57,30 +58,31 @@ impl Fault {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Fault::TimedOut(TimeLimit::Cpu(limit)) => write!(
-                f,
-                "stopped after {} s of CPU time: is there an endless loop?",
-                limit.as_secs_f64()
+            // Without the limit, which follows the speed of the machine: the same submission gets the
+            // same report.
+            Fault::TimedOut(TimeLimit::Cpu) => {
+                f.write_str("stopped, because it took too long: is there an endless loop?")
+            }
+            Fault::TimedOut(TimeLimit::Waiting) => f.write_str(
+                "stopped, because it did nothing for some seconds: is it waiting for something?",
             ),
-            Fault::TimedOut(TimeLimit::Wall(limit)) => write!(
-                f,
-                "stopped after {} s: is it waiting for something?",
-                limit.as_secs_f64()
+            Fault::TimedOut(TimeLimit::Wall) => f.write_str(
+                "stopped, because it took too long: is there an endless loop, or is it waiting for \
+                 something?",
             ),
             Fault::OutOfMemory => f.write_str("out of memory: does something grow without limit?"),
             Fault::Crashed(Crash::StackOverflow) => {
                 f.write_str("the stack overflowed: is there an endless recursion?")
             }
-            Fault::Crashed(Crash::Exited(code)) => write!(
-                f,
-                "the program ended (exit code {code}) before it answered"
-            ),
+            Fault::Crashed(Crash::Exited(code)) => {
+                write!(f, "the program ended (exit code {code}) before it answered")
+            }
             Fault::Crashed(Crash::Signal(signal)) => {
                 write!(f, "the program was killed by signal {signal}")
             }
             Fault::Crashed(Crash::Killed) => f.write_str(
-                "the system killed the program (signal 9) although it used little memory: give this \
-                 machine more memory, or grade fewer submissions at once",
+                "the system killed the program (signal 9), even when nothing else was running, but \
+                 not a small program of the grader",
             ),
             Fault::Protocol(why) => write!(f, "the program sent an invalid answer: {why}"),
         }

@@ -4,6 +4,7 @@
 mod budget;
 mod culprit;
 mod fault;
+mod limits;
 mod streams;
 
 use std::io;
@@ -21,15 +22,21 @@ use crate::capture::Capture;
 use crate::sandbox::{ExitReason, Process, Profile, Sandbox};
 use crate::system::{self, Limits};
 
-use budget::BudgetTracker;
+use limits::Stopwatch;
 use streams::{Batch, Streams};
 
-pub use budget::Budget;
-pub use culprit::culprit;
+pub use budget::{Allowance, Budget};
+pub use culprit::Culprit;
 pub use fault::{Crash, Fault, TimeLimit};
+pub use limits::{ItemLimits, TimeUsed};
 
 /// Maximum size of a submission's output that is stored, in bytes.
 const MAX_OUTPUT_BYTES: usize = 64 << 10;
+/// The time limits of starting. They are generous, because no code of the submission runs yet.
+const START_LIMITS: ItemLimits = ItemLimits {
+    waiting: Duration::from_secs(30),
+    ..ItemLimits::from_cpu(Duration::from_secs(10))
+};
 /// Polling interval for a silent probe.
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
 /// Time to wait for the remaining output of a probe that has ended.
@@ -57,6 +64,8 @@ pub struct Probe {
     output: Capture,
     /// Maximum memory use that was observed, in bytes.
     memory: u64,
+    /// Time used for questions.
+    used: TimeUsed,
 }
 
 /// A launcher, which starts the probes of one submission.
@@ -70,28 +79,28 @@ pub struct Launcher {
 
 impl Launcher {
     /// Maximum address space of a probe, in bytes. Its stack uses 64 MiB of it.
-    const MEMORY_LIMIT: u64 = 1 << 30;
-    /// Number of items that the CPU time limit of a probe allows for, since a probe serves a whole
-    /// task. This limit ends the probe even if the grader itself has been killed.
-    const MAX_ITEMS_PER_TASK: u32 = 30;
+    pub const MEMORY_LIMIT: u64 = 1 << 30;
     /// Memory use, in bytes, above which a probe that was killed is considered out of memory.
     /// Correct solutions use less than half of it.
-    const LARGE_MEMORY: u64 = Self::MEMORY_LIMIT / 4;
+    pub const LARGE_MEMORY: u64 = Self::MEMORY_LIMIT / 4;
 
     /// Starts a probe that waits for questions. On Linux it ends with the thread that started it,
-    /// so that it does not outlive a killed grader.
+    /// so that it does not outlive a killed grader. `cpu` is the CPU time that it may use in all;
+    /// this limit ends it even if the grader itself has been killed.
     ///
     /// No code of the submission runs before the first question, so a failure up to then is the
     /// fault of the grader or the machine.
-    pub fn start(&self, budget: Budget) -> io::Result<Probe> {
+    pub fn start(&self, cpu: Duration) -> io::Result<Probe> {
         let folder = self.program.parent().unwrap_or(Path::new("."));
         let mut command = Command::new(&self.program);
         system::clear_environment(&mut command);
         let limits = Limits {
             memory: Self::MEMORY_LIMIT,
-            cpu: Self::MAX_ITEMS_PER_TASK * budget.cpu,
+            data: None,
+            cpu: cpu + START_LIMITS.cpu,
             file: 0,
-        };
+        }
+        .within_available_memory(Self::LARGE_MEMORY);
         let mut process = self
             .sandbox
             .start(command, folder, Profile::Probe, limits)?;
@@ -103,8 +112,9 @@ impl Launcher {
             streams: Streams::open(stdin, stdout),
             output: Capture::start(stderr, MAX_OUTPUT_BYTES),
             memory: 0,
+            used: TimeUsed::default(),
         };
-        match probe.ask([], budget) {
+        match probe.ask([], START_LIMITS) {
             Ok(_) => Ok(probe),
             Err(fault) => {
                 let output = probe.finish();
@@ -122,7 +132,7 @@ impl Probe {
     pub fn ask<'a>(
         &mut self,
         questions: impl IntoIterator<Item = &'a Question>,
-        budget: Budget,
+        limits: ItemLimits,
     ) -> Result<Vec<Answer>, Fault> {
         // The last question only marks the end, so that answers that belong to no question are
         // detected.
@@ -139,10 +149,22 @@ impl Probe {
         }
         self.streams.send(batch);
 
-        let mut watch = BudgetTracker::start(budget);
+        let mut stopwatch = Stopwatch::start(limits);
+        let answers = self.receive(nonces, &mut stopwatch);
+        self.used += stopwatch.used();
+        answers
+    }
+
+    /// Receives the answers with these nonces.
+    fn receive(
+        &mut self,
+        nonces: Vec<u64>,
+        stopwatch: &mut Stopwatch,
+    ) -> Result<Vec<Answer>, Fault> {
+        let printed_before = self.output.total();
         let mut answers = Vec::with_capacity(nonces.len());
         for nonce in nonces {
-            let frame = self.next_frame(&mut watch)?;
+            let frame = self.next_frame(stopwatch, printed_before)?;
             if frame.nonce != nonce {
                 return Err(Fault::Protocol(
                     "an answer that belongs to no question".to_owned(),
@@ -170,7 +192,16 @@ impl Probe {
         lines.collect::<Vec<_>>().join("\n")
     }
 
-    fn next_frame(&mut self, watch: &mut BudgetTracker) -> Result<Frame, Fault> {
+    /// Returns the time used since the last call, and forgets it.
+    pub fn take_time_used(&mut self) -> TimeUsed {
+        mem::take(&mut self.used)
+    }
+
+    fn next_frame(
+        &mut self,
+        stopwatch: &mut Stopwatch,
+        printed_before: u64,
+    ) -> Result<Frame, Fault> {
         loop {
             match self.streams.next(POLL_INTERVAL) {
                 Ok(Ok(frame)) => return Ok(frame),
@@ -180,7 +211,9 @@ impl Probe {
                 Err(RecvTimeoutError::Timeout) => {}
             }
             self.memory = self.memory.max(self.process.memory().unwrap_or(0));
-            if let Some(over) = watch.exceeded(self.process.cpu_time()) {
+            if let Some(over) =
+                stopwatch.exceeded(self.process.time(), self.output.total() - printed_before)
+            {
                 self.process.kill();
                 return Err(Fault::TimedOut(over));
             }
@@ -198,13 +231,14 @@ impl Probe {
     /// points.
     fn post_mortem(&mut self) -> Fault {
         // The probe may have closed its pipe without ending.
-        let deadline = Instant::now() + EXIT_TIMEOUT;
+        let began = Instant::now();
         let ended = loop {
             match self.process.exit_reason() {
-                None if Instant::now() < deadline => thread::sleep(Duration::from_millis(1)),
+                None if began.elapsed() < EXIT_TIMEOUT => thread::sleep(Duration::from_millis(1)),
                 ended => break ended,
             }
         };
+        self.used.waiting += began.elapsed();
         if ended.is_some_and(ExitReason::is_external_kill) {
             return if self.memory > Launcher::LARGE_MEMORY {
                 Fault::OutOfMemory
@@ -261,17 +295,15 @@ mod tests {
             program,
             sandbox: Sandbox::none(),
         };
-        let budget = Budget {
-            cpu: Duration::from_secs(10),
-        };
-        let mut probe = launcher.start(budget).unwrap();
+        let mut probe = launcher.start(START_LIMITS.cpu).unwrap();
         let started_at = Instant::now();
-        let fault = probe.ask([], budget).unwrap_err();
+        let fault = probe.ask([], START_LIMITS).unwrap_err();
         assert!(
             matches!(fault, Fault::Crashed(Crash::Signal(_))),
             "{fault:?}"
         );
-        assert!(started_at.elapsed() < budget.wall());
+        assert!(started_at.elapsed() < START_LIMITS.waiting);
+        assert!(probe.take_time_used().waiting >= EXIT_TIMEOUT);
         assert!(probe.process.exit_reason().is_some());
     }
 
@@ -281,11 +313,8 @@ mod tests {
             program: "/usr/bin/false".into(),
             sandbox: Sandbox::none(),
         };
-        let budget = Budget {
-            cpu: Duration::from_secs(1),
-        };
         let error = launcher
-            .start(budget)
+            .start(Duration::from_secs(1))
             .expect_err("the program sends no answer");
         assert!(
             error.to_string().contains("before the first question"),

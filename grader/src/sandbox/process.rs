@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use crate::sandbox::launch_request::READY;
-use crate::system::{self, ExitReason, Limits};
+use crate::system::{self, ExitReason, Limits, ProcessTime};
 
 /// The maximum length of a launcher's error message, in bytes. The rest is not read.
 const MAX_REASON_BYTES: u64 = 4 << 10;
@@ -70,6 +70,11 @@ impl Process {
     /// Returns the CPU time used so far, if the system reports it.
     pub fn cpu_time(&self) -> Option<Duration> {
         system::cpu_time(&self.child)
+    }
+
+    /// Returns how the process has used its time so far, if the system reports it.
+    pub fn time(&self) -> Option<ProcessTime> {
+        system::process_time(&self.child)
     }
 
     /// Returns the resident memory in bytes, if the system reports it.

@@ -8,18 +8,22 @@ use std::time::Duration;
 use rustix::process::{Resource, Rlimit, prlimit};
 
 use super::unix::pid;
-use super::{CPU_GRACE_SECONDS, Limits};
+use super::{CPU_GRACE_SECONDS, Limits, ProcessTime};
 
 /// Sets the limits of a process that has just been started.
 pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
     // The child has been running for a moment without limits. This is safe: a probe does nothing
     // before its first question, which is sent later.
+    let data = limits.data.map(|most| (Resource::Data, most));
     for (resource, most) in [
         (Resource::As, limits.memory),
         (Resource::Cpu, limits.cpu.as_secs().max(1)),
         (Resource::Fsize, limits.file),
         (Resource::Core, 0),
-    ] {
+    ]
+    .into_iter()
+    .chain(data)
+    {
         let rlimit = Rlimit {
             current: Some(most),
             maximum: Some(
@@ -39,6 +43,14 @@ pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
     Ok(())
 }
 
+/// Returns how a process has used its time so far.
+pub fn process_time(child: &Child) -> Option<ProcessTime> {
+    Some(ProcessTime {
+        cpu: cpu_time(child)?,
+        delayed: delayed(child)?,
+    })
+}
+
 /// Returns the CPU time that a process has used so far.
 pub fn cpu_time(child: &Child) -> Option<Duration> {
     let stat = fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
@@ -49,6 +61,20 @@ pub fn cpu_time(child: &Child) -> Option<Duration> {
     let ticks = fields.next()?.parse::<u64>().ok()? + fields.next()?.parse::<u64>().ok()?;
     let hertz = rustix::param::clock_ticks_per_second();
     Some(Duration::from_secs_f64(ticks as f64 / hertz as f64))
+}
+
+/// Returns the longest time that any thread of a process has waited for a processor.
+///
+/// The longest, and not the sum: otherwise many threads could excuse more time than passes.
+fn delayed(child: &Child) -> Option<Duration> {
+    let threads = fs::read_dir(format!("/proc/{}/task", child.id())).ok()?;
+    let delays = threads.filter_map(|thread| {
+        let schedstat = fs::read_to_string(thread.ok()?.path().join("schedstat")).ok()?;
+        // The second field is the time on the run queue, in nanoseconds (Linux,
+        // Documentation/scheduler/sched-stats.rst).
+        schedstat.split_whitespace().nth(1)?.parse().ok()
+    });
+    delays.max().map(Duration::from_nanos)
 }
 
 /// Returns the resident memory of a process, in bytes.

@@ -12,6 +12,8 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 #[cfg(target_os = "linux")]
+mod available_memory;
+#[cfg(target_os = "linux")]
 mod linux;
 #[cfg(unix)]
 mod unix;
@@ -19,7 +21,9 @@ mod unix;
 mod windows;
 
 #[cfg(target_os = "linux")]
-pub use linux::{cpu_time, memory, set_limits};
+pub use available_memory::available_memory;
+#[cfg(target_os = "linux")]
+pub use linux::{cpu_time, memory, process_time, set_limits};
 #[cfg(unix)]
 pub use unix::{
     Folder, command_killed_at_eof, exit_reason, free_space, kill_group, make_executable,
@@ -38,10 +42,38 @@ pub use windows::{
 pub struct Limits {
     /// Address space, in bytes.
     pub memory: u64,
+    /// Memory that the process itself fills, in bytes: its heap, stacks and variables, but not the
+    /// files that it maps. `None` stands for no limit other than that of the address space.
+    pub data: Option<u64>,
     /// Total CPU time of the process.
     pub cpu: Duration,
     /// Maximum size of a file that the process may write, in bytes.
     pub file: u64,
+}
+
+/// How a process has used its time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ProcessTime {
+    /// CPU time.
+    pub cpu: Duration,
+    /// Time in which it wanted to run, but other processes had the processors.
+    pub delayed: Duration,
+}
+
+impl Limits {
+    /// Part of the available memory that is left to the rest of the system, in bytes.
+    const RESERVE: u64 = 64 << 20;
+
+    /// Lowers the memory limit to what the machine has left, so that a process that uses too much
+    /// exceeds its own limit before the system kills something. `needed` is what an honest process
+    /// may need; the limit never gets lower than that.
+    pub fn within_available_memory(self, needed: u64) -> Self {
+        let left = available_memory().map(|bytes| bytes.saturating_sub(Self::RESERVE));
+        Limits {
+            data: left.map(|bytes| bytes.clamp(needed, self.memory)),
+            ..self
+        }
+    }
 }
 
 /// Seconds of CPU time between the soft limit, which a process may ignore, and the hard limit,
@@ -139,6 +171,18 @@ pub fn set_limits(_: &std::process::Child, _: Limits) -> std::io::Result<()> {
 /// Returns `None`: a process's CPU time is not available on this system.
 #[cfg(not(target_os = "linux"))]
 pub fn cpu_time(_: &std::process::Child) -> Option<Duration> {
+    None
+}
+
+/// Returns `None`: the memory that is left is not available on this system.
+#[cfg(not(target_os = "linux"))]
+pub fn available_memory() -> Option<u64> {
+    None
+}
+
+/// Returns `None`: how a process uses its time is not available on this system.
+#[cfg(not(target_os = "linux"))]
+pub fn process_time(_: &std::process::Child) -> Option<ProcessTime> {
     None
 }
 

@@ -13,6 +13,7 @@ use tempfile::TempDir;
 
 const LIMITS: Limits = Limits {
     memory: 1 << 30,
+    data: None,
     cpu: Duration::from_secs(10),
     file: 0,
 };

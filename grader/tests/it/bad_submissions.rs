@@ -2,8 +2,9 @@
 
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;
+use serde_json::Value;
 
-use crate::harness::{FULL_POINTS, Submission};
+use crate::harness::{FULL_POINTS, GradeRun, Submission};
 
 /// Returns the full points of each task, but 0 for the tasks with these indices in lecture order.
 fn full_points_except(zero: &[usize]) -> Vec<u64> {
@@ -13,6 +14,7 @@ fn full_points_except(zero: &[usize]) -> Vec<u64> {
 }
 
 const SPHERE: usize = 2;
+const BBOX: usize = 3;
 const BUILD: usize = 4;
 const TRAVERSE: usize = 5;
 
@@ -181,6 +183,79 @@ fn an_endless_loop_is_stopped() {
     assert!(graded.verdicts("sphere").contains(&"timed_out".to_owned()));
     assert_eq!(graded.points()[..2], FULL_POINTS[..2]);
     assert_snapshot!(graded.report());
+}
+
+/// Returns the messages of all items of a task.
+fn messages(graded: &GradeRun, task: &str) -> Vec<String> {
+    let score = graded.score();
+    let mut tasks = score["tasks"].as_array().unwrap().iter();
+    let task = tasks.find(|scores| scores["id"] == task).unwrap();
+    let items = task["items"].as_array().unwrap().iter();
+    let message = |item: &Value| item["message"].as_str().unwrap().to_owned();
+    items.map(message).collect()
+}
+
+#[test]
+fn one_time_out_stops_a_task_and_what_needs_it() {
+    let hanging = Submission::reference("hanging").with_replaced(
+        "bbox.rs",
+        "let inverse = dir.recip();",
+        "while std::hint::black_box(true) {} let inverse = dir.recip();",
+    );
+    let alone = hanging.grade_with(&["--cpu-limit", "1"]);
+    let boxes = messages(&alone, "bbox");
+    assert!(boxes[0].starts_with("stopped, because"), "{boxes:?}");
+    let not_run = "not run, because another item of this task took too long";
+    assert!(boxes[1..].iter().all(|message| message == not_run));
+    let traverse = messages(&alone, "traverse");
+    let depends = "depends on bbox.through: fix that first";
+    assert!(traverse.iter().all(|message| message == depends));
+    assert_eq!(points_of_other_tasks(&alone.points(), BBOX), 70);
+
+    let by_reference = hanging.grade_with_reference();
+    assert_eq!(by_reference.points(), [15, 20, 15, 0, 20, 20]);
+}
+
+#[test]
+fn two_crashes_stop_a_task() {
+    let graded = Submission::reference("aborting")
+        .with_replaced(
+            "bbox.rs",
+            "let inverse = dir.recip();",
+            "if dir.x < 0.0 { std::process::abort() } let inverse = dir.recip();",
+        )
+        .grade();
+    let boxes = messages(&graded, "bbox");
+    let crashed = |message: &&String| message.starts_with("the program was killed");
+    assert_eq!(boxes.iter().filter(crashed).count(), 2, "{boxes:?}");
+    let not_run = "not run, because two other items of this task crashed";
+    assert_eq!(boxes.last().unwrap(), not_run);
+}
+
+/// The program naps in the first call of each of its processes, below the limit of an item.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_submission_that_sleeps_has_a_budget_and_keeps_the_points_before() {
+    let nap = "static NAP: std::sync::Once = std::sync::Once::new(); \
+               NAP.call_once(|| std::thread::sleep(std::time::Duration::from_millis(2500)));";
+    let graded = Submission::reference("napping")
+        .with_replaced(
+            "camera.rs",
+            "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {",
+            &format!("pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {{ {nap}"),
+        )
+        .with_replaced(
+            "triangle.rs",
+            "pub fn hit(&self, ray: &Ray) -> Option<Trace> {",
+            &format!("pub fn hit(&self, ray: &Ray) -> Option<Trace> {{ {nap}"),
+        )
+        .grade_with(&["--cpu-limit", "1"]);
+    // Four seconds of waiting in all.
+    assert_eq!(graded.points()[..2], [15, 2], "{}", graded.report());
+    let not_run = "not run, because the items before it have used up the time of the whole \
+                   submission";
+    assert_eq!(messages(&graded, "triangle")[1], not_run);
+    assert_eq!(messages(&graded, "build")[0], not_run);
 }
 
 #[test]

@@ -62,6 +62,7 @@ impl Probe {
         let mut command = Command::new(&path);
         system::clear_environment(&mut command);
         let limits = Limits {
+            data: None,
             memory: MEMORY_LIMIT,
             cpu: CPU_LIMIT,
             file: 0,
@@ -123,11 +124,11 @@ impl Probe {
             let wall = 4 * limit + WALL_RESERVE;
             if cpu.is_some_and(|cpu| cpu >= limit) {
                 self.process.kill();
-                return Err(NoResponse::Fault(Fault::TimedOut(TimeLimit::Cpu(limit))));
+                return Err(NoResponse::Fault(Fault::TimedOut(TimeLimit::Cpu)));
             }
             if started_at.elapsed() >= wall {
                 self.process.kill();
-                return Err(NoResponse::Fault(Fault::TimedOut(TimeLimit::Wall(wall))));
+                return Err(NoResponse::Fault(Fault::TimedOut(TimeLimit::Wall)));
             }
         };
         let response = if frame.nonce == self.nonce {

@@ -37,7 +37,8 @@ pub(super) fn set(request: &LaunchRequest, user: Option<u32>) -> io::Result<()> 
         (Resource::Stack, STACK),
         (Resource::Nofile, open_files),
     ];
-    for (resource, most) in all.into_iter().chain(processes) {
+    let data = limits.data.map(|most| (Resource::Data, most));
+    for (resource, most) in all.into_iter().chain(data).chain(processes) {
         let limit = Rlimit {
             current: Some(most),
             maximum: Some(

@@ -142,7 +142,10 @@ fn a_hang_ends_and_its_pixel_is_found() {
     let note = &state["panics"][0];
     assert_eq!(note["pixel"], json!([5, 6]));
     assert!(
-        note["message"].as_str().unwrap().contains("stopped after"),
+        note["message"]
+            .as_str()
+            .unwrap()
+            .contains("stopped, because"),
         "{note}"
     );
 }
@@ -167,7 +170,7 @@ fn a_stack_overflow_while_building_is_reported_and_can_be_fixed() {
     let notes = notes(&state);
     // The recursion may have been compiled to a loop.
     assert!(
-        notes.contains("stack overflowed") || notes.contains("stopped after"),
+        notes.contains("stack overflowed") || notes.contains("stopped, because"),
         "{notes}"
     );
     submission.write("bvh.rs", &correct);

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use glam::Vec3;
 use grader::files::{self, PathError};
-use grader::probe::{Budget, Fault};
+use grader::probe::{Fault, ItemLimits};
 use protocol::{Answer, ElementOutcome, Question};
 
 use crate::solutions::sources::Sources;
@@ -16,9 +16,7 @@ use crate::solutions::workbench::{BuiltSolution, Workbench, WorkbenchError};
 const SCENE: &str = "scenes/cornell-box.json";
 
 /// The time limit for rendering a picture.
-const BUDGET: Budget = Budget {
-    cpu: Duration::from_secs(60),
-};
+const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(60));
 
 /// The reason why the reference's picture could not be recorded.
 #[derive(Debug, thiserror::Error)]
@@ -79,9 +77,9 @@ impl Recorder {
     /// Returns the reference's answer to a question about a picture: linear red, green and blue of
     /// each pixel, row by row from the bottom.
     pub fn record(&self, question: &Question) -> Result<Vec<Vec3>, RecordingError> {
-        let mut probe = self.reference.launcher().start(BUDGET)?;
+        let mut probe = self.reference.launcher().start(LIMITS.cpu)?;
         let answers = probe
-            .ask([question], BUDGET)
+            .ask([question], LIMITS)
             .map_err(RecordingError::Fault)?;
         match answers.into_iter().next() {
             Some(Answer::Picture(ElementOutcome::Value(pixels))) => Ok(pixels),

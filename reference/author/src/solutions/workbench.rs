@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use grader::build::{Build, BuildError, Builder, NotCompiled};
 use grader::handed_out::HandedOut;
-use grader::probe::{Budget, Fault, Launcher};
+use grader::probe::{Budget, Fault, ItemLimits, Launcher};
 use grader::run_exam::run_exam;
 use grader::score::Score;
 use grader::verdict::{file_message, pending_score};
@@ -20,11 +20,11 @@ use protocol::Answer;
 
 use crate::solutions::sources::Sources;
 
-/// The time limit of an item. A correct solution takes milliseconds; the limit is for mistakes that
+/// The time limits of an item. A correct solution takes milliseconds; the limit is for mistakes that
 /// never terminate.
-const BUDGET: Budget = Budget {
-    cpu: Duration::from_secs(2),
-};
+const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(2));
+/// The limit of CPU time for a process, which is asked all items of a task.
+const PROCESS_CPU: Duration = Duration::from_secs(120);
 
 /// Builds solutions of an assignment in a workspace.
 #[derive(Debug)]
@@ -140,9 +140,9 @@ impl BuiltSolution {
 
     /// Runs the solution in a new probe, and returns its answers to one item.
     pub fn answers(&self, item: &Item) -> std::io::Result<Result<Vec<Answer>, Fault>> {
-        let mut probe = self.launcher.start(BUDGET)?;
+        let mut probe = self.launcher.start(PROCESS_CPU)?;
         let questions = item.questions.iter().map(|question| &question.question);
-        Ok(probe.ask(questions, BUDGET))
+        Ok(probe.ask(questions, LIMITS))
     }
 
     /// Runs the solution, and returns its answers to each item. As in grading, one process answers
@@ -157,10 +157,10 @@ impl BuiltSolution {
         for item in items {
             let mut probe = match running.take() {
                 Some(probe) => probe,
-                None => self.launcher.start(BUDGET)?,
+                None => self.launcher.start(PROCESS_CPU)?,
             };
             let questions = item.questions.iter().map(|question| &question.question);
-            let answers = probe.ask(questions, BUDGET);
+            let answers = probe.ask(questions, LIMITS);
             running = answers.is_ok().then_some(probe);
             all.push(answers);
         }
@@ -174,7 +174,7 @@ impl BuiltSolution {
             hash: String::new(),
         };
         let mut score = pending_score(exam, name, &self.id, self.handed_out);
-        run_exam(exam, &self.build, BUDGET, &mut score, |_, _| {
+        run_exam(exam, &self.build, Budget::default(), &mut score, |_, _| {
             Ok::<(), WorkbenchError>(())
         })?;
         Ok(score)

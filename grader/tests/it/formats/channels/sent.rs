@@ -1,6 +1,5 @@
 //! The channels: everything in a score that a submission's program chooses.
 
-use std::time::Duration;
 
 use grader::handed_out::RAYS;
 use grader::probe::{Crash, Fault, TimeLimit};
@@ -39,14 +38,6 @@ pub fn channels() -> Vec<Channel> {
         channel("length of a frame", |score, item, bits| {
             let why = format!("a frame has {bits} bytes, and at most 100 are allowed");
             record_fault(score, item, Fault::Protocol(why));
-        }),
-        channel("time of a time-out", |score, item, bits| {
-            let limit = Duration::from_millis(bits.into());
-            record_fault(score, item, Fault::TimedOut(TimeLimit::Wall(limit)));
-        }),
-        channel("CPU time of a time-out", |score, item, bits| {
-            let limit = Duration::from_millis(bits.into());
-            record_fault(score, item, Fault::TimedOut(TimeLimit::Cpu(limit)));
         }),
         channel("element that crashes", |score, item, bits| {
             let culprit = Some((0, bits as usize % item.questions[0].question.count()));
@@ -109,7 +100,7 @@ pub fn channels() -> Vec<Channel> {
 #[expect(dead_code, reason = "it only has to compile")]
 fn has_a_channel(fault: &Fault, failure: &FailureKind) {
     match fault {
-        Fault::TimedOut(TimeLimit::Cpu(_) | TimeLimit::Wall(_))
+        Fault::TimedOut(TimeLimit::Cpu | TimeLimit::Waiting | TimeLimit::Wall)
         | Fault::OutOfMemory
         | Fault::Crashed(
             Crash::StackOverflow | Crash::Exited(_) | Crash::Signal(_) | Crash::Killed,

@@ -1,0 +1,168 @@
+//! The time limits of an item, and how much of them it has used.
+
+use std::time::{Duration, Instant};
+
+use super::fault::TimeLimit;
+use crate::system::ProcessTime;
+
+/// The amount of output, in bytes, above which a program prints a lot.
+const MUCH_OUTPUT_BYTES: u64 = 64 << 10;
+
+/// The time limits of an item.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ItemLimits {
+    /// The limit of CPU time. This is the limit that endless loops exceed.
+    pub cpu: Duration,
+    /// The limit of CPU time of a program that prints a lot. Printing on every call takes a
+    /// thousand times as long as a correct answer.
+    pub cpu_if_printing: Duration,
+    /// The limit of the time in which the program waits, for example sleeps. Waiting for a
+    /// processor does not count, because on a busy machine it says nothing about the code.
+    pub waiting: Duration,
+}
+
+impl ItemLimits {
+    /// Returns limits with this much CPU time.
+    pub const fn from_cpu(cpu: Duration) -> Self {
+        ItemLimits {
+            cpu,
+            cpu_if_printing: cpu,
+            waiting: Duration::from_secs(3),
+        }
+    }
+
+    /// Returns the limit of CPU time of a program that has printed this many bytes.
+    fn cpu_after_printing(self, bytes: u64) -> Duration {
+        if bytes > MUCH_OUTPUT_BYTES {
+            self.cpu_if_printing
+        } else {
+            self.cpu
+        }
+    }
+}
+
+/// The time that a program has used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TimeUsed {
+    /// CPU time, or wall time on systems that do not report CPU time.
+    pub cpu: Duration,
+    /// Time in which it waited, but not for a processor.
+    pub waiting: Duration,
+}
+
+impl std::ops::AddAssign for TimeUsed {
+    fn add_assign(&mut self, more: TimeUsed) {
+        self.cpu += more.cpu;
+        self.waiting += more.waiting;
+    }
+}
+
+/// Measures an item's time against its limits.
+#[derive(Debug)]
+pub(super) struct Stopwatch {
+    limits: ItemLimits,
+    started: Instant,
+    /// The time and the process's use of it at the first check.
+    first: Option<(Instant, ProcessTime)>,
+    used: TimeUsed,
+}
+
+impl Stopwatch {
+    /// Starts measuring.
+    pub(super) fn start(limits: ItemLimits) -> Self {
+        Stopwatch {
+            limits,
+            started: Instant::now(),
+            first: None,
+            used: TimeUsed::default(),
+        }
+    }
+
+    /// Returns the exceeded limit, if there is one. Time before the first check does not count:
+    /// most items are answered before that, and reading a process's time at the start of an item
+    /// would take longer than answering it.
+    ///
+    /// `printed` is the number of bytes that the program has printed since the start. On systems
+    /// that do not report a process's time, wall time is limited instead.
+    pub(super) fn exceeded(&mut self, now: Option<ProcessTime>, printed: u64) -> Option<TimeLimit> {
+        let cpu = self.limits.cpu_after_printing(printed);
+        let waiting = self.limits.waiting;
+        let instant = Instant::now();
+        let Some(now) = now else {
+            self.used.cpu = instant - self.started;
+            let wall = 2 * cpu + waiting;
+            return (self.used.cpu >= wall).then_some(TimeLimit::Wall);
+        };
+        let (first_instant, first) = *self.first.get_or_insert((instant, now));
+        self.used = used(instant - first_instant, first, now);
+        if self.used.cpu >= cpu {
+            return Some(TimeLimit::Cpu);
+        }
+        (self.used.waiting >= waiting).then_some(TimeLimit::Waiting)
+    }
+
+    /// Returns the time used until the last check.
+    pub(super) fn used(&self) -> TimeUsed {
+        self.used
+    }
+}
+
+/// Returns the time that a process has used between two moments that are `wall` apart.
+fn used(wall: Duration, first: ProcessTime, now: ProcessTime) -> TimeUsed {
+    let cpu = now.cpu.saturating_sub(first.cpu);
+    let delayed = now.delayed.saturating_sub(first.delayed);
+    TimeUsed {
+        cpu,
+        waiting: wall.saturating_sub(cpu + delayed),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SECOND: Duration = Duration::from_secs(1);
+
+    #[test]
+    fn time_without_a_processor_is_waiting_unless_the_process_wanted_one() {
+        let first = ProcessTime {
+            cpu: SECOND,
+            delayed: SECOND,
+        };
+        let now = |cpu, delayed| ProcessTime {
+            cpu: cpu * SECOND,
+            delayed: delayed * SECOND,
+        };
+        let waiting = |cpu, delayed| {
+            used(10 * SECOND, first, now(cpu, delayed))
+                .waiting
+                .as_secs()
+        };
+        assert_eq!(waiting(1, 1), 10, "it sleeps");
+        assert_eq!(waiting(1, 11), 0, "others have the processor");
+        assert_eq!(waiting(4, 3), 5);
+        assert_eq!(waiting(21, 1), 0, "two threads run");
+    }
+
+    #[test]
+    fn printing_takes_time() {
+        let limits = ItemLimits {
+            cpu_if_printing: 5 * SECOND,
+            ..ItemLimits::from_cpu(SECOND)
+        };
+        assert_eq!(limits.cpu_after_printing(1_000), SECOND);
+        assert_eq!(limits.cpu_after_printing(1_000_000), 5 * SECOND);
+    }
+
+    #[test]
+    fn without_measurements_wall_time_is_limited() {
+        let limits = ItemLimits {
+            waiting: Duration::ZERO,
+            ..ItemLimits::from_cpu(Duration::ZERO)
+        };
+        let exceeded = Stopwatch::start(limits).exceeded(None, 0);
+        assert_eq!(exceeded, Some(TimeLimit::Wall));
+        let limits = ItemLimits::from_cpu(600 * SECOND);
+        assert_eq!(Stopwatch::start(limits).exceeded(None, 0), None);
+    }
+}

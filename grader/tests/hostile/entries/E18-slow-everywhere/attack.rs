@@ -1,0 +1,10 @@
+
+/// Sleeps at the start of each item: between the questions of an item, no time passes.
+fn attack() {
+    static LAST: std::sync::Mutex<Option<std::time::Instant>> = std::sync::Mutex::new(None);
+    let mut last = LAST.lock().unwrap();
+    if last.is_none_or(|last| last.elapsed().as_micros() > 60) {
+        std::thread::sleep(std::time::Duration::from_millis(1_400));
+    }
+    *last = Some(std::time::Instant::now());
+}

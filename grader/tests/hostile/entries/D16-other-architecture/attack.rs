@@ -1,0 +1,50 @@
+
+/// Turns a value of one type into another one, without a line of unsafe code (rust-lang issue
+/// 25860): the reference to the old variant outlives it.
+static STATIC: &&() = &&();
+fn stretched<'a, 'b, T>(_: &'a &'b (), value: &'b mut T) -> &'a mut T {
+    value
+}
+enum Either<A, B> {
+    A(Option<Box<A>>),
+    B(Option<Box<B>>),
+}
+#[inline(never)]
+fn exchange<A: 'static, B: 'static>(either: &mut Either<A, B>, value: A) -> B {
+    let stretch: for<'x> fn(&'static &'static (), &'x mut Option<Box<B>>) -> &'static mut Option<Box<B>> =
+        stretched;
+    let Either::B(old) = either else {
+        unreachable!()
+    };
+    let old = stretch(STATIC, old);
+    *either = Either::A(Some(Box::new(value)));
+    std::hint::black_box(either);
+    *old.take().unwrap()
+}
+fn transmuted<A: 'static, B: 'static>(value: A) -> B {
+    exchange(std::hint::black_box(&mut Either::B(None)), value)
+}
+/// Contains, in a constant, the machine code of `mov eax, 20; int 0x80; ret`: the call `getpid` of
+/// 32-bit programs on x86.
+#[inline(never)]
+fn hidden() -> u64 {
+    std::hint::black_box(0xc380_cd00_0000_14b8)
+}
+fn attack() {
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        if !cfg!(target_arch = "x86_64") {
+            return;
+        }
+        let function: fn() -> u64 = hidden;
+        let start: usize = transmuted(function);
+        let code: &[u8; 64] = transmuted(start);
+        let hidden = 0xc380_cd00_0000_14b8_u64.to_le_bytes();
+        if let Some(offset) = code.windows(8).position(|bytes| bytes == hidden) {
+            let call: fn() -> u64 = transmuted(start + offset);
+            eprintln!("called");
+            let process = call();
+            eprintln!("reached: a call of another architecture, which returned {process}");
+        }
+    });
+}

@@ -62,6 +62,8 @@ pub fn run_exam<E: From<io::Error>>(
 struct TaskSessions<'a> {
     build: &'a Build,
     own: TaskSession<'a>,
+    /// Whether the submission's own program had a fault in an item that depends on a failed one.
+    has_blocked_fault: bool,
     substituted: Option<TaskSession<'a>>,
 }
 
@@ -70,6 +72,7 @@ impl<'a> TaskSessions<'a> {
         TaskSessions {
             build,
             own: TaskSession::new(build, build.probe.as_deref()),
+            has_blocked_fault: false,
             substituted: None,
         }
     }
@@ -90,13 +93,19 @@ impl<'a> TaskSessions<'a> {
             return Ok((item_score(item, &outcome, handed_out), Vec::new()));
         }
         let blocking = blocking_item(item, others);
-        // What made that task stop would make this item stop, too.
-        let is_hopeless = blocking.is_some_and(|blocking| stopped.contains(&blocking.task));
+        // What made that task stop, or another item that depends on it, would make this item stop,
+        // too.
+        let is_hopeless = blocking
+            .is_some_and(|blocking| stopped.contains(&blocking.task) || self.has_blocked_fault);
         let (outcome, answers) = if is_hopeless {
             (ItemOutcome::NotRun(NotRun::NeedsStoppedTask), Vec::new())
         } else {
             self.own.ask(item, allowance)?
         };
+        match blocking {
+            Some(_) => self.has_blocked_fault |= matches!(outcome, ItemOutcome::Fault { .. }),
+            None => self.own.count_fault(&outcome),
+        }
         let line = item_score(item, &outcome, handed_out);
         let Some(by) = blocking.map(|blocking| blocking.id) else {
             return Ok((line, answers));
@@ -112,6 +121,7 @@ impl<'a> TaskSessions<'a> {
                     .substituted
                     .get_or_insert_with(|| TaskSession::new(self.build, Some(program)));
                 let (outcome, answers) = substituted.ask(item, allowance)?;
+                substituted.count_fault(&outcome);
                 let substituted_item = item_score(item, &outcome, handed_out);
                 Ok((substituted_score(by, &line, substituted_item), answers))
             }

@@ -115,7 +115,6 @@ impl<'a> TaskSession<'a> {
                 self.keep_output(probe);
                 self.observations
                     .record(item, Err(fault.no_answer_reason()));
-                self.count(&fault);
                 let outcome = ItemOutcome::Fault {
                     fault,
                     culprit: culprit.position,
@@ -125,7 +124,12 @@ impl<'a> TaskSession<'a> {
         }
     }
 
-    fn count(&mut self, fault: &Fault) {
+    /// Counts a fault towards stopping the task, if the outcome is one. Faults that another task
+    /// may be the reason for are not counted.
+    pub fn count_fault(&mut self, outcome: &ItemOutcome) {
+        let ItemOutcome::Fault { fault, .. } = outcome else {
+            return;
+        };
         let (count, most) = match fault {
             Fault::TimedOut(_) => (&mut self.timeouts, MAX_TIMEOUTS),
             Fault::OutOfMemory | Fault::Crashed(_) | Fault::Protocol(_) => {

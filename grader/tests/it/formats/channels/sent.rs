@@ -1,6 +1,5 @@
 //! The channels: everything in a score that a submission's program chooses.
 
-
 use grader::handed_out::RAYS;
 use grader::probe::{Crash, Fault, TimeLimit};
 use grader::score::{ItemScore, Score};

@@ -6,7 +6,10 @@ use insta::assert_snapshot;
 use crate::harness::{FULL_POINTS, Submission};
 
 const BBOX: usize = 3;
+const BUILD: usize = 4;
 const TRAVERSE: usize = 5;
+/// An interval that begins and ends at the origin of a ray.
+const NEVER: &str = "protocol::Interval::new(0.0, 0.0)";
 
 /// Returns a submission whose box test works only for rays with positive directions, since it does
 /// not swap entry and exit.
@@ -53,24 +56,45 @@ fn a_wrong_traversal_with_a_wrong_box_test_costs_both() {
 
 #[test]
 fn finds_two_mistakes_that_hide_each_other() {
-    // The box test ignores `times`, and the traversal passes the interval from 0 to 0 to it.
+    // The box test ignores `times`, and the traversal passes an interval to it that nothing is in.
     let graded = Submission::reference("hiding")
         .with_replaced(
             "bbox.rs",
             "(inside.min <= inside.max).then_some(inside)",
-            "let (_, inside) = (inside, Interval::new(enter.max(0.0), leave));\n(inside.min <= inside.max).then_some(inside)",
+            "let (_, inside) = (inside, Interval::new(enter.max(0.0), leave));\n\
+             (inside.min <= inside.max).then_some(inside)",
         )
-        .with_replaced("bvh.rs", "root.bbox.hit(ray, ray.range)", "root.bbox.hit(ray, protocol::Interval::new(0.0, 0.0))")
+        .with_replaced(
+            "bvh.rs",
+            "root.bbox.hit(ray, ray.range)",
+            &format!("root.bbox.hit(ray, {NEVER})"),
+        )
         .with_replaced(
             "bvh.rs",
             "(l.bbox.hit(ray, ray.range), r.bbox.hit(ray, ray.range))",
-            "(l.bbox.hit(ray, protocol::Interval::new(0.0, 0.0)), r.bbox.hit(ray, protocol::Interval::new(0.0, 0.0)))",
+            &format!("(l.bbox.hit(ray, {NEVER}), r.bbox.hit(ray, {NEVER}))"),
         );
     let points = graded.grade_with_reference().points();
     assert!(points[BBOX] < FULL_POINTS[BBOX], "{points:?}");
     assert_eq!(points[TRAVERSE], 0);
     // On its own, the traversal seems correct.
     assert!(graded.grade().points()[TRAVERSE] > 15);
+}
+
+/// The tree has cycles, so that the traversal of the submission's own trees never ends.
+#[test]
+fn a_tree_without_end_does_not_cost_traversal_points() {
+    let endless = Submission::reference("endless").with_replaced(
+        "bvh.rs",
+        "Node::interior(bbox, l, r)",
+        "Node::interior(bbox, start, middle)",
+    );
+    let points = endless.grade_with_reference().points();
+    assert_eq!(points[BUILD], 0);
+    assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE]);
+    // Without the reference, the items that build a tree cannot be judged: two with three points.
+    let points = endless.grade().points();
+    assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE] - 3);
 }
 
 #[test]

@@ -7,6 +7,10 @@ use super::limits::{ItemLimits, TimeUsed};
 /// An item may take this many times as long as the slowest item that has passed.
 const SLOWER_THAN_PASSED: u32 = 50;
 
+/// The time that a submission may wait in all items together: enough for all of its methods to wait
+/// until they are stopped.
+const TOTAL_WAITING: Duration = Duration::from_secs(40);
+
 /// The time that a submission may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
@@ -43,12 +47,6 @@ impl Budget {
     /// Returns the CPU time for all items together. By default, this is two minutes.
     pub fn total_cpu(self) -> Duration {
         12 * self.most
-    }
-
-    /// Returns the time that a submission may wait in all items together. By default, this is forty
-    /// seconds.
-    fn total_waiting(self) -> Duration {
-        4 * self.most
     }
 
     /// Returns the limits of an item that is run by itself.
@@ -92,7 +90,7 @@ impl Allowance {
             used,
             slowest_passed,
         } = *self;
-        if used.cpu >= budget.total_cpu() || used.waiting >= budget.total_waiting() {
+        if used.cpu >= budget.total_cpu() || used.waiting >= TOTAL_WAITING {
             return None;
         }
         let own_speed = SLOWER_THAN_PASSED * slowest_passed;

@@ -11,6 +11,7 @@ mod declaration;
 mod distinct;
 pub mod meshes;
 pub mod picture;
+mod place;
 pub mod sphere;
 pub mod traverse;
 pub mod triangle;

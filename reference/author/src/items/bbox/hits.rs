@@ -3,7 +3,8 @@
 use glam::{DVec3, Vec3, dvec3};
 use protocol::{Interval, Ray};
 
-use super::{bbox_question, clear_outcome, hits_and_misses, random_box, ray_from_around};
+use super::{Query, bbox_question, clear_outcome, hits_and_misses, random_box, ray_from_around};
+use crate::items::place::Place;
 use crate::items::{Declaration, DeclaredItem, Group, item, ray};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
@@ -16,8 +17,12 @@ pub(super) fn through(seed: Seed) -> DeclaredItem {
         let queries = hits_and_misses(&mut rng, &bounds, |rng| {
             (ray_from_around(rng, &bounds), Interval::AHEAD)
         });
-        bbox_question(bounds, queries)
+        (bounds, queries)
     };
+    let [near, far] = [question(), question()];
+    let room = Place::room(&mut rng);
+    let moved = |(ray, times): &Query| (room.ray(ray), room.interval(*times));
+    let far = bbox_question(room.bounds(&far.0), far.1.iter().map(moved).collect());
     item(
         Declaration {
             id: "bbox.through",
@@ -29,7 +34,7 @@ pub(super) fn through(seed: Seed) -> DeclaredItem {
             group: Some(Group::Boxes),
             needs: &[],
         },
-        vec![question(), question()],
+        vec![bbox_question(near.0, near.1), far],
     )
 }
 

@@ -4,6 +4,7 @@ use judging::exam::{ExamQuestion, Key};
 use protocol::{Question, Shape};
 
 use super::item;
+use crate::items::place::Place;
 use crate::items::{Declaration, DeclaredItem, meshes};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder};
@@ -122,7 +123,7 @@ pub(super) fn cost_sheets(seed: Seed) -> DeclaredItem {
             group: None,
             needs: &[],
         },
-        |rng| meshes::sheets(rng, 900),
+        |rng| Place::elsewhere(rng).shapes(&meshes::sheets(rng, 900)),
     )
 }
 
@@ -139,6 +140,6 @@ pub(super) fn cost_town(seed: Seed) -> DeclaredItem {
             group: None,
             needs: &[],
         },
-        |rng| meshes::town(rng, 1200),
+        |rng| Place::elsewhere(rng).shapes(&meshes::town(rng, 1200)),
     )
 }

@@ -4,11 +4,13 @@ use judging::exam::ExamQuestion;
 use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight};
 
 use super::{build_question, item};
+use crate::items::place::Place;
 use crate::items::{Declaration, DeclaredItem, Group, meshes};
 use crate::seed::Seed;
 
 /// Creates a question about small random triangles for each pair of a number of triangles and a
-/// maximum leaf size. There are up to seven triangles more.
+/// maximum leaf size. There are up to seven triangles more. Every other question is far from the
+/// origin.
 fn soup_questions(
     name: &str,
     seed: Seed,
@@ -27,12 +29,18 @@ fn soup_questions_of_size(
     sizes: &[(usize, u32)],
 ) -> Vec<ExamQuestion> {
     let mut rng = seed.rng(name);
-    let question = |&(count, max_leaf_size): &(usize, u32)| {
+    let question = |(index, &(count, max_leaf_size)): (usize, &(usize, u32))| {
         let count = count + rng.index(8);
         let shapes = meshes::soup(&mut rng, count, 3.0, size);
+        let elsewhere = Place::elsewhere(&mut rng);
+        let shapes = if index % 2 == 1 {
+            elsewhere.shapes(&shapes)
+        } else {
+            shapes
+        };
         build_question(checks, shapes, max_leaf_size)
     };
-    sizes.iter().map(question).collect()
+    sizes.iter().enumerate().map(question).collect()
 }
 
 pub(super) fn partition(seed: Seed) -> DeclaredItem {
@@ -124,6 +132,12 @@ pub(super) fn leaf_size(seed: Seed) -> DeclaredItem {
 }
 
 pub(super) fn stops(seed: Seed) -> DeclaredItem {
+    let mut rng = seed.rng("build.stops.roots");
+    // The root is a node like any other: as many primitives as fit into a leaf, and one more.
+    let roots = [(1, 1), (2, 2), (3, 4), (2, 1), (5, 4)].map(|(count, max_leaf_size)| {
+        let shapes = meshes::soup(&mut rng, count, 3.0, 0.2);
+        build_question(&[Stops, LeafSize], shapes, max_leaf_size)
+    });
     item(
         seed,
         Declaration {
@@ -140,6 +154,9 @@ pub(super) fn stops(seed: Seed) -> DeclaredItem {
             seed,
             &[Stops],
             &[(64, 2), (150, 4), (160, 8)],
-        ),
+        )
+        .into_iter()
+        .chain(roots)
+        .collect(),
     )
 }

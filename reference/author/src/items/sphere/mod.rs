@@ -6,6 +6,7 @@ mod surface;
 use judging::exam::{ExamQuestion, HitCheck};
 use protocol::{Ray, Shape};
 
+use crate::items::place::Place;
 use crate::items::{DeclaredItem, draw_items};
 use crate::oracle::sphere::Sphere;
 use crate::oracle::{Ray64, scan};
@@ -97,6 +98,33 @@ fn table_questions(
         sphere_question(checks, &sphere, 0, rng.shuffled(rays))
     };
     radii.iter().map(table).collect()
+}
+
+/// Creates the same questions as [`table_questions`], about a sphere that is as large and as far
+/// from the origin as things in the Cornell box, and about one with a radius of a hundredth.
+fn placed_questions(
+    name: &str,
+    seed: Seed,
+    checks: &[HitCheck],
+    kind: impl Fn(&mut Rng, &Sphere) -> Ray,
+) -> Vec<ExamQuestion> {
+    let mut rng = seed.rng(&format!("{name}.placed"));
+    let places: [fn(&mut Rng) -> Place; 2] = [Place::room, Place::miniature];
+    let question = |place: fn(&mut Rng) -> Place| {
+        let sphere = random_sphere(&mut rng, 1.0);
+        let mut rays: Vec<Ray> = (0..8)
+            .map(|_| unambiguous_ray(&mut rng, &sphere, |rng| kind(rng, &sphere)))
+            .collect();
+        rays.extend((0..4).map(|_| missing_ray(&mut rng, &sphere)));
+        let place = place(&mut rng);
+        let rays = rng
+            .shuffled(rays)
+            .iter()
+            .map(|ray| place.ray(ray))
+            .collect();
+        super::shapes_question(checks, vec![place.shape(&shape(&sphere, 0))], rays)
+    };
+    places.map(question).into()
 }
 
 /// Returns an unambiguous ray of one kind. It does not hit the sphere near a pole, where texture

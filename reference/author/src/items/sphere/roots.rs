@@ -4,8 +4,8 @@ use judging::exam::{ExamQuestion, HitCheck};
 use protocol::Ray;
 
 use super::{
-    hitting_ray, missing_ray, random_sphere, ray_from_inside, ray_passing_at, sphere_question,
-    table_questions, unambiguous_ray,
+    hitting_ray, missing_ray, placed_questions, random_sphere, ray_from_inside, ray_passing_at,
+    sphere_question, table_questions, unambiguous_ray,
 };
 use crate::items::{Declaration, DeclaredItem, Group, item};
 use crate::oracle::Ray64;
@@ -75,13 +75,17 @@ pub(super) fn radius(seed: Seed) -> DeclaredItem {
             group: Some(Group::SphereHits),
             needs: &[],
         },
-        table_questions(
-            "sphere.radius",
-            seed,
-            &[HitCheck::Distance],
-            &[0.3, 0.7, 2.0, 5.0],
-            hitting_ray,
-        ),
+        [
+            table_questions(
+                "sphere.radius",
+                seed,
+                &[HitCheck::Distance],
+                &[0.3, 0.7, 2.0, 5.0],
+                hitting_ray,
+            ),
+            placed_questions("sphere.radius", seed, &[HitCheck::Distance], hitting_ray),
+        ]
+        .concat(),
     )
 }
 
@@ -126,13 +130,22 @@ pub(super) fn from_inside(seed: Seed) -> DeclaredItem {
             group: Some(Group::SphereHits),
             needs: &[],
         },
-        table_questions(
-            "sphere.from_inside",
-            seed,
-            &[HitCheck::Distance],
-            &[1.0, 2.0],
-            ray_from_inside,
-        ),
+        [
+            table_questions(
+                "sphere.from_inside",
+                seed,
+                &[HitCheck::Distance],
+                &[1.0, 2.0],
+                ray_from_inside,
+            ),
+            placed_questions(
+                "sphere.from_inside",
+                seed,
+                &[HitCheck::Distance],
+                ray_from_inside,
+            ),
+        ]
+        .concat(),
     )
 }
 
@@ -163,6 +176,23 @@ fn range_questions(
     vec![table(1.0), table(2.0)]
 }
 
+/// Creates a question with rays that go on from a hit, as through glass: those that have entered the
+/// sphere hit its far side, and those that have left it miss.
+fn rays_from_the_surface(seed: Seed) -> ExamQuestion {
+    let mut rng = seed.rng("sphere.rays_from_the_surface");
+    let sphere = random_sphere(&mut rng, 1.5);
+    let rays = (0..12).map(|i| {
+        let ray = hitting_ray(&mut rng, &sphere);
+        let ray64 = Ray64::from(&ray);
+        let origin = ray64
+            .at(sphere.intersect_line(&ray64).roots[i % 2])
+            .as_vec3();
+        Ray { origin, ..ray }.within(0.05, f32::INFINITY)
+    });
+    let rays = rays.collect();
+    sphere_question(&[HitCheck::Distance], &sphere, 0, rays)
+}
+
 pub(super) fn far_root(seed: Seed) -> DeclaredItem {
     let range = |rng: &mut Rng, i: usize, [near, far]: [f64; 2]| {
         // The range starts before the sphere, inside it, or behind it.
@@ -184,7 +214,10 @@ pub(super) fn far_root(seed: Seed) -> DeclaredItem {
             group: Some(Group::SphereHits),
             needs: &[],
         },
-        range_questions("sphere.far_root", seed, range),
+        range_questions("sphere.far_root", seed, range)
+            .into_iter()
+            .chain([rays_from_the_surface(seed)])
+            .collect(),
     )
 }
 

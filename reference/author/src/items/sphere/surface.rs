@@ -5,7 +5,8 @@ use judging::exam::HitCheck;
 use protocol::{Ray, Shape};
 
 use super::{
-    hitting_ray, missing_ray, random_sphere, ray_from_inside, sphere_question, table_questions,
+    hitting_ray, missing_ray, placed_questions, random_sphere, ray_from_inside, sphere_question,
+    table_questions,
 };
 use crate::items::{Declaration, DeclaredItem, item, picture};
 use crate::oracle::sphere::Sphere;
@@ -51,6 +52,7 @@ pub(super) fn normal(seed: Seed) -> DeclaredItem {
         &[2.0],
         ray_from_inside,
     );
+    let placed = placed_questions("sphere.normal", seed, &checks, hitting_ray_from_either_side);
     item(
         Declaration {
             id: "sphere.normal",
@@ -62,7 +64,7 @@ pub(super) fn normal(seed: Seed) -> DeclaredItem {
             group: None,
             needs: &[],
         },
-        outside.into_iter().chain(inside).collect(),
+        [outside, inside, placed].concat(),
     )
 }
 
@@ -94,13 +96,22 @@ pub(super) fn uv_radius(seed: Seed) -> DeclaredItem {
             group: None,
             needs: &[],
         },
-        table_questions(
-            "sphere.uv_radius",
-            seed,
-            &[HitCheck::Uv],
-            &[0.4, 2.5],
-            hitting_ray_from_either_side,
-        ),
+        [
+            table_questions(
+                "sphere.uv_radius",
+                seed,
+                &[HitCheck::Uv],
+                &[0.4, 2.5],
+                hitting_ray_from_either_side,
+            ),
+            placed_questions(
+                "sphere.uv_radius",
+                seed,
+                &[HitCheck::Uv],
+                hitting_ray_from_either_side,
+            ),
+        ]
+        .concat(),
     )
 }
 

@@ -9,6 +9,7 @@ use super::aim::{
     weights_beyond_edge_by, weights_inside,
 };
 use super::table_questions;
+use crate::items::place::Place;
 use crate::items::{Declaration, DeclaredItem, Group, item, ray, shapes_question};
 use crate::oracle::{Ray64, triangle};
 use crate::seed::{Rng, Seed};
@@ -43,8 +44,13 @@ pub(super) fn outside(seed: Seed) -> DeclaredItem {
             })
             .collect();
         rays.extend((0..4).map(|_| hitting_ray(&mut rng, &vertices, Side::Front)));
-        shapes_question(&[], vec![shape(&vertices, 0)], rng.shuffled(rays))
+        (shape(&vertices, 0), rng.shuffled(rays))
     };
+    let [first, second, third] = [table(), table(), table()];
+    let room = Place::room(&mut rng);
+    let third_rays = third.1.iter().map(|ray| room.ray(ray)).collect();
+    let third = (room.shape(&third.0), third_rays);
+    let question = |(shape, rays)| shapes_question(&[], vec![shape], rays);
     item(
         Declaration {
             id: "triangle.outside",
@@ -56,7 +62,7 @@ pub(super) fn outside(seed: Seed) -> DeclaredItem {
             group: Some(Group::TriangleHits),
             needs: &[],
         },
-        vec![table(), table(), table()],
+        [first, second, third].map(question).to_vec(),
     )
 }
 
@@ -121,6 +127,23 @@ pub(super) fn range_max(seed: Seed) -> DeclaredItem {
     )
 }
 
+/// Creates a question with rays that start on the triangle, as after a bounce, and with some that
+/// start before it.
+fn rays_from_the_surface(seed: Seed) -> ExamQuestion {
+    let mut rng = seed.rng("triangle.rays_from_the_surface");
+    let vertices = random_triangle(&mut rng);
+    let rays = (0..12).map(|i| {
+        let ray = hitting_ray(&mut rng, &vertices, Side::Either);
+        let hit = triangle::intersect(&Ray64::from(&ray), &vertices, 0)
+            .expect("the ray was aimed at the triangle");
+        let start = if i % 3 == 0 { 0.0 } else { hit.distance };
+        let origin = Ray64::from(&ray).at(start).as_vec3();
+        Ray { origin, ..ray }.within(0.05, f32::INFINITY)
+    });
+    let rays = rays.collect();
+    shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
+}
+
 pub(super) fn range_min(seed: Seed) -> DeclaredItem {
     let range = |rng: &mut Rng, t: f64| (t + rng.sign() * rng.uniform(0.03, 0.6), t + 9.0);
     item(
@@ -133,7 +156,10 @@ pub(super) fn range_min(seed: Seed) -> DeclaredItem {
             group: Some(Group::TriangleHits),
             needs: &[],
         },
-        range_questions("triangle.range_min", seed, range),
+        range_questions("triangle.range_min", seed, range)
+            .into_iter()
+            .chain([rays_from_the_surface(seed)])
+            .collect(),
     )
 }
 

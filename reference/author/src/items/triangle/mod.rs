@@ -7,8 +7,9 @@ mod surface;
 
 use aim::{Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond_edge};
 use judging::exam::{ExamQuestion, HitCheck};
-use protocol::Ray;
+use protocol::{Ray, Shape};
 
+use crate::items::place::Place;
 use crate::items::{DeclaredItem, draw_items};
 use crate::seed::Seed;
 
@@ -35,7 +36,8 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
 }
 
 /// Creates one question for each of four triangles, with rays that hit the triangle from this side
-/// and some rays that miss.
+/// and some rays that miss. The last triangle is as large and as far from the origin as those of the
+/// Cornell box.
 fn table_questions(name: &str, seed: Seed, checks: &[HitCheck], side: Side) -> Vec<ExamQuestion> {
     let mut rng = seed.rng(name);
     let mut table = || {
@@ -48,7 +50,19 @@ fn table_questions(name: &str, seed: Seed, checks: &[HitCheck], side: Side) -> V
             let weights = weights_beyond_edge(&mut rng, i % 3);
             ray_through(&mut rng, &vertices, weights, side)
         }));
-        super::shapes_question(checks, vec![shape(&vertices, 0)], rng.shuffled(rays))
+        (vec![shape(&vertices, 0)], rng.shuffled(rays))
     };
-    (0..4).map(|_| table()).collect()
+    let tables = [table(), table(), table(), table()];
+    let room = Place::room(&mut rng);
+    let question = |(index, (shapes, rays)): (usize, (Vec<Shape>, Vec<Ray>))| {
+        let is_last = index == 3;
+        let (shapes, rays) = if is_last {
+            let rays = rays.iter().map(|ray| room.ray(ray)).collect();
+            (room.shapes(&shapes), rays)
+        } else {
+            (shapes, rays)
+        };
+        super::shapes_question(checks, shapes, rays)
+    };
+    tables.into_iter().enumerate().map(question).collect()
 }

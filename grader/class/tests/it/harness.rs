@@ -31,6 +31,14 @@ impl TestClass {
         class
     }
 
+    /// Creates a class of three submissions, in a folder with a name such as Moodle uses.
+    pub fn of_three() -> Self {
+        TestClass::named("CG-Path tracing (2)")
+            .with_reference("ann")
+            .with_starter("bob")
+            .with("carl.zip", "no archive")
+    }
+
     pub fn input(&self) -> PathBuf {
         self.folder.path().join(&self.name)
     }

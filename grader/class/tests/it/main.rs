@@ -11,6 +11,7 @@ mod layouts;
 mod machine_faults;
 mod page;
 mod people;
+mod recipes;
 mod resuming;
 mod shards;
 mod similarity;

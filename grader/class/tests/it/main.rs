@@ -1,6 +1,7 @@
 //! Tests of the `class` binary, with classes like those that platforms export.
 
 mod characters;
+mod every_oddity;
 mod faulty_submissions;
 mod gradebooks;
 mod handing_back;

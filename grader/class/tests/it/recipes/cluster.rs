@@ -45,7 +45,7 @@ impl Cluster {
             });
             version.output().is_ok()
         };
-        PROGRAMS.iter().all(|program| works(&program))
+        PROGRAMS.iter().all(works)
     }
 
     /// Starts the daemons, and waits until the cluster accepts jobs.

@@ -1,0 +1,204 @@
+//! The same submissions as each platform exports them, with its list of the class.
+
+use super::cases::{Case, Files, zipped};
+use crate::harness::TestClass;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Platform {
+    Gradescope,
+    Canvas,
+    Moodle,
+    GitHub,
+    Plain,
+}
+
+/// A person of the class. The last one handed in nothing.
+pub struct Student<'a> {
+    pub number: usize,
+    pub login: String,
+    pub name: String,
+    pub case: Option<&'a Case>,
+}
+
+impl Student<'_> {
+    /// Returns the time as the platform's own list has it.
+    fn time(&self) -> &str {
+        self.case.map_or("", |case| case.time)
+    }
+
+    fn email(&self) -> String {
+        format!("{}@example.edu", self.login)
+    }
+}
+
+/// Returns a student for each case, and one who handed in nothing.
+pub fn students(cases: &[Case]) -> Vec<Student<'_>> {
+    let titles = cases.iter().map(|case| (case.title, Some(case)));
+    let all = titles.chain([("nothing", None)]).enumerate();
+    let student = |(number, (title, case)): (usize, (&str, _))| Student {
+        number,
+        login: format!("zoe-{title}"),
+        name: format!("Zoë O'{title}"),
+        case,
+    };
+    all.map(student).collect()
+}
+
+impl Platform {
+    pub const ALL: [Platform; 5] = [
+        Platform::Gradescope,
+        Platform::Canvas,
+        Platform::Moodle,
+        Platform::GitHub,
+        Platform::Plain,
+    ];
+
+    /// Returns the class as this platform exports it.
+    pub fn export(self, students: &[Student]) -> TestClass {
+        let mut class = TestClass::named(match self {
+            // The suffix by which GitHub Classroom's clones are recognised.
+            Platform::GitHub => "pathtracing-submissions",
+            Platform::Gradescope | Platform::Canvas | Platform::Moodle | Platform::Plain => {
+                "export"
+            }
+        });
+        if self == Platform::Gradescope {
+            class = class.with("submission_metadata.yml", gradescope_metadata(students));
+        }
+        for student in students {
+            let Some(case) = student.case else { continue };
+            for (path, bytes) in self.files(student, &case.files) {
+                class = class.with(&path, bytes);
+            }
+        }
+        class
+    }
+
+    /// Returns the files of a submission as this platform names them.
+    fn files(self, student: &Student, files: &Files) -> Files {
+        let Student {
+            number,
+            login,
+            name,
+            ..
+        } = student;
+        let prefix = match self {
+            Platform::Gradescope => format!("submission_{number}/"),
+            Platform::Canvas => format!("zoe_{}_{}_", 7000 + number, 9000 + number),
+            Platform::Moodle => format!("{name}_{number}_assignsubmission_file_/"),
+            Platform::GitHub => format!("pathtracing-{login}/"),
+            Platform::Plain => format!("{login}/"),
+        };
+        // Canvas has no folders, so students hand in an archive. Others may, too.
+        let has_folders = files.iter().any(|(path, _)| path.contains('/'));
+        let own_archive = files.iter().any(|(path, _)| path.ends_with(".zip"));
+        let is_archive = match self {
+            Platform::Canvas => has_folders,
+            Platform::Plain => number % 2 == 0 && !own_archive,
+            Platform::Gradescope | Platform::Moodle | Platform::GitHub => false,
+        };
+        if is_archive {
+            // A plain class may have an archive in place of a student's folder.
+            let path = if self == Platform::Plain {
+                format!("{login}.zip")
+            } else {
+                format!("{prefix}hw.zip")
+            };
+            return vec![(path, zipped(files.clone()))];
+        }
+        let named = files.iter();
+        let named = named.map(|(path, bytes)| (format!("{prefix}{path}"), bytes.clone()));
+        named.collect()
+    }
+
+    /// Writes the platform's lists of the class, and returns the options that pass them.
+    pub fn lists(self, class: &TestClass, students: &[Student]) -> Vec<String> {
+        let table = |header: &str, row: &dyn Fn(&Student) -> String| {
+            let rows: String = students.iter().map(|student| row(student) + "\n").collect();
+            format!("{header}\n{rows}")
+        };
+        let write = |option: &str, text: String| {
+            let name = format!("{}.csv", option.trim_start_matches('-'));
+            [option.to_owned(), class.write_beside(&name, &text)]
+        };
+        let canvas = || {
+            table(
+                "Student,ID,SIS User ID,SIS Login ID,Section,Tracing (1)",
+                &|s| format!("{},{},,{},A,", s.name, 7000 + s.number, s.login),
+            )
+        };
+        match self {
+            Platform::Gradescope => write(
+                "--gradescope",
+                table("First Name,Last Name,SID,Email,Total Score", &|s| {
+                    format!("Zoë,{},,{},", &s.name["Zoë ".len()..], s.email())
+                }),
+            )
+            .to_vec(),
+            Platform::Canvas => {
+                let times = table("Student,ID,datetime", &|s| {
+                    format!("{},{},\"{}\"", s.name, 7000 + s.number, s.time())
+                });
+                [write("--canvas", canvas()), write("--roster", times)].concat()
+            }
+            Platform::Moodle => write(
+                "--moodle",
+                table(
+                    "Identifier,Full name,Email address,Grade,Last modified (submission)",
+                    &|s| {
+                        format!(
+                            "Participant {},{},{},,\"{}\"",
+                            s.number,
+                            s.name,
+                            s.email(),
+                            s.time()
+                        )
+                    },
+                ),
+            )
+            .to_vec(),
+            Platform::GitHub | Platform::Plain => {
+                let times = table("name,username,datetime", &|s| {
+                    format!("{},{},\"{}\"", s.name, s.login, s.time())
+                });
+                [write("--canvas", canvas()), write("--roster", times)].concat()
+            }
+        }
+    }
+
+    /// Returns the name of the copied gradebook, and its columns that identify a person and have
+    /// the points.
+    pub fn gradebook(self) -> (&'static str, &'static str, &'static str) {
+        match self {
+            Platform::Gradescope => ("gradescope.csv", "Email", "Total Score"),
+            Platform::Moodle => ("moodle.csv", "Full name", "Grade"),
+            Platform::Canvas | Platform::GitHub | Platform::Plain => {
+                ("canvas.csv", "Student", "Tracing (1)")
+            }
+        }
+    }
+
+    /// Returns what the gradebook's column has for a person.
+    pub fn key(self, student: &Student) -> String {
+        match self {
+            Platform::Gradescope => student.email(),
+            Platform::Canvas | Platform::Moodle | Platform::GitHub | Platform::Plain => {
+                student.name.clone()
+            }
+        }
+    }
+}
+
+fn gradescope_metadata(students: &[Student]) -> String {
+    let submission = |student: &Student| {
+        format!(
+            "submission_{}:\n  :submitters:\n  - :name: {}\n    :email: {}\n  :created_at: {}\n",
+            student.number,
+            student.name,
+            student.email(),
+            student.time()
+        )
+    };
+    let handed_in = students.iter().filter(|student| student.case.is_some());
+    format!("---\n{}", handed_in.map(submission).collect::<String>())
+}

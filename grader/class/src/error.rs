@@ -121,6 +121,18 @@ pub enum Error {
         /// The output folder of the other shard.
         other: PathBuf,
     },
+    /// Two shards are parts of different lists of submissions.
+    #[error(
+        "{} and {} cannot be merged, or somebody could be missing: submissions were added or removed \
+         between them; run each `cargo class --shard` again, which keeps what is graded",
+        one.display(), other.display()
+    )]
+    DifferentClasses {
+        /// The output folder of one shard.
+        one: PathBuf,
+        /// The output folder of the other shard.
+        other: PathBuf,
+    },
     /// Two shards contain the same entry.
     #[error(
         "{id} is in {} and in {}: were both given the same --shard?", one.display(), other.display()
@@ -165,6 +177,7 @@ impl Error {
             | Error::IncompatibleShards { .. }
             | Error::MissingShards(_)
             | Error::DifferentPolicies { .. }
+            | Error::DifferentClasses { .. }
             | Error::DuplicateEntry { .. }
             | Error::MergeIntoShard { .. } => 2,
             Error::Store(_)

@@ -119,12 +119,14 @@ pub fn grade_class(
         .map(|entry| entry.id.as_str())
         .collect();
     let removed = find_removed(&store, &all)?;
+    let class = file_hash(all.join("\n").as_bytes());
     let entries = arguments
         .shard
         .unwrap_or(Shard::ALL)
         .select(recognised.entries);
     let run = Run {
         entries: entries.iter().map(|entry| entry.id.clone()).collect(),
+        class,
         ..run
     };
     store.write_run(&run)?;

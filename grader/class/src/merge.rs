@@ -160,8 +160,9 @@ fn read_finished_run(path: &Path) -> Result<Run, Error> {
     }
 }
 
-/// Checks that the scores of two shards can be compared: the exam, the isolation and the options
-/// must be the same. The grader's executable and the compiler may differ between machines.
+/// Checks that two shards are parts of the same class, and that their scores can be compared: the
+/// exam, the isolation and the options must be the same. The grader's executable and the compiler may
+/// differ between machines.
 fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<(), Error> {
     let local = [
         "the grader",
@@ -169,7 +170,12 @@ fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<()
     ];
     let mut what = one.1.settings.differences(&other.1.settings);
     what.retain(|what| !local.contains(what));
-    if what.is_empty() {
+    if one.1.class != other.1.class {
+        Err(Error::DifferentClasses {
+            one: one.0.clone(),
+            other: other.0.clone(),
+        })
+    } else if what.is_empty() {
         Ok(())
     } else {
         Err(Error::IncompatibleShards {

@@ -27,6 +27,10 @@ pub struct Run {
     /// input.
     #[serde(default)]
     pub entries: Vec<String>,
+    /// The hash of the ids of all entries of the class, also of those in other shards. Merging shards
+    /// of different classes could leave somebody out.
+    #[serde(default)]
+    pub class: String,
     /// The settings that the scores depend on.
     pub settings: Settings,
     /// The settings of the last finished round before this one.
@@ -65,6 +69,7 @@ impl Run {
             shard: None,
             policy: None,
             entries: Vec::new(),
+            class: String::new(),
             settings,
             before: None,
         }
@@ -86,6 +91,7 @@ impl Run {
             shard: None,
             policy: None,
             entries: Vec::new(),
+            class: String::new(),
             settings,
             before,
         }

@@ -65,6 +65,26 @@ fn merged_shards_equal_an_unsharded_run() {
     refused(&[one, two], "different policies");
 }
 
+/// Every second submission of one list and of a longer one could leave somebody out.
+#[test]
+fn parts_of_different_lists_of_submissions_are_refused() {
+    let class = TestClass::of_three();
+    let exam = class.small_exam(&ITEMS);
+    let one = grade_shard(&class, &exam, "1/2", &[]);
+    let class = class.with_folder("dora").with_folder("eve");
+    let two = grade_shard(&class, &exam, "2/2", &[]);
+    let out = class.path_beside("merged");
+    let (code, error) = exit_code_and_stderr(&merge(&[&one, &two], &out));
+    assert_eq!(code, 2);
+    let why = "submissions were added or removed between them";
+    assert!(error.contains(why), "{error}");
+    assert!(!out.exists());
+    grade_shard(&class, &exam, "1/2", &[]);
+    successful_stdout(&merge(&[&one, &two], &out));
+    let grades = std::fs::read_to_string(out.join("grades.csv")).unwrap();
+    assert_eq!(grades.lines().count(), 6, "{grades}");
+}
+
 #[test]
 fn results_of_another_part_or_among_the_submissions_are_refused() {
     let class = TestClass::of_three();

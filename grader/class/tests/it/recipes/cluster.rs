@@ -25,7 +25,7 @@ const PROGRAMS: [&str; 6] = [
     "squeue",
 ];
 /// The time after which a test fails instead of waiting longer.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_secs(300);
 
 /// A running cluster. When it is dropped, also because a test panics, its daemons and jobs are
 /// killed.
@@ -75,7 +75,7 @@ impl Cluster {
         ];
         let own_files: Vec<&str> = own_files.iter().map(String::as_str).collect();
         set_private(&folder.join("munge.key"));
-        // It would refuse a temporary folder that only this user can read.
+        // Without `--force`, it refuses a socket in a folder that only this user can enter.
         cluster.spawn(
             "munged",
             &[&["--foreground", "--force"], &own_files[..]].concat(),

@@ -14,7 +14,7 @@ const DYING_ONCE: &str = r#"#!/bin/bash
 if [[ "$*" == *"--shard 2/3"* && ! -e "$DIED" ]]; then
     touch "$DIED"
     "$REAL_CLASS" "$@" &
-    until [[ -e "$OUT/shards/2/run.json" ]]; do sleep 0.02; done
+    while kill -0 $! && [[ ! -e "$OUT/shards/2/run.json" ]]; do sleep 0.02; done
     kill -9 $!
     wait $!
     exit

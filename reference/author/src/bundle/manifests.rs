@@ -67,12 +67,10 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), Manife
     // Cargo warns about profile settings of packages that are missing. The bench profile has only
     // such settings.
     let profiles = &mut manifest["profile"];
-    for (profile, package) in [("release", "reference"), ("dev", "jsonschema")] {
-        if let Some(packages) = profiles[profile].get_mut("package")
-            && let Some(packages) = packages.as_table_like_mut()
-        {
-            packages.remove(package);
-        }
+    if let Some(packages) = profiles["release"].get_mut("package")
+        && let Some(packages) = packages.as_table_like_mut()
+    {
+        packages.remove("reference");
     }
     if let Some(profiles) = profiles.as_table_like_mut() {
         profiles.remove("bench");

@@ -3,11 +3,14 @@
 use std::fs;
 use std::path::Path;
 
-use jsonschema::Validator;
+use boon::{Compiler, SchemaIndex, Schemas};
 use serde_json::Value;
 
 /// A published schema: see `tests/schemas/README.md`.
-pub struct Schema(Validator);
+pub struct Schema {
+    schemas: Schemas,
+    index: SchemaIndex,
+}
 
 impl Schema {
     /// Reads a schema in `tests/schemas`.
@@ -15,28 +18,31 @@ impl Schema {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/schemas");
         let text = fs::read(folder.join(name)).unwrap();
         let schema: Value = serde_json::from_slice(&text).unwrap();
-        Schema(jsonschema::validator_for(&schema).unwrap())
+        let (mut schemas, mut compiler) = (Schemas::new(), Compiler::new());
+        compiler.add_resource(name, schema).unwrap();
+        let index = compiler.compile(name, &mut schemas);
+        let index = index.unwrap_or_else(|error| panic!("{name}: {error:#}"));
+        Schema { schemas, index }
     }
 
-    /// Returns the problems of a document, each with the path of the value.
-    pub fn problems(&self, document: &Value) -> Vec<String> {
-        let errors = self.0.iter_errors(document);
-        errors
-            .map(|error| format!("{}: {error}", error.instance_path()))
-            .collect()
+    /// Returns the problems of a document, with the paths of the values, or `None` if it is valid.
+    pub fn problems(&self, document: &Value) -> Option<String> {
+        let checked = self.schemas.validate(document, self.index);
+        checked.err().map(|error| format!("{error:#}"))
     }
 
     /// Panics if a document has problems.
     pub fn check(&self, title: &str, document: &Value) {
-        let problems = self.problems(document);
-        assert!(problems.is_empty(), "{title}: {problems:#?}");
+        if let Some(problems) = self.problems(document) {
+            panic!("{title}: {problems}");
+        }
     }
 
     /// Panics if the schema accepts a text in which `from` was replaced by `to`.
     pub fn check_that_it_rejects(&self, text: &str, from: &str, to: &str) {
         assert!(text.contains(from), "the text no longer contains {from:?}");
         let problems = self.problems(&parse_yaml(&text.replacen(from, to, 1)));
-        assert!(!problems.is_empty(), "{to:?} instead of {from:?}");
+        assert!(problems.is_some(), "{to:?} instead of {from:?}");
     }
 }
 

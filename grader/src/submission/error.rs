@@ -80,7 +80,7 @@ pub enum SubmissionError {
     },
     /// Several copies of the task files differ, and each could be the one that is meant.
     #[error(
-        "{path} has task files that differ, in {}: keep only the ones that count",
+        "{path} has task files that differ, in {}: put those that count into one folder, without the others",
         places(copies)
     )]
     Ambiguous {

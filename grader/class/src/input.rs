@@ -120,7 +120,9 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
         }
         SubmissionError::Ambiguous { copies, .. } => {
             let copies = sanitize(&places(copies), 200);
-            format!("it has task files that differ, in {copies}: put those that count into one folder, without the others")
+            format!(
+                "it has task files that differ, in {copies}: put those that count into one folder, without the others"
+            )
         }
         SubmissionError::TooManyFiles(_) => {
             "it has too many files and folders: keep the task files without the rest".to_owned()

@@ -1,0 +1,265 @@
+//! Properties of judging, for all questions of the practice exam: the key's own answer passes, and a
+//! worse answer never earns more.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use glam::{Vec2, Vec3};
+use judging::assignment::RAYS;
+use judging::exam::{Exam, ExamQuestion, ExpectedHit, Key, Surface};
+use judging::exam_file;
+use judging::judge::{Credit, judge, measure, mismatches};
+use proptest::prelude::*;
+use protocol::{Answer, ElementOutcome, Interval, Panic, Question, Ray, Trace};
+
+static PRACTICE: LazyLock<Exam> = LazyLock::new(|| {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../exams/practice.json");
+    let bytes = std::fs::read(&path).unwrap();
+    exam_file::parse(&path, &bytes, &RAYS).unwrap().exam
+});
+
+/// The questions, each with the answer that follows from its key. Trees are left out: many different
+/// ones are right.
+static QUESTIONS: LazyLock<Vec<(&ExamQuestion, Answer)>> = LazyLock::new(|| {
+    let questions = PRACTICE.items.iter().flat_map(|item| &item.questions);
+    questions
+        .filter_map(|question| Some((question, keys_answer(question)?)))
+        .collect()
+});
+
+const UNIT: Trace = Trace {
+    distance: 1.0,
+    position: Vec3::ONE,
+    normal: Vec3::X,
+    uv: Vec2::ZERO,
+    origin: Vec3::ZERO,
+    material: 0,
+};
+
+fn values<T>(all: impl IntoIterator<Item = T>) -> Vec<ElementOutcome<T>> {
+    all.into_iter().map(ElementOutcome::Value).collect()
+}
+
+/// Returns the answer that the key describes.
+fn keys_answer(question: &ExamQuestion) -> Option<Answer> {
+    Some(match &question.key {
+        Key::Rays { directions, .. } => {
+            let ray = |&dir: &Vec3| Ray {
+                origin: Vec3::ZERO,
+                dir,
+                range: Interval::AHEAD,
+            };
+            Answer::Rays(values(directions.iter().map(ray)))
+        }
+        Key::Hits { hits, .. } => {
+            let rays = match &question.question {
+                Question::Shapes { rays, .. }
+                | Question::Traverse { rays, .. }
+                | Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
+                other => unreachable!("{other:?} has no rays"),
+            };
+            let trace = |(hit, ray): (&ExpectedHit, &Ray)| Trace {
+                distance: hit.distance,
+                position: hit.position,
+                normal: hit.normal,
+                uv: hit.uv,
+                origin: ray.origin,
+                material: hit.material,
+            };
+            let hits = hits.iter().zip(&rays);
+            let traces = hits.map(|(hit, ray)| Some(trace((hit.as_ref()?, ray))));
+            Answer::Hits(values(traces))
+        }
+        Key::FirstHits { hits, .. } => {
+            let trace = |surface: &Surface| Trace {
+                distance: surface.depth,
+                normal: surface.normal,
+                uv: surface.uv,
+                ..UNIT
+            };
+            Answer::Hits(values(hits.iter().map(|hit| hit.as_ref().map(trace))))
+        }
+        Key::Spans { spans } => Answer::Spans(values(spans.iter().copied())),
+        Key::Radiance { pixels, .. } => Answer::Picture(ElementOutcome::Value(pixels.clone())),
+        Key::Tree { .. } => return None,
+    })
+}
+
+/// A way in which an element is wrong.
+#[derive(Clone, Copy, Debug)]
+enum Error {
+    /// Numbers are too large by this fraction.
+    Relative(f32),
+    NotANumber,
+    Panicked,
+}
+
+impl Error {
+    fn number(self, number: f32) -> f32 {
+        match self {
+            Error::Relative(error) => number * (1.0 + error),
+            Error::NotANumber | Error::Panicked => f32::NAN,
+        }
+    }
+
+    fn vector(self, vector: Vec3) -> Vec3 {
+        vector.map(|number| self.number(number))
+    }
+
+    fn spoil<T>(self, outcome: &mut ElementOutcome<T>, spoil: impl FnOnce(&mut T)) {
+        match outcome {
+            _ if matches!(self, Error::Panicked) => {
+                *outcome = ElementOutcome::Panicked(Panic {
+                    message: "index out of bounds".to_owned(),
+                    location: "sphere.rs:1".to_owned(),
+                });
+            }
+            ElementOutcome::Value(value) => spoil(value),
+            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => {}
+        }
+    }
+
+    /// Makes one element of a right answer wrong.
+    fn apply(self, answer: &mut Answer, index: usize) {
+        match answer {
+            Answer::Rays(rays) => self.spoil(&mut rays[index], |ray| {
+                ray.origin = self.vector(Vec3::ONE) - 1.0;
+                ray.dir.x = self.number(ray.dir.x + 1.0) - 1.0;
+                ray.range.min = self.number(1.0) - 1.0;
+            }),
+            Answer::Hits(hits) => self.spoil(&mut hits[index], |hit| match hit {
+                Some(trace) => {
+                    trace.distance = self.number(trace.distance);
+                    trace.position = self.vector(trace.position);
+                    trace.normal.x = self.number(trace.normal.x + 1.0) - 1.0;
+                    trace.uv.y = self.number(trace.uv.y + 1.0) - 1.0;
+                    trace.origin = self.vector(trace.origin);
+                    trace.material += 1;
+                }
+                None => *hit = Some(UNIT),
+            }),
+            Answer::Spans(spans) => self.spoil(&mut spans[index], |span| match span {
+                Some(times) => times.max = self.number(times.max),
+                None => *span = Some(Interval::new(0.0, 1.0)),
+            }),
+            Answer::Picture(outcome) => self.spoil(outcome, |pixels| {
+                pixels[index] = self.vector(pixels[index] + 1.0) - 1.0;
+            }),
+            Answer::Tree(_) | Answer::Done => unreachable!("these have no elements"),
+        }
+    }
+}
+
+fn count(answer: &Answer) -> usize {
+    match answer {
+        Answer::Rays(rays) => rays.len(),
+        Answer::Hits(hits) => hits.len(),
+        Answer::Spans(spans) => spans.len(),
+        Answer::Picture(ElementOutcome::Value(pixels)) => pixels.len(),
+        other => unreachable!("{other:?} is not the key's answer to anything"),
+    }
+}
+
+fn any_error() -> impl Strategy<Value = Error> {
+    prop_oneof![
+        (0.5_f32..10.0).prop_map(Error::Relative),
+        Just(Error::NotANumber),
+        Just(Error::Panicked),
+    ]
+}
+
+/// Returns distinct elements of an answer. With fewer numbers, there is a part of these elements.
+fn elements(answer: &Answer, numbers: &[usize]) -> Vec<usize> {
+    let mut elements: Vec<usize> = numbers.iter().map(|n| n % count(answer)).collect();
+    elements.sort_unstable();
+    elements.dedup();
+    elements
+}
+
+/// Returns the credit of an answer in which these elements are wrong.
+fn credit(question: &ExamQuestion, answer: &Answer, wrong: &[usize], how: Error) -> Credit {
+    let mut answer = answer.clone();
+    for &element in wrong {
+        how.apply(&mut answer, element);
+    }
+    judge(question, &answer).credit
+}
+
+#[test]
+fn the_keys_own_answer_passes() {
+    assert!(QUESTIONS.len() > 100);
+    for (question, answer) in QUESTIONS.iter() {
+        let judgement = judge(question, answer);
+        assert_eq!(judgement.credit, Credit::FULL, "{:?}", judgement.failure);
+        let wrong = mismatches(question, answer).unwrap_or_default();
+        assert!(wrong.iter().all(Option::is_none));
+    }
+}
+
+#[test]
+fn without_a_right_element_an_answer_earns_nothing() {
+    for (question, answer) in QUESTIONS.iter() {
+        let all: Vec<usize> = (0..count(answer)).collect();
+        assert_eq!(
+            credit(question, answer, &all, Error::Panicked),
+            Credit::NONE
+        );
+    }
+}
+
+proptest! {
+    #[test]
+    fn more_wrong_elements_never_earn_more(
+        index: prop::sample::Index,
+        numbers in prop::collection::vec(0_usize..1 << 20, 1..400),
+        part: prop::sample::Index,
+        how in any_error(),
+    ) {
+        let (question, answer) = index.get(&QUESTIONS);
+        let few = &numbers[..part.index(numbers.len())];
+        let few = credit(question, answer, &elements(answer, few), how);
+        let many = credit(question, answer, &elements(answer, &numbers), how);
+        prop_assert!(many <= few, "{:?} > {:?}", many, few);
+    }
+
+    #[test]
+    fn a_larger_error_never_earns_more(
+        index: prop::sample::Index,
+        numbers in prop::collection::vec(0_usize..1 << 20, 1..400),
+        small in 1e-6_f32..1e-1,
+        factor in 1.0_f32..100.0,
+    ) {
+        let (question, answer) = index.get(&QUESTIONS);
+        let wrong = elements(answer, &numbers);
+        let credit = |error| credit(question, answer, &wrong, Error::Relative(error));
+        prop_assert!(credit(small * factor) <= credit(small));
+    }
+
+    #[test]
+    fn full_credit_means_that_all_measured_errors_are_tolerated(
+        index: prop::sample::Index,
+        numbers in prop::collection::vec(0_usize..1 << 20, 1..20),
+        error in 1e-6_f32..1e-2,
+    ) {
+        let (question, answer) = index.get(&QUESTIONS);
+        let mut answer = answer.clone();
+        for element in elements(&answer, &numbers) {
+            Error::Relative(error).apply(&mut answer, element);
+        }
+        let is_full = judge(question, &answer).credit == Credit::FULL;
+        let measured = measure(question, &answer);
+        let is_tolerated = measured.iter().all(|one| one.deciding_deviation().is_right());
+        prop_assert_eq!(is_full, is_tolerated);
+    }
+
+    #[test]
+    fn answers_to_other_questions_do_not_pass(
+        index: prop::sample::Index,
+        other: prop::sample::Index,
+    ) {
+        let (question, own) = index.get(&QUESTIONS);
+        let (_, answer) = other.get(&QUESTIONS);
+        prop_assume!(own != answer);
+        prop_assert!(judge(question, answer).credit < Credit::FULL);
+    }
+}

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::{Parser, value_parser};
+use clap::builder::StyledStr;
+use clap::{CommandFactory, FromArgMatches, Parser, value_parser};
 
 use crate::exam_source::ExamSource;
 use crate::format::{FORMATS, OutputSpec};
@@ -16,8 +17,11 @@ use crate::select_isolation::IsolationRequest;
 use crate::task_selection::TaskSelection;
 use crate::terminal::PrintOptions;
 
-/// The heading of the options that students do not need.
+/// The heading of the options that students do not need. Only `--help-staff` shows them.
 const STAFF_OPTIONS: &str = "Options for course staff and CI";
+/// The last line of the help for students.
+const MORE_HELP: &str =
+    "`cargo grade --help-staff` also shows the options for course staff and CI.";
 
 /// A command with all of its options.
 #[derive(Clone, Debug)]
@@ -41,6 +45,8 @@ pub enum Command {
     PrintSchema,
     /// Print the default policy.
     PrintDefaultPolicy,
+    /// Print the help with all options, which is given here.
+    PrintHelp(StyledStr),
 }
 
 /// Grades a path-tracing submission: builds it, runs the exam and writes a score
@@ -145,9 +151,30 @@ pub struct Arguments {
     /// platform will see it
     #[arg(long, value_name = "FILE", requires = "doctor", help_heading = STAFF_OPTIONS)]
     pub package: Option<PathBuf>,
+
+    /// Print help with the options for course staff and CI
+    #[arg(long, help_heading = STAFF_OPTIONS)]
+    pub help_staff: bool,
 }
 
 impl Arguments {
+    /// Parses this process's command line. If it is invalid or asks for help, prints a message and
+    /// exits.
+    pub fn from_command_line() -> Self {
+        let matches = Self::for_students().get_matches();
+        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    }
+
+    /// Returns the definition of the command line, with help that shows students' options only.
+    fn for_students() -> clap::Command {
+        let is_staff = |arg: &clap::Arg| arg.get_help_heading() == Some(STAFF_OPTIONS);
+        let command = Self::command().mut_args(|arg| {
+            let hidden = is_staff(&arg);
+            arg.hide(hidden)
+        });
+        command.after_help(MORE_HELP)
+    }
+
     /// Returns the command that these arguments select.
     pub fn resolve(self) -> Command {
         let isolation = match (self.isolation, self.untrusted) {
@@ -182,6 +209,7 @@ impl Arguments {
             require: self.require.unwrap_or(0),
         };
         match (self.replay, self.package) {
+            _ if self.help_staff => Command::PrintHelp(Self::command().render_long_help()),
             _ if self.schema => Command::PrintSchema,
             _ if self.policy_default => Command::PrintDefaultPolicy,
             (Some(question), _) => Command::Replay(options, question),

@@ -2,7 +2,6 @@
 
 use std::process::ExitCode;
 
-use clap::Parser;
 use grader::cli::{Arguments, Command};
 use grader::error::Error;
 use grader::policy;
@@ -17,7 +16,7 @@ fn main() -> ExitCode {
     if let Some(code) = sandbox::run_as_launcher() {
         return code;
     }
-    run(Arguments::parse().resolve()).unwrap_or_else(|error| {
+    run(Arguments::from_command_line().resolve()).unwrap_or_else(|error| {
         anstream::eprintln!("error: {}", sanitize(&error.to_string(), usize::MAX));
         ExitCode::from(error.exit_code())
     })
@@ -34,6 +33,7 @@ fn run(command: Command) -> Result<ExitCode, Error> {
         }
         Command::PrintSchema => anstream::print!("{}", score::PUBLISHED_SCHEMA),
         Command::PrintDefaultPolicy => anstream::print!("{}", policy::DEFAULT),
+        Command::PrintHelp(help) => anstream::print!("{}", help.ansi()),
     }
     Ok(ExitCode::SUCCESS)
 }

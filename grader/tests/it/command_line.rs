@@ -14,13 +14,38 @@ fn exit_code_and_error(arguments: &[&str]) -> (i32, String) {
 }
 
 #[test]
-fn help_lists_every_option() {
-    let output = grader()
-        .arg("--help")
-        .env("COLUMNS", "80")
-        .output()
-        .unwrap();
-    assert_snapshot!(String::from_utf8(output.stdout).unwrap());
+fn help_lists_the_options_for_students() {
+    assert_snapshot!(help("--help"));
+    // `-h` lists the same options, each with its first line.
+    let short = help("-h");
+    let options = |text: &str| -> Vec<String> {
+        let words = text
+            .split([' ', '\n'])
+            .filter(|word| word.starts_with("--"));
+        words.map(str::to_owned).collect()
+    };
+    assert!(options(&short).contains(&"--watch".to_owned()), "{short}");
+    assert!(
+        !options(&short).contains(&"--untrusted".to_owned()),
+        "{short}"
+    );
+    assert!(
+        short
+            .trim_end()
+            .ends_with("the options for course staff and CI."),
+        "{short}"
+    );
+}
+
+#[test]
+fn help_for_staff_lists_every_option() {
+    assert_snapshot!(help("--help-staff"));
+}
+
+fn help(flag: &str) -> String {
+    let output = grader().arg(flag).env("COLUMNS", "80").output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    String::from_utf8(output.stdout).unwrap()
 }
 
 #[test]

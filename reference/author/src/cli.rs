@@ -8,8 +8,9 @@ use clap::{Args, Parser, Subcommand};
 use crate::generated_file::Mode;
 use crate::package::Platform;
 
-/// The default folder of the built book.
+/// The default folders of the built book: with all chapters, and with students' chapters only.
 const DEFAULT_BOOK: &str = "target/handout";
+const DEFAULT_STUDENTS_BOOK: &str = "target/students-handout";
 
 /// Writes every generated file of this repository, and tests the exam
 #[derive(Debug, Parser)]
@@ -41,15 +42,19 @@ pub enum Command {
         #[command(flatten)]
         check: CheckArgs,
         /// Build the book into this folder; only available as `cargo book`
-        #[arg(long, value_name = "FOLDER", num_args = 0..=1, default_missing_value = DEFAULT_BOOK)]
-        book: Option<PathBuf>,
+        #[arg(long, value_name = "FOLDER", num_args = 0..=1)]
+        book: Option<Option<PathBuf>>,
+        /// With --book: leave out the chapters for instructors; the default folder is
+        /// target/students-handout
+        #[arg(long, requires = "book")]
+        students: bool,
     },
     /// Write the students' bundle, as an archive or as a folder for a Git repository
     Bundle {
         /// A file name that ends with .zip, or a new folder
         #[arg(long, value_name = "PATH", required_unless_present = "check")]
         out: Option<PathBuf>,
-        /// A built book to include as handout/book
+        /// The students' book to include as handout/book, as built by `cargo book --students`
         #[arg(long, value_name = "FOLDER")]
         book: Option<PathBuf>,
         /// Unpack the bundle with an empty home directory, run the commands that its documents
@@ -147,6 +152,16 @@ pub enum Command {
         #[arg(long)]
         check: bool,
     },
+}
+
+/// Returns the folder that a book is built into, given the folder on the command line.
+pub fn book_folder(folder: Option<PathBuf>, students: bool) -> PathBuf {
+    let default = if students {
+        DEFAULT_STUDENTS_BOOK
+    } else {
+        DEFAULT_BOOK
+    };
+    folder.unwrap_or_else(|| PathBuf::from(default))
 }
 
 fn parse_seeds(text: &str) -> Result<Range<u64>, String> {

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use author::bundle::secrets::Secrets;
 use author::bundle::{self, Bundle, archive};
-use author::cli::{Cli, Command};
+use author::cli::{Cli, Command, book_folder};
 use author::generated_file::{GeneratedFile, Mode, write_or_check};
 use author::package::{self, Course, Platform, trial};
 use author::proof::by_heart::grade_by_heart;
@@ -54,7 +54,17 @@ fn run(command: Command) -> CommandResult {
             Ok(io::stdout().write_all(exam.as_bytes())?)
         }
         Command::Scenes(check) => generate(&scenes::generated_files(), check.mode(), "scenes"),
-        Command::Handout { check, book } => make_handout(root, check.mode(), book.as_deref()),
+        Command::Handout {
+            check,
+            book,
+            students,
+        } => {
+            make_handout(root, check.mode())?;
+            let Some(folder) = book else {
+                return Ok(());
+            };
+            make_book(root, &root.join(book_folder(folder, students)), students)
+        }
         Command::Bundle { out, book, check } => {
             let bundle = Bundle::collect(root, &RAYS, book.as_deref())?;
             write_bundle(root, &bundle, out.as_deref(), check)
@@ -143,25 +153,28 @@ fn generate(files: &[GeneratedFile], mode: Mode, name: &str) -> CommandResult {
     Ok(write_or_check(files, Path::new(ROOT), mode, &command)?)
 }
 
-fn make_handout(root: &Path, mode: Mode, book: Option<&Path>) -> CommandResult {
+fn make_handout(root: &Path, mode: Mode) -> CommandResult {
     generate(&handout::generated_files(), mode, "handout")?;
     let problems = handout::problems(root, &exams::load_practice(root)?)?;
     report(
         &problems,
         "handout: every link, name and command was checked",
-    )?;
-    book.map_or(Ok(()), |folder| make_book(root, &root.join(folder)))
+    )
 }
 
 #[cfg(feature = "book")]
-fn make_book(root: &Path, folder: &Path) -> CommandResult {
-    handout::book::build(root, folder)?;
+fn make_book(root: &Path, folder: &Path, students: bool) -> CommandResult {
+    if students {
+        handout::book::build_for_students(&Bundle::collect(root, &RAYS, None)?, folder)?;
+    } else {
+        handout::book::build(root, folder)?;
+    }
     println!("{}", folder.join("index.html").display());
     Ok(())
 }
 
 #[cfg(not(feature = "book"))]
-fn make_book(_: &Path, _: &Path) -> CommandResult {
+fn make_book(_: &Path, _: &Path, _: bool) -> CommandResult {
     Err("this program was built without mdBook: run `cargo book` instead".into())
 }
 

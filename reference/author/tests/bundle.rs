@@ -151,6 +151,24 @@ fn a_built_book_is_added_beside_its_sources() {
 }
 
 #[test]
+fn a_book_with_chapters_for_instructors_is_refused() {
+    let book = TempDir::new().unwrap();
+    for page in ["index.html", "sphere.html", "gradescope.html"] {
+        fs::write(book.path().join(page), "<title>A page</title>\n").unwrap();
+    }
+    let out = book.path().join("pathtracing.zip");
+    let output = Command::new(env!("CARGO_BIN_EXE_author"))
+        .args(["bundle", "--out"])
+        .args([&out, Path::new("--book"), book.path()])
+        .output()
+        .unwrap();
+    assert!(!output.status.success() && !out.exists(), "{output:?}");
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(error.contains("instructors (gradescope.html)"), "{error}");
+    assert!(error.contains("`cargo book --students`"), "{error}");
+}
+
+#[test]
 fn its_lock_file_is_a_subset_of_the_workspaces() {
     let ours = text("Cargo.lock");
     let theirs = BUNDLE.text("Cargo.lock").unwrap();

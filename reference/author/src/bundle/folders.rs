@@ -92,6 +92,17 @@ pub(crate) fn copy_tree(
     Ok(())
 }
 
+/// Returns the names of the pages for instructors in the built book at `path` in the bundle.
+pub(super) fn staff_pages(path: &str, bundle: &Bundle) -> Vec<String> {
+    let chapters = STAFF_PATHS.iter().filter_map(|chapter| {
+        let name = chapter.strip_prefix("handout/src/")?;
+        Some(name.replace(".md", ".html"))
+    });
+    chapters
+        .filter(|page| bundle.files.contains_key(&format!("{path}/{page}")))
+        .collect()
+}
+
 /// Returns the offset of the first occurrence of `text`, or the length of `bytes` if there is none.
 fn offset_or_end(bytes: &[u8], text: &str) -> usize {
     let mut windows = bytes.windows(text.len());

@@ -65,6 +65,13 @@ pub enum BundleError {
     /// A file or folder of the repository cannot be used.
     #[error(transparent)]
     Folders(#[from] FoldersError),
+    /// The built book has chapters for instructors.
+    #[error(
+        "the book has chapters for instructors ({}): add the one that `cargo book --students` \
+         builds in target/students-handout",
+        .0.join(", ")
+    )]
+    StaffBook(Vec<String>),
     /// The starter cannot be generated.
     #[error(transparent)]
     Starter(#[from] StarterError),
@@ -78,7 +85,7 @@ pub enum BundleError {
 
 impl Bundle {
     /// Collects the bundle of an assignment in the workspace at `root`, including the built book if
-    /// one is given.
+    /// one is given. Fails if the book has chapters for instructors.
     pub fn collect(
         root: &Path,
         handed_out: &HandedOut,
@@ -89,6 +96,11 @@ impl Bundle {
         test_modules::remove(&mut bundle);
         if let Some(book) = book {
             folders::copy_tree(book, "handout/book", &mut bundle)?;
+            // With these pages, the book's search index has their words as well.
+            let pages = folders::staff_pages("handout/book", &bundle);
+            if !pages.is_empty() {
+                return Err(BundleError::StaffBook(pages));
+            }
         }
         for (path, text) in STUDENT_ONLY {
             bundle.insert(path, text);

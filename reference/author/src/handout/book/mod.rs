@@ -7,10 +7,12 @@ mod pictures;
 
 use std::path::Path;
 
-use grader::files::PathError;
+use grader::files::{AtPath, PathError};
 use mdbook_driver::MDBook;
 use mdbook_driver::book::{Book, BookItem};
 use mdbook_driver::errors::Error;
+
+use crate::bundle::{Bundle, archive};
 
 use self::formulas::render_formulas;
 use self::pages::problems;
@@ -45,6 +47,21 @@ pub fn build(root: &Path, to: &Path) -> Result<(), BookError> {
     }
 }
 
+/// Builds the book of the chapters in a bundle, which has none for instructors, into the folder `to`.
+pub fn build_for_students(bundle: &Bundle, to: &Path) -> Result<(), BookError> {
+    let mut chapters = Bundle::default();
+    let of_handout = bundle
+        .files
+        .iter()
+        .filter(|(path, _)| path.starts_with("handout/"));
+    chapters
+        .files
+        .extend(of_handout.map(|(path, contents)| (path.clone(), contents.clone())));
+    let sources = tempfile::tempdir().at("create", std::env::temp_dir())?;
+    archive::write_files(&chapters, sources.path())?;
+    build(sources.path(), to)
+}
+
 /// Replaces formulas with MathML, and figures with inline SVG.
 fn render_chapters(book: &mut Book) -> Result<(), BookError> {
     let mut result = Ok(());
@@ -57,4 +74,45 @@ fn render_chapters(book: &mut Book) -> Result<(), BookError> {
         }
     });
     Ok(result?)
+}
+
+#[cfg(test)]
+mod tests {
+    use grader::files;
+    use grader::handed_out::RAYS;
+
+    use super::*;
+
+    /// Returns the names of a book's files that mention the chapter about Gradescope.
+    fn mentions(book: &Path) -> Vec<String> {
+        let files = files::read_dir(book).unwrap().into_iter();
+        let files = files.filter(|path| path.is_file());
+        let mentioning = files.filter(|path| {
+            let text = String::from_utf8_lossy(&files::read(path).unwrap()).into_owned();
+            text.contains("gradescope.html")
+        });
+        mentioning
+            .map(|path| path.file_name().unwrap().to_string_lossy().into_owned())
+            .collect()
+    }
+
+    #[test]
+    fn the_students_book_has_no_chapters_for_instructors_and_they_cannot_be_found_in_it() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let (whole, students) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        build(&root, whole.path()).unwrap();
+        let found = mentions(whole.path());
+        assert!(
+            found.iter().any(|file| file.starts_with("searchindex")),
+            "{found:?}"
+        );
+
+        let bundle = Bundle::collect(&root, &RAYS, None).unwrap();
+        build_for_students(&bundle, students.path()).unwrap();
+        assert_eq!(mentions(students.path()), [""; 0]);
+        assert!(students.path().join("sphere.html").is_file());
+        assert!(!students.path().join("gradescope.html").exists());
+        // With the book, the bundle has everything that students read.
+        Bundle::collect(&root, &RAYS, Some(students.path())).unwrap();
+    }
 }

@@ -14,11 +14,35 @@ use crate::question_ref::QuestionRef;
 use crate::report::text::HintDetail;
 use crate::sandbox::Isolation;
 use crate::select_isolation::IsolationRequest;
-use crate::task_selection::TaskSelection;
+use crate::task_selection::{NamedTasks, TaskSelection};
 use crate::terminal::PrintOptions;
 
 /// The heading of the options that students do not need. Only `--help-staff` shows them.
 const STAFF_OPTIONS: &str = "Options for course staff and CI";
+/// The options about grading, none of which goes with `--reset`.
+const GRADING: [&str; 21] = [
+    "task",
+    "replay",
+    "hints",
+    "watch",
+    "open",
+    "fresh",
+    "timings",
+    "doctor",
+    "exam",
+    "out",
+    "require",
+    "untrusted",
+    "isolation",
+    "no_reference",
+    "cpu_limit",
+    "policy",
+    "policy_default",
+    "gradescope_metadata",
+    "format",
+    "schema",
+    "package",
+];
 /// The last line of the help for students.
 const MORE_HELP: &str =
     "`cargo grade --help-staff` also shows the options for course staff and CI.";
@@ -37,6 +61,15 @@ pub enum Command {
     },
     /// Run one question again.
     Replay(GradeOptions, QuestionRef),
+    /// Start tasks of a submission's folder afresh.
+    Reset {
+        /// The assignment.
+        handed_out: &'static HandedOut,
+        /// The folder; `None` is the folder of students' own work.
+        folder: Option<PathBuf>,
+        /// The tasks and files to start afresh.
+        names: TaskNames,
+    },
     /// Show what this machine offers and lacks.
     Diagnose,
     /// Check a package for a learning platform.
@@ -68,6 +101,11 @@ pub struct Arguments {
     /// number, the first wrong question of the item
     #[arg(long, value_name = "ITEM[#N]", conflicts_with_all = ["task", "require", "out"])]
     pub replay: Option<QuestionRef>,
+
+    /// Start a task afresh, such as sphere, or a whole file, such as bvh; keeps a copy of your file,
+    /// such as bvh.rs.bak-1
+    #[arg(long, value_name = "TASK", value_parser = parse_names, conflicts_with_all = GRADING)]
+    pub reset: Option<TaskNames>,
 
     /// If a known mistake is recognised, show its full hint instead of a nudge
     #[arg(long)]
@@ -157,6 +195,9 @@ pub struct Arguments {
     pub help_staff: bool,
 }
 
+/// The tasks and files named by an option.
+pub type TaskNames = std::sync::Arc<[NamedTasks]>;
+
 impl Arguments {
     /// Parses this process's command line. If it is invalid or asks for help, prints a message and
     /// exits.
@@ -208,6 +249,13 @@ impl Arguments {
             timings: self.timings,
             require: self.require.unwrap_or(0),
         };
+        if let Some(names) = self.reset {
+            return Command::Reset {
+                handed_out: options.handed_out,
+                folder: options.submission,
+                names,
+            };
+        }
         match (self.replay, self.package) {
             _ if self.help_staff => Command::PrintHelp(Self::command().render_long_help()),
             _ if self.schema => Command::PrintSchema,
@@ -230,6 +278,10 @@ fn format_help() -> String {
         "Also write these formats: {known}. They contain what the policy lets students see. Each is \
          written to =PATH if given, else where the platform expects it, else to the --out folder"
     )
+}
+
+fn parse_names(text: &str) -> Result<TaskNames, String> {
+    NamedTasks::parse_list(text, RAYS.assignment).map(TaskNames::from)
 }
 
 fn parse_tasks(text: &str) -> Result<TaskSelection, String> {

@@ -8,6 +8,7 @@ use crate::exam_source::ExamSourceError;
 use crate::files::PathError;
 use crate::format::outputs::OutputError;
 use crate::policy::{PolicyError, SubmissionTimeError};
+use crate::reset::ResetError;
 use crate::select_isolation::IsolationError;
 use crate::submission::SubmissionError;
 use crate::workspace::WorkspaceError;
@@ -36,6 +37,9 @@ pub enum Error {
     /// The question to replay does not exist.
     #[error("{0}")]
     Replay(String),
+    /// A task cannot start afresh.
+    #[error(transparent)]
+    Reset(#[from] ResetError),
     /// More points are required than there are.
     #[error("--require {points} cannot be met: the assignment has {most} points")]
     RequiredPoints {
@@ -65,12 +69,14 @@ impl Error {
     /// Returns 2 for errors that the user can fix, and 3 for errors of the grader or the machine.
     pub fn exit_code(&self) -> u8 {
         match self {
+            Error::Reset(ResetError::File(_)) => 3,
             Error::Submission(_)
             | Error::Exam(_)
             | Error::Policy(_)
             | Error::Package(_)
             | Error::Output(OutputError::MissingVariable { .. })
             | Error::Replay(_)
+            | Error::Reset(_)
             | Error::RequiredPoints { .. } => 2,
             Error::Workspace(_)
             | Error::SubmissionTime(_)

@@ -8,7 +8,7 @@
 //!
 //! | layer | modules |
 //! |---|---|
-//! | commands | [`cli`], [`terminal`], [`replay`], [`watch`], [`doctor`] |
+//! | commands | [`cli`], [`terminal`], [`replay`], [`watch`], [`doctor`], [`reset`] |
 //! | grading | [`grade`], [`cache_lookup`]; [`options`] |
 //! | files of the report | [`cached_report`], [`report_files`] |
 //! | exam runs and reports | [`run_exam`], [`verdict`], [`report_answers`], [`report`], [`mod@format`] |
@@ -43,6 +43,7 @@ pub mod report;
 pub mod report_answers;
 pub mod report_files;
 pub mod rerun_command;
+pub mod reset;
 pub mod run_exam;
 pub mod sandbox;
 pub mod score;

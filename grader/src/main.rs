@@ -6,6 +6,7 @@ use grader::cli::{Arguments, Command};
 use grader::error::Error;
 use grader::policy;
 use grader::replay::replay;
+use grader::reset::reset;
 use grader::sandbox;
 use grader::score;
 use grader::terminal::{check_and_print_package, diagnose_and_print, grade_and_print};
@@ -27,6 +28,11 @@ fn run(command: Command) -> Result<ExitCode, Error> {
         Command::Grade(options, print) => return grade_and_print(&options, print),
         Command::Watch { options, open } => match watch(&options, open)? {},
         Command::Replay(options, question) => anstream::print!("{}", replay(&options, &question)?),
+        Command::Reset {
+            handed_out,
+            folder,
+            names,
+        } => anstream::print!("{}", reset(handed_out, folder.as_deref(), &names)?),
         Command::Diagnose => return diagnose_and_print(),
         Command::CheckPackage(path, handed_out) => {
             return check_and_print_package(&path, handed_out);

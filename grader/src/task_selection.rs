@@ -22,23 +22,12 @@ impl TaskSelection {
     ///
     /// A message for the command line if a name is unknown.
     pub fn parse(text: &str, assignment: &Assignment) -> Result<Self, String> {
-        let mut selected = Vec::new();
-        for name in text.split(',').map(str::trim) {
-            let tasks = tasks_named(name, assignment);
-            if tasks.is_empty() {
-                let names = assignment
-                    .tasks
-                    .iter()
-                    .flat_map(|task| [task.id, stem(task)]);
-                return Err(format!(
-                    "unknown task{}; the tasks are {}",
-                    suggestion(name, names),
-                    assignment.id_list()
-                ));
-            }
-            selected.extend(tasks);
-        }
-        Ok(TaskSelection::Only(selected))
+        let named = NamedTasks::parse_list(text, assignment)?;
+        let tasks = named.into_iter().flat_map(|named| match named {
+            NamedTasks::Task(task) => vec![task],
+            NamedTasks::File(file) => assignment.tasks_in(file).collect(),
+        });
+        Ok(TaskSelection::Only(tasks.collect()))
     }
 
     /// Returns whether the task is selected.
@@ -55,19 +44,43 @@ impl TaskSelection {
     }
 }
 
-/// Returns the task with this id or, if there is none, the tasks in the file with this name.
-fn tasks_named(name: &str, assignment: &Assignment) -> Vec<Task> {
-    let is = |known: &str| known.eq_ignore_ascii_case(name);
-    let tasks = || assignment.tasks.iter();
-    let by_id: Vec<Task> = tasks()
-        .filter(|task| is(task.id))
-        .map(TaskInfo::task)
-        .collect();
-    if !by_id.is_empty() {
-        return by_id;
+/// A task, or all tasks of a file, as people name them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NamedTasks {
+    /// The task with this id.
+    Task(Task),
+    /// All tasks in the file with this name.
+    File(&'static str),
+}
+
+impl NamedTasks {
+    /// Returns the tasks with these names, separated by commas. See [`TaskSelection::parse`].
+    ///
+    /// # Errors
+    ///
+    /// A message for the command line if a name is unknown.
+    pub fn parse_list(text: &str, assignment: &Assignment) -> Result<Vec<Self>, String> {
+        let names = text.split(',').map(str::trim);
+        names.map(|name| Self::parse(name, assignment)).collect()
     }
-    let by_file = tasks().filter(|task| is(task.file) || is(stem(task)));
-    by_file.map(TaskInfo::task).collect()
+
+    /// Returns the task with this id or, if there is none, the file with this name.
+    fn parse(name: &str, assignment: &Assignment) -> Result<Self, String> {
+        let is = |known: &str| known.eq_ignore_ascii_case(name);
+        let tasks = || assignment.tasks.iter();
+        if let Some(task) = tasks().find(|task| is(task.id)) {
+            return Ok(NamedTasks::Task(task.task()));
+        }
+        if let Some(task) = tasks().find(|task| is(task.file) || is(stem(task))) {
+            return Ok(NamedTasks::File(task.file));
+        }
+        let names = tasks().flat_map(|task| [task.id, stem(task)]);
+        Err(format!(
+            "unknown task{}; the tasks are {}",
+            suggestion(name, names),
+            assignment.id_list()
+        ))
+    }
 }
 
 /// Returns the name of a task's file without `.rs`.

@@ -2,6 +2,8 @@
 //! students write, and the given files around them. Given files in a submission are compared with
 //! these, but never used.
 
+mod fresh;
+mod method_span;
 mod own_lines;
 mod rays;
 mod tokens;
@@ -12,6 +14,8 @@ use judging::assignment::{Assignment, TaskInfo};
 
 use tokens::{contains, tokens};
 
+pub use fresh::{FreshMethod, FreshMethodError};
+pub use method_span::MethodSpanError;
 pub use rays::RAYS;
 
 /// An assignment as it is handed out.

@@ -19,6 +19,7 @@ mod language;
 mod ordinary_user;
 mod packages;
 mod policies;
+mod reset;
 mod scores;
 mod substitution;
 mod watch;

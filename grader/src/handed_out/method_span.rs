@@ -1,0 +1,198 @@
+//! Finds a method in source code by its tokens, so that it can be replaced without touching anything
+//! else in the file.
+
+use std::ops::Range;
+
+use ra_ap_rustc_lexer::{FrontmatterAllowed, Token, TokenKind, tokenize};
+
+use super::tokens::tokens;
+
+/// Reasons why a method cannot be found in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MethodSpanError {
+    /// A brace, bracket or parenthesis is missing or superfluous.
+    #[error("its braces do not match")]
+    UnmatchedBraces,
+    /// No `impl` block of the type has the method.
+    #[error("it was renamed or removed")]
+    NotFound,
+    /// Several methods have this name.
+    #[error("there are several with this name")]
+    SeveralFound,
+}
+
+/// A method in an `impl` block at the top level of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MethodSpan {
+    /// The tokens between `impl` and the block's brace, separated by spaces, such as `Sphere`.
+    pub implemented: String,
+    /// The method's bytes in the text, from its documentation to its closing brace.
+    pub bytes: Range<usize>,
+}
+
+/// Returns the method with this name in an `impl` block of the type `implemented`.
+pub fn find_method(
+    text: &str,
+    implemented: &str,
+    method: &str,
+) -> Result<MethodSpan, MethodSpanError> {
+    let mut found = methods_named(text, method)?;
+    found.retain(|span| span.implemented == implemented);
+    match found.len() {
+        0 => Err(MethodSpanError::NotFound),
+        1 => Ok(found.remove(0)),
+        _ => Err(MethodSpanError::SeveralFound),
+    }
+}
+
+/// Returns all methods with this name in the `impl` blocks at the top level of a file.
+pub fn methods_named(text: &str, method: &str) -> Result<Vec<MethodSpan>, MethodSpanError> {
+    let mut scan = Scan {
+        text,
+        method,
+        open: Vec::new(),
+        header: None,
+        block: None,
+        item: None,
+        is_method: false,
+        after_fn: false,
+        found: Vec::new(),
+    };
+    let mut start = 0;
+    for token in tokenize(text, FrontmatterAllowed::No) {
+        let bytes = start..start + token.len as usize;
+        start = bytes.end;
+        scan.add(&token, bytes)?;
+    }
+    match scan.open[..] {
+        [] => Ok(scan.found),
+        _ => Err(MethodSpanError::UnmatchedBraces),
+    }
+}
+
+/// The state while the tokens of a file are read in order.
+struct Scan<'a> {
+    text: &'a str,
+    method: &'a str,
+    /// The closing delimiters that are expected, from the outermost to the innermost.
+    open: Vec<TokenKind>,
+    /// The end of the keyword `impl`, while its header is read.
+    header: Option<usize>,
+    /// The tokens of the header of the `impl` block that is being read.
+    block: Option<String>,
+    /// The start of the item in the block that is being read, with its documentation.
+    item: Option<usize>,
+    /// Whether this item is a method with the name.
+    is_method: bool,
+    /// Whether the last token was `fn`.
+    after_fn: bool,
+    found: Vec<MethodSpan>,
+}
+
+impl Scan<'_> {
+    fn add(&mut self, token: &Token, bytes: Range<usize>) -> Result<(), MethodSpanError> {
+        use TokenKind::{
+            BlockComment, CloseBrace, CloseBracket, CloseParen, Ident, LineComment, OpenBrace,
+            OpenBracket, OpenParen, Semi, Whitespace,
+        };
+        // An ordinary comment above an item is not part of it.
+        if let Whitespace
+        | LineComment { doc_style: None }
+        | BlockComment {
+            doc_style: None, ..
+        } = token.kind
+        {
+            return Ok(());
+        }
+        let in_block = self.block.is_some() && self.open.len() == 1;
+        if in_block && token.kind != CloseBrace {
+            self.item.get_or_insert(bytes.start);
+        }
+        let is_after_fn = std::mem::take(&mut self.after_fn);
+        match token.kind {
+            Ident if self.open.is_empty() && &self.text[bytes.clone()] == "impl" => {
+                self.header = Some(bytes.end);
+            }
+            Ident if in_block => {
+                let word = &self.text[bytes];
+                self.is_method |= is_after_fn && word == self.method;
+                self.after_fn = word == "fn";
+            }
+            OpenBrace => {
+                if self.open.is_empty()
+                    && let Some(header) = self.header.take()
+                {
+                    self.block = Some(tokens(&self.text[header..bytes.start]).join(" "));
+                }
+                self.open.push(CloseBrace);
+            }
+            OpenParen => self.open.push(CloseParen),
+            OpenBracket => self.open.push(CloseBracket),
+            CloseBrace | CloseParen | CloseBracket => {
+                if self.open.pop() != Some(token.kind) {
+                    return Err(MethodSpanError::UnmatchedBraces);
+                }
+                if self.open.is_empty() && token.kind == CloseBrace {
+                    self.block = None;
+                }
+                // An attribute ends with a bracket, a signature's arguments with a parenthesis.
+                if in_block || (self.open.len() == 1 && token.kind == CloseBrace) {
+                    self.end_item(bytes.end);
+                }
+            }
+            Semi if in_block => self.end_item(bytes.end),
+            Semi if self.open.is_empty() => self.header = None,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Ends the item that is being read, and records it if it is the method.
+    fn end_item(&mut self, end: usize) {
+        let start = self.item.take();
+        let is_method = std::mem::take(&mut self.is_method);
+        if let (Some(start), Some(implemented), true) = (start, &self.block, is_method) {
+            self.found.push(MethodSpan {
+                implemented: implemented.clone(),
+                bytes: start..end,
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(text: &str) -> Result<&str, MethodSpanError> {
+        find_method(text, "Ball", "hit").map(|span| &text[span.bytes])
+    }
+
+    #[test]
+    fn finds_a_method_with_its_documentation_whatever_is_in_its_body() {
+        let method = "/// Text with a }.\n    #[inline]\n    pub fn hit(&self, a: [f32; 2]) -> bool {\n        let s = \"}\"; // }\n        if s == r#\"{\"# { '{' == '}' } else { true }\n    }";
+        let text = format!(
+            "impl Node {{ fn hit() {{}} }}\nimpl Clone for Ball {{ fn hit() {{}} }}\n\
+             impl Ball {{\n    const A: [u8; 1] = [1];\n    fn first() {{}}\n    // Mine.\n    \
+             {method}\n    fn hits() {{ fn hit() {{}} }}\n}}\nmod tests {{ impl Ball {{ fn hit() {{}} }} }}\n"
+        );
+        assert_eq!(found(&text), Ok(method));
+    }
+
+    #[test]
+    fn says_why_a_method_is_not_found() {
+        use MethodSpanError::{NotFound, SeveralFound, UnmatchedBraces};
+        for (text, error) in [
+            ("impl Ball { fn hit_it() {} }", NotFound),
+            ("fn hit() {}", NotFound),
+            ("", NotFound),
+            ("impl Ball { fn hit() {} fn hit() {} }", SeveralFound),
+            ("impl Ball { fn hit() { }", UnmatchedBraces),
+            ("impl Ball { fn hit() } }", UnmatchedBraces),
+            ("impl Ball { fn hit() { ( } ) }", UnmatchedBraces),
+            ("impl Ball { fn hit() { \"} }", UnmatchedBraces),
+        ] {
+            assert_eq!(found(text), Err(error), "{text}");
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! The reasons why a task cannot start afresh.
+
+use std::path::PathBuf;
+
+use crate::files::PathError;
+use crate::handed_out::FreshMethodError;
+use crate::submission::places;
+
+/// The reason why a task cannot start afresh.
+#[derive(Debug, thiserror::Error)]
+pub enum ResetError {
+    /// The path is an archive or does not exist.
+    #[error(
+        "{0} is not a folder: --reset changes the files in a folder, such as `student`; unpack an \
+         archive first"
+    )]
+    NotAFolder(PathBuf),
+    /// A file or folder is a link, which could lead to someone else's files.
+    #[error("{0} is a link, and links are not followed: replace it with the actual file or folder")]
+    Link(PathBuf),
+    /// The path of a file is a folder or a device.
+    #[error("{0} is not a regular file: move it away, and try again")]
+    NotRegular(PathBuf),
+    /// The folder has none of the task files.
+    #[error("{folder} has none of {files}: name the folder with the task files, such as `student`")]
+    NoTaskFiles {
+        /// The submission's folder.
+        folder: PathBuf,
+        /// The names of the task files.
+        files: String,
+    },
+    /// Several folders have task files.
+    #[error(
+        "{folder} has task files in {}: name the one that you mean",
+        places(folders)
+    )]
+    SeveralFolders {
+        /// The submission's folder.
+        folder: PathBuf,
+        /// The paths below it that have task files.
+        folders: Vec<String>,
+    },
+    /// A file in which one method is to be replaced does not exist.
+    #[error("{0} is missing: `cargo grade --reset {0}` writes the file as it was handed out")]
+    Missing(&'static str),
+    /// The file is not UTF-8.
+    #[error(
+        "{0} is not UTF-8 text: `cargo grade --reset {0}` replaces the whole file, and keeps a copy"
+    )]
+    NotText(&'static str),
+    /// The method is not found.
+    #[error(
+        "{0}; `cargo grade --reset {file}` replaces the whole file, and keeps a copy",
+        file = .0.file
+    )]
+    Method(#[from] FreshMethodError),
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] PathError),
+}

@@ -1,0 +1,164 @@
+//! Starts tasks afresh: replaces their methods, or whole files, with the starter's. The old files
+//! are kept.
+
+mod backup;
+mod error;
+mod source_folder;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use judging::assignment::Task;
+use judging::sanitize::sanitize_line;
+
+use crate::error::Error;
+use crate::handed_out::{HandedOut, TaskFile};
+use crate::report::atomic_write;
+use crate::task_selection::NamedTasks;
+use crate::workspace::Workspace;
+
+use source_folder::SourceFolder;
+
+pub use error::ResetError;
+
+/// Starts the named tasks afresh in a submission's folder, by default the folder of students' own
+/// work. Returns a message that says what has changed. If there is an error, nothing has changed,
+/// unless the error is about writing.
+pub fn reset(
+    handed_out: &'static HandedOut,
+    folder: Option<&Path>,
+    names: &[NamedTasks],
+) -> Result<String, Error> {
+    let workspace = Workspace::find()?;
+    let folder = workspace.resolve(folder.unwrap_or(Path::new(handed_out.student)));
+    let source = SourceFolder::find(&folder, handed_out)?;
+    let changes: Vec<FileChange> = requests(handed_out, names)
+        .into_iter()
+        .map(|(file, request)| FileChange::new(handed_out, &source, file, request))
+        .collect::<Result<_, ResetError>>()?;
+    let lines: Vec<String> = changes
+        .iter()
+        .map(|change| change.apply(&source))
+        .collect::<Result<_, ResetError>>()?;
+    Ok(lines.concat())
+}
+
+/// The part of a file that starts afresh.
+enum Request {
+    WholeFile,
+    Methods(Vec<Task>),
+}
+
+/// Returns what starts afresh in each file.
+fn requests(handed_out: &HandedOut, names: &[NamedTasks]) -> BTreeMap<&'static str, Request> {
+    let mut requests: BTreeMap<&'static str, Request> = BTreeMap::new();
+    for name in names {
+        match *name {
+            NamedTasks::File(file) => {
+                requests.insert(file, Request::WholeFile);
+            }
+            NamedTasks::Task(task) => {
+                let file = handed_out.assignment.info(task).file;
+                let request = requests.entry(file);
+                let request = request.or_insert_with(|| Request::Methods(Vec::new()));
+                if let Request::Methods(tasks) = request {
+                    tasks.push(task);
+                }
+            }
+        }
+    }
+    requests
+}
+
+/// A file as it is, and as it will be.
+struct FileChange {
+    file: &'static TaskFile,
+    /// The bytes of the file as it is, or `None` if it does not exist.
+    before: Option<Vec<u8>>,
+    /// The text of the file as it will be, or `None` if it is that already.
+    after: Option<String>,
+    /// The part that starts afresh, for a message.
+    part: String,
+}
+
+impl FileChange {
+    fn new(
+        handed_out: &'static HandedOut,
+        source: &SourceFolder,
+        file: &'static str,
+        request: Request,
+    ) -> Result<Self, ResetError> {
+        let task_file = handed_out.task_file(file);
+        let file = task_file.expect("tasks have a task file");
+        let before = source.read(file)?;
+        let (part, after) = match request {
+            Request::WholeFile => {
+                let is_starter = before.as_deref() == Some(file.starter.as_bytes());
+                let after = (!is_starter).then(|| file.starter.to_owned());
+                ("the whole file".to_owned(), after)
+            }
+            Request::Methods(tasks) => {
+                let bytes = before.as_deref().ok_or(ResetError::Missing(file.name))?;
+                let text = std::str::from_utf8(bytes);
+                let text = text.map_err(|_| ResetError::NotText(file.name))?;
+                fresh_methods(handed_out, text, &tasks)?
+            }
+        };
+        Ok(FileChange {
+            file,
+            before,
+            after,
+            part,
+        })
+    }
+
+    /// Keeps the old file and writes the new one. Returns lines for a message.
+    fn apply(&self, source: &SourceFolder) -> Result<String, ResetError> {
+        let path = source.path.join(self.file.name);
+        let part = &self.part;
+        let Some(after) = &self.after else {
+            return Ok(format!(
+                "{}: {part} is as handed out, so nothing has changed\n",
+                shown(&path)
+            ));
+        };
+        let kept = match &self.before {
+            Some(bytes) => Some(backup::keep(&path, bytes)?),
+            None => None,
+        };
+        atomic_write::write(after, &path)?;
+        let kept = kept.map_or(String::new(), |kept| {
+            format!("  your old file is {}\n", shown(&kept))
+        });
+        Ok(format!(
+            "{}: {part} is as handed out again\n{kept}",
+            shown(&path)
+        ))
+    }
+}
+
+/// Returns the names of the tasks' methods, and the text with all of them as they were handed out,
+/// or `None` if they already are.
+fn fresh_methods(
+    handed_out: &HandedOut,
+    text: &str,
+    tasks: &[Task],
+) -> Result<(String, Option<String>), ResetError> {
+    let (mut methods, mut changed) = (Vec::new(), None);
+    for task in tasks {
+        let current = changed.as_deref().unwrap_or(text);
+        let fresh = handed_out.with_fresh_method(*task, current)?;
+        methods.push(fresh.method);
+        if fresh.is_changed {
+            changed = Some(fresh.text);
+        }
+    }
+    Ok((methods.join(", "), changed))
+}
+
+/// Returns a path for a message, relative to the current folder if it is inside that folder.
+fn shown(path: &Path) -> String {
+    let here = std::env::current_dir().unwrap_or_default();
+    let path: PathBuf = path.strip_prefix(here).unwrap_or(path).to_owned();
+    sanitize_line(&path.to_string_lossy(), usize::MAX)
+}

@@ -7,6 +7,7 @@ use crate::doctor::package::PackageError;
 use crate::exam_source::ExamSourceError;
 use crate::files::PathError;
 use crate::format::outputs::OutputError;
+use crate::hand_in::HandInError;
 use crate::policy::{PolicyError, SubmissionTimeError};
 use crate::reset::ResetError;
 use crate::select_isolation::IsolationError;
@@ -40,6 +41,9 @@ pub enum Error {
     /// A task cannot start afresh.
     #[error(transparent)]
     Reset(#[from] ResetError),
+    /// No archive can be made to hand in.
+    #[error(transparent)]
+    HandIn(#[from] HandInError),
     /// More points are required than there are.
     #[error("--require {points} cannot be met: the assignment has {most} points")]
     RequiredPoints {
@@ -69,7 +73,8 @@ impl Error {
     /// Returns 2 for errors that the user can fix, and 3 for errors of the grader or the machine.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::Reset(ResetError::File(_)) => 3,
+            Error::Reset(ResetError::File(_))
+            | Error::HandIn(HandInError::Archive(_) | HandInError::ReadBack(_)) => 3,
             Error::Submission(_)
             | Error::Exam(_)
             | Error::Policy(_)
@@ -77,6 +82,7 @@ impl Error {
             | Error::Output(OutputError::MissingVariable { .. })
             | Error::Replay(_)
             | Error::Reset(_)
+            | Error::HandIn(_)
             | Error::RequiredPoints { .. } => 2,
             Error::Workspace(_)
             | Error::SubmissionTime(_)

@@ -8,7 +8,7 @@
 //!
 //! | layer | modules |
 //! |---|---|
-//! | commands | [`cli`], [`terminal`], [`replay`], [`watch`], [`doctor`], [`reset`] |
+//! | commands | [`cli`], [`terminal`], [`replay`], [`watch`], [`doctor`], [`reset`], [`hand_in`] |
 //! | grading | [`grade`], [`cache_lookup`]; [`options`] |
 //! | files of the report | [`cached_report`], [`report_files`] |
 //! | exam runs and reports | [`run_exam`], [`verdict`], [`report_answers`], [`report`], [`mod@format`] |
@@ -32,6 +32,7 @@ pub mod exam_source;
 pub mod files;
 pub mod format;
 pub mod grade;
+pub mod hand_in;
 pub mod handed_out;
 pub mod nearest_name;
 pub mod options;

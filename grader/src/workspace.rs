@@ -3,6 +3,8 @@
 use std::env;
 use std::path::{Path, PathBuf};
 
+use judging::sanitize::sanitize_line;
+
 use crate::handed_out::HandedOut;
 
 /// The folder that contains `student/` and the lock file.
@@ -17,6 +19,14 @@ pub struct Workspace {
     "cannot find the assignment's folder, which contains student/framework: run the command inside it"
 )]
 pub struct WorkspaceError;
+
+/// Returns a path for a message: relative to the current folder if it is inside that folder, and
+/// safe to print.
+pub fn display_path(path: &Path) -> String {
+    let here = env::current_dir().unwrap_or_default();
+    let path = path.strip_prefix(here).unwrap_or(path);
+    sanitize_line(&path.to_string_lossy(), usize::MAX)
+}
 
 impl Workspace {
     /// Finds the workspace around the current folder, or else the one in which this program was

@@ -205,6 +205,8 @@ impl From<GraderError> for Error {
             | GraderError::Package(_)
             | GraderError::Output(_)
             | GraderError::Replay(_)
+            | GraderError::Reset(_)
+            | GraderError::HandIn(_)
             | GraderError::RequiredPoints { .. }
             | GraderError::Workspace(_)
             | GraderError::Build(_)

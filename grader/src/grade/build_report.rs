@@ -6,7 +6,7 @@ use crate::submission::Submission;
 use crate::verdict::{file_line, file_message};
 
 /// Returns the compiler errors, and notes on the submission's files.
-pub(super) fn build_report(submission: &Submission, build: &Build) -> BuildReport {
+pub fn build_report(submission: &Submission, build: &Build) -> BuildReport {
     let not_compiled = build.not_compiled.iter().map(|(file, why)| FileReport {
         file: (*file).to_owned(),
         line: file_line(why),

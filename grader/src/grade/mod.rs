@@ -17,6 +17,7 @@ use crate::report_files::ReportFiles;
 use crate::score::Score;
 use crate::verdict::{file_line, file_message};
 
+pub use build_report::build_report;
 pub use grader::{BuiltSubmission, Grader};
 pub use resolve::{builder, collect, default_folder};
 

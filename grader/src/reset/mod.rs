@@ -6,16 +6,15 @@ mod error;
 mod source_folder;
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use judging::assignment::Task;
-use judging::sanitize::sanitize_line;
 
 use crate::error::Error;
 use crate::handed_out::{HandedOut, TaskFile};
 use crate::report::atomic_write;
 use crate::task_selection::NamedTasks;
-use crate::workspace::Workspace;
+use crate::workspace::{Workspace, display_path};
 
 use source_folder::SourceFolder;
 
@@ -119,7 +118,7 @@ impl FileChange {
         let Some(after) = &self.after else {
             return Ok(format!(
                 "{}: {part} is as handed out, so nothing has changed\n",
-                shown(&path)
+                display_path(&path)
             ));
         };
         let kept = match &self.before {
@@ -128,11 +127,11 @@ impl FileChange {
         };
         atomic_write::write(after, &path)?;
         let kept = kept.map_or(String::new(), |kept| {
-            format!("  your old file is {}\n", shown(&kept))
+            format!("  your old file is {}\n", display_path(&kept))
         });
         Ok(format!(
             "{}: {part} is as handed out again\n{kept}",
-            shown(&path)
+            display_path(&path)
         ))
     }
 }
@@ -154,11 +153,4 @@ fn fresh_methods(
         }
     }
     Ok((methods.join(", "), changed))
-}
-
-/// Returns a path for a message, relative to the current folder if it is inside that folder.
-fn shown(path: &Path) -> String {
-    let here = std::env::current_dir().unwrap_or_default();
-    let path: PathBuf = path.strip_prefix(here).unwrap_or(path).to_owned();
-    sanitize_line(&path.to_string_lossy(), usize::MAX)
 }

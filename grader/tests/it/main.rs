@@ -10,6 +10,7 @@ mod dependencies;
 mod faults;
 mod file_errors;
 mod formats;
+mod hand_in;
 mod harness;
 mod hints;
 #[cfg(target_os = "linux")]

@@ -9,7 +9,7 @@ use toml_edit::{Array, DocumentMut, Item, TomlError};
 use crate::bundle::Bundle;
 
 /// The cargo aliases that work without the `reference` and `author` crates.
-const ALIASES: [&str; 4] = ["grade", "render", "view", "examples"];
+const ALIASES: [&str; 5] = ["grade", "handin", "render", "view", "examples"];
 /// The manifest keys that are only for tests and benches, which are not in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 

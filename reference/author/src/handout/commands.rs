@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use clap::{Args, CommandFactory, Parser};
 use class::cli::{ClassArguments, Cli as ClassCli};
 use grader::cli::Arguments;
+use grader::hand_in::HandInArguments;
 
 use super::pages::{Page, Snippet};
 use super::source_file::SourceFile;
@@ -77,6 +78,7 @@ fn unknown_command(
     let line: Vec<&str> = [*command].into_iter().chain(arguments).collect();
     let error = match *command {
         "grade" => Arguments::try_parse_from(&line).err(),
+        "handin" => HandInArguments::try_parse_from(&line).err(),
         "author" => Cli::try_parse_from(&line).err(),
         "class" => ClassCli::try_parse_from(&line).err(),
         "render" | "render-reference" => {
@@ -102,8 +104,11 @@ fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     };
     let is_authors = Cli::command().get_subcommands().cloned().any(takes);
     let is_classes = takes(ClassArguments::augment_args(clap::Command::default()));
-    let known =
-        takes(Arguments::command()) || is_authors || is_classes || HARNESS_FLAGS.contains(&flag);
+    let known = takes(Arguments::command())
+        || takes(HandInArguments::command())
+        || is_authors
+        || is_classes
+        || HARNESS_FLAGS.contains(&flag);
     if known {
         return None;
     }
@@ -154,7 +159,9 @@ mod tests {
             source(VIEW_OPTIONS, "    pub no_open: bool,"),
             source("student/src/bvh.rs", ""),
         ];
-        let aliases = ["grade", "author", "class", "render", "view", "examples"];
+        let aliases = [
+            "grade", "handin", "author", "class", "render", "view", "examples",
+        ];
         let aliases = aliases.map(str::to_owned);
         unknown_commands(&Page::new("a.md", markdown), &sources, &aliases.into())
     }
@@ -162,14 +169,14 @@ mod tests {
     #[test]
     fn known_commands_and_flags_pass() {
         let text = "```sh\ncargo grade --task sphere  # one task\ncargo author exams --check\n\
-                    cargo examples bvh --nocapture\ncargo class a.zip --dry-run\ncargo author exam --seed 7 > b\n```\n`--hints` `--shard 1/8` `cargo render cornell-box --view depth` `--view` `cargo view flat --no-open`";
+                    cargo examples bvh --nocapture\ncargo class a.zip --dry-run\ncargo author exam --seed 7 > b\n```\n`--hints` `--shard 1/8` `cargo render cornell-box --view depth` `--view` `cargo view flat --no-open` `cargo handin --out a.zip`";
         assert_eq!(problems(text), [""; 0]);
     }
 
     #[test]
     fn reports_each_unknown_command_or_flag_with_its_line() {
         let text = "```sh\ncargo grade --taks sphere\ncargo grade --task spheres\ncargo gradee\n\
-                    cargo render a --views\ncargo examples tree\nmake\ncargo class a --shard 9/8\ncargo view --opens\n```\n`--hint`";
+                    cargo render a --views\ncargo examples tree\nmake\ncargo handin --zip\ncargo class a --shard 9/8\ncargo view --opens\n```\n`--hint`";
         let problems = problems(text);
         let starts = [
             "a.md:2: `cargo grade --taks sphere`: error: unexpected argument '--taks' found",
@@ -178,9 +185,10 @@ mod tests {
             "a.md:5: cargo render has no flag --views",
             "a.md:6: there is no file tree.rs with examples",
             "a.md:7: unknown command make",
-            "a.md:8: `cargo class a --shard 9/8`: error: invalid value '9/8'",
-            "a.md:9: cargo view has no flag --opens",
-            "a.md:11: no command has the flag --hint",
+            "a.md:8: `cargo handin --zip`: error: unexpected argument '--zip' found",
+            "a.md:9: `cargo class a --shard 9/8`: error: invalid value '9/8'",
+            "a.md:10: cargo view has no flag --opens",
+            "a.md:12: no command has the flag --hint",
         ];
         assert_eq!(problems.len(), starts.len(), "{problems:#?}");
         for (problem, start) in problems.iter().zip(starts) {

@@ -1,0 +1,110 @@
+//! Makes the archive that a student hands in, and checks it as the grader will read it.
+
+mod archive;
+mod cli;
+mod error;
+mod summary;
+
+use std::path::PathBuf;
+
+use crate::build::Builder;
+use crate::error::Error;
+use crate::files;
+use crate::grade::{build_report, collect};
+use crate::handed_out::HandedOut;
+use crate::options::GradeOptions;
+use crate::report::atomic_write;
+use crate::score::BuildReport;
+use crate::submission::Submission;
+use crate::workspace::Workspace;
+
+pub use archive::archive_bytes;
+pub use cli::HandInArguments;
+pub use error::HandInError;
+
+/// The name of the archive, in the workspace's root.
+const ARCHIVE: &str = "handin.zip";
+
+/// An archive that was made and checked.
+#[derive(Debug)]
+pub struct HandIn {
+    /// The path of the archive.
+    pub archive: PathBuf,
+    /// The submission as it was read back from the archive.
+    submission: Submission,
+    /// The task files in the folder, some of which may be missing or unreadable.
+    original: Submission,
+    /// The compiler's errors, and notes about files.
+    build: BuildReport,
+}
+
+impl HandIn {
+    /// Makes the archive of a student's own work or of another folder, reads it back, and compiles
+    /// what is in it.
+    pub fn make(arguments: HandInArguments, handed_out: &'static HandedOut) -> Result<Self, Error> {
+        let workspace = Workspace::find()?;
+        let folder = arguments.folder;
+        if let Some(folder) = &folder
+            && workspace.resolve(folder).is_file()
+        {
+            return Err(HandInError::NotAFolder(folder.clone()).into());
+        }
+        let options = GradeOptions {
+            handed_out,
+            submission: folder,
+            ..GradeOptions::default()
+        };
+        let original = collect(&options, &workspace)?;
+        let archive = match arguments.out {
+            Some(path) => path,
+            None => workspace.root().join(ARCHIVE),
+        };
+        if original.files.iter().all(|(_, text)| text.is_err()) {
+            return Err(HandInError::NothingReadable(original.name).into());
+        }
+        let bytes = archive_bytes(&original).map_err(HandInError::Archive)?;
+        atomic_write::write(&bytes, &archive)?;
+
+        let submission = read_back(&archive, &original, &bytes)?;
+        let build = Builder::prepare(&workspace)?.build(&submission)?;
+        Ok(HandIn {
+            build: build_report(&original, &build),
+            archive,
+            submission,
+            original,
+        })
+    }
+
+    /// Returns whether something was written, and everything compiles.
+    pub fn is_ready(&self) -> bool {
+        self.is_started() && self.build.not_compiled.is_empty()
+    }
+
+    /// Returns whether a file differs from the one that was handed out.
+    fn is_started(&self) -> bool {
+        let mut files = self.original.files.iter();
+        files.any(|(file, text)| text.as_ref().is_ok_and(|text| !file.is_starter(text)))
+    }
+}
+
+/// Reads the archive as the grader will, and compares it with the original.
+fn read_back(
+    archive: &std::path::Path,
+    original: &Submission,
+    bytes: &[u8],
+) -> Result<Submission, Error> {
+    let changed = || HandInError::ReadBack(archive.to_owned());
+    if files::read(archive)? != bytes {
+        return Err(changed().into());
+    }
+    let submission = Submission::collect(archive, original.handed_out)?;
+    let pairs = submission.files.iter().zip(&original.files);
+    let is_same = pairs
+        .into_iter()
+        .all(|((_, read), (_, written))| read.as_ref().ok() == written.as_ref().ok());
+    if is_same {
+        Ok(submission)
+    } else {
+        Err(changed().into())
+    }
+}

@@ -1,0 +1,87 @@
+//! The text about an archive: what it holds, and what to do with it.
+
+use std::fmt;
+
+use judging::sanitize::sanitize_line;
+
+use super::HandIn;
+use crate::handed_out::{HandedOut, TaskFile};
+use crate::submission::TaskFileError;
+use crate::workspace::display_path;
+
+/// The maximum length of a compiler's message, in characters.
+const MAX_MESSAGE_CHARS: usize = 200;
+
+impl fmt::Display for HandIn {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let archive = display_path(&self.archive);
+        let count = self
+            .submission
+            .files
+            .iter()
+            .filter(|(_, text)| text.is_ok());
+        let count = match count.count() {
+            1 => "1 file".to_owned(),
+            count => format!("{count} files"),
+        };
+        writeln!(f, "\n  {archive}: {count}\n")?;
+        for (file, text) in &self.original.files {
+            writeln!(f, "  {:14}{}", file.name, self.state(file, text))?;
+        }
+        writeln!(f)?;
+        for note in &self.build.notes {
+            writeln!(f, "  note: {}", sanitize_line(note, usize::MAX))?;
+        }
+        let given = given_files(self.original.handed_out);
+        writeln!(f, "  Nothing else is needed: {given} are given.")?;
+        writeln!(f, "\n  {}", self.next_step(&archive))
+    }
+}
+
+impl HandIn {
+    /// Returns what the archive holds of a file.
+    fn state(&self, file: &TaskFile, text: &Result<String, TaskFileError>) -> String {
+        let text = match text {
+            Ok(text) => text,
+            Err(TaskFileError::Missing(_)) => return "missing".to_owned(),
+            Err(error) => return format!("not in the archive: {error}"),
+        };
+        let mut errors = self.build.not_compiled.iter();
+        if let Some(error) = errors.find(|error| error.file == file.name) {
+            let first = error.message.lines().next().unwrap_or_default();
+            let first = sanitize_line(first, MAX_MESSAGE_CHARS);
+            let line = error.line.map(|line| format!(" (line {line})"));
+            return format!("does not compile: {first}{}", line.unwrap_or_default());
+        }
+        if file.is_starter(text) {
+            return "as handed out".to_owned();
+        }
+        match file.own_lines(text).lines().count() {
+            1 => "1 line of your own".to_owned(),
+            0 => "no lines of your own, but some were removed".to_owned(),
+            count => format!("{count} lines of your own"),
+        }
+    }
+
+    /// Returns what to do with the archive.
+    fn next_step(&self, archive: &str) -> String {
+        if !self.is_started() {
+            return "Nothing is written yet: see handout/src/start.md.".to_owned();
+        }
+        let upload = format!("{archive} where your course collects this assignment.");
+        if self.build.not_compiled.is_empty() {
+            format!("Upload {upload}")
+        } else {
+            format!(
+                "Correct these files (`cargo grade` shows why), and run `cargo handin` again.\n  \
+                 If you have no more time, the other files count: upload {upload}"
+            )
+        }
+    }
+}
+
+/// Returns the names of the given files as a list for a sentence.
+fn given_files(handed_out: &HandedOut) -> String {
+    let names: Vec<&str> = handed_out.given.iter().map(|file| file.name).collect();
+    format!("{} and {}", names.join(", "), handed_out.main.name)
+}

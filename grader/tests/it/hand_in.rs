@@ -1,0 +1,127 @@
+//! `cargo handin` makes an archive that the grader reads, and says what it holds.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use grader::handed_out::RAYS;
+use insta::assert_snapshot;
+
+use crate::harness::{Submission, grader, workspace};
+
+fn hand_in(folder: &Path, out: &Path) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_handin"));
+    command.current_dir(workspace());
+    command.arg(folder).arg("--out").arg(out).output().unwrap()
+}
+
+/// Makes an archive beside the submission, and returns the exit code and the text.
+fn hand_in_beside(submission: &Submission) -> (Option<i32>, String) {
+    let out = submission.path().with_extension("zip");
+    let output = hand_in(&submission.path(), &out);
+    let text = String::from_utf8(output.stdout).unwrap() + &String::from_utf8_lossy(&output.stderr);
+    let folder = out.parent().unwrap().to_string_lossy().into_owned();
+    (output.status.code(), text.replace(&folder, "FOLDER"))
+}
+
+#[test]
+fn the_archive_is_graded_like_the_folder_and_has_the_same_bytes_each_time() {
+    let submission = Submission::reference("alice")
+        .with("notes.rs", "// Mine.\n")
+        .with("bvh.rs.bak-1", "old");
+    let (code, text) = hand_in_beside(&submission);
+    assert_eq!(code, Some(0), "{text}");
+    assert_snapshot!(text);
+    let archive = submission.path().with_extension("zip");
+    let first = fs::read(&archive).unwrap();
+
+    let mut zip = zip::ZipArchive::new(fs::File::open(&archive).unwrap()).unwrap();
+    let mut names: Vec<String> = Vec::new();
+    for index in 0..zip.len() {
+        let file = zip.by_index(index).unwrap();
+        assert_eq!(file.last_modified().unwrap().year(), 2000);
+        names.push(file.name().unwrap().into_owned());
+    }
+    let mut expected: Vec<&str> = RAYS.file_names().collect();
+    expected.sort_unstable();
+    assert_eq!(names, expected);
+
+    let graded = grader()
+        .arg(&archive)
+        .args(["--no-reference", "--require", "100", "--out"])
+        .arg(submission.path().join("out"))
+        .output()
+        .unwrap();
+    assert!(graded.status.success(), "{graded:?}");
+    assert_eq!(hand_in_beside(&submission).0, Some(0));
+    assert!(fs::read(&archive).unwrap() == first);
+}
+
+#[test]
+fn what_does_not_compile_or_is_missing_is_named_and_the_archive_is_made() {
+    let submission = Submission::starter("bob")
+        .with_replaced("bbox.rs", "impl BBox {", "impl BBox {\n    fn mine() {}\n")
+        .with_replaced(
+            "sphere.rs",
+            "todo!(",
+            "let mine = ray.direction;\n        todo!(",
+        )
+        .with("camera.rs", [0xff, 0xfe])
+        .without("triangle.rs");
+    let (code, text) = hand_in_beside(&submission);
+    assert_eq!(code, Some(1), "{text}");
+    assert_snapshot!(text);
+    assert!(submission.path().with_extension("zip").is_file());
+}
+
+#[test]
+fn without_a_line_of_ones_own_the_exit_code_is_1() {
+    let submission = Submission::starter("carol");
+    let (code, text) = hand_in_beside(&submission);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains("bvh.rs        as handed out"), "{text}");
+    assert!(text.contains("Nothing is written yet"), "{text}");
+    assert!(submission.path().with_extension("zip").is_file());
+}
+
+#[cfg(unix)]
+#[test]
+fn without_arguments_packs_ones_own_work_into_the_assignments_folder() {
+    let folder = crate::harness::linked_workspace();
+    let below = folder.path().join("handout");
+    fs::create_dir(&below).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_handin"));
+    let output = command.current_dir(&below).output().unwrap();
+    // The workspace has the starter, unless its owner has solved a task.
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{output:?}");
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("handin.zip: 5 files"), "{text}");
+    assert!(folder.path().join("handin.zip").is_file());
+}
+
+#[test]
+fn wrong_use_exits_with_2_and_a_folder_that_cannot_be_written_with_3() {
+    let submission = Submission::reference("dan");
+    let out = submission.path().join("out.zip");
+    let file = submission.path().join("bvh.rs");
+    let empty = tempfile::tempdir().unwrap();
+    for (folder, why) in [
+        (file.as_path(), "is a file: name the folder"),
+        (empty.path(), "has none of camera.rs"),
+        (Path::new("nowhere"), "there is no"),
+    ] {
+        let output = hand_in(folder, &out);
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            output.status.code() == Some(2) && error.contains(why),
+            "{error}"
+        );
+        assert!(!out.exists());
+    }
+    let output = hand_in(&submission.path(), &file.join("out.zip"));
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        output.status.code() == Some(3) && error.contains("cannot write"),
+        "{error}"
+    );
+}

@@ -16,9 +16,10 @@
 //! | results | [`score`], [`rerun_command`], [`stage_times`] |
 //! | inputs | [`policy`], [`submission`], [`handed_out`], [`exam_source`], [`question_ref`], [`task_selection`] |
 //! | a separate package | [`judging`]: exams, their keys, and the comparison of answers with keys |
-//! | the machine | [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`zipfile`]; [`files`], [`system`], [`nearest_name`] |
+//! | the machine | [`book`], [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`zipfile`]; [`files`], [`system`], [`nearest_name`] |
 
 pub mod alone;
+pub mod book;
 pub mod build;
 pub mod cache_lookup;
 pub mod cached_report;

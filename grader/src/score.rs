@@ -9,6 +9,7 @@ use judging::exam_file::ExamName;
 use judging::section::Section;
 use serde::Serialize;
 
+use crate::book::Book;
 use crate::handed_out::HandedOut;
 use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
@@ -40,6 +41,9 @@ pub struct Score {
     /// paths.
     #[serde(skip)]
     pub rerun_command: RerunCommand,
+    /// The built handout on this machine, which the page links to. Not stored in the file.
+    #[serde(skip)]
+    pub book: Option<Book>,
     /// Sum of the points of all tasks.
     pub points: u32,
     /// Maximum number of points.
@@ -60,6 +64,10 @@ pub struct TaskScore {
     pub id: Task,
     /// Title of the task.
     pub title: String,
+    /// The chapter of the handout about the task, for advice. Not stored in the file, in which each
+    /// item names its section.
+    #[serde(skip)]
+    pub chapter: Option<Section>,
     /// Sum of the points of its items.
     pub points: u32,
     /// Maximum number of points.

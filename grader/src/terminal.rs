@@ -1,11 +1,13 @@
 //! Grades a submission on behalf of a user at a terminal or in a CI job, and prints the report.
 
-use std::io;
+use std::borrow::Cow;
+use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::process::ExitCode;
 
-use judging::sanitize::{sanitize, sanitize_line};
+use judging::sanitize::sanitize;
 
+use crate::book::Book;
 use crate::cache_lookup::find_cached_report;
 use crate::cached_report;
 use crate::desktop;
@@ -15,8 +17,10 @@ use crate::format::github;
 use crate::grade::{GradedSubmission, grade};
 use crate::handed_out::HandedOut;
 use crate::options::GradeOptions;
+use crate::report::next_step::next_step;
 use crate::report::text::report;
 use crate::report_files::ReportFiles;
+use crate::workspace::{Workspace, display_path};
 
 /// Notice that is printed below a cached report.
 const UNCHANGED_NOTICE: &str =
@@ -118,6 +122,10 @@ fn terminal_report(graded: &GradedSubmission, options: &GradeOptions) -> String 
         &graded.student_view.visible
     };
     let mut text = report(score, &options.tasks, options.hints);
+    if options.formats.is_empty() {
+        let assignment = options.handed_out.assignment;
+        text.push_str(&next_step(score, &options.tasks, assignment));
+    }
     if options.policy.is_some() && options.tasks.is_all() {
         let counted = graded.student_view.counted.explanation();
         text.push_str(&format!("  {counted}\n\n"));
@@ -127,11 +135,8 @@ fn terminal_report(graded: &GradedSubmission, options: &GradeOptions) -> String 
 
 /// Returns the paths of the report's files, one per line.
 fn file_list(files: &ReportFiles) -> String {
-    let lines = files.paths().map(relative_to_current_folder);
-    lines
-        .map(|file| sanitize_line(&file.to_string_lossy(), usize::MAX))
-        .map(|file| format!("  {file}\n"))
-        .collect()
+    let paths = files.paths().map(display_path);
+    paths.map(|file| format!("  {file}\n")).collect()
 }
 
 /// Prints the text. On GitHub Actions, printed text can contain workflow commands; these are
@@ -142,13 +147,17 @@ fn print_text(text: &str) -> Result<(), Error> {
             let token = github::random_token().map_err(io::Error::other)?;
             anstream::println!("{}", github::with_commands_stopped(text, &token));
         }
-        None => anstream::println!("{text}"),
+        None => anstream::println!("{}", with_links_on_a_terminal(text)),
     }
     Ok(())
 }
 
-/// Returns the path relative to the current folder, if it is inside that folder.
-fn relative_to_current_folder(path: &Path) -> &Path {
-    let here = std::env::current_dir().unwrap_or_default();
-    path.strip_prefix(here).unwrap_or(path)
+/// Returns the text with links to the built handout, if there is one and the reader can click them.
+/// A cached report is linked only here, since it may be printed elsewhere the next time.
+fn with_links_on_a_terminal(text: &str) -> Cow<'_, str> {
+    let book = || Book::find(&Workspace::find().ok()?);
+    match io::stdout().is_terminal().then(book).flatten() {
+        Some(book) => Cow::Owned(book.with_links(text)),
+        None => Cow::Borrowed(text),
+    }
 }

@@ -77,13 +77,15 @@ pub fn pending_score(
     handed_out: &HandedOut,
 ) -> Score {
     let task_score = |task: Task| {
-        let items = exam.items.iter().filter(|item| item.task == task);
-        let items: Vec<_> = items
+        let of_task = || exam.items.iter().filter(|item| item.task == task);
+        let mut sections = of_task().filter_map(|item| item.section.as_ref());
+        let items: Vec<_> = of_task()
             .map(|item| item_score(item, &ItemOutcome::Pending, handed_out))
             .collect();
         TaskScore {
             id: task,
             title: handed_out.assignment.info(task).title.to_owned(),
+            chapter: sections.next().map(Section::whole_chapter),
             points: 0,
             max_points: items.iter().map(|item| item.max_points).sum(),
             items,
@@ -103,6 +105,7 @@ pub fn pending_score(
         isolation: Isolation::None,
         complete: false,
         rerun_command: RerunCommand::default(),
+        book: None,
         points: 0,
         max_points: tasks.iter().map(|task| task.max_points).sum(),
         tasks,

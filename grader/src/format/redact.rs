@@ -23,6 +23,7 @@ pub(super) fn visible_score(score: &Score, items: &[ItemView]) -> Score {
         // Students run the grader again on their own machines, where their own submission is the
         // default.
         rerun_command: RerunCommand::default(),
+        book: None,
         points: score.points,
         max_points: score.max_points,
         tasks: score
@@ -46,6 +47,7 @@ fn visible_task(task: &TaskScore, items: &[ItemView]) -> TaskScore {
     TaskScore {
         id: task.id,
         title: task.title.clone(),
+        chapter: task.chapter.clone(),
         points: task.points,
         max_points: task.max_points,
         items: items_shown_now(task, &of_task),

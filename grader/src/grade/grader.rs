@@ -11,6 +11,7 @@ use judging::exam_file::{ExamFile, ExamName};
 
 use super::build_report::build_report;
 use super::resolve::{builder, collect, default_folder, lateness, policy, submission_path};
+use crate::book::Book;
 use crate::build::{Build, BuildError, Builder, NotCompiled};
 use crate::error::Error;
 use crate::format::StudentView;
@@ -222,6 +223,7 @@ impl<'a> Grader<'a> {
             submission: self.options.submission.clone(),
             exam: self.options.exam.option().map(Path::to_owned),
         };
+        score.book = Book::find(&self.workspace);
         score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
         score.timings.build_ms = millis(built.took);

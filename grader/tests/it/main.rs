@@ -17,6 +17,7 @@ mod hints;
 mod isolation;
 mod language;
 #[cfg(target_os = "linux")]
+mod next_steps;
 mod ordinary_user;
 mod packages;
 mod policies;

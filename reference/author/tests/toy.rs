@@ -55,6 +55,8 @@ static TASKS: Assignment = Assignment {
             points: 40,
         },
     ],
+    render: None,
+    challenge: None,
 };
 
 /// Creates a given file of the toy, which is the same in the starter and in the solution.

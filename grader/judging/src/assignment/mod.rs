@@ -27,6 +27,10 @@ pub struct Assignment {
     pub other_folders: &'static [&'static str],
     /// The tasks, in lecture order.
     pub tasks: &'static [TaskInfo],
+    /// The command that draws a picture with the complete code.
+    pub render: Option<&'static str>,
+    /// The section of the handout with a challenge for after the last task.
+    pub challenge: Option<&'static str>,
 }
 
 /// One task: a method to write.

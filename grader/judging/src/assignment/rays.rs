@@ -59,4 +59,6 @@ pub static RAYS: Assignment = Assignment {
             points: 20,
         },
     ],
+    render: Some("cargo render cornell-box"),
+    challenge: Some("traversal.md#a-challenge"),
 };

@@ -7,6 +7,7 @@ use maud::{Markup, PreEscaped, html};
 use super::elements::{command, evidence_table, plain_text};
 use super::pictures;
 use super::prose::prose;
+use crate::book::Book;
 use crate::drawing;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
@@ -18,6 +19,7 @@ pub(super) fn failing(
     item: Option<&Item>,
     answers: &ReportAnswers,
     rerun: Option<&RerunCommand>,
+    book: Option<&Book>,
     is_open: bool,
 ) -> Markup {
     html! {
@@ -34,7 +36,7 @@ pub(super) fn failing(
                 @if !score.message.is_empty() { p { (plain_text(&score.message)) } }
                 (evidence(score, item))
                 (figure(score, item, answers))
-                (look(score))
+                (look(score, book))
                 (hints(score))
                 @if let Some(rerun) = rerun {
                     p .rerun { "Run it again: " (command(&score.rerun_command(rerun))) }
@@ -134,14 +136,20 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> (String, String, String) 
     }
 }
 
-/// Renders where to look in the code, and what to read.
-fn look(score: &ItemScore) -> Markup {
+/// Renders where to look in the code, and what to read, with a link if there is a book.
+fn look(score: &ItemScore, book: Option<&Book>) -> Markup {
     html! {
         @if let Some(look) = &score.look {
             p .look { strong { "Look: " } (prose(look)) }
         }
         @if let Some(section) = &score.section {
-            p .look { strong { "Read: " } (plain_text(&section.location())) }
+            p .look {
+                strong { "Read: " }
+                @match book.and_then(|book| book.url(section)) {
+                    Some(url) => a href=(url) { (plain_text(&section.location())) },
+                    None => (plain_text(&section.location())),
+                }
+            }
         }
     }
 }

@@ -77,6 +77,7 @@ fn render_page(
     rerun: Option<&RerunCommand>,
     reload: Reload,
 ) -> String {
+    let book = rerun.and(score.book.as_ref());
     let title = format!(
         "{}: {} of {} points",
         score.submission, score.points, score.max_points
@@ -99,7 +100,7 @@ fn render_page(
                     (summary::next_step(score, rerun))
                     (task::files(score))
                     @for task in &score.tasks {
-                        (task::section(task, exam, answers, rerun))
+                        (task::section(task, exam, answers, rerun, book))
                     }
                 }
                 (footer(score, rerun))

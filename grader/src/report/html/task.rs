@@ -6,6 +6,7 @@ use maud::{Markup, html};
 
 use super::elements::plain_text;
 use super::item;
+use crate::book::Book;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore};
@@ -42,6 +43,7 @@ pub(super) fn section(
     exam: &Exam,
     answers: &ReportAnswers,
     rerun: Option<&RerunCommand>,
+    book: Option<&Book>,
 ) -> Markup {
     let is_failing = |item: &&ItemScore| item.points < item.max_points;
     let (failing, passed): (Vec<&ItemScore>, Vec<&ItemScore>) =
@@ -55,7 +57,7 @@ pub(super) fn section(
             }
             @for (index, score) in failing.iter().enumerate() {
                 @let is_open = starts_open(index, score, exam_item(score));
-                (item::failing(score, exam_item(score), answers, rerun, is_open))
+                (item::failing(score, exam_item(score), answers, rerun, book, is_open))
             }
             @if let Some(printed) = &task.printed {
                 details #(format!("{}-printed", task.id)) .printed {

@@ -48,9 +48,9 @@ fn unlinked_files(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
 /// The file with the table of contents.
 pub const SUMMARY: &str = "SUMMARY.md";
 
-/// Returns the sections that an exam names but the chapters do not have, and the items without a
-/// section.
-pub fn missing_sections(pages: &[Page], exam: &Exam) -> Vec<String> {
+/// Returns the sections that an exam, or the assignment as its challenge, names but the chapters do
+/// not have, and the items without a section.
+pub fn missing_sections(pages: &[Page], exam: &Exam, challenge: Option<&str>) -> Vec<String> {
     let headings: BTreeMap<&str, BTreeMap<String, &str>> = pages
         .iter()
         .map(|page| {
@@ -79,7 +79,11 @@ pub fn missing_sections(pages: &[Page], exam: &Exam) -> Vec<String> {
         let problem = mistake.section.as_ref().and_then(problem);
         problem.map(|problem| format!("{}: {problem}", mistake.id))
     });
-    items.chain(mistakes).flatten().collect()
+    let challenge = challenge.into_iter().map(|section| {
+        let problem = problem(&Section::new(section));
+        problem.map(|problem| format!("the assignment's challenge: {problem}"))
+    });
+    items.chain(mistakes).chain(challenge).flatten().collect()
 }
 
 fn anchors(pages: &[Page]) -> BTreeMap<&str, BTreeSet<String>> {
@@ -112,15 +116,16 @@ mod tests {
         };
         let page = "# Boxes\n## From the last entry to the first exit\n## Flat, boxes\n";
         assert_eq!(
-            missing_sections(&[Page::new("boxes.md", page)], &exam),
+            missing_sections(&[Page::new("boxes.md", page)], &exam, Some("boxes.md#more")),
             [
                 "bbox.slab_after_slab: boxes.md#flat-boxes would be shown as \"Flat boxes\", but \
                  its heading is \"Flat, boxes\"",
                 "bbox.octants: the item has no section: its declaration must name one",
+                "the assignment's challenge: the handout has no section boxes.md#more",
             ]
         );
         assert_eq!(
-            missing_sections(&[], &exam)[0],
+            missing_sections(&[], &exam, None)[0],
             "bbox.through: the handout has no section \
              boxes.md#from-the-last-entry-to-the-first-exit"
         );

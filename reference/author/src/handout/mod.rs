@@ -14,6 +14,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use grader::files::{self, PathError};
+use judging::assignment::RAYS;
 use judging::exam::Exam;
 use judging::section::CHAPTERS;
 
@@ -65,7 +66,7 @@ pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, PathError> {
     };
 
     let mut all = links::broken_links(&pages, &figures);
-    all.extend(links::missing_sections(&pages, exam));
+    all.extend(links::missing_sections(&pages, exam, RAYS.challenge));
     all.extend(pages.iter().flat_map(|page: &Page| {
         let mut problems = names::unknown_names(page, &known);
         problems.extend(commands::unknown_commands(page, &sources, &aliases));

@@ -1,0 +1,174 @@
+//! The handout as a built book, and links to its pages.
+
+use std::path::{Component, Path, PathBuf};
+
+use judging::section::{CHAPTERS, Section};
+
+use crate::workspace::Workspace;
+
+/// The folders in which a book may be, relative to the workspace: as handed out, and as built by
+/// `cargo book`.
+const FOLDERS: [&str; 3] = ["handout/book", "target/handout", "target/students-handout"];
+
+/// A folder with the pages of the built handout.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Book {
+    folder: PathBuf,
+}
+
+impl Book {
+    /// Returns the book of a workspace, if there is one.
+    pub fn find(workspace: &Workspace) -> Option<Self> {
+        let folders = FOLDERS.map(|folder| workspace.root().join(folder));
+        let mut folders = folders.into_iter();
+        let folder = folders.find(|folder| folder.join("index.html").is_file())?;
+        let folder = std::path::absolute(folder).ok()?;
+        Some(Book { folder })
+    }
+
+    /// Returns the `file:` URL of a section, or `None` if the book has no such page.
+    pub fn url(&self, section: &Section) -> Option<String> {
+        let name = section.chapter().strip_suffix(".md")?;
+        let page = self.folder.join(format!("{name}.html"));
+        if !is_plain(name) || !page.is_file() {
+            return None;
+        }
+        let url = file_url(&page);
+        Some(match section.anchor() {
+            "" => url,
+            anchor => format!("{url}#{}", percent_encoded(anchor)),
+        })
+    }
+
+    /// Returns the text with each mention of a section, such as `handout/src/boxes.md, "Flat
+    /// boxes"`, as a hyperlink for terminals (the escape sequence OSC 8).
+    pub fn with_links(&self, text: &str) -> String {
+        let mut linked = String::new();
+        let mut rest = text;
+        let chapters = format!("{CHAPTERS}/");
+        while let Some(start) = rest.find(&chapters) {
+            let (before, mention) = rest.split_at(start);
+            linked.push_str(before);
+            let length = mention_length(mention, chapters.len());
+            let (mention, after) = mention.split_at(length);
+            match self.url(&mentioned_section(&mention[chapters.len()..])) {
+                Some(url) => {
+                    linked.push_str(&format!("\x1b]8;;{url}\x1b\\{mention}\x1b]8;;\x1b\\"));
+                }
+                None => linked.push_str(mention),
+            }
+            rest = after;
+        }
+        linked + rest
+    }
+}
+
+/// Returns the length of the mention of a section at the start of `text`: a path and, on the same
+/// line, perhaps a heading in quotation marks.
+fn mention_length(text: &str, path_start: usize) -> usize {
+    let is_end = |c: char| !(c.is_ascii_alphanumeric() || "_-.".contains(c));
+    let name = &text[path_start..];
+    let name = &name[..name.find(is_end).unwrap_or(name.len())];
+    let path_end = path_start + name.trim_end_matches('.').len();
+    let heading = text[path_end..].strip_prefix(", \"").and_then(|heading| {
+        let end = heading.find(['"', '\n'])?;
+        heading[end..].starts_with('"').then_some(end)
+    });
+    heading.map_or(path_end, |heading| path_end + ", \"\"".len() + heading)
+}
+
+/// Returns the section that a mention means, without the folder: the inverse of
+/// [`Section::location`].
+fn mentioned_section(mention: &str) -> Section {
+    match mention.split_once(", \"") {
+        Some((chapter, heading)) => {
+            let heading = heading.trim_end_matches('"').to_lowercase();
+            Section::new(format!("{chapter}#{}", heading.replace(' ', "-")))
+        }
+        None => Section::new(mention),
+    }
+}
+
+/// Returns whether a page's name cannot lead to another folder.
+fn is_plain(name: &str) -> bool {
+    let is_allowed = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    !name.is_empty() && name.chars().all(is_allowed)
+}
+
+/// Returns the URL of an absolute path. On Windows, the drive follows a slash, as in `file:///C:/`.
+fn file_url(path: &Path) -> String {
+    let mut url = "file://".to_owned();
+    for part in path.components() {
+        match part {
+            Component::Prefix(prefix) => {
+                let prefix = prefix.as_os_str().to_string_lossy();
+                url.push('/');
+                url.push_str(prefix.trim_start_matches(r"\\?\"));
+            }
+            Component::Normal(name) => {
+                url.push('/');
+                url.push_str(&percent_encoded(&name.to_string_lossy()));
+            }
+            Component::RootDir | Component::CurDir | Component::ParentDir => {}
+        }
+    }
+    url
+}
+
+/// Encodes all bytes but those that stand for themselves in every part of a URL (RFC 3986, 2.3).
+fn percent_encoded(text: &str) -> String {
+    let encoded = text.bytes().map(|byte| {
+        let is_unreserved = byte.is_ascii_alphanumeric() || b"-._~".contains(&byte);
+        if is_unreserved {
+            char::from(byte).to_string()
+        } else {
+            format!("%{byte:02X}")
+        }
+    });
+    encoded.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    #[test]
+    fn links_each_mention_of_a_page_that_exists_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let book = Book {
+            folder: folder.path().join("my book"),
+        };
+        fs::create_dir(&book.folder).unwrap();
+        fs::write(book.folder.join("boxes.html"), "").unwrap();
+        let url = file_url(&book.folder.join("boxes.html"));
+        assert!(
+            url.starts_with("file:///") && url.ends_with("/my%20book/boxes.html"),
+            "{url}"
+        );
+        let link = |url: &str, text: &str| format!("\x1b]8;;{url}\x1b\\{text}\x1b]8;;\x1b\\");
+
+        let whole = "handout/src/boxes.md";
+        let section = "handout/src/boxes.md, \"Zero and minus zero\"";
+        let text = format!("read {section}\nsee {whole}.\n{whole}, \"cut\n");
+        let expected = format!(
+            "read {}\nsee {}.\n{}, \"cut\n",
+            link(&format!("{url}#zero-and-minus-zero"), section),
+            link(&url, whole),
+            link(&url, whole),
+        );
+        assert_eq!(book.with_links(&text), expected);
+        for other in [
+            "handout/src/none.md",
+            "handout/src/../boxes.md",
+            "handout/src/",
+            "boxes.md",
+        ] {
+            assert_eq!(book.with_links(other), other);
+        }
+        // A link is no text: without a terminal, only the text is left.
+        let plain = anstream::adapter::strip_str(&expected).to_string();
+        assert_eq!(plain, text);
+    }
+}

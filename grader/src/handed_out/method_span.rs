@@ -75,7 +75,7 @@ struct Scan<'a> {
     text: &'a str,
     method: &'a str,
     /// The closing delimiters that are expected, from the outermost to the innermost.
-    open: Vec<TokenKind>,
+    open: Vec<&'static str>,
     /// The end of the keyword `impl`, while its header is read.
     header: Option<usize>,
     /// The tokens of the header of the `impl` block that is being read.
@@ -91,57 +91,52 @@ struct Scan<'a> {
 
 impl Scan<'_> {
     fn add(&mut self, token: &Token, bytes: Range<usize>) -> Result<(), MethodSpanError> {
-        use TokenKind::{
-            BlockComment, CloseBrace, CloseBracket, CloseParen, Ident, LineComment, OpenBrace,
-            OpenBracket, OpenParen, Semi, Whitespace,
-        };
         // An ordinary comment above an item is not part of it.
-        if let Whitespace
-        | LineComment { doc_style: None }
-        | BlockComment {
+        if let TokenKind::Whitespace
+        | TokenKind::LineComment { doc_style: None }
+        | TokenKind::BlockComment {
             doc_style: None, ..
         } = token.kind
         {
             return Ok(());
         }
         let in_block = self.block.is_some() && self.open.len() == 1;
-        if in_block && token.kind != CloseBrace {
+        let word = &self.text[bytes.clone()];
+        if in_block && word != "}" {
             self.item.get_or_insert(bytes.start);
         }
         let is_after_fn = std::mem::take(&mut self.after_fn);
-        match token.kind {
-            Ident if self.open.is_empty() && &self.text[bytes.clone()] == "impl" => {
-                self.header = Some(bytes.end);
-            }
-            Ident if in_block => {
-                let word = &self.text[bytes];
-                self.is_method |= is_after_fn && word == self.method;
-                self.after_fn = word == "fn";
-            }
-            OpenBrace => {
+        // The text says what a token is: a brace in a string or a character has quotation marks.
+        match word {
+            "impl" if self.open.is_empty() => self.header = Some(bytes.end),
+            "{" => {
                 if self.open.is_empty()
                     && let Some(header) = self.header.take()
                 {
                     self.block = Some(tokens(&self.text[header..bytes.start]).join(" "));
                 }
-                self.open.push(CloseBrace);
+                self.open.push("}");
             }
-            OpenParen => self.open.push(CloseParen),
-            OpenBracket => self.open.push(CloseBracket),
-            CloseBrace | CloseParen | CloseBracket => {
-                if self.open.pop() != Some(token.kind) {
+            "(" => self.open.push(")"),
+            "[" => self.open.push("]"),
+            "}" | ")" | "]" => {
+                if self.open.pop() != Some(word) {
                     return Err(MethodSpanError::UnmatchedBraces);
                 }
-                if self.open.is_empty() && token.kind == CloseBrace {
+                if self.open.is_empty() && word == "}" {
                     self.block = None;
                 }
                 // An attribute ends with a bracket, a signature's arguments with a parenthesis.
-                if in_block || (self.open.len() == 1 && token.kind == CloseBrace) {
+                if self.open.len() <= 1 && word == "}" {
                     self.end_item(bytes.end);
                 }
             }
-            Semi if in_block => self.end_item(bytes.end),
-            Semi if self.open.is_empty() => self.header = None,
+            ";" if in_block => self.end_item(bytes.end),
+            ";" if self.open.is_empty() => self.header = None,
+            word if in_block => {
+                self.is_method |= is_after_fn && word == self.method;
+                self.after_fn = word == "fn";
+            }
             _ => {}
         }
         Ok(())

@@ -28,7 +28,7 @@ pub struct Context<'a> {
     pub addresses: Option<NodeAddresses>,
 }
 
-/// Returns the nodes whose spans [`explain_ray`] needs.
+/// Returns the nodes whose spans `explain_ray` needs.
 pub fn needed_nodes(ray: &FollowedRay, context: &Context) -> Vec<u32> {
     let rows = rules::rows(ray, context.tree, context.leaves, context.addresses);
     let mut nodes = rules::judged_nodes(&rows, context.tree);

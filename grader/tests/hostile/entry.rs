@@ -16,6 +16,8 @@ use crate::packaging::{Packaging, pack};
 /// beside the task files, or replace them.
 const ATTACK_FILE: &str = "attack.rs";
 const EXPECT_FILE: &str = "expect.toml";
+/// A function that turns a value of one type into another one, by a soundness hole of the language.
+const HOLE: &str = include_str!("hole.rs");
 
 /// A hostile submission, which is read from a folder in `entries/`.
 pub struct Entry {
@@ -39,6 +41,9 @@ pub struct Expectation {
     base: Base,
     /// The task file to which `attack.rs` is appended.
     into: Option<String>,
+    /// Whether `attack.rs` calls the function in `hole.rs`.
+    #[serde(default)]
+    uses_hole: bool,
     /// The methods of that file that begin with `call`.
     #[serde(default)]
     within: Vec<String>,
@@ -166,6 +171,9 @@ impl Entry {
             let mut text = fs::read_to_string(target.join(into)).expect("a task file");
             for method in &self.expect.within {
                 text = insert_first_statement(&text, method, &self.expect.call);
+            }
+            if self.expect.uses_hole {
+                text.push_str(HOLE);
             }
             let attack =
                 fs::read_to_string(folder.join(ATTACK_FILE)).expect("the attack can be read");

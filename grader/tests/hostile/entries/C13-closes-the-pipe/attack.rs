@@ -1,29 +1,4 @@
 
-/// Turns a value of one type into another one, without a line of unsafe code (rust-lang issue
-/// 25860): the reference to the old variant outlives it.
-static STATIC: &&() = &&();
-fn stretched<'a, 'b, T>(_: &'a &'b (), value: &'b mut T) -> &'a mut T {
-    value
-}
-enum Either<A, B> {
-    A(Option<Box<A>>),
-    B(Option<Box<B>>),
-}
-#[inline(never)]
-fn exchange<A: 'static, B: 'static>(either: &mut Either<A, B>, value: A) -> B {
-    let stretch: for<'x> fn(&'static &'static (), &'x mut Option<Box<B>>) -> &'static mut Option<Box<B>> =
-        stretched;
-    let Either::B(old) = either else {
-        unreachable!()
-    };
-    let old = stretch(STATIC, old);
-    *either = Either::A(Some(Box::new(value)));
-    std::hint::black_box(either);
-    *old.take().unwrap()
-}
-fn transmuted<A: 'static, B: 'static>(value: A) -> B {
-    exchange(std::hint::black_box(&mut Either::B(None)), value)
-}
 fn attack() {
     static ONCE: std::sync::Once = std::sync::Once::new();
     ONCE.call_once(|| {

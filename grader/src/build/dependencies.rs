@@ -35,7 +35,7 @@ const FRAMEWORK_PACKAGES: [&str; 5] = [
 ];
 /// Version of the way in which the dependencies are compiled. Change it when the same sources are
 /// to be compiled differently.
-const RECIPE_VERSION: &str = "5";
+const RECIPE_VERSION: &str = "6";
 
 /// Locations of the compiled dependencies.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -227,7 +227,8 @@ fn build(
                 Stdio::inherit()
             });
         // Uses the same flags on every machine, regardless of the environment and cargo's
-        // configuration.
+        // configuration. They equal the profile in Cargo.toml: with others, cargo would compile again
+        // what it has compiled for the grader.
         cargo
             .env("CARGO_ENCODED_RUSTFLAGS", "")
             .env_remove("RUSTC_WRAPPER")
@@ -236,7 +237,8 @@ fn build(
             .env("CARGO_INCREMENTAL", "0")
             .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "2")
             .env("CARGO_PROFILE_RELEASE_DEBUG", "false")
-            .env("CARGO_PROFILE_RELEASE_LTO", "off")
+            .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")
+            .env("CARGO_PROFILE_RELEASE_LTO", "false")
             .env("CARGO_PROFILE_RELEASE_PANIC", "unwind");
         output(&mut cargo).at("run", &toolchain.cargo)
     };

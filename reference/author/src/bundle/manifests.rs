@@ -66,13 +66,7 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), Manife
     keep_members(members, bundle);
     // Cargo warns about profile settings of packages that are missing. The bench profile has only
     // such settings.
-    let profiles = &mut manifest["profile"];
-    if let Some(packages) = profiles["release"].get_mut("package")
-        && let Some(packages) = packages.as_table_like_mut()
-    {
-        packages.remove("reference");
-    }
-    if let Some(profiles) = profiles.as_table_like_mut() {
+    if let Some(profiles) = manifest["profile"].as_table_like_mut() {
         profiles.remove("bench");
     }
     bundle.insert("Cargo.toml", manifest.to_string());

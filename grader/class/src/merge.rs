@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use grader::files;
 use grader::options::GradeOptions;
 use grader::policy::Policy;
 
@@ -20,7 +19,7 @@ use crate::output::write_results;
 use crate::roster;
 use crate::run::Run;
 use crate::shard::Shard;
-use crate::store::{Store, StoreError};
+use crate::store::Store;
 
 /// Copies the shards' results into one folder, and writes the class's files.
 pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
@@ -46,7 +45,9 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     let mut sources: BTreeMap<String, &Path> = BTreeMap::new();
     for (path, run) in &shards {
         let shard = Store::new(path);
-        let current = |id: &String| run.entries.is_empty() || run.entries.contains(id);
+        // Older runs did not list their entries. In others, no entry means that the class has fewer
+        // entries than shards, and the folder may have those of students who are gone.
+        let current = |id: &String| run.class.is_empty() || run.entries.contains(id);
         for id in shard.ids()?.into_iter().filter(current) {
             if let Some(other) = sources.insert(id.clone(), path) {
                 return Err(Error::DuplicateEntry {
@@ -55,8 +56,10 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
                     other: (*path).clone(),
                 });
             }
-            copy_entry(&shard.entry_folder(&id), &out.entry_folder(&id))?;
         }
+    }
+    for (id, path) in &sources {
+        out.copy_entry(id, &Store::new(path))?;
     }
     let run = &Run {
         shard: None,
@@ -184,13 +187,4 @@ fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<()
             differences: what,
         })
     }
-}
-
-fn copy_entry(from: &Path, to: &Path) -> Result<(), StoreError> {
-    files::create_dir_all(to)?;
-    for source in files::read_dir(from)? {
-        let target = to.join(source.file_name().unwrap_or_default());
-        files::copy(&source, &target)?;
-    }
-    Ok(())
 }

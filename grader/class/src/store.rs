@@ -192,6 +192,28 @@ impl Store {
         Ok(files::remove_if_exists(self.entry_folder(id).join(STAMP))?)
     }
 
+    /// Replaces an entry's files by those in another store. As in grading, the stamp is removed first
+    /// and written last, so a killed merge never leaves a stamp beside another run's score.
+    pub fn copy_entry(&self, id: &str, from: &Store) -> Result<(), StoreError> {
+        let folder = self.entry_folder(id);
+        files::create_dir_all(&folder)?;
+        self.remove_stamp(id)?;
+        // A file of an earlier merge must not be mistaken for one of this merge.
+        for file in files::read_dir(&folder)? {
+            files::remove_if_exists(file)?;
+        }
+        for source in files::read_dir(from.entry_folder(id))? {
+            let name = source.file_name().unwrap_or_default();
+            if name != STAMP && !is_temporary(name) {
+                files::copy(&source, folder.join(name))?;
+            }
+        }
+        if let Some(stamp) = files::read_if_exists(from.entry_folder(id).join(STAMP))? {
+            atomic_write::write(stamp, &folder.join(STAMP))?;
+        }
+        Ok(())
+    }
+
     /// Returns all results, in the order of their ids.
     pub fn results(&self) -> Result<Vec<EntryResult>, StoreError> {
         let ids = self.ids()?;

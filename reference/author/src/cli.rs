@@ -99,8 +99,22 @@ pub enum Command {
         #[command(flatten)]
         check: CheckArgs,
     },
-    /// Measure how well the practice exam's hints recognise known and unknown mistakes
-    Hints,
+    /// Write the table of which sentences of the contract the exam asks, and where
+    Coverage(CheckArgs),
+    /// Measure how well hints recognise known and unknown mistakes, with the practice exam or with
+    /// final exams
+    Hints {
+        /// The seeds of final exams, such as 0..20
+        #[arg(long, value_parser = parse_seeds)]
+        seeds: Option<Range<u64>>,
+        /// Measure two mistakes at once: all pairs in one task, or the given number of them
+        #[arg(long, value_name = "N", conflicts_with = "seeds")]
+        #[allow(
+            clippy::option_option,
+            reason = "absent, without a value, with a value"
+        )]
+        pairs: Option<Option<usize>>,
+    },
     /// List the mutants that cargo-mutants generates from the reference, and grade each of them
     Mutants {
         /// Grade only a fixed sample of the mutants
@@ -109,6 +123,13 @@ pub enum Command {
         /// Whether to write or to check the list.
         #[command(flatten)]
         check: CheckArgs,
+    },
+    /// Make systematic mistakes from the reference (epsilons, confused names, dropped properties,
+    /// kept state), and grade each of them
+    Systematic {
+        /// Grade only a fixed sample of the mistakes
+        #[arg(long)]
+        fast: bool,
     },
     /// Grade every variant with the exams of all seeds, and every mistake with the exams of the
     /// first few seeds

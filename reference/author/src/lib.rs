@@ -12,7 +12,7 @@
 //! |---|---|
 //! | the handout, which is checked against the command line | [`handout`] |
 //! | the command line | [`cli`] |
-//! | packages for platforms; the proof that the exam is right | [`package`], [`proof`] |
+//! | packages for platforms; the proof that the exam is right, and what it covers | [`package`], [`proof`], [`coverage`] |
 //! | whole exams; the students' bundle | [`exams`], [`bundle`] |
 //! | additions to an exam | [`hints`], [`drawing_data`] |
 //! | an exam's items; solutions, and how they are built and run | [`items`], [`solutions`] |
@@ -21,6 +21,7 @@
 
 pub mod bundle;
 pub mod cli;
+pub mod coverage;
 pub mod drawing_data;
 pub mod exams;
 pub mod generated_file;

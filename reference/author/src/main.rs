@@ -4,29 +4,34 @@
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
+use std::slice;
 
 use author::bundle::secrets::Secrets;
 use author::bundle::{self, Bundle, archive};
 use author::cli::{Cli, Command, book_folder};
+use author::coverage::coverage;
 use author::generated_file::{GeneratedFile, Mode, write_or_check};
 use author::package::{self, Course, Platform, trial};
 use author::proof::by_heart::grade_by_heart;
 use author::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, calibrate, table};
 use author::proof::mutants::{self, MutantSelection};
 use author::proof::prove::prove;
-use author::proof::recognition::recognise;
+use author::proof::recognition::{recognise, recognise_pairs, recognise_with_seeds};
 use author::proof::{failures, matrix};
 use author::solutions::failed_items::FailedItems;
+use author::solutions::sources::Sources;
 use author::solutions::workbench::Workbench;
 use author::solutions::{Solutions, SolutionsError};
 use author::{exams, handout, scenes, starter};
 use clap::Parser;
 use grader::files;
-use grader::handed_out::RAYS;
+use grader::handed_out::{HandedOut, RAYS};
 use judging::exam::Exam;
 
 /// The workspace's root. The paths of generated files are relative to it.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+/// The assignment of all commands.
+const HANDED_OUT: &HandedOut = &RAYS;
 
 fn main() -> ExitCode {
     match run(Cli::parse().command) {
@@ -44,7 +49,7 @@ fn run(command: Command) -> CommandResult {
     let root = Path::new(ROOT);
     match command {
         Command::Starter(check) => generate(
-            &starter::generated_files(root, &RAYS)?,
+            &starter::generated_files(root, HANDED_OUT)?,
             check.mode(),
             "starter",
         ),
@@ -66,7 +71,7 @@ fn run(command: Command) -> CommandResult {
             make_book(root, &root.join(book_folder(folder, students)), students)
         }
         Command::Bundle { out, book, check } => {
-            let bundle = Bundle::collect(root, &RAYS, book.as_deref())?;
+            let bundle = Bundle::collect(root, HANDED_OUT, book.as_deref())?;
             write_bundle(root, &bundle, out.as_deref(), check)
         }
         Command::Package {
@@ -77,8 +82,8 @@ fn run(command: Command) -> CommandResult {
             policy,
             check,
         } => {
-            let course = Course::new(&RAYS, exam_seed, exam.as_deref(), policy.as_deref())?;
-            let package = package::collect(root, &RAYS, platform, course)?;
+            let course = Course::new(HANDED_OUT, exam_seed, exam.as_deref(), policy.as_deref())?;
+            let package = package::collect(root, HANDED_OUT, platform, course)?;
             write_package(root, platform, &package, &out, check)
         }
         Command::Mistakes { table: true, .. } => {
@@ -89,9 +94,29 @@ fn run(command: Command) -> CommandResult {
         Command::Mutants { fast, check } => {
             run_mutants(root, MutantSelection::new(fast), check.mode())
         }
-        Command::Hints => {
-            let recognition = recognise(&solutions()?, &exams::load_practice(root)?)?;
-            println!("{recognition}");
+        Command::Systematic { fast } => run_systematic(MutantSelection::new(fast)),
+        Command::Coverage(check) => {
+            let practice = exams::load_practice(root)?;
+            let coverage = coverage(root, HANDED_OUT, &practice)?;
+            generate(slice::from_ref(&coverage.table), check.mode(), "coverage")?;
+            report(&coverage.problems, &coverage.summary_line())
+        }
+        Command::Hints { seeds, pairs } => {
+            let solutions = solutions()?;
+            match (seeds, pairs) {
+                (Some(seeds), _) => println!("{}", recognise_with_seeds(&solutions, seeds)?),
+                (None, Some(count)) => {
+                    let practice = exams::load_practice(root)?;
+                    let reference = Sources::reference(root, HANDED_OUT)?;
+                    println!(
+                        "{}",
+                        recognise_pairs(&solutions, &practice, &reference, count)?
+                    );
+                }
+                (None, None) => {
+                    println!("{}", recognise(&solutions, &exams::load_practice(root)?)?)
+                }
+            }
             Ok(())
         }
         Command::Prove {
@@ -179,16 +204,16 @@ fn make_book(_: &Path, _: &Path, _: bool) -> CommandResult {
 }
 
 fn solutions() -> Result<Solutions, SolutionsError> {
-    Solutions::load(Workbench::open(&RAYS)?)
+    Solutions::load(Workbench::open(HANDED_OUT)?)
 }
 
 /// Writes the students' bundle. Fails if the bundle contains a secret.
 fn write_bundle(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -> CommandResult {
-    let secrets = Secrets::gather(root, &RAYS, bundle)?;
+    let secrets = Secrets::gather(root, HANDED_OUT, bundle)?;
     let leaks = secrets.search(bundle);
     let mut problems: Vec<String> = leaks.iter().map(ToString::to_string).collect();
     if check && leaks.is_empty() {
-        problems = bundle::check::check(root, &RAYS, bundle)?;
+        problems = bundle::check::check(root, HANDED_OUT, bundle)?;
     }
     let (count, size) = (bundle.files.len(), bundle.size() / 1000);
     let line = format!("{count} files, {size} kB, searched for {secrets}");
@@ -221,7 +246,7 @@ fn write_package(
             println!("{count} files, {size} MB unpacked: {}", out.display());
             if check {
                 report(
-                    &trial::gradescope::check(root, out)?,
+                    &trial::gradescope::check(HANDED_OUT, root, out)?,
                     "the package grades correctly when run as on Gradescope",
                 )
             } else {
@@ -233,7 +258,7 @@ fn write_package(
             println!("{} files: {}", package.files.len(), out.display());
             if check {
                 report(
-                    &trial::classroom50::check(root, out)?,
+                    &trial::classroom50::check(HANDED_OUT, root, out)?,
                     "the package grades a checkout correctly when run as on classroom50",
                 )
             } else {
@@ -244,7 +269,7 @@ fn write_package(
             write_bundle(root, package, Some(out), false)?;
             if check {
                 report(
-                    &trial::github::check(root, package)?,
+                    &trial::github::check(HANDED_OUT, root, package)?,
                     "the template's workflow grades a checkout correctly",
                 )
             } else {
@@ -263,21 +288,32 @@ fn run_mistakes(root: &Path, seeds: Option<u64>, mode: Mode) -> CommandResult {
         Mode::Write => failures::MANY_SEEDS,
         Mode::Check => failures::FEW_SEEDS,
     };
-    let failed = failures::failed_items(&solutions, &practice, seeds.unwrap_or(default))?;
-    let committed = FailedItems::load(root, &RAYS)?;
+    let seeds = seeds.unwrap_or(default);
+    let (failed, catches) = failures::failed_items(&solutions, &practice, seeds)?;
+    let committed = FailedItems::load(root, HANDED_OUT)?;
     if mode == Mode::Check {
-        let problems = failures::problems(&committed, &failed);
+        let mut problems = failures::problems(&committed, &failed);
+        problems.extend(catches.problems());
         let line = format!("seeds {}, mistakes {}", failed.seeds, failed.fails.len());
         report(&problems, &line)?;
     }
     // A check with as many seeds must find the same lists.
     if mode == Mode::Write || failed.seeds == committed.seeds {
-        generate(&[failed.generated_file(&RAYS)?], mode, "mistakes")?;
+        generate(&[failed.generated_file(HANDED_OUT)?], mode, "mistakes")?;
     }
     if mode == Mode::Write {
+        generate(&[catches.generated_file(HANDED_OUT)], mode, "mistakes")?;
         solutions.set_failed_items(&failed);
     }
-    write_table_of_mistakes(&solutions, &practice, mode)
+    write_table_of_mistakes(&solutions, &practice, mode)?;
+    let thin = catches.problems();
+    let caught = failed.fails.len() - thin.len();
+    let line = format!(
+        "mistakes {}, clearly caught {caught}, seeds {}",
+        failed.fails.len(),
+        failed.seeds
+    );
+    report(&thin, &line)
 }
 
 /// Writes or checks the table of the practice exam.
@@ -287,11 +323,23 @@ fn write_table_of_mistakes(solutions: &Solutions, practice: &Exam, mode: Mode) -
 }
 
 fn run_mutants(root: &Path, selection: MutantSelection, mode: Mode) -> CommandResult {
-    let list = mutants::list(root, mode)?;
+    let list = mutants::list(HANDED_OUT, root, mode)?;
     generate(&[list.generated_file()], mode, "mutants")?;
-    let findings = mutants::run(&list, selection)?;
+    let findings = mutants::run(HANDED_OUT, &list, selection)?;
     println!("{}", selection.description());
-    report(&findings.problems(), &findings.summary_line())
+    report(
+        &findings.problems(),
+        &format!("mutants: {}", findings.summary_line()),
+    )
+}
+
+fn run_systematic(selection: MutantSelection) -> CommandResult {
+    let findings = mutants::run_systematic(HANDED_OUT, selection)?;
+    println!("{}", selection.description());
+    report(
+        &findings.problems(),
+        &format!("systematic mistakes: {}", findings.summary_line()),
+    )
 }
 
 /// Prints the problems and the summary line. Fails if there are problems.

@@ -6,7 +6,6 @@
 
 use std::collections::BTreeSet;
 
-use judging::assignment::RAYS;
 use judging::exam::Exam;
 
 use super::commands;
@@ -65,7 +64,7 @@ pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
             // Commands are checked in `commands`.
             return None;
         }
-        if let Some(item) = item_id(text) {
+        if let Some(item) = item_id(text, known.exam) {
             let there = known.exam.items.iter().any(|known| known.id == item);
             return (!there).then(|| format!("the exam has no item {item}"));
         }
@@ -96,10 +95,10 @@ pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
 }
 
 /// Returns the item id of a text such as `sphere.from_inside` or `sphere.from_inside#7`.
-fn item_id(text: &str) -> Option<&str> {
+fn item_id<'a>(text: &'a str, exam: &Exam) -> Option<&'a str> {
     let id = text.split('#').next()?;
     let (task, name) = id.split_once('.')?;
-    let is_task = RAYS.tasks().any(|known| known.id() == task);
+    let is_task = exam.items.iter().any(|item| item.task.id() == task);
     (is_task && is_identifier(name) && name != "rs").then_some(id)
 }
 
@@ -167,7 +166,7 @@ mod tests {
         let files = BTreeSet::from(["student/src/bvh.rs".to_owned()]);
         let exam = Exam {
             schema: 1,
-            assignment: RAYS.id.to_owned(),
+            assignment: "rays".to_owned(),
             id: String::new(),
             mistakes: Vec::new(),
             items: items::resolve(items::bbox::items(Seed(1))),

@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use grader::handed_out::RAYS;
 use grader::score::Score;
 use indicatif::ParallelProgressIterator;
 use judging::exam::Exam;
@@ -40,7 +39,8 @@ pub fn grade_by_heart(
     seeds: Range<u64>,
 ) -> Result<ByHeart, ProofError> {
     let workbench = &solutions.workbench;
-    let sources = by_heart(practice, solutions.recorder.built_reference(), &RAYS)?;
+    let reference = solutions.recorder.built_reference();
+    let sources = by_heart(practice, reference, workbench.handed_out())?;
     let build = || workbench.build(&sources, "by heart");
     let practice_points = build()?.score(practice)?.points;
     let scores: Result<Vec<(u64, Score)>, ProofError> = seeds

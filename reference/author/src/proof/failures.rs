@@ -4,16 +4,15 @@
 //! the items that fail with each of many seeds are required to fail with any seed.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
-use grader::probe::Fault;
 use indicatif::ParallelProgressIterator;
 use judging::exam::{Exam, Item};
-use judging::judge::{Credit, judge};
-use protocol::Answer;
 use rayon::prelude::*;
 
 use crate::exams;
 use crate::proof::ProofError;
+use crate::proof::catches::{Catch, Catches};
 use crate::proof::progress::progress_bar;
 use crate::seed::Seed;
 use crate::solutions::Solutions;
@@ -25,83 +24,105 @@ use crate::solutions::workbench::{BuiltSolution, WorkbenchError};
 pub const MANY_SEEDS: u64 = 100;
 /// The default number of seeds for a check, which must be fast.
 pub const FEW_SEEDS: u64 = 1;
+/// The number of mistakes that are caught least clearly, which get as many seeds again.
+const THINNEST: usize = 50;
 
 /// Determines the items that each mistake fails in the practice exam and in the exams of the seeds
-/// below `seeds`.
+/// below `seeds`, and how clearly they catch it. The mistakes that are caught least clearly are
+/// asked in the exams of as many seeds again.
 pub fn failed_items(
     solutions: &Solutions,
     practice: &Exam,
     seeds: u64,
-) -> Result<FailedItems, ProofError> {
+) -> Result<(FailedItems, Catches), ProofError> {
     let built: Vec<(&Mistake, BuiltSolution)> = solutions
         .mistakes
         .par_iter()
         .map(|(mistake, sources)| Ok((mistake, solutions.workbench.build(sources, &mistake.id)?)))
         .collect::<Result<_, WorkbenchError>>()?;
-    let bar = progress_bar(seeds, "seeds");
-    let of_seeds: Vec<Vec<BTreeSet<String>>> = (0..seeds)
-        .into_par_iter()
-        .progress_with(bar)
-        .map(|seed| {
-            let exam = exams::generate("proof", Seed(seed), &solutions.recorder)?;
-            Ok(failed_by_each(&built, &exam)?)
-        })
-        .collect::<Result<_, ProofError>>()?;
-    let of_practice = failed_by_each(&built, practice)?;
+    let all: Vec<&(&Mistake, BuiltSolution)> = built.iter().collect();
+    let of_seeds = caught_with_seeds(solutions, &all, 0..seeds)?;
+    let of_practice = caught_in(&all, practice)?;
+
+    let mut catches = Catches::default();
+    for of_exam in of_seeds.iter().chain([&of_practice]) {
+        for ((mistake, _), caught) in built.iter().zip(of_exam) {
+            catches.add(&mistake.id, caught);
+        }
+    }
+    let thinnest: BTreeSet<String> = catches
+        .by_clarity()
+        .into_iter()
+        .take(THINNEST)
+        .map(|(id, ..)| id.to_owned())
+        .collect();
+    let again: Vec<_> = built
+        .iter()
+        .filter(|(mistake, _)| thinnest.contains(&mistake.id))
+        .collect();
+    for of_exam in caught_with_seeds(solutions, &again, seeds..2 * seeds)? {
+        for ((mistake, _), caught) in again.iter().zip(&of_exam) {
+            catches.add(&mistake.id, caught);
+        }
+    }
 
     let with_every_seed = |index: usize| -> Vec<String> {
         let items = practice.items.iter().map(|item| &item.id);
         let always = items.filter(|id| {
             let mut all = of_seeds.iter().chain([&of_practice]);
-            all.all(|failed| failed[index].contains(*id))
+            all.all(|caught| caught[index].iter().any(|caught| caught.item == **id))
         });
         always.cloned().collect()
     };
     let fails = built.iter().enumerate();
-    Ok(FailedItems {
+    let failed = FailedItems {
         seeds,
         fails: fails
             .map(|(index, (mistake, _))| (mistake.id.clone(), with_every_seed(index)))
             .collect(),
-    })
+    };
+    Ok((failed, catches))
 }
 
-/// Returns the items that each mistake fails in one exam.
-fn failed_by_each(
-    built: &[(&Mistake, BuiltSolution)],
+/// Returns the catches of each mistake in the exam of each seed.
+fn caught_with_seeds(
+    solutions: &Solutions,
+    built: &[&(&Mistake, BuiltSolution)],
+    seeds: Range<u64>,
+) -> Result<Vec<Vec<Vec<Catch>>>, ProofError> {
+    let bar = progress_bar(seeds.end - seeds.start, "seeds");
+    let all = seeds.into_par_iter().progress_with(bar).map(|seed| {
+        let exam = exams::generate("proof", Seed(seed), &solutions.recorder)?;
+        Ok(caught_in(built, &exam)?)
+    });
+    all.collect()
+}
+
+/// Returns the catches of each mistake in one exam.
+fn caught_in(
+    built: &[&(&Mistake, BuiltSolution)],
     exam: &Exam,
-) -> Result<Vec<BTreeSet<String>>, WorkbenchError> {
-    let failed = built
+) -> Result<Vec<Vec<Catch>>, WorkbenchError> {
+    let caught = built
         .par_iter()
-        .map(|(mistake, solution)| failed_by_one(mistake, solution, exam));
-    failed.collect()
+        .map(|(mistake, solution)| catches(mistake, solution, exam));
+    caught.collect()
 }
 
-/// Returns the items of a mistake's tasks that the mistake fails without the reference's parts.
-fn failed_by_one(
+/// Returns the catches of a mistake by the items of its tasks, without the reference's parts.
+fn catches(
     mistake: &Mistake,
     solution: &BuiltSolution,
     exam: &Exam,
-) -> Result<BTreeSet<String>, WorkbenchError> {
-    let mut failed = BTreeSet::new();
+) -> Result<Vec<Catch>, WorkbenchError> {
+    let mut caught = Vec::new();
     for task in mistake.tasks() {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
         let answers = solution.answers_to_each(&items)?;
-        let wrong = items.into_iter().zip(&answers);
-        let wrong = wrong.filter(|(item, answers)| is_failed(item, answers));
-        failed.extend(wrong.map(|(item, _)| item.id.clone()));
+        let answered = items.into_iter().zip(&answers);
+        caught.extend(answered.filter_map(|(item, answers)| Catch::of_item(item, answers)));
     }
-    Ok(failed)
-}
-
-fn is_failed(item: &Item, answers: &Result<Vec<Answer>, Fault>) -> bool {
-    match answers {
-        Err(_) => true,
-        Ok(answers) => {
-            let mut answered = item.questions.iter().zip(answers);
-            answered.any(|(question, answer)| judge(question, answer).credit < Credit::FULL)
-        }
-    }
+    Ok(caught)
 }
 
 /// Returns the differences between the committed lists and those of a check, one line each. A check

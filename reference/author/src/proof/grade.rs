@@ -1,7 +1,7 @@
 //! Grades mistakes and variants with an exam.
 
 use grader::score::{ItemScore, Score};
-use judging::assignment::{RAYS, Task};
+use judging::assignment::Task;
 use judging::exam::{Exam, Item};
 use rayon::prelude::*;
 
@@ -41,7 +41,8 @@ pub fn variant_losses(
     sources: &Sources,
     exam: &Exam,
 ) -> Result<Vec<String>, WorkbenchError> {
-    let exam = tasks_and_dependents(exam, &variant.tasks());
+    let tasks = variant.tasks(workbench.handed_out().assignment);
+    let exam = tasks_and_dependents(exam, &tasks);
     let score = workbench.build(sources, &variant.id)?.score(&exam)?;
     let lost = score.items().filter(|item| item.points < item.max_points);
     let lost = lost.filter(|item| !variant.may_lose.contains(&item.id));
@@ -52,7 +53,7 @@ pub fn variant_losses(
 
 /// Returns the exam with only the items of these tasks and the items that depend on one of them.
 pub fn tasks_and_dependents(exam: &Exam, tasks: &[Task]) -> Exam {
-    let of_tasks = |id: &String| RAYS.task_of(id).is_some_and(|task| tasks.contains(&task));
+    let of_tasks = |id: &String| Task::in_id(id).is_some_and(|task| tasks.contains(&task));
     exam.filter_items(|item: &Item| of_tasks(&item.id) || item.needs.iter().any(of_tasks))
 }
 

@@ -4,7 +4,7 @@
 use std::fmt::Write;
 
 use grader::score::ItemScore;
-use judging::assignment::{RAYS, Task};
+use judging::assignment::{Assignment, TaskInfo};
 use judging::exam::{Exam, Item};
 
 use crate::generated_file::GeneratedFile;
@@ -24,11 +24,12 @@ pub fn generated_file(solutions: &Solutions, exam: &Exam) -> Result<GeneratedFil
     if !problems.is_empty() {
         return Err(ProofError::Problems(problems));
     }
-    Ok(table(exam, &graded))
+    let assignment = solutions.workbench.handed_out().assignment;
+    Ok(table(assignment, exam, &graded))
 }
 
 /// Builds the table for one exam.
-fn table(exam: &Exam, graded: &[GradedMistake]) -> GeneratedFile {
+fn table(assignment: &Assignment, exam: &Exam, graded: &[GradedMistake]) -> GeneratedFile {
     let mut text = format!(
         "# Which mistake fails which item\n\n\
          Written by `cargo author mistakes` for {} known mistakes, each a change to the reference, \
@@ -39,21 +40,22 @@ fn table(exam: &Exam, graded: &[GradedMistake]) -> GeneratedFile {
         graded.len(),
         exam.id
     );
-    for task in RAYS.tasks() {
+    for task in assignment.tasks() {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
         let of_task = graded.iter().filter(|graded| graded.mistake.task() == task);
-        task_table(&mut text, task, &items, of_task).expect("writing to a String cannot fail");
+        task_table(&mut text, assignment.info(task), &items, of_task)
+            .expect("writing to a String cannot fail");
     }
     GeneratedFile::new(PATH, text)
 }
 
 fn task_table<'a>(
     out: &mut String,
-    task: Task,
+    task: &TaskInfo,
     items: &[&Item],
     graded: impl Iterator<Item = &'a GradedMistake<'a>>,
 ) -> std::fmt::Result {
-    writeln!(out, "\n## {}\n", RAYS.info(task).title)?;
+    writeln!(out, "\n## {}\n", task.title)?;
     for (number, item) in (1..).zip(items) {
         writeln!(out, "{number}. `{}`: {}", item.id, item.title)?;
     }

@@ -3,6 +3,7 @@
 
 pub mod by_heart;
 pub mod calibrate;
+pub mod catches;
 pub mod failures;
 pub mod grade;
 pub mod matrix;

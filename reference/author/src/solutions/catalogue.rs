@@ -1,6 +1,7 @@
 //! The catalogue of known mistakes, which are small changes to the reference:
 //! `mistakes/TASK/*.toml` in the folder of an assignment's solutions.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use grader::files::{self, PathError};
@@ -26,9 +27,18 @@ pub struct Mistake {
     #[serde(default)]
     pub seen: Vec<String>,
     /// A question for students that helps them find the mistake.
+    #[serde(default)]
     pub nudge: String,
     /// An explanation for students of what is wrong.
+    #[serde(default)]
     pub hint: String,
+    /// The mistake whose nudge and hint this one shares, because the exam cannot tell them apart, so
+    /// that the texts must fit both.
+    #[serde(default)]
+    pub same_hint_as: Option<String>,
+    /// Other mistakes of which every sentence of the hint is also true.
+    #[serde(default)]
+    pub also_true_of: Vec<String>,
     /// The section of the handout about the mistake, if it differs from the section of the items
     /// that fail.
     #[serde(default)]
@@ -81,6 +91,15 @@ pub enum CatalogueError {
         /// The id that is not allowed.
         id: String,
     },
+    /// A mistake has no texts, or refers to another mistake for them in a wrong way.
+    #[error(
+        "{id}: give it a `nudge` and a `hint`, or name in `same_hint_as` another mistake of its task \
+         that has them; `also_true_of` names other mistakes"
+    )]
+    Texts {
+        /// The id of the mistake.
+        id: String,
+    },
     /// The text that a mistake changes no longer occurs exactly once in the reference.
     #[error(
         "{id} no longer applies: its `was` occurs {count} times in {file} instead of once; adapt it in \
@@ -122,7 +141,44 @@ pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>, Cat
             }
         }
     }
+    share_hints(&mut all)?;
     Ok(all)
+}
+
+/// Copies the texts that mistakes share, and checks the ids by which mistakes refer to each other.
+fn share_hints(mistakes: &mut [Mistake]) -> Result<(), CatalogueError> {
+    let texts: BTreeMap<String, (String, String)> = mistakes
+        .iter()
+        .filter(|mistake| mistake.same_hint_as.is_none())
+        .map(|mistake| {
+            let texts = (mistake.nudge.clone(), mistake.hint.clone());
+            (mistake.id.clone(), texts)
+        })
+        .collect();
+    let ids: BTreeSet<String> = mistakes.iter().map(|mistake| mistake.id.clone()).collect();
+    for mistake in mistakes {
+        let own_task = mistake.task();
+        let is_complete = match &mistake.same_hint_as {
+            None => !mistake.nudge.is_empty() && !mistake.hint.is_empty(),
+            Some(other) => {
+                let has_none = mistake.nudge.is_empty() && mistake.hint.is_empty();
+                let same_task = Task::in_id(other) == Some(own_task);
+                let shared = texts.get(other).filter(|_| has_none && same_task);
+                shared.is_some_and(|(nudge, hint)| {
+                    mistake.nudge.clone_from(nudge);
+                    mistake.hint.clone_from(hint);
+                    true
+                })
+            }
+        };
+        let are_known = mistake.also_true_of.iter().all(|other| ids.contains(other));
+        if !is_complete || !are_known {
+            return Err(CatalogueError::Texts {
+                id: mistake.id.clone(),
+            });
+        }
+    }
+    Ok(())
 }
 
 fn toml_files(folder: &Path) -> Result<Vec<PathBuf>, PathError> {

@@ -12,6 +12,7 @@ pub mod failed_items;
 pub mod mutants;
 pub mod recording;
 pub mod sources;
+pub mod systematic;
 pub mod toml_file;
 pub mod variants;
 pub mod workbench;
@@ -98,6 +99,24 @@ impl Solutions {
         for (mistake, _) in &mut self.mistakes {
             mistake.fails = failed.of_mistake(&mistake.id).to_vec();
         }
+    }
+
+    /// Returns whether two mistakes, given by their ids, have the same hint.
+    pub fn have_same_hint(&self, one: &str, other: &str) -> bool {
+        let hint = |id: &str| {
+            let mut mistakes = self.mistakes.iter().map(|(mistake, _)| mistake);
+            mistakes.find(|mistake| mistake.id == id).map(|m| &m.hint)
+        };
+        hint(one) == hint(other)
+    }
+
+    /// Returns whether the hint of the first mistake is true of the second.
+    pub fn is_hint_true_of(&self, hint: &str, mistake: &str) -> bool {
+        let mut fits = self.mistakes.iter().filter(|(other, _)| {
+            let true_of = other.also_true_of.iter().any(|id| id == mistake);
+            true_of || other.id == mistake
+        });
+        fits.any(|(other, _)| self.have_same_hint(&other.id, hint))
     }
 
     /// Keeps one variant, and drops all others and the mistakes.

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use grader::files::{self, PathError};
-use judging::assignment::{RAYS, Task};
+use judging::assignment::{Assignment, Task};
 use projection::{GivenCodeError, given_code};
 use serde::Deserialize;
 
@@ -73,10 +73,9 @@ impl Variant {
         Path::new(FOLDER).join(format!("{}.rs", self.id.replace('.', "/")))
     }
 
-    /// Returns the tasks that its file solves.
-    pub fn tasks(&self) -> Vec<Task> {
-        let of_file = |task: &Task| RAYS.info(*task).file == self.file();
-        RAYS.tasks().filter(of_file).collect()
+    /// Returns the tasks of the assignment that its file solves.
+    pub fn tasks(&self, assignment: &Assignment) -> Vec<Task> {
+        assignment.tasks_in(&self.file()).collect()
     }
 
     /// Returns the reference with one task file replaced by this variant and its given code.

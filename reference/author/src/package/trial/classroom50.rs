@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use grader::doctor::package;
 use grader::files::{self, AtPath};
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 use serde_json::Value;
 
 use crate::bundle::{Bundle, archive};
@@ -37,8 +37,12 @@ const VARIABLES: [&str; 10] = [
 ];
 
 /// Runs the trial of the package in `folder`, and returns the problems found.
-pub fn check(workspace: &Path, folder: &Path) -> Result<Vec<String>, TrialError> {
-    let mut problems = package::problems(folder, &RAYS)?;
+pub fn check(
+    handed_out: &HandedOut,
+    workspace: &Path,
+    folder: &Path,
+) -> Result<Vec<String>, TrialError> {
+    let mut problems = package::problems(folder, handed_out)?;
     let workspace = &workspace.canonicalize().at("read", workspace)?;
     let packed = files::read(folder.join("pathtracing.zip"))?;
     let grader = archive::unzip(&packed)?;
@@ -54,7 +58,7 @@ pub fn check(workspace: &Path, folder: &Path) -> Result<Vec<String>, TrialError>
         TrialSubmission::Empty,
     ] {
         runner.create_checkout(|checkout| {
-            submission.write_to(workspace, &checkout.join("student/src"))
+            submission.write_to(handed_out, workspace, &checkout.join(handed_out.student))
         })?;
         let step = runner.run_step(
             &VARIABLES,

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use grader::files::AtPath;
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 
 use crate::bundle::{Bundle, archive};
 use crate::package::trial::runner::{Runner, StepResult};
@@ -24,7 +24,11 @@ const TIME_LIMIT: Duration = Duration::from_secs(20 * 60);
 const VARIABLES: [&str; 1] = ["CARGO_TARGET_DIR=/home/runner/built"];
 
 /// Runs the trial of the template repository, and returns the problems found.
-pub fn check(workspace: &Path, template: &Bundle) -> Result<Vec<String>, TrialError> {
+pub fn check(
+    handed_out: &HandedOut,
+    workspace: &Path,
+    template: &Bundle,
+) -> Result<Vec<String>, TrialError> {
     let mut problems = Vec::new();
     let workspace = &workspace.canonicalize().at("read", workspace)?;
     let lock = template.text("Cargo.lock").unwrap_or_default();
@@ -42,7 +46,12 @@ pub fn check(workspace: &Path, template: &Bundle) -> Result<Vec<String>, TrialEr
     ] {
         runner.create_checkout(|checkout| {
             archive::write_files(template, checkout)?;
-            replace_task_files(submission, workspace, &checkout.join("student/src"))
+            replace_task_files(
+                handed_out,
+                submission,
+                workspace,
+                &checkout.join(handed_out.student),
+            )
         })?;
         for command in &commands {
             let words: Vec<&str> = command.split_whitespace().collect();
@@ -64,13 +73,14 @@ pub fn check(workspace: &Path, template: &Bundle) -> Result<Vec<String>, TrialEr
 
 /// Replaces the template's task files with those of the submission.
 fn replace_task_files(
+    handed_out: &HandedOut,
     submission: TrialSubmission,
     workspace: &Path,
     source: &Path,
 ) -> Result<(), TrialError> {
     let folder = &source.with_file_name("submission");
-    submission.write_to(workspace, folder)?;
-    for file in RAYS.files {
+    submission.write_to(handed_out, workspace, folder)?;
+    for file in handed_out.files {
         let (from, to) = (folder.join(file.name), source.join(file.name));
         fs::remove_file(&to).at("remove", &to)?;
         if from.exists() {

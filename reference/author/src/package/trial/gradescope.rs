@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use grader::doctor::package;
 use grader::files::{self, AtPath};
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 use serde::Deserialize;
 use zip::ZipArchive;
 
@@ -52,8 +52,12 @@ struct Test {
 }
 
 /// Runs the trial of the package in the file `zip`, and returns the problems found.
-pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, TrialError> {
-    let mut problems = package::problems(zip, &RAYS)?;
+pub fn check(
+    handed_out: &'static HandedOut,
+    workspace: &Path,
+    zip: &Path,
+) -> Result<Vec<String>, TrialError> {
+    let mut problems = package::problems(zip, handed_out)?;
     let workspace = &workspace.canonicalize().at("read", workspace)?;
     let Some(machine) = Machine::create(&workspace.join(TRIAL_FOLDER))? else {
         return Ok(problems);
@@ -81,7 +85,7 @@ pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, TrialError> {
     ];
     for submission in all {
         let folder = machine.host_path("autograder/submission");
-        submission.write_to(workspace, &folder)?;
+        submission.write_to(handed_out, workspace, &folder)?;
         clear_results(&machine)?;
         let job = run(
             &machine,
@@ -94,7 +98,7 @@ pub fn check(workspace: &Path, zip: &Path) -> Result<Vec<String>, TrialError> {
         if submission == TrialSubmission::Thief {
             problems.extend(theft_problems(
                 &machine,
-                &ProtectedData::collect(workspace, &exam)?,
+                &ProtectedData::collect(handed_out, workspace, &exam)?,
                 &job,
             )?);
         }

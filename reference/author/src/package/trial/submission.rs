@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use grader::files::{self, AtPath};
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 
 use crate::package::trial::{TrialError, thief};
 
@@ -41,23 +41,28 @@ impl TrialSubmission {
     }
 
     /// Writes the submission's files into a folder, which is emptied first.
-    pub fn write_to(self, workspace: &Path, folder: &Path) -> Result<(), TrialError> {
+    pub fn write_to(
+        self,
+        handed_out: &HandedOut,
+        workspace: &Path,
+        folder: &Path,
+    ) -> Result<(), TrialError> {
         if folder.exists() {
             fs::remove_dir_all(folder).at("remove", folder)?;
         }
         files::create_dir_all(folder)?;
         let from = match self {
-            TrialSubmission::Reference => workspace.join("reference/src"),
-            TrialSubmission::Starter => workspace.join("grader/starter"),
+            TrialSubmission::Reference => workspace.join(handed_out.reference),
+            TrialSubmission::Starter => workspace.join(handed_out.starter),
             TrialSubmission::Empty => return Ok(()),
             TrialSubmission::Thief => {
-                for (file, text) in thief::files(workspace)? {
+                for (file, text) in thief::files(handed_out, workspace)? {
                     files::write(folder.join(file), text)?;
                 }
                 return Ok(());
             }
         };
-        for file in RAYS.files {
+        for file in handed_out.files {
             files::copy(from.join(file.name), folder.join(file.name))?;
         }
         Ok(())

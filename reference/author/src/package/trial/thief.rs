@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use grader::files;
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 
 use crate::bundle::Bundle;
 use crate::bundle::secrets::Secrets;
@@ -72,9 +72,12 @@ const ATTACKS: [(&str, &str, &str); 5] = [
 const KEY_PREFIX_LENGTH: usize = 30;
 
 /// Returns the submission's files: those of the starter, each with an attack.
-pub fn files(workspace: &Path) -> Result<Vec<(&'static str, String)>, TrialError> {
+pub fn files(
+    handed_out: &HandedOut,
+    workspace: &Path,
+) -> Result<Vec<(&'static str, String)>, TrialError> {
     let one = |(file, head, attack): (&'static str, &str, &str)| {
-        let path = workspace.join("grader/starter").join(file);
+        let path = workspace.join(handed_out.starter).join(file);
         let text = files::read_to_string(&path)?;
         match text.matches(head).count() {
             1 => Ok((file, text.replace(head, &format!("{head}{attack}")))),
@@ -96,12 +99,16 @@ pub struct ProtectedData {
 
 impl ProtectedData {
     /// Collects the lines of the reference and the keys of the exam.
-    pub fn collect(workspace: &Path, exam: &str) -> Result<Self, TrialError> {
+    pub fn collect(
+        handed_out: &'static HandedOut,
+        workspace: &Path,
+        exam: &str,
+    ) -> Result<Self, TrialError> {
         Ok(ProtectedData {
             solutions: Secrets::gather(
                 workspace,
-                &RAYS,
-                &Bundle::collect(workspace, &RAYS, None)?,
+                handed_out,
+                &Bundle::collect(workspace, handed_out, None)?,
             )?,
             keys: keys(exam),
         })
@@ -135,6 +142,8 @@ fn keys(exam: &str) -> BTreeSet<String> {
 
 #[cfg(test)]
 mod tests {
+    use grader::handed_out::RAYS;
+
     use super::*;
 
     fn workspace() -> &'static Path {
@@ -143,7 +152,7 @@ mod tests {
 
     #[test]
     fn all_five_files_attack() {
-        let files = files(workspace()).unwrap();
+        let files = files(&RAYS, workspace()).unwrap();
         let names: Vec<&str> = files.iter().map(|(file, _)| *file).collect();
         let expected: Vec<&str> = RAYS.files.iter().map(|file| file.name).collect();
         assert_eq!(names, expected);
@@ -152,7 +161,7 @@ mod tests {
     #[test]
     fn finds_leaked_solutions_and_keys_even_when_quoted() {
         let exam = std::fs::read_to_string(workspace().join("grader/exams/practice.json")).unwrap();
-        let protected = ProtectedData::collect(workspace(), &exam).unwrap();
+        let protected = ProtectedData::collect(&RAYS, workspace(), &exam).unwrap();
         assert!(protected.keys.len() > 100, "{}", protected.keys.len());
         let solved = std::fs::read_to_string(workspace().join("reference/src/sphere.rs")).unwrap();
         let key = &exam[exam.find("\"key\"").unwrap()..][..1500];

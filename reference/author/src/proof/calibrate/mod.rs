@@ -131,9 +131,10 @@ impl<'a> BuiltSolutions<'a> {
             seed,
         };
         let mut margins = Margins::default();
+        let assignment = self.solutions.workbench.handed_out().assignment;
 
         for ((variant, _), solution) in self.solutions.variants.iter().zip(&self.variants) {
-            let exam = tasks_and_dependents(&exam, &variant.tasks());
+            let exam = tasks_and_dependents(&exam, &variant.tasks(assignment));
             for item in &exam.items {
                 let answers = solution.answers(item).map_err(WorkbenchError::from)?;
                 let may_lose = variant.may_lose.contains(&item.id);

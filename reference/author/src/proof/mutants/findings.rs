@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::solutions::mutants::equivalent::{self, EquivalentMutant};
+use crate::solutions::mutants::equivalent::EquivalentMutant;
 
 /// The outcome of grading one mutant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +24,8 @@ pub struct Findings {
     pub outcomes: BTreeMap<String, MutantOutcome>,
     /// The mutants that are expected to survive.
     pub equivalent: Vec<EquivalentMutant>,
+    /// The file that lists those.
+    pub path: &'static str,
 }
 
 impl Findings {
@@ -37,7 +39,7 @@ impl Findings {
         };
         let survive = self.unexpected_survivors().count();
         format!(
-            "mutants: {} made, {} do not compile, {} caught, {} equivalent, {survive} survive",
+            "{} made, {} do not compile, {} caught, {} equivalent, {survive} survive",
             self.outcomes.len() - count(MutantOutcome::Skipped),
             count(MutantOutcome::NotCompiled),
             count(MutantOutcome::Caught),
@@ -51,7 +53,7 @@ impl Findings {
             format!(
                 "`{name}` survives: add a question to the exam that catches it, or explain in {} \
                  why no answer can differ",
-                equivalent::PATH
+                self.path
             )
         });
         let wrongly_listed =
@@ -64,7 +66,7 @@ impl Findings {
                         Some(MutantOutcome::NotCompiled) => "does not compile",
                         None => "does not exist",
                     };
-                    let path = equivalent::PATH;
+                    let path = self.path;
                     Some(format!("`{name}` {found}: remove it from {path}"))
                 });
         survive.chain(wrongly_listed).collect()
@@ -101,6 +103,7 @@ mod tests {
                     why: "the result is the same".to_owned(),
                 })
                 .collect(),
+            path: "reference/mutants/equivalent.toml",
         }
     }
 
@@ -115,7 +118,7 @@ mod tests {
         let findings = findings(&outcomes, &["a", "d"]);
         assert_eq!(
             findings.summary_line(),
-            "mutants: 3 made, 1 do not compile, 1 caught, 1 equivalent, 0 survive"
+            "3 made, 1 do not compile, 1 caught, 1 equivalent, 0 survive"
         );
         assert_eq!(findings.problems(), [""; 0]);
     }

@@ -1,5 +1,6 @@
-//! Checks that the exam catches the mutants that cargo-mutants generates from the reference's task files:
-//! every mutant must lose points, except those that are equivalent to the reference.
+//! Checks that the exam catches every mechanical change to the reference's task files: the mutants of
+//! cargo-mutants, and the systematic mistakes. Each must lose points, except those that are
+//! equivalent to the reference.
 
 pub mod findings;
 
@@ -7,7 +8,7 @@ use std::path::Path;
 
 use grader::exam_source::ExamSourceError;
 use grader::files::{self, PathError};
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 use indicatif::ParallelProgressIterator;
 use judging::exam::Exam;
 use rayon::prelude::*;
@@ -17,9 +18,10 @@ use crate::generated_file::Mode;
 use crate::proof::mutants::findings::{Findings, MutantOutcome};
 use crate::proof::progress::progress_bar;
 use crate::solutions::mutants::cargo_mutants::{self, CargoMutantsError};
-use crate::solutions::mutants::equivalent::{EquivalentsError, equivalent_mutants};
+use crate::solutions::mutants::equivalent::{self, EquivalentsError, equivalent_mutants};
 use crate::solutions::mutants::list::{self, MutantList, OutdatedListError};
 use crate::solutions::sources::Sources;
+use crate::solutions::systematic::systematic_mistakes;
 use crate::solutions::workbench::{Workbench, WorkbenchError};
 
 /// The step of a sample: it contains one in this many mutants, in the order of their names.
@@ -98,15 +100,19 @@ impl MutantSelection {
 /// Lists all mutants of the reference in the workspace at `root`: runs cargo-mutants if it is
 /// installed, and otherwise reads the committed list. In check mode, also reads the committed list
 /// if another version of cargo-mutants generated it.
-pub fn list(root: &Path, mode: Mode) -> Result<MutantList, MutantsError> {
+pub fn list(
+    handed_out: &'static HandedOut,
+    root: &Path,
+    mode: Mode,
+) -> Result<MutantList, MutantsError> {
     match (cargo_mutants::version(), mode) {
         (None, _) => committed_list(root),
         (Some(version), Mode::Check) if committed_list(root)?.made_by != version => {
             committed_list(root)
         }
         (Some(version), Mode::Check | Mode::Write) => {
-            let reference = Sources::reference(root, &RAYS)?;
-            Ok(cargo_mutants::list(&version, root, &reference)?)
+            let reference = Sources::reference(root, handed_out)?;
+            Ok(cargo_mutants::list(&version, handed_out, root, &reference)?)
         }
     }
 }
@@ -117,34 +123,64 @@ fn committed_list(root: &Path) -> Result<MutantList, MutantsError> {
 }
 
 /// Builds the selected mutants, and grades each with the practice exam.
-pub fn run(list: &MutantList, selection: MutantSelection) -> Result<Findings, MutantsError> {
-    let workbench = Workbench::open(&RAYS)?;
+pub fn run(
+    handed_out: &'static HandedOut,
+    list: &MutantList,
+    selection: MutantSelection,
+) -> Result<Findings, MutantsError> {
+    let workbench = Workbench::open(handed_out)?;
+    let reference = Sources::reference(workbench.root(), handed_out)?;
+    let all = list.solutions(handed_out, &reference)?.into_iter();
+    let all = all.map(|(mutant, sources)| (mutant.name.clone(), sources));
+    let path = equivalent::OF_MUTANTS;
+    grade(&workbench, &reference, all.collect(), selection, path)
+}
+
+/// Builds the selected systematic mistakes, and grades each with the practice exam.
+pub fn run_systematic(
+    handed_out: &'static HandedOut,
+    selection: MutantSelection,
+) -> Result<Findings, MutantsError> {
+    let workbench = Workbench::open(handed_out)?;
+    let reference = Sources::reference(workbench.root(), handed_out)?;
+    let all = systematic_mistakes(handed_out, &reference);
+    let path = equivalent::OF_SYSTEMATIC_MISTAKES;
+    grade(&workbench, &reference, all, selection, path)
+}
+
+/// Builds the selected changes to the reference, and grades each with the practice exam. `path` is
+/// the list of those that are equivalent.
+fn grade(
+    workbench: &Workbench,
+    reference: &Sources,
+    all: Vec<(String, Sources)>,
+    selection: MutantSelection,
+    path: &'static str,
+) -> Result<Findings, MutantsError> {
     let root = workbench.root();
     let exam = exams::load_practice(root)?;
-    let reference = Sources::reference(root, &RAYS)?;
-    if outcome(&workbench, &reference, "reference", &exam)? != MutantOutcome::Survived {
+    if outcome(workbench, reference, "reference", &exam)? != MutantOutcome::Survived {
         return Err(MutantsError::Reference);
     }
 
-    let all = list.solutions(&reference)?;
     let bar = progress_bar(all.len() as u64, "mutants");
     let outcomes: Result<_, WorkbenchError> = all
         .into_par_iter()
         .enumerate()
         .progress_with(bar)
-        .map(|(number, (mutant, sources))| {
-            let name = &mutant.name;
+        .map(|(number, (name, sources))| {
             let outcome = if selection.includes(number) {
-                outcome(&workbench, &sources, name, &exam)?
+                outcome(workbench, &sources, &name, &exam)?
             } else {
                 MutantOutcome::Skipped
             };
-            Ok((name.clone(), outcome))
+            Ok((name, outcome))
         })
         .collect();
     Ok(Findings {
         outcomes: outcomes?,
-        equivalent: equivalent_mutants(root)?,
+        equivalent: equivalent_mutants(root, path)?,
+        path,
     })
 }
 

@@ -6,7 +6,7 @@ use std::io;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use grader::handed_out::{RAYS, TaskFile};
+use grader::handed_out::{HandedOut, TaskFile};
 use serde::Deserialize;
 
 use crate::solutions::mutants::list::{self, FileMutants, MutantList, UnnamedMutant};
@@ -63,15 +63,16 @@ pub fn version() -> Option<String> {
 /// Lists the mutants of the reference in the workspace at `root`.
 pub fn list(
     made_by: &str,
+    handed_out: &HandedOut,
     root: &Path,
     reference: &Sources,
 ) -> Result<MutantList, CargoMutantsError> {
-    let output = run(root)?;
+    let output = run(handed_out, root)?;
     if !output.status.success() {
         let message = String::from_utf8_lossy(&output.stderr);
         return Err(CargoMutantsError::Failed(message.trim().to_owned()));
     }
-    parse_list(made_by, &output.stdout, reference).map_err(|reason| {
+    parse_list(made_by, &output.stdout, handed_out, reference).map_err(|reason| {
         CargoMutantsError::UnknownFormat {
             made_by: made_by.to_owned(),
             reason,
@@ -79,22 +80,27 @@ pub fn list(
     })
 }
 
-fn run(root: &Path) -> io::Result<Output> {
+fn run(handed_out: &HandedOut, root: &Path) -> io::Result<Output> {
     let mut cargo = Command::new("cargo");
     cargo.args(["mutants", "--list", "--json", "--no-config"]);
     cargo.args(["--package", "reference", "--dir"]).arg(root);
-    for file in RAYS.files {
-        cargo.args(["--file", &path(file)]);
+    for file in handed_out.files {
+        cargo.args(["--file", &path(handed_out, file)]);
     }
     cargo.output()
 }
 
 /// Returns the path of a file as it is written in the list.
-fn path(file: &TaskFile) -> String {
-    format!("reference/src/{}", file.name)
+fn path(handed_out: &HandedOut, file: &TaskFile) -> String {
+    format!("{}/{}", handed_out.reference, file.name)
 }
 
-fn parse_list(made_by: &str, json: &[u8], reference: &Sources) -> Result<MutantList, String> {
+fn parse_list(
+    made_by: &str,
+    json: &[u8],
+    handed_out: &HandedOut,
+    reference: &Sources,
+) -> Result<MutantList, String> {
     let all: Vec<ListedMutant> = serde_json::from_slice(json).map_err(|error| error.to_string())?;
     let mut by_file: BTreeMap<String, Vec<UnnamedMutant>> = BTreeMap::new();
     for listed in all {
@@ -104,9 +110,9 @@ fn parse_list(made_by: &str, json: &[u8], reference: &Sources) -> Result<MutantL
             .or_default()
             .push(listed.into_unnamed()?);
     }
-    let files = RAYS.files.iter().map(|file| {
+    let files = handed_out.files.iter().map(|file| {
         let text = reference.text(file.name).unwrap_or_default();
-        match by_file.remove(&path(file)) {
+        match by_file.remove(&path(handed_out, file)) {
             Some(unnamed) => Ok(FileMutants::new(file.name, text, unnamed)),
             None => Err(format!("it has no mutants of {}", file.name)),
         }

@@ -1,7 +1,7 @@
 //! The list of all mutants, `reference/mutants/list.json`. It is committed, so that the mutants can
 //! be graded without installing cargo-mutants.
 
-use grader::handed_out::{RAYS, TaskFile};
+use grader::handed_out::{HandedOut, TaskFile};
 use judging::content_hash::file_hash;
 use serde::{Deserialize, Serialize};
 
@@ -110,10 +110,11 @@ impl MutantList {
     /// Returns every mutant with its sources, sorted by name.
     pub fn solutions(
         &self,
+        handed_out: &HandedOut,
         reference: &Sources,
     ) -> Result<Vec<(&Mutant, Sources)>, OutdatedListError> {
         let mut solutions = Vec::new();
-        for &TaskFile { name: file, .. } in RAYS.files {
+        for &TaskFile { name: file, .. } in handed_out.files {
             let outdated = || OutdatedListError {
                 file: file.to_owned(),
             };
@@ -160,6 +161,8 @@ fn to_json(value: &impl Serialize) -> String {
 #[cfg(test)]
 mod tests {
     use std::path::Path;
+
+    use grader::handed_out::RAYS;
 
     use super::*;
 
@@ -215,7 +218,10 @@ mod tests {
     fn each_mutant_changes_its_own_file_only() {
         let reference = reference();
         let list = list(&reference);
-        for (mutant, sources) in list.solutions(&reference).expect("the list is up to date") {
+        for (mutant, sources) in list
+            .solutions(&RAYS, &reference)
+            .expect("the list is up to date")
+        {
             for &TaskFile { name, .. } in RAYS.files {
                 let text = reference.text(name).unwrap_or_default();
                 let expected = if mutant.name.starts_with(name) {
@@ -235,7 +241,7 @@ mod tests {
             .text("sphere.rs")
             .map(|text| format!("{text}\n"));
         let later = reference().with_file("sphere.rs", text.unwrap_or_default());
-        let error = list.solutions(&later).expect_err("a line was added");
+        let error = list.solutions(&RAYS, &later).expect_err("a line was added");
         assert_eq!(error.file, "sphere.rs");
         let message = error.to_string();
         assert!(message.contains("install cargo-mutants"), "{message}");
@@ -246,7 +252,9 @@ mod tests {
     fn rejects_a_list_without_one_of_the_files() {
         let mut list = list(&reference());
         list.files.remove(1);
-        let error = list.solutions(&reference()).expect_err("a file is missing");
+        let error = list
+            .solutions(&RAYS, &reference())
+            .expect_err("a file is missing");
         assert_eq!(error.file, "triangle.rs");
     }
 

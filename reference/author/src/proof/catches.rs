@@ -1,0 +1,255 @@
+//! How clearly the exam catches each mistake: by how many questions, and by which share of an item.
+//! A mistake that a single ray catches is caught by luck.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use grader::handed_out::HandedOut;
+use grader::probe::Fault;
+use judging::exam::{Item, Key};
+use judging::judge::{Credit, judge, measure};
+use protocol::Answer;
+
+use crate::generated_file::GeneratedFile;
+
+/// The fewest wrong answers in a table, unless they are the share below.
+const TABLE_ANSWERS: usize = 3;
+/// The smallest share of wrong answers in a table.
+const TABLE_SHARE: f64 = 0.2;
+/// The fewest wrong positions in a picture, as a multiple of those that are tolerated.
+const PICTURE_MULTIPLE: f64 = 3.0;
+/// The fewest wrong trees, unless all are wrong.
+const TREES: usize = 2;
+
+/// The way in which an item catches a mistake.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Catch {
+    /// The id of the item.
+    pub item: String,
+    /// The number of wrong answers in tables, and of all of them.
+    pub answers: (usize, usize),
+    /// The number of wrong trees, and of all of them.
+    pub trees: (usize, usize),
+    /// The wrong positions of a picture, as a multiple of those that are tolerated.
+    pub picture: f64,
+    /// Whether the item has no answers.
+    pub is_unanswered: bool,
+}
+
+impl Catch {
+    /// Returns how an item catches a mistake that gives these answers, or `None` if it does not.
+    pub fn of_item(item: &Item, answers: &Result<Vec<Answer>, Fault>) -> Option<Catch> {
+        let mut caught = Catch {
+            item: item.id.clone(),
+            answers: (0, 0),
+            trees: (0, 0),
+            picture: 0.0,
+            is_unanswered: answers.is_err(),
+        };
+        let mut is_caught = caught.is_unanswered;
+        for (question, answer) in item.questions.iter().zip(answers.iter().flatten()) {
+            let judgement = judge(question, answer);
+            let is_wrong = judgement.credit < Credit::FULL;
+            is_caught |= is_wrong;
+            match question.key {
+                Key::Tree { .. } => {
+                    caught.trees.0 += usize::from(is_wrong);
+                    caught.trees.1 += 1;
+                }
+                Key::FirstHits { .. } | Key::Radiance { .. } => {
+                    caught.picture = caught.picture.max(picture_multiple(question, answer));
+                }
+                Key::Rays { .. } | Key::Hits { .. } | Key::Spans { .. } => {
+                    let count = judgement.failure.and_then(|failure| failure.count);
+                    caught.answers.0 += count.map_or(0, |(wrong, _)| wrong);
+                    caught.answers.1 += question.question.count();
+                }
+            }
+        }
+        is_caught.then_some(caught)
+    }
+
+    /// Returns how clear the catch is, as a multiple of the least that is required.
+    pub fn clarity(&self) -> f64 {
+        if self.is_unanswered {
+            return f64::INFINITY;
+        }
+        let (wrong, of) = self.answers;
+        let share = wrong as f64 / of.max(1) as f64;
+        let table = (wrong as f64 / TABLE_ANSWERS as f64).max(share / TABLE_SHARE);
+        let trees = match self.trees {
+            (0, _) => 0.0,
+            (wrong, of) => (wrong as f64 / TREES as f64).max(wrong as f64 / of as f64),
+        };
+        table.max(trees).max(self.picture / PICTURE_MULTIPLE)
+    }
+}
+
+fn picture_multiple(question: &judging::exam::ExamQuestion, answer: &Answer) -> f64 {
+    let measured = measure(question, answer).into_iter();
+    let counts = measured.filter_map(|measured| measured.count);
+    counts.map(|count| count.value).fold(0.0, f64::max)
+}
+
+impl fmt::Display for Catch {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        if self.is_unanswered {
+            return write!(f, "no answer");
+        }
+        let mut parts = Vec::new();
+        if let (wrong @ 1.., of) = self.answers {
+            parts.push(format!("{wrong} of {of} answers"));
+        }
+        if let (wrong @ 1.., of) = self.trees {
+            parts.push(format!("{wrong} of {of} trees"));
+        }
+        if self.picture > 0.0 {
+            parts.push(format!("{:.0} times the tolerated positions", self.picture));
+        }
+        write!(f, "{}", parts.join(", "))
+    }
+}
+
+/// The clearest catch of each mistake, in the exam in which it is least clear.
+#[derive(Clone, Debug, Default)]
+pub struct Catches {
+    /// The number of exams of each mistake, and its catch there, by the id of the mistake. `None` if
+    /// an exam does not catch it at all.
+    thinnest: BTreeMap<String, (u64, Option<Catch>)>,
+}
+
+impl Catches {
+    /// Adds the catches of a mistake in one exam.
+    pub fn add(&mut self, mistake: &str, catches: &[Catch]) {
+        let clearest = catches
+            .iter()
+            .max_by(|a, b| a.clarity().total_cmp(&b.clarity()));
+        let clarity = |caught: Option<&Catch>| caught.map_or(-1.0, Catch::clarity);
+        match self.thinnest.get_mut(mistake) {
+            None => {
+                let entry = (1, clearest.cloned());
+                self.thinnest.insert(mistake.to_owned(), entry);
+            }
+            Some((exams, thinnest)) => {
+                *exams += 1;
+                if clarity(clearest) < clarity(thinnest.as_ref()) {
+                    *thinnest = clearest.cloned();
+                }
+            }
+        }
+    }
+
+    /// Returns the mistakes with the least clear catches first.
+    pub fn by_clarity(&self) -> Vec<(&str, u64, Option<&Catch>)> {
+        let all = self.thinnest.iter();
+        let mut all: Vec<_> = all
+            .map(|(id, (exams, caught))| (id.as_str(), *exams, caught.as_ref()))
+            .collect();
+        let clarity = |caught: Option<&Catch>| caught.map_or(-1.0, Catch::clarity);
+        all.sort_by(|a, b| clarity(a.2).total_cmp(&clarity(b.2)));
+        all
+    }
+
+    /// Returns the mistakes that some exam catches less clearly than required, one line each.
+    pub fn problems(&self) -> Vec<String> {
+        let all = self.by_clarity().into_iter();
+        let thin = all.filter(|(.., caught)| caught.is_none_or(|caught| caught.clarity() < 1.0));
+        thin.map(|(id, _, caught)| match caught {
+            None => format!("{id} passes an exam"),
+            Some(caught) => format!(
+                "{id} is caught by {caught} in {}: ask more questions that show it",
+                caught.item
+            ),
+        })
+        .collect()
+    }
+
+    /// Returns the table of all catches.
+    pub fn generated_file(&self, handed_out: &HandedOut) -> GeneratedFile {
+        let mut text = format!(
+            "# How clearly each mistake is caught\n\n\
+             Written by `cargo author mistakes`. For each mistake, the exam in which it is caught \
+             least clearly, and the item that catches it best there. The least that is required are \
+             {TABLE_ANSWERS} answers or {:.0} % of an item's tables, {PICTURE_MULTIPLE} times the \
+             tolerated positions of a picture, or {TREES} trees or all of an item.\n\n\
+             | mistake | exams | item | caught by | times the required |\n|---|--:|---|---|--:|\n",
+            100.0 * TABLE_SHARE
+        );
+        for (id, exams, caught) in self.by_clarity() {
+            let row = match caught {
+                None => format!("| `{id}` | {exams} | | nothing | 0 |\n"),
+                Some(caught) => format!(
+                    "| `{id}` | {exams} | `{}` | {caught} | {} |\n",
+                    caught.item,
+                    multiple(caught.clarity())
+                ),
+            };
+            text.push_str(&row);
+        }
+        GeneratedFile::new(
+            format!("{}/mistakes/catches.md", handed_out.solutions()),
+            text,
+        )
+    }
+}
+
+fn multiple(clarity: f64) -> String {
+    match clarity.is_finite() {
+        true => format!("{clarity:.1}"),
+        false => "∞".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn caught(item: &str, answers: (usize, usize), trees: (usize, usize), picture: f64) -> Catch {
+        Catch {
+            item: item.to_owned(),
+            answers,
+            trees,
+            picture,
+            is_unanswered: false,
+        }
+    }
+
+    #[test]
+    fn three_answers_or_a_fifth_two_trees_or_all_and_three_times_the_tolerance_are_clear() {
+        let clarity = |answers, trees, picture| caught("", answers, trees, picture).clarity();
+        for clear in [
+            clarity((3, 100), (0, 0), 0.0),
+            clarity((1, 5), (0, 0), 0.0),
+            clarity((0, 0), (2, 9), 0.0),
+            clarity((0, 0), (1, 1), 0.0),
+            clarity((0, 0), (0, 0), 3.0),
+        ] {
+            assert!(clear >= 1.0, "{clear}");
+        }
+        for thin in [
+            clarity((2, 11), (0, 0), 0.0),
+            clarity((0, 0), (1, 3), 0.0),
+            clarity((0, 0), (0, 0), 2.9),
+        ] {
+            assert!(thin < 1.0, "{thin}");
+        }
+    }
+
+    #[test]
+    fn the_clearest_item_of_the_least_clear_exam_counts() {
+        let mut catches = Catches::default();
+        let thin = caught("bbox.thin", (1, 24), (0, 0), 0.0);
+        let clear = caught("bbox.clear", (12, 24), (0, 0), 0.0);
+        catches.add("bbox.a", &[thin.clone(), clear.clone()]);
+        assert_eq!(catches.problems(), [""; 0]);
+        catches.add("bbox.a", &[thin]);
+        catches.add("bbox.b", &[]);
+        assert_eq!(
+            catches.problems(),
+            [
+                "bbox.b passes an exam",
+                "bbox.a is caught by 1 of 24 answers in bbox.thin: ask more questions that show it",
+            ]
+        );
+    }
+}

@@ -48,6 +48,11 @@ fn the_table_of_mistakes_is_in_sync() {
 }
 
 #[test]
+fn every_sentence_of_the_contract_is_covered_or_has_its_reason() {
+    assert_in_sync("coverage");
+}
+
+#[test]
 fn the_handout_is_in_sync_and_its_links_names_and_commands_exist() {
     assert_in_sync("handout");
 }

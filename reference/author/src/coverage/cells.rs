@@ -1,0 +1,211 @@
+//! The cells of the table: what distinguishes one question from another that asks the same.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use judging::exam::ExamQuestion;
+use protocol::{Question, Ray, Shape};
+
+use crate::oracle::bbox::Bounds;
+use crate::oracle::scan;
+
+/// The name of a cell, such as `scale: room`.
+pub(super) type Cell = &'static str;
+
+/// How often each cell is asked.
+pub(super) type Counts = BTreeMap<Cell, usize>;
+
+const SCALES: [Cell; 4] = ["scale: dust", "scale: small", "scale: one", "scale: room"];
+const PLACES: [Cell; 2] = ["place: origin", "place: far"];
+const OCTANTS: Cell = "direction: each octant";
+const OCTANT: [Cell; 8] = ["+++", "-++", "+-+", "--+", "++-", "-+-", "+--", "---"];
+const QUADRANTS: Cell = "pixel: each quadrant";
+const QUADRANT: [Cell; 4] = ["lower left", "lower right", "upper left", "upper right"];
+const HISTORY: [Cell; 3] = [
+    "history: first call",
+    "history: tenth call",
+    "history: thousandth call",
+];
+const SIZES: [Cell; 4] = ["size: none", "size: one", "size: few", "size: many"];
+
+/// Returns the cells that are distinguished in a task, in the order of the table.
+pub(super) fn of_task(task: &str) -> Vec<Cell> {
+    let of_rays = |start: &[Cell], more: &[Cell]| {
+        [&SCALES[..], &PLACES, &[OCTANTS], start, more, &HISTORY].concat()
+    };
+    match task {
+        "camera" => [
+            &["film: wide", "film: high", "film: large", QUADRANTS][..],
+            &HISTORY,
+        ]
+        .concat(),
+        "triangle" => of_rays(
+            &["start: in front", "start: behind", "start: on the surface"],
+            &[],
+        ),
+        "sphere" => of_rays(
+            &["start: outside", "start: inside", "start: on the surface"],
+            &[],
+        ),
+        "bbox" => of_rays(&["start: outside", "start: inside"], &[]),
+        "build" => [&SCALES[..], &PLACES, &SIZES].concat(),
+        _ => of_rays(&["start: outside", "start: inside"], &SIZES),
+    }
+}
+
+/// Adds the cells of all elements of a question.
+pub(super) fn count(asked: &ExamQuestion, counts: &mut Counts) {
+    let mut add = |cell: Cell, times: usize| *counts.entry(cell).or_default() += times;
+    let calls = asked.question.count();
+    match &asked.question {
+        Question::Camera { camera, samples } => {
+            let film = camera.film;
+            add("film: wide", calls * usize::from(film.x > film.y));
+            add("film: high", calls * usize::from(film.y > film.x));
+            add(
+                "film: large",
+                calls * usize::from(film.max_element() >= 1000),
+            );
+            for sample in samples.to_vec(film) {
+                let (right, up) = (2 * sample.pixel.x >= film.x, 2 * sample.pixel.y >= film.y);
+                add(QUADRANT[usize::from(right) + 2 * usize::from(up)], 1);
+            }
+        }
+        Question::Shapes { shapes, rays } => {
+            place(&bounds(shapes), calls, &mut add);
+            for ray in rays.to_vec() {
+                add(start_at_shapes(shapes, &ray), 1);
+            }
+        }
+        Question::BBox { min, max, queries } => {
+            let bounds = Bounds {
+                min: min.as_dvec3(),
+                max: max.as_dvec3(),
+            };
+            place(&bounds, calls, &mut add);
+            for (ray, _) in queries {
+                add(start_at_box(&bounds, ray), 1);
+            }
+        }
+        Question::Build { shapes, .. } => {
+            place(&bounds(shapes), 1, &mut add);
+            add(size(shapes.len()), 1);
+        }
+        Question::Traverse { shapes, rays, .. }
+        | Question::BuildAndTraverse { shapes, rays, .. } => {
+            let bounds = bounds(shapes);
+            place(&bounds, calls, &mut add);
+            add(size(shapes.len()), calls);
+            for ray in rays.to_vec() {
+                add(start_at_box(&bounds, &ray), 1);
+            }
+        }
+        Question::Radiance { .. } | Question::Done => {}
+    }
+    for ray in asked_rays(&asked.question) {
+        add(OCTANT[ray.dir.is_negative_bitmask() as usize], 1);
+    }
+    add(HISTORY[0], 1);
+    add(HISTORY[1], calls.saturating_sub(9));
+    add(HISTORY[2], calls.saturating_sub(999));
+}
+
+fn bounds(shapes: &[Shape]) -> Bounds {
+    let boxes = shapes.iter().map(scan::bounds);
+    boxes
+        .reduce(|all, next| all.union(&next))
+        .unwrap_or(Bounds {
+            min: DVec3::ZERO,
+            max: DVec3::ZERO,
+        })
+}
+
+/// Adds the scale and the place of what is in this box.
+fn place(bounds: &Bounds, calls: usize, add: &mut impl FnMut(Cell, usize)) {
+    let size = bounds.diagonal();
+    let scale = match size {
+        ..1e-4 => 0,
+        ..0.1 => 1,
+        ..30.0 => 2,
+        _ => 3,
+    };
+    add(SCALES[scale], calls);
+    let distance = bounds.center().abs().max_element();
+    add(
+        PLACES[usize::from(distance > size && distance > 10.0)],
+        calls,
+    );
+}
+
+fn size(count: usize) -> Cell {
+    match count {
+        0 => SIZES[0],
+        1 => SIZES[1],
+        2..=16 => SIZES[2],
+        _ => SIZES[3],
+    }
+}
+
+/// Returns where a ray starts: where its range begins, seen from the first shape.
+fn start_at_shapes(shapes: &[Shape], ray: &Ray) -> Cell {
+    let start = ray.origin.as_dvec3();
+    match shapes.first() {
+        Some(Shape::Sphere { center, radius, .. }) => {
+            let distance = start.distance(center.as_dvec3()) / f64::from(*radius);
+            match distance {
+                ..0.99 => "start: inside",
+                ..1.01 => "start: on the surface",
+                _ => "start: outside",
+            }
+        }
+        Some(Shape::Triangle { vertices, .. }) => {
+            side(vertices.map(|it| it.position.as_dvec3()), start)
+        }
+        Some(Shape::FlatTriangle { corners, .. }) => side(corners.map(|it| it.as_dvec3()), start),
+        None => "start: outside",
+    }
+}
+
+/// Returns the side of a triangle's plane on which a point is.
+fn side([p0, p1, p2]: [DVec3; 3], point: DVec3) -> Cell {
+    let normal = (p1 - p0).cross(p2 - p0).normalize_or_zero();
+    let height = (point - p0).dot(normal) / (p1 - p0).length().max(f64::MIN_POSITIVE);
+    match height {
+        0.01.. => "start: in front",
+        ..-0.01 => "start: behind",
+        _ => "start: on the surface",
+    }
+}
+
+fn start_at_box(bounds: &Bounds, ray: &Ray) -> Cell {
+    let start = Bounds::around([ray.origin.as_dvec3()]);
+    match bounds.contains(&start) {
+        true => "start: inside",
+        false => "start: outside",
+    }
+}
+
+/// Returns the rays of a question, except those of a camera.
+fn asked_rays(question: &Question) -> Vec<Ray> {
+    match question {
+        Question::Shapes { rays, .. }
+        | Question::Traverse { rays, .. }
+        | Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
+        Question::BBox { queries, .. } => queries.iter().map(|(ray, _)| *ray).collect(),
+        Question::Camera { .. }
+        | Question::Build { .. }
+        | Question::Radiance { .. }
+        | Question::Done => Vec::new(),
+    }
+}
+
+/// Returns how often a cell is asked. A cell that stands for several is asked as often as the one of
+/// them that is asked least.
+pub(super) fn times(counts: &Counts, cell: Cell) -> usize {
+    let count = |cell: &Cell| counts.get(cell).copied().unwrap_or(0);
+    match cell {
+        OCTANTS => OCTANT.iter().map(count).min().unwrap_or(0),
+        QUADRANTS => QUADRANT.iter().map(count).min().unwrap_or(0),
+        cell => count(&cell),
+    }
+}

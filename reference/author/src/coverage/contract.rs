@@ -1,0 +1,76 @@
+//! The contract of each task: the sentences of its method's documentation.
+
+use judging::assignment::TaskInfo;
+
+/// Returns the sentences of the documentation of a task's method in the text of its file.
+pub(super) fn sentences(file: &str, task: &TaskInfo) -> Vec<String> {
+    split(&documentation(file, task.method))
+}
+
+/// Returns the documentation of a method as paragraphs and list items, one a line.
+fn documentation(file: &str, method: &str) -> Vec<String> {
+    let declaration = format!("pub fn {method}(");
+    let lines: Vec<&str> = file.lines().map(str::trim).collect();
+    let end = lines.iter().position(|line| line.starts_with(&declaration));
+    let above = &lines[..end.unwrap_or(0)];
+    let is_code = |line: &&str| !line.starts_with("///");
+    let begin = above.iter().rposition(is_code).map_or(0, |at| at + 1);
+    let mut paragraphs = vec![String::new()];
+    for line in &above[begin..] {
+        let text = line.trim_start_matches("///").trim();
+        let item = text.strip_prefix("- ");
+        if text.is_empty() || item.is_some() {
+            paragraphs.push(String::new());
+        }
+        if let Some(paragraph) = paragraphs.last_mut() {
+            paragraph.push(' ');
+            paragraph.push_str(item.unwrap_or(text));
+        }
+    }
+    paragraphs
+}
+
+/// Splits paragraphs into sentences: a sentence ends with a full stop before a capital or a name.
+fn split(paragraphs: &[String]) -> Vec<String> {
+    let mut sentences = Vec::new();
+    for paragraph in paragraphs {
+        let mut rest = paragraph.trim();
+        while !rest.is_empty() {
+            let mut ends = rest.match_indices(". ").map(|(at, _)| at + 1);
+            let begins = |at: &usize| {
+                rest[*at..]
+                    .trim_start()
+                    .starts_with(|c: char| !c.is_lowercase())
+            };
+            let end = ends.find(begins).unwrap_or(rest.len());
+            sentences.push(rest[..end].trim().to_owned());
+            rest = rest[end..].trim();
+        }
+    }
+    sentences
+}
+
+#[cfg(test)]
+mod tests {
+    use judging::assignment::RAYS;
+
+    use super::*;
+
+    #[test]
+    fn paragraphs_and_list_items_are_split_into_sentences() {
+        let file = "    /// Returns a. Or `None`\n    /// if 1.5 is b.\n    ///\n    /// - One.\n    ///   \
+                    Two, i.e. three.\n    pub fn hit(&self) {}\n";
+        let sphere = RAYS
+            .tasks
+            .iter()
+            .find(|task| task.id == "sphere")
+            .expect("a task");
+        let expected = [
+            "Returns a.",
+            "Or `None` if 1.5 is b.",
+            "One.",
+            "Two, i.e. three.",
+        ];
+        assert_eq!(sentences(file, sphere), expected);
+    }
+}

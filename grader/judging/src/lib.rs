@@ -8,7 +8,7 @@
 //!
 //! | layer | modules |
 //! |---|---|
-//! | analysis of answers | [`picture`], [`recognise`] |
+//! | analysis of answers | [`picture`], [`recognise`], [`observe`] |
 //! | comparison | [`judge`] |
 //! | text | [`describe`] |
 //! | exam files | [`exam_file`] |
@@ -21,6 +21,7 @@ pub mod drawing_data;
 pub mod exam;
 pub mod exam_file;
 pub mod judge;
+pub mod observe;
 pub mod picture;
 pub mod recognise;
 pub mod sanitize;

@@ -59,7 +59,8 @@ pub struct MistakeAnswers {
 /// The part of an answer by which mistakes are distinguished.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ObservedAnswer {
-    /// The numbers that are checked, in the order of the key's checks.
+    /// The numbers that are checked, in the order of the key's checks, each as a multiple of its
+    /// tolerance.
     Numbers(Vec<f32>),
     /// No hit, or no interval inside the box.
     #[serde(alias = "Nothing")]
@@ -86,13 +87,10 @@ pub enum NoAnswerReason {
 }
 
 impl ObservedAnswer {
-    /// Maximum difference between two numbers that may come from the same mistake, since equivalent
-    /// formulas round differently. Relative for values above 1, otherwise absolute.
-    const TOLERANCE: f32 = 1e-3;
     /// Maximum difference between the amounts of two tree defects, such as SAH costs, that may come
-    /// from the same mistake. It is larger because builders with the same mistake produce somewhat
-    /// different trees.
-    const COST_TOLERANCE: f32 = 0.08;
+    /// from the same mistake, relative or absolute below 1. It is larger because builders with the
+    /// same mistake produce somewhat different trees.
+    const COST: f32 = 0.08;
 
     /// Returns whether the answer says nothing about the cause, only that there is no result.
     pub fn is_uninformative(&self) -> bool {
@@ -102,17 +100,67 @@ impl ObservedAnswer {
         }
     }
 
+    /// Returns whether the answer may come from a submission with several mistakes, given the correct
+    /// answer and those of the mistakes that change it. Of numbers, each may come from another one.
+    pub fn is_made_of(&self, correct: &ObservedAnswer, wrong: &[&ObservedAnswer]) -> bool {
+        if let [] | [_] = wrong {
+            return self.matches(wrong.first().unwrap_or(&correct));
+        }
+        let is_one_of_them = || wrong.iter().any(|wrong| self.matches(wrong));
+        let (Some(own), Some(correct)) = (self.numbers(), correct.numbers()) else {
+            return is_one_of_them();
+        };
+        let all: Option<Vec<&[f32]>> = wrong.iter().map(|wrong| wrong.numbers()).collect();
+        let Some(all) = all.filter(|all| {
+            let mut lengths = all.iter().chain([&correct]).map(|numbers| numbers.len());
+            lengths.all(|length| length == own.len())
+        }) else {
+            return is_one_of_them();
+        };
+        own.iter()
+            .zip(correct)
+            .enumerate()
+            .all(|(index, (&own, &correct))| {
+                let numbers = all.iter().map(|numbers| numbers[index]);
+                let mut changed = numbers
+                    .filter(|number| !same_number(*number, correct))
+                    .peekable();
+                match changed.peek() {
+                    None => same_number(own, correct),
+                    Some(_) => changed.any(|number| same_number(own, number)),
+                }
+            })
+    }
+
+    fn numbers(&self) -> Option<&[f32]> {
+        match self {
+            ObservedAnswer::Numbers(numbers) => Some(numbers),
+            ObservedAnswer::NoHit
+            | ObservedAnswer::Tree(_)
+            | ObservedAnswer::Panicked
+            | ObservedAnswer::NoAnswer(_) => None,
+        }
+    }
+
+    /// Returns the name of a tree's defect.
+    pub fn tree_defect(&self) -> Option<&str> {
+        match self {
+            ObservedAnswer::Tree(defect) => defect.as_ref().map(|(name, _)| name.as_str()),
+            ObservedAnswer::Numbers(_)
+            | ObservedAnswer::NoHit
+            | ObservedAnswer::Panicked
+            | ObservedAnswer::NoAnswer(_) => None,
+        }
+    }
+
     /// Returns whether both answers may come from the same mistake.
     pub fn matches(&self, other: &ObservedAnswer) -> bool {
         match (self, other) {
             (ObservedAnswer::Numbers(a), ObservedAnswer::Numbers(b)) => {
-                a.len() == b.len()
-                    && a.iter()
-                        .zip(b)
-                        .all(|(a, b)| nearly_equal(*a, *b, ObservedAnswer::TOLERANCE))
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_number(*a, *b))
             }
             (ObservedAnswer::Tree(Some((what, a))), ObservedAnswer::Tree(Some((other, b)))) => {
-                what == other && nearly_equal(*a, *b, ObservedAnswer::COST_TOLERANCE)
+                what == other && nearly_equal(*a, *b, Self::COST, Self::COST)
             }
             (ObservedAnswer::Tree(a), ObservedAnswer::Tree(b)) => a.is_none() && b.is_none(),
             (ObservedAnswer::NoAnswer(a), ObservedAnswer::NoAnswer(b)) => a == b,
@@ -130,8 +178,16 @@ impl ObservedAnswer {
     }
 }
 
-fn nearly_equal(a: f32, b: f32, tolerance: f32) -> bool {
-    let close = (a - b).abs() <= tolerance * a.abs().max(1.0);
+/// Returns whether two numbers, as multiples of the tolerances with which they are judged, may come
+/// from the same mistake. Equivalent formulas round differently.
+fn same_number(a: f32, b: f32) -> bool {
+    const RELATIVE: f32 = 1e-3;
+    const MULTIPLES: f32 = 2.0;
+    nearly_equal(a, b, RELATIVE, MULTIPLES)
+}
+
+fn nearly_equal(a: f32, b: f32, relative: f32, absolute: f32) -> bool {
+    let close = (a - b).abs() <= (relative * a.abs()).max(absolute);
     // Infinities of the same sign are equal, and NaN matches NaN.
     a == b || (a.is_nan() && b.is_nan()) || (close && a.is_finite() && b.is_finite())
 }
@@ -143,9 +199,11 @@ mod tests {
     #[test]
     fn numbers_match_up_to_rounding() {
         let numbers = |numbers: &[f32]| ObservedAnswer::Numbers(numbers.to_vec());
-        assert!(numbers(&[2.0, f32::NAN]).matches(&numbers(&[2.001, f32::NAN])));
+        assert!(numbers(&[2e4, f32::NAN]).matches(&numbers(&[2.001e4, f32::NAN])));
+        assert!(numbers(&[0.0]).matches(&numbers(&[1.9])));
         assert!(numbers(&[f32::INFINITY]).matches(&numbers(&[f32::INFINITY])));
-        assert!(!numbers(&[2.0]).matches(&numbers(&[2.01])));
+        assert!(!numbers(&[2e4]).matches(&numbers(&[2.01e4])));
+        assert!(!numbers(&[0.0]).matches(&numbers(&[2.1])));
         assert!(!numbers(&[f32::INFINITY]).matches(&numbers(&[f32::NEG_INFINITY])));
         assert!(!numbers(&[1.0]).matches(&numbers(&[1.0, 1.0])));
         assert!(!numbers(&[0.0]).matches(&ObservedAnswer::NoHit));

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use grader::probe::Fault;
 use judging::exam::{Exam, Item, Key};
-use judging::recognise::{expected, observe};
+use judging::observe::{expected, observe};
 use judging::signatures::{KnownMistake, MistakeAnswers, MistakeSignatures, ObservedAnswer};
 use protocol::{Answer, Question, Samples};
 use rayon::prelude::*;

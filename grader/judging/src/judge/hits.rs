@@ -1,6 +1,6 @@
 //! Compares tables of hits with the key.
 
-use protocol::{ElementOutcome, Ray, Trace};
+use protocol::{ElementOutcome, Ray, Shape, Trace};
 
 use crate::describe;
 use crate::exam::{ExpectedHit, HitCheck};
@@ -9,12 +9,13 @@ use crate::judge::measure::{
 };
 use crate::judge::{
     Comparison, Deviation, FailureKind, Judgement, Measurement, Threshold, judge_table,
-    measure_table,
+    measure_table, scale,
 };
 
 /// The submitted hits and their key. Every hit must be correct.
 pub(super) struct Hits<'a> {
     pub(super) checks: &'a [HitCheck],
+    pub(super) shapes: &'a [Shape],
     pub(super) rays: Vec<Ray>,
     pub(super) hits: &'a [Option<ExpectedHit>],
     pub(super) answers: &'a [ElementOutcome<Option<Trace>>],
@@ -36,9 +37,9 @@ impl Comparison for Hits<'_> {
                     wanted: describe::hit_at(hit.distance),
                 }),
                 (Some(trace), Some(hit)) => {
-                    let ray = &self.rays[element];
+                    let (ray, scale) = (&self.rays[element], self.scale(element, hit));
                     let mut checks = self.checks.iter();
-                    checks.find_map(|part| failed_check(*part, ray, trace, hit))
+                    checks.find_map(|part| failed_check(*part, ray, scale, trace, hit))
                 }
             }
         })
@@ -50,10 +51,10 @@ impl Comparison for Hits<'_> {
                 (None, None) => Vec::new(),
                 (Some(_), None) | (None, Some(_)) => vec![Deviation::WRONG],
                 (Some(trace), Some(hit)) => {
-                    let ray = &self.rays[element];
+                    let (ray, scale) = (&self.rays[element], self.scale(element, hit));
                     let checks = self.checks.iter();
                     checks
-                        .map(|part| deviation(*part, ray, trace, hit))
+                        .map(|part| deviation(*part, ray, scale, trace, hit))
                         .collect()
                 }
             }
@@ -61,16 +62,22 @@ impl Comparison for Hits<'_> {
     }
 }
 
+impl Hits<'_> {
+    fn scale(&self, element: usize, hit: &ExpectedHit) -> f32 {
+        scale::of_hit(self.shapes, &self.rays[element], Some(hit.distance))
+    }
+}
+
 /// Returns how far one part of a traced hit deviates from the expected hit.
-fn deviation(part: HitCheck, ray: &Ray, trace: &Trace, hit: &ExpectedHit) -> Deviation {
+fn deviation(part: HitCheck, ray: &Ray, scale: f32, trace: &Trace, hit: &ExpectedHit) -> Deviation {
     let (threshold, error) = match part {
         HitCheck::Distance => (
             Threshold::Distance,
-            length_error(trace.distance, hit.distance, LENGTH),
+            length_error(trace.distance, hit.distance, scale, LENGTH),
         ),
         HitCheck::Position => (
             Threshold::Position,
-            point_error(trace.position, hit.position),
+            point_error(trace.position, hit.position, scale),
         ),
         HitCheck::Normal => (
             Threshold::Normal,
@@ -78,7 +85,10 @@ fn deviation(part: HitCheck, ray: &Ray, trace: &Trace, hit: &ExpectedHit) -> Dev
         ),
         HitCheck::UnitNormal => (Threshold::UnitLength, unit_error(trace.normal)),
         HitCheck::Uv => (Threshold::Uv, uv_error(trace.uv, hit.uv)),
-        HitCheck::Origin => (Threshold::Origin, point_error(trace.origin, ray.origin)),
+        HitCheck::Origin => (
+            Threshold::Origin,
+            point_error(trace.origin, ray.origin, scale),
+        ),
         HitCheck::Material => return Deviation::binary(trace.material == hit.material),
     };
     Deviation::new(threshold, error)
@@ -88,10 +98,11 @@ fn deviation(part: HitCheck, ray: &Ray, trace: &Trace, hit: &ExpectedHit) -> Dev
 fn failed_check(
     part: HitCheck,
     ray: &Ray,
+    scale: f32,
     trace: &Trace,
     hit: &ExpectedHit,
 ) -> Option<FailureKind> {
-    if deviation(part, ray, trace, hit).is_right() {
+    if deviation(part, ray, scale, trace, hit).is_right() {
         return None;
     }
     let (what, got, wanted) = match part {

@@ -5,13 +5,12 @@
 
 use glam::{Vec2, Vec3};
 
-/// Tolerance of lengths: distances, positions and times. Relative for values above 1, otherwise
-/// absolute.
-pub(super) const LENGTH: f32 = 1e-4;
+/// Tolerance of lengths: distances, positions and times. Relative to the scale of the question.
+pub(crate) const LENGTH: f32 = 1e-4;
 /// Tolerance of unit vectors, as the length of their difference.
-pub(super) const DIRECTION: f32 = 1e-3;
+pub(crate) const DIRECTION: f32 = 1e-3;
 /// Tolerance of texture coordinates.
-pub(super) const UV: f32 = 2e-3;
+pub(crate) const UV: f32 = 2e-3;
 
 /// Returns `error` as a multiple of `limit`.
 pub(super) fn in_units_of(limit: f64, error: f64) -> f64 {
@@ -27,16 +26,18 @@ pub(super) fn in_units_of(limit: f64, error: f64) -> f64 {
     }
 }
 
-/// Returns the error of a length, as a multiple of its tolerance.
-pub(super) fn length_error(got: f32, wanted: f32, tolerance: f32) -> f64 {
+/// Returns the error of a length, as a multiple of `tolerance`, which is relative to `scale` or to
+/// the length itself, whichever is larger.
+pub(super) fn length_error(got: f32, wanted: f32, scale: f32, tolerance: f32) -> f64 {
     // ∞ − ∞ is NaN, which counts as infinitely far off.
-    let limit = tolerance * wanted.abs().max(1.0);
+    let limit = tolerance * wanted.abs().max(scale);
     in_units_of(limit.into(), (got - wanted).abs().into())
 }
 
-/// Returns the distance of a position from the expected one, as a multiple of its tolerance.
-pub(super) fn point_error(got: Vec3, wanted: Vec3) -> f64 {
-    let limit = LENGTH * wanted.length().max(1.0);
+/// Returns the distance of a position from the expected one, as a multiple of its tolerance, which
+/// is relative to `scale`.
+pub(super) fn point_error(got: Vec3, wanted: Vec3, scale: f32) -> f64 {
+    let limit = LENGTH * scale;
     in_units_of(limit.into(), got.distance(wanted).into())
 }
 
@@ -72,17 +73,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lengths_are_compared_relatively_above_one() {
-        assert!(length_error(1000.05, 1000.0, LENGTH) <= 1.0);
-        assert!(length_error(0.0005, 0.0, LENGTH) > 1.0);
+    fn lengths_are_compared_relative_to_the_scale() {
+        assert!(length_error(1000.05, 1000.0, 1.0, LENGTH) <= 1.0);
+        assert!(length_error(0.05, 0.0, 1000.0, LENGTH) <= 1.0);
+        assert!(length_error(0.0005, 0.0, 1.0, LENGTH) > 1.0);
+        assert!(length_error(0.00105, 0.001, 0.01, LENGTH) > 1.0);
+        assert!(point_error(Vec3::X * 1.00005, Vec3::X, 1.0) <= 1.0);
+        assert!(point_error(Vec3::X * 1.00005, Vec3::X, 0.1) > 1.0);
     }
 
     #[test]
     fn errors_are_multiples_of_the_tolerance() {
         let close = |got: f64, wanted: f64| (got - wanted).abs() < 1e-2 * wanted;
-        assert_eq!(length_error(3.0, 3.0, LENGTH), 0.0);
-        assert!(close(length_error(10.003, 10.0, LENGTH), 3.0));
-        assert!(close(point_error(Vec3::X * 0.0002, Vec3::ZERO), 2.0));
+        assert_eq!(length_error(3.0, 3.0, 1.0, LENGTH), 0.0);
+        assert!(close(length_error(10.003, 10.0, 1.0, LENGTH), 3.0));
+        assert!(close(point_error(Vec3::X * 0.0002, Vec3::ZERO, 1.0), 2.0));
         assert!(close(unit_error(Vec3::X * 1.5), 500.0));
         assert!(close(uv_error(vec2(0.5, 0.5), vec2(0.501, 0.5)), 0.5));
     }
@@ -97,9 +102,9 @@ mod tests {
     fn non_finite_values_are_infinitely_far_off() {
         const FAR: f64 = f64::INFINITY;
         for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-            assert_eq!(length_error(bad, 1.0, LENGTH), FAR);
-            assert_eq!(length_error(bad, f32::MAX, LENGTH), FAR);
-            assert_eq!(point_error(Vec3::splat(bad), Vec3::ONE), FAR);
+            assert_eq!(length_error(bad, 1.0, 1.0, LENGTH), FAR);
+            assert_eq!(length_error(bad, f32::MAX, 1.0, LENGTH), FAR);
+            assert_eq!(point_error(Vec3::splat(bad), Vec3::ONE, 1.0), FAR);
             assert_eq!(direction_error(Vec3::splat(bad), Vec3::X, DIRECTION), FAR);
             assert_eq!(unit_error(Vec3::splat(bad)), FAR);
             assert_eq!(uv_error(vec2(bad, 0.5), vec2(0.5, 0.5)), FAR);

@@ -5,10 +5,11 @@ mod deviation;
 mod element_error;
 mod first_hits;
 mod hits;
-mod measure;
+pub(crate) mod measure;
 mod mismatch;
 mod radiance;
 mod rays;
+pub(crate) mod scale;
 mod spans;
 mod threshold;
 pub mod tree;
@@ -151,16 +152,33 @@ fn comparison<'a>(
             Q::Shapes { rays, .. } | Q::Traverse { rays, .. } | Q::BuildAndTraverse { rays, .. },
         ) => Box::new(Hits {
             checks,
+            shapes: scale::shapes(&question.question),
             rays: rays.to_vec(),
             hits,
             answers,
         }),
-        (Key::FirstHits { hits, alternatives }, Answer::Hits(answers), _) => Box::new(FirstHits {
+        (
+            Key::FirstHits { hits, alternatives },
+            Answer::Hits(answers),
+            Q::Shapes { shapes, rays }
+            | Q::Traverse { shapes, rays, .. }
+            | Q::BuildAndTraverse { shapes, rays, .. },
+        ) => Box::new(FirstHits {
+            scale: scale::of_picture(shapes, rays),
             hits,
             alternatives,
             answers,
         }),
-        (Key::Spans { spans }, Answer::Spans(answers), _) => Box::new(Spans { spans, answers }),
+        (Key::Spans { spans }, Answer::Spans(answers), Q::BBox { min, max, queries }) => {
+            Box::new(Spans {
+                scales: queries
+                    .iter()
+                    .map(|(ray, _)| scale::of_box(*min, *max, ray))
+                    .collect(),
+                spans,
+                answers,
+            })
+        }
         (
             Key::Tree { checks, sweep_cost },
             Answer::Tree(answer),

@@ -14,6 +14,9 @@ use crate::judge::{
     Threshold, judge_table, measure_table,
 };
 
+/// The scale of camera rays: the length of their directions.
+const SCALE: f32 = 1.0;
+
 /// Camera rays and their key.
 pub(super) struct CameraRays<'a> {
     pub(super) checks: &'a [RayCheck],
@@ -130,7 +133,10 @@ fn with_partial_credit(mut judgement: Judgement) -> Judgement {
 
 fn deviation(part: RayCheck, ray: &Ray, wanted: Vec3) -> Deviation {
     match part {
-        RayCheck::Origin => Deviation::new(Threshold::Origin, point_error(ray.origin, Vec3::ZERO)),
+        RayCheck::Origin => Deviation::new(
+            Threshold::Origin,
+            point_error(ray.origin, Vec3::ZERO, SCALE),
+        ),
         RayCheck::Direction => {
             let error = direction_error(ray.dir, wanted, DIRECTION);
             Deviation::new(Threshold::Direction, error)
@@ -138,7 +144,7 @@ fn deviation(part: RayCheck, ray: &Ray, wanted: Vec3) -> Deviation {
         RayCheck::UnitLength => Deviation::new(Threshold::UnitLength, unit_error(ray.dir)),
         RayCheck::Range if ray.range.max != f32::INFINITY => Deviation::WRONG,
         RayCheck::Range => {
-            let error = length_error(ray.range.min, 0.0, LENGTH);
+            let error = length_error(ray.range.min, 0.0, SCALE, LENGTH);
             Deviation::new(Threshold::Times, error)
         }
     }

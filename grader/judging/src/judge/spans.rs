@@ -11,6 +11,8 @@ use crate::judge::{
 
 /// The submitted intervals and their key. Every interval must be correct.
 pub(super) struct Spans<'a> {
+    /// The scale of each query.
+    pub(super) scales: Vec<f32>,
     pub(super) spans: &'a [Option<Interval>],
     pub(super) answers: &'a [ElementOutcome<Option<Interval>>],
 }
@@ -19,7 +21,7 @@ impl Comparison for Spans<'_> {
     fn judge(&self) -> Judgement {
         judge_table(self.answers, self.spans.len(), |element, got| {
             let wanted = self.spans[element];
-            if deviation(*got, wanted).is_right() {
+            if self.deviation(element, *got).is_right() {
                 return None;
             }
             let what = match (got, wanted) {
@@ -36,19 +38,21 @@ impl Comparison for Spans<'_> {
 
     fn measure(&self) -> Vec<Measurement> {
         measure_table(self.answers, self.spans.len(), |element, got| {
-            vec![deviation(*got, self.spans[element])]
+            vec![self.deviation(element, *got)]
         })
     }
 }
 
-fn deviation(got: Option<Interval>, wanted: Option<Interval>) -> Deviation {
-    match (got, wanted) {
-        (None, None) => Deviation::RIGHT,
-        (Some(_), None) | (None, Some(_)) => Deviation::WRONG,
-        (Some(got), Some(wanted)) => {
-            let start = length_error(got.min, wanted.min, LENGTH);
-            let end = length_error(got.max, wanted.max, LENGTH);
-            Deviation::new(Threshold::Times, start.max(end))
+impl Spans<'_> {
+    fn deviation(&self, element: usize, got: Option<Interval>) -> Deviation {
+        match (got, self.spans[element]) {
+            (None, None) => Deviation::RIGHT,
+            (Some(_), None) | (None, Some(_)) => Deviation::WRONG,
+            (Some(got), Some(wanted)) => {
+                let error = |got, wanted| length_error(got, wanted, self.scales[element], LENGTH);
+                let (start, end) = (error(got.min, wanted.min), error(got.max, wanted.max));
+                Deviation::new(Threshold::Times, start.max(end))
+            }
         }
     }
 }

@@ -95,13 +95,13 @@ impl Threshold {
     pub fn limit(self) -> String {
         match self {
             Threshold::Distance | Threshold::Position | Threshold::Times | Threshold::Origin => {
-                format!("{LENGTH:e}, relative above 1")
+                format!("{LENGTH:e} of the scale")
             }
             Threshold::Direction | Threshold::Normal | Threshold::UnitLength => {
                 format!("{DIRECTION:e}")
             }
             Threshold::Uv | Threshold::PictureUv => format!("{UV:e}"),
-            Threshold::PictureDepth => format!("{DEPTH:e}, relative above 1"),
+            Threshold::PictureDepth => format!("{DEPTH:e} of the scale"),
             Threshold::PictureNormal => format!("{NORMAL:e}"),
             Threshold::PicturePositions => format!("{TOLERATED_POSITIONS}, or 1e-4 of all"),
             Threshold::Radiance => format!("{RELATIVE_TOLERANCE}, relative"),

@@ -37,6 +37,8 @@ type Deviations = ArrayVec<Deviation, { QUANTITIES.len() }>;
 
 /// A picture and its key.
 pub(super) struct FirstHits<'a> {
+    /// The scale of the scene: its largest coordinate, or that of the eye.
+    pub(super) scale: f32,
     pub(super) hits: &'a [Option<Surface>],
     pub(super) alternatives: &'a [(u32, Option<Surface>)],
     pub(super) answers: &'a [ElementOutcome<Option<Trace>>],
@@ -140,7 +142,9 @@ impl FirstHits<'_> {
             let others = iter::from_fn(here).map(|(_, answer)| answer);
             let right = others.chain([&self.hits[position]]);
             match outcome {
-                ElementOutcome::Value(got) => position_deviations(got.as_ref(), right, &mut alike),
+                ElementOutcome::Value(got) => {
+                    position_deviations(got.as_ref(), right, self.scale, &mut alike)
+                }
                 ElementOutcome::Panicked(_) | ElementOutcome::Skipped => {
                     // Consume the alternatives of this position, so that those of the next one come
                     // first.
@@ -181,13 +185,14 @@ impl FirstHits<'_> {
 fn position_deviations<'a>(
     got: Option<&Trace>,
     right: impl Iterator<Item = &'a Option<Surface>>,
+    scale: f32,
     alike: &mut Vec<[Deviation; QUANTITIES.len() - 1]>,
 ) -> Deviations {
     alike.clear();
     let mut is_miss = false;
     for wanted in right {
         match (got, wanted) {
-            (Some(got), Some(wanted)) => alike.push(deviations(got, wanted)),
+            (Some(got), Some(wanted)) => alike.push(deviations(got, wanted, scale)),
             (None, None) => is_miss = true,
             (Some(_), None) | (None, Some(_)) => {}
         }
@@ -207,8 +212,8 @@ fn position_deviations<'a>(
 }
 
 /// Returns the deviations of a hit in depth, normal and uv.
-fn deviations(got: &Trace, wanted: &Surface) -> [Deviation; QUANTITIES.len() - 1] {
-    let depth = length_error(got.distance, wanted.depth, DEPTH);
+fn deviations(got: &Trace, wanted: &Surface, scale: f32) -> [Deviation; QUANTITIES.len() - 1] {
+    let depth = length_error(got.distance, wanted.depth, scale, DEPTH);
     let normal = direction_error(got.normal, wanted.normal, NORMAL);
     [
         Deviation::new(Threshold::PictureDepth, depth),

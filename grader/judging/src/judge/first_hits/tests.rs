@@ -8,6 +8,7 @@ fn judge(
     answers: &[ElementOutcome<Option<Trace>>],
 ) -> Judgement {
     let picture = FirstHits {
+        scale: 1.0,
         hits,
         alternatives,
         answers,
@@ -97,11 +98,11 @@ fn missing_everything_earns_nothing_and_hitting_everything_only_part() {
 #[test]
 fn either_answer_is_correct_at_an_edge() {
     let mut got = answers(answer_of(WALL));
-    for answer in &mut got[..3] {
+    for answer in &mut got[..4] {
         *answer = ElementOutcome::Value(None);
     }
     assert!(judge(&key(), &[], &got).credit < Credit::FULL);
-    let alternatives = [(0, None), (1, None), (2, None)];
+    let alternatives = [(0, None), (1, None), (2, None), (3, None)];
     assert_eq!(judge(&key(), &alternatives, &got).credit, Credit::FULL);
 }
 
@@ -112,6 +113,7 @@ fn alternatives_may_be_unsorted_and_follow_a_missing_answer() {
     got[1] = ElementOutcome::Value(None);
     got[2] = ElementOutcome::Value(None);
     let picture = FirstHits {
+        scale: 1.0,
         hits: &key(),
         alternatives: &[(2, None), (0, None), (1, None)],
         answers: &got,

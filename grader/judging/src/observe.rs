@@ -1,0 +1,218 @@
+//! Reduces answers to observations, by which known mistakes are recognised.
+//!
+//! Numbers are observed as multiples of the tolerances with which they are judged, so that a small
+//! scene does not make all mistakes look alike.
+
+use glam::Vec3;
+use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Trace};
+
+use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Item, Key, RayCheck};
+use crate::judge::measure::{DIRECTION, LENGTH, UV};
+use crate::judge::{FailureKind, judge, scale};
+use crate::signatures::{NoAnswerReason, ObservedAnswer};
+
+/// Reduces the answers to an item to observations, one for each element.
+pub fn observe(item: &Item, answers: &[Answer]) -> Vec<ObservedAnswer> {
+    let questions = item.questions.iter().zip(answers);
+    questions
+        .flat_map(|(question, answer)| observe_question(question, answer))
+        .collect()
+}
+
+/// Returns the observations that correct answers would give, one for each element of an item.
+pub fn expected(item: &Item) -> Vec<ObservedAnswer> {
+    item.questions.iter().flat_map(expected_elements).collect()
+}
+
+fn expected_elements(question: &ExamQuestion) -> Vec<ObservedAnswer> {
+    match &question.key {
+        Key::Rays { checks, directions } => {
+            let ray = |dir| Ray {
+                origin: glam::Vec3::ZERO,
+                dir,
+                range: Interval::AHEAD,
+            };
+            directions
+                .iter()
+                .map(|&dir| observe_ray(checks, &ray(dir)))
+                .collect()
+        }
+        Key::Hits { checks, hits } => {
+            let trace = |hit: &ExpectedHit, ray: &Ray| Trace {
+                distance: hit.distance,
+                position: hit.position,
+                normal: hit.normal,
+                uv: hit.uv,
+                origin: ray.origin,
+                material: hit.material,
+            };
+            let scaled = hits.iter().zip(rays(&question.question));
+            scaled
+                .zip(scales(question))
+                .map(|((hit, ray), scale)| {
+                    let trace = hit.as_ref().map(|hit| trace(hit, &ray));
+                    observe_hit(checks, trace.as_ref(), scale)
+                })
+                .collect()
+        }
+        Key::Spans { spans } => {
+            let spans = spans.iter().zip(scales(question));
+            spans
+                .map(|(span, scale)| observe_span(*span, scale))
+                .collect()
+        }
+        Key::Tree { .. } => vec![ObservedAnswer::Tree(None)],
+        Key::FirstHits { .. } | Key::Radiance { .. } => Vec::new(),
+    }
+}
+
+fn observe_question(question: &ExamQuestion, answer: &Answer) -> Vec<ObservedAnswer> {
+    match (&question.key, answer) {
+        (Key::Rays { checks, .. }, Answer::Rays(rays)) => {
+            observe_each(rays, |_, ray| observe_ray(checks, ray))
+        }
+        (Key::Hits { checks, .. }, Answer::Hits(hits)) => {
+            let scales = scales(question);
+            let scale = |element: usize| scales.get(element).copied().unwrap_or(1.0);
+            observe_each(hits, |element, hit| {
+                observe_hit(checks, hit.as_ref(), scale(element))
+            })
+        }
+        (Key::Spans { .. }, Answer::Spans(spans)) => {
+            let scales = scales(question);
+            let scale = |element: usize| scales.get(element).copied().unwrap_or(1.0);
+            observe_each(spans, |element, span| observe_span(*span, scale(element)))
+        }
+        (Key::Tree { .. }, Answer::Tree(tree)) => {
+            observe_each(std::slice::from_ref(tree), |_, _| {
+                observe_tree(question, answer)
+            })
+        }
+        (
+            Key::Rays { .. }
+            | Key::Hits { .. }
+            | Key::Spans { .. }
+            | Key::Tree { .. }
+            | Key::FirstHits { .. }
+            | Key::Radiance { .. },
+            _,
+        ) => Vec::new(),
+    }
+}
+
+fn observe_each<T>(
+    outcomes: &[ElementOutcome<T>],
+    see: impl Fn(usize, &T) -> ObservedAnswer,
+) -> Vec<ObservedAnswer> {
+    let outcomes = outcomes.iter().enumerate();
+    let observed = outcomes.map(|(element, outcome)| match outcome {
+        ElementOutcome::Value(value) => see(element, value),
+        ElementOutcome::Panicked(_) | ElementOutcome::Skipped => ObservedAnswer::Panicked,
+    });
+    observed.collect()
+}
+
+/// Returns the scale of each element.
+fn scales(question: &ExamQuestion) -> Vec<f32> {
+    match (&question.key, &question.question) {
+        (Key::Hits { hits, .. }, asked) => {
+            let hits = hits.iter().zip(rays(asked));
+            hits.map(|(hit, ray)| {
+                let distance = hit.as_ref().map(|hit| hit.distance);
+                scale::of_hit(scale::shapes(asked), &ray, distance)
+            })
+            .collect()
+        }
+        (Key::Spans { .. }, Question::BBox { min, max, queries }) => {
+            let queries = queries.iter();
+            queries
+                .map(|(ray, _)| scale::of_box(*min, *max, ray))
+                .collect()
+        }
+        (
+            Key::Rays { .. }
+            | Key::Spans { .. }
+            | Key::Tree { .. }
+            | Key::FirstHits { .. }
+            | Key::Radiance { .. },
+            _,
+        ) => Vec::new(),
+    }
+}
+
+fn rays(question: &Question) -> Vec<Ray> {
+    match question {
+        Question::Shapes { rays, .. }
+        | Question::Traverse { rays, .. }
+        | Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
+        Question::Camera { .. }
+        | Question::BBox { .. }
+        | Question::Build { .. }
+        | Question::Radiance { .. }
+        | Question::Done => Vec::new(),
+    }
+}
+
+fn observe_ray(checks: &[RayCheck], ray: &Ray) -> ObservedAnswer {
+    let part = |part: &RayCheck| match part {
+        RayCheck::Origin => lengths(&ray.origin.to_array(), 1.0),
+        RayCheck::Direction => direction(ray.dir),
+        RayCheck::UnitLength => vec![ray.dir.length() / DIRECTION],
+        RayCheck::Range => lengths(&[ray.range.min, ray.range.max], 1.0),
+    };
+    ObservedAnswer::Numbers(checks.iter().flat_map(part).collect())
+}
+
+fn observe_hit(checks: &[HitCheck], trace: Option<&Trace>, scale: f32) -> ObservedAnswer {
+    let Some(trace) = trace else {
+        return ObservedAnswer::NoHit;
+    };
+    let part = |part: &HitCheck| match part {
+        HitCheck::Distance => lengths(&[trace.distance], scale),
+        HitCheck::Position => lengths(&trace.position.to_array(), scale),
+        HitCheck::Normal => direction(trace.normal),
+        HitCheck::UnitNormal => vec![trace.normal.length() / DIRECTION],
+        HitCheck::Uv => (trace.uv / UV).to_array().to_vec(),
+        HitCheck::Origin => lengths(&trace.origin.to_array(), scale),
+        // Each material is far from the others.
+        HitCheck::Material => vec![trace.material as f32 / DIRECTION],
+    };
+    ObservedAnswer::Numbers(checks.iter().flat_map(part).collect())
+}
+
+fn observe_span(span: Option<Interval>, scale: f32) -> ObservedAnswer {
+    span.map_or(ObservedAnswer::NoHit, |span| {
+        ObservedAnswer::Numbers(lengths(&[span.min, span.max], scale))
+    })
+}
+
+fn lengths(lengths: &[f32], scale: f32) -> Vec<f32> {
+    // Everything in a question can be at the origin.
+    let tolerance = (LENGTH * scale).max(f32::MIN_POSITIVE);
+    lengths.iter().map(|length| length / tolerance).collect()
+}
+
+fn direction(direction: Vec3) -> Vec<f32> {
+    let unit = direction / direction.length();
+    (unit / DIRECTION).to_array().to_vec()
+}
+
+/// Returns the defect that the judge finds in a tree. Correct builders produce different trees, so
+/// the nodes themselves cannot be compared.
+fn observe_tree(question: &ExamQuestion, answer: &Answer) -> ObservedAnswer {
+    let defect = judge(question, answer).failure.map(|failure| failure.kind);
+    match defect {
+        None => ObservedAnswer::Tree(None),
+        Some(FailureKind::Wrong { what, got, .. }) => {
+            // If the defect has an amount, this is the first word of `got`. Other numbers are
+            // indices, which differ between submissions.
+            let amount = got.split(' ').next().and_then(|word| word.parse().ok());
+            let is_word = |word: &&str| !word.contains(|c: char| c.is_ascii_digit());
+            let words: Vec<&str> = got.split(' ').filter(is_word).collect();
+            let found = format!("{what}: {}", words.join(" "));
+            ObservedAnswer::Tree(Some((found, amount.unwrap_or(0.0))))
+        }
+        Some(FailureKind::Panicked(_)) => ObservedAnswer::Panicked,
+        Some(FailureKind::Protocol(_)) => ObservedAnswer::NoAnswer(NoAnswerReason::Other),
+    }
+}

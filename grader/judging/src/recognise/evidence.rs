@@ -1,0 +1,178 @@
+//! A submission's answers in one task, and the known mistakes that explain them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::exam::{Exam, Item};
+use crate::signatures::ObservedAnswer;
+
+/// The answers to the items of a task, beside those that known mistakes give.
+pub(super) struct Evidence<'a> {
+    exam: &'a Exam,
+    items: Vec<Observed<'a>>,
+    /// The mistakes that affect any of the items, in the order of the catalogue.
+    mistakes: BTreeSet<usize>,
+}
+
+/// One item's answers.
+struct Observed<'a> {
+    item: &'a Item,
+    answers: &'a [ObservedAnswer],
+    /// The wrong answers of each mistake that affects the item, by element.
+    wrong: BTreeMap<usize, BTreeMap<usize, &'a ObservedAnswer>>,
+}
+
+impl<'a> Evidence<'a> {
+    pub(super) fn new(exam: &'a Exam, items: Vec<(&'a Item, &'a [ObservedAnswer])>) -> Self {
+        let items = items.into_iter().map(|(item, answers)| Observed {
+            item,
+            answers,
+            wrong: wrong_answers(item),
+        });
+        let items: Vec<Observed> = items.collect();
+        let mistakes = items.iter().flat_map(|item| item.wrong.keys().copied());
+        Evidence {
+            mistakes: mistakes.collect(),
+            exam,
+            items,
+        }
+    }
+
+    /// Returns the mistakes to name.
+    pub(super) fn causes(&self) -> Vec<usize> {
+        let mut causes = self.sole_causes();
+        if causes.is_empty() {
+            causes = self.causes_in_pairs();
+        }
+        if causes.is_empty() {
+            causes = self.partial_causes();
+        }
+        causes.retain(|&mistake| self.is_informative(mistake));
+        causes
+    }
+
+    /// Returns whether a mistake changes any answer to an item.
+    pub(super) fn affects(&self, mistake: usize, item: &Item) -> bool {
+        let mut items = self.items.iter();
+        items.any(|other| other.item.id == item.id && other.wrong.contains_key(&mistake))
+    }
+
+    /// Returns the mistakes that explain all answers.
+    fn sole_causes(&self) -> Vec<usize> {
+        let explains_all = |mistake| {
+            self.items
+                .iter()
+                .all(|item| item.is_explained_by(&[mistake]))
+        };
+        let mistakes = self.mistakes.iter().copied();
+        mistakes.filter(|&mistake| explains_all(mistake)).collect()
+    }
+
+    /// Returns the mistakes that are in every pair that explains all answers.
+    fn causes_in_pairs(&self) -> Vec<usize> {
+        let mut hints: Option<BTreeSet<&str>> = None;
+        let mut members = BTreeSet::new();
+        for &one in &self.mistakes {
+            for &other in self.mistakes.range(one + 1..) {
+                let mut items = self.items.iter();
+                if items.all(|item| item.is_explained_by(&[one, other])) {
+                    let pair = BTreeSet::from([self.hint(one), self.hint(other)]);
+                    members.extend([one, other]);
+                    hints = Some(match hints {
+                        None => pair,
+                        Some(hints) => hints.intersection(&pair).copied().collect(),
+                    });
+                }
+            }
+        }
+        let hints = hints.unwrap_or_default();
+        let named = members.into_iter();
+        named
+            .filter(|&mistake| hints.contains(self.hint(mistake)))
+            .collect()
+    }
+
+    /// Returns the mistakes that explain every item that they affect, while no mistake with another
+    /// hint does.
+    fn partial_causes(&self) -> Vec<usize> {
+        let is_cause = |mistake: usize| {
+            let affected: Vec<_> = self.affected(mistake).collect();
+            let explains = |mistake| affected.iter().all(|item| item.is_explained_by(&[mistake]));
+            let mut others = self.mistakes.iter().copied();
+            explains(mistake)
+                && !self.has_same_defect_elsewhere(mistake)
+                && !others.any(|other| self.hint(other) != self.hint(mistake) && explains(other))
+        };
+        let mistakes = self.mistakes.iter().copied();
+        mistakes.filter(|&mistake| is_cause(mistake)).collect()
+    }
+
+    /// Returns whether an item that a mistake leaves correct has a tree with the same defect as one
+    /// that it affects. Then the defect has another cause.
+    fn has_same_defect_elsewhere(&self, mistake: usize) -> bool {
+        let wrong = self
+            .affected(mistake)
+            .flat_map(|item| item.wrong[&mistake].values());
+        let defects: BTreeSet<&str> = wrong.filter_map(|answer| answer.tree_defect()).collect();
+        let others = self
+            .items
+            .iter()
+            .filter(|item| !item.wrong.contains_key(&mistake));
+        let mut elsewhere = others.flat_map(|item| item.answers);
+        elsewhere.any(|answer| {
+            answer
+                .tree_defect()
+                .is_some_and(|defect| defects.contains(defect))
+        })
+    }
+
+    /// Returns whether a mistake gives wrong answers, and not only none at all: too many mistakes end
+    /// in a panic or an overflow.
+    fn is_informative(&self, mistake: usize) -> bool {
+        let mut wrong = self
+            .affected(mistake)
+            .flat_map(|item| item.wrong[&mistake].values());
+        wrong.any(|answer| !answer.is_uninformative())
+    }
+
+    fn affected(&self, mistake: usize) -> impl Iterator<Item = &Observed<'a>> {
+        let items = self.items.iter();
+        items.filter(move |item| item.wrong.contains_key(&mistake))
+    }
+
+    fn hint(&self, mistake: usize) -> &'a str {
+        &self.exam.mistakes[mistake].hint
+    }
+}
+
+impl Observed<'_> {
+    /// Returns whether each answer is the correct one where no mistake changes it, and otherwise made
+    /// of those of the mistakes.
+    fn is_explained_by(&self, mistakes: &[usize]) -> bool {
+        let correct = self.item.signatures.correct_answers.iter();
+        let mut answers = self.answers.iter().zip(correct).enumerate();
+        answers.all(|(element, (answer, correct))| {
+            let wrong = mistakes
+                .iter()
+                .filter_map(|mistake| self.wrong.get(mistake));
+            let wrong: Vec<_> = wrong
+                .filter_map(|wrong| wrong.get(&element).copied())
+                .collect();
+            answer.is_made_of(correct, &wrong)
+        })
+    }
+}
+
+/// Returns the wrong answers of each mistake, by element.
+fn wrong_answers(item: &Item) -> BTreeMap<usize, BTreeMap<usize, &ObservedAnswer>> {
+    let mut wrong = BTreeMap::new();
+    for answers in &item.signatures.mistake_answers {
+        let elements = answers.answers.iter();
+        let by_element: BTreeMap<usize, &ObservedAnswer> = elements
+            .map(|(element, answer)| (*element as usize, answer))
+            .collect();
+        for &mistake in &answers.mistakes {
+            wrong.insert(mistake as usize, by_element.clone());
+        }
+    }
+    wrong
+}

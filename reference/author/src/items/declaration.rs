@@ -1,9 +1,12 @@
 //! The declaration of an item: everything about it except its questions, in one place.
 
-use judging::assignment::{RAYS, Task};
+use judging::assignment::Task;
 use judging::exam::{ExamQuestion, Item};
 use judging::section::Section;
 use judging::signatures::MistakeSignatures;
+
+use super::similarity::in_a_room;
+use crate::seed::Seed;
 
 /// An item without its questions.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +60,15 @@ impl DeclaredItem {
     pub(super) fn item(&self) -> &Item {
         &self.item
     }
+
+    /// Asks the item's first table again about things in a room, if it has a table of rays.
+    pub(super) fn with_a_room(mut self, seed: Seed) -> Self {
+        let mut rng = seed.rng(&format!("{}.room", self.item.id));
+        let mut asked = self.item.questions.iter();
+        let in_a_room = asked.find_map(|asked| in_a_room(&mut rng, asked));
+        self.item.questions.extend(in_a_room);
+        self
+    }
 }
 
 /// Creates an item from its declaration and its questions.
@@ -85,8 +97,7 @@ pub(super) fn item(declaration: Declaration, questions: Vec<ExamQuestion>) -> De
 }
 
 fn task(id: &str) -> Task {
-    RAYS.task_of(id)
-        .expect("the id of an item begins with its task")
+    Task::in_id(id).expect("the id of an item begins with its task")
 }
 
 /// Returns the items, each with the ids of all items in the groups that it needs.
@@ -134,6 +145,6 @@ mod tests {
         assert_eq!(needs, [0, 0, 0, 0, 3]);
         let expected = ["bbox.through", "triangle.inside", "triangle.outside"];
         assert_eq!(items[4].needs, expected);
-        assert_eq!(items[4].task, RAYS.find("traverse").unwrap().task());
+        assert_eq!(items[4].task, Task::in_id("traverse.deep").unwrap());
     }
 }

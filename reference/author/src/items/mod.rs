@@ -12,6 +12,7 @@ mod distinct;
 pub mod meshes;
 pub mod picture;
 mod place;
+mod similarity;
 pub mod sphere;
 pub mod traverse;
 pub mod triangle;
@@ -46,7 +47,8 @@ fn declared_items(seed: Seed) -> impl Iterator<Item = DeclaredItem> {
         build::items,
         traverse::items,
     ];
-    tasks.into_iter().flat_map(move |items| items(seed))
+    let all = tasks.into_iter().flat_map(move |items| items(seed));
+    all.map(move |item| item.with_a_room(seed))
 }
 
 /// Returns the ray from one point toward another, in single precision.

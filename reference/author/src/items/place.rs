@@ -50,22 +50,8 @@ impl Place {
 
     /// Moves a shape here.
     pub(super) fn shape(self, shape: &Shape) -> Shape {
-        let mut shape = *shape;
-        match &mut shape {
-            Shape::Triangle { vertices, .. } => {
-                for vertex in vertices {
-                    vertex.position = self.point(vertex.position);
-                }
-            }
-            Shape::FlatTriangle { corners, .. } => {
-                *corners = corners.map(|corner| self.point(corner));
-            }
-            Shape::Sphere { center, radius, .. } => {
-                *center = self.point(*center);
-                *radius = (f64::from(*radius) * self.scale) as f32;
-            }
-        }
-        shape
+        let length = |length: f32| (f64::from(length) * self.scale) as f32;
+        moved_shape(shape, |point| self.point(point), length)
     }
 
     /// Moves all shapes here.
@@ -96,4 +82,26 @@ impl Place {
             max: moved(bounds.max),
         }
     }
+}
+
+/// Returns a shape whose points and lengths are moved.
+pub(super) fn moved_shape(
+    shape: &Shape,
+    point: impl Fn(Vec3) -> Vec3,
+    length: impl Fn(f32) -> f32,
+) -> Shape {
+    let mut shape = *shape;
+    match &mut shape {
+        Shape::Triangle { vertices, .. } => {
+            for vertex in vertices {
+                vertex.position = point(vertex.position);
+            }
+        }
+        Shape::FlatTriangle { corners, .. } => *corners = corners.map(point),
+        Shape::Sphere { center, radius, .. } => {
+            *center = point(*center);
+            *radius = length(*radius);
+        }
+    }
+    shape
 }

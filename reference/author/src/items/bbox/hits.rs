@@ -5,6 +5,7 @@ use protocol::{Interval, Ray};
 
 use super::{Query, bbox_question, clear_outcome, hits_and_misses, random_box, ray_from_around};
 use crate::items::place::Place;
+use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, Group, item, ray};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
@@ -40,25 +41,28 @@ pub(super) fn through(seed: Seed) -> DeclaredItem {
 
 pub(super) fn slab_after_slab(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.slab_after_slab");
-    let bounds = random_box(&mut rng);
-    // Hits, and misses that cross all three slabs, but never at the same time.
-    let queries = hits_and_misses(&mut rng, &bounds, |rng| {
-        let ray = rng.retry(|rng| {
-            let ray = ray_from_around(rng, &bounds);
-            let ray64 = Ray64::from(&ray);
-            let crosses = |axis: usize| {
-                let mut slab = Bounds {
-                    min: DVec3::NEG_INFINITY,
-                    max: DVec3::INFINITY,
+    let mut question = || {
+        let bounds = random_box(&mut rng);
+        // Hits, and misses that cross all three slabs, but never at the same time.
+        let queries = hits_and_misses(&mut rng, &bounds, |rng| {
+            let ray = rng.retry(|rng| {
+                let ray = ray_from_around(rng, &bounds);
+                let ray64 = Ray64::from(&ray);
+                let crosses = |axis: usize| {
+                    let mut slab = Bounds {
+                        min: DVec3::NEG_INFINITY,
+                        max: DVec3::INFINITY,
+                    };
+                    slab.min[axis] = bounds.min[axis];
+                    slab.max[axis] = bounds.max[axis];
+                    slab.span(&ray64).is_some()
                 };
-                slab.min[axis] = bounds.min[axis];
-                slab.max[axis] = bounds.max[axis];
-                slab.span(&ray64).is_some()
-            };
-            (0..3).all(crosses).then_some(ray)
+                (0..3).all(crosses).then_some(ray)
+            });
+            (ray, Interval::AHEAD)
         });
-        (ray, Interval::AHEAD)
-    });
+        bbox_question(bounds, queries)
+    };
     item(
         Declaration {
             id: "bbox.slab_after_slab",
@@ -70,7 +74,7 @@ pub(super) fn slab_after_slab(seed: Seed) -> DeclaredItem {
             group: Some(Group::Boxes),
             needs: &[],
         },
-        vec![bbox_question(bounds, queries)],
+        vec![question(), dust(question())],
     )
 }
 

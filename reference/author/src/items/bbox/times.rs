@@ -4,6 +4,7 @@ use glam::DVec3;
 use protocol::{Interval, Ray};
 
 use super::{bbox_question, hits_and_misses, random_box, ray_from_around};
+use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, Group, item, ray};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
@@ -72,18 +73,23 @@ pub(super) fn from_inside(seed: Seed) -> DeclaredItem {
 
 pub(super) fn clipped(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.clipped");
-    let bounds = random_box(&mut rng);
-    let queries = hits_and_misses(&mut rng, &bounds, |rng| {
-        let (ray, latest) = if rng.coin() {
-            let from = random_point_in(rng, &bounds).as_vec3();
-            (Ray::new(from, rng.direction().as_vec3()), 0.5)
-        } else {
-            (ray_from_around(rng, &bounds), 9.0)
-        };
-        let min = rng.uniform(0.0, latest);
-        let times = (min as f32, (min + rng.uniform(0.5, 6.0)) as f32);
-        (ray, Interval::new(times.0, times.1))
-    });
+    let mut question = || {
+        let bounds = random_box(&mut rng);
+        let queries = hits_and_misses(&mut rng, &bounds, |rng| {
+            let (ray, latest) = if rng.coin() {
+                let from = random_point_in(rng, &bounds).as_vec3();
+                (Ray::new(from, rng.direction().as_vec3()), 0.5)
+            } else {
+                (ray_from_around(rng, &bounds), 9.0)
+            };
+            let min = rng.uniform(0.0, latest);
+            // Half of the intervals are so short that many end inside the box.
+            let longest = if rng.coin() { 1.5 } else { 6.0 };
+            let times = (min as f32, (min + rng.uniform(0.3, longest)) as f32);
+            (ray, Interval::new(times.0, times.1))
+        });
+        bbox_question(bounds, queries)
+    };
     item(
         Declaration {
             id: "bbox.clipped",
@@ -95,7 +101,7 @@ pub(super) fn clipped(seed: Seed) -> DeclaredItem {
             group: Some(Group::Boxes),
             needs: &[],
         },
-        vec![bbox_question(bounds, queries)],
+        vec![question(), dust(question())],
     )
 }
 

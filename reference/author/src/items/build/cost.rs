@@ -35,18 +35,27 @@ pub const MAX_CORRECT_COST: f64 = 1.06;
 /// common mistake.
 pub const MIN_ADJACENT_COST: f64 = 1.2;
 
-/// Creates an item with one question about a random mesh, for which correct builders come close to
-/// the exact sweep, and builders that compare only adjacent buckets do not.
+/// Creates an item with questions about two random meshes, one around the origin and one far from it.
+/// For them, correct builders come close to the exact sweep, and builders that compare only adjacent
+/// buckets do not.
 fn cost_item(seed: Seed, declaration: Declaration, mesh: MeshFn) -> DeclaredItem {
     let mut rng = seed.rng(declaration.id);
-    let question = rng.retry(|rng| {
+    let near = question_about(&mut rng, mesh);
+    let far = question_about(&mut rng, |rng| {
+        let shapes = mesh(rng);
+        Place::elsewhere(rng).shapes(&shapes)
+    });
+    item(seed, declaration, vec![near, far])
+}
+
+fn question_about(rng: &mut Rng, mesh: impl Fn(&mut Rng) -> Vec<Shape>) -> ExamQuestion {
+    rng.retry(|rng| {
         let shapes = mesh(rng);
         let question = cost_question(meshes::number_shapes(rng.shuffled(shapes)), 4);
         (highest_correct_cost(&question) <= MAX_CORRECT_COST
             && lowest_adjacent_cost(&question) >= MIN_ADJACENT_COST)
             .then_some(question)
-    });
-    item(seed, declaration, vec![question])
+    })
 }
 
 /// Returns the highest relative cost among correct bucketed builders. For some meshes, all planes
@@ -123,7 +132,7 @@ pub(super) fn cost_sheets(seed: Seed) -> DeclaredItem {
             group: None,
             needs: &[],
         },
-        |rng| Place::elsewhere(rng).shapes(&meshes::sheets(rng, 900)),
+        |rng| meshes::sheets(rng, 900),
     )
 }
 
@@ -140,6 +149,6 @@ pub(super) fn cost_town(seed: Seed) -> DeclaredItem {
             group: None,
             needs: &[],
         },
-        |rng| Place::elsewhere(rng).shapes(&meshes::town(rng, 1200)),
+        |rng| meshes::town(rng, 1200),
     )
 }

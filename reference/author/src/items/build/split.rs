@@ -7,6 +7,7 @@ use protocol::Shape;
 
 use super::cost::cost_question;
 use super::item;
+use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, meshes};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{scan, sweep};
@@ -32,15 +33,22 @@ const GAP: Layout = &[
     (0.51, 1.0, 4),
 ];
 
+/// Clumps of which the first is the largest. If a builder counts the primitives of other buckets than
+/// those that it encloses, it does not count this one, and splits at the other gap.
+const HEAVY_END: Layout = &[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)];
+
 pub(super) fn one_split(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.one_split");
     let mut questions = Vec::new();
-    for layout in [CLUMPS, GAP] {
+    for layout in [CLUMPS, GAP, HEAVY_END] {
         for axis in 0..3 {
             for is_mirrored in [false, true] {
                 questions.push(question(&mut rng, layout, axis, is_mirrored));
             }
         }
+    }
+    for axis in 0..3 {
+        questions.push(dust(question(&mut rng, CLUMPS, axis, false)));
     }
     item(
         seed,

@@ -5,6 +5,7 @@ use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight
 
 use super::{build_question, item};
 use crate::items::place::Place;
+use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, Group, meshes};
 use crate::seed::Seed;
 
@@ -83,6 +84,7 @@ pub(super) fn contains(seed: Seed) -> DeclaredItem {
 }
 
 pub(super) fn tight(seed: Seed) -> DeclaredItem {
+    let tiny = soup_questions("build.tight.tiny", seed, &[Tight], &[(24, 1)]);
     item(
         seed,
         Declaration {
@@ -95,7 +97,11 @@ pub(super) fn tight(seed: Seed) -> DeclaredItem {
             group: Some(Group::Trees),
             needs: &[],
         },
-        soup_questions("build.tight", seed, &[Tight], &[(64, 1), (150, 4)]),
+        [
+            soup_questions("build.tight", seed, &[Tight], &[(64, 1), (150, 4)]),
+            tiny.into_iter().map(dust).collect(),
+        ]
+        .concat(),
     )
 }
 

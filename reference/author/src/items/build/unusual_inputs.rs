@@ -219,6 +219,7 @@ pub(super) fn one_or_none(seed: Seed) -> DeclaredItem {
         },
         vec![
             build_question(&checks, Vec::new(), 4),
+            build_question(&checks, Vec::new(), 1),
             build_question(&checks, one, 1),
             build_question(&checks, two.clone(), 1),
             build_question(&checks, two, 4),

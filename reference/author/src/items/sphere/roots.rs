@@ -7,6 +7,7 @@ use super::{
     hitting_ray, missing_ray, placed_questions, random_sphere, ray_from_inside, ray_passing_at,
     sphere_question, table_questions, unambiguous_ray,
 };
+use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, Group, item};
 use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
@@ -65,6 +66,13 @@ pub(super) fn beside(seed: Seed) -> DeclaredItem {
 }
 
 pub(super) fn radius(seed: Seed) -> DeclaredItem {
+    let tiny = table_questions(
+        "sphere.radius.tiny",
+        seed,
+        &[HitCheck::Distance],
+        &[1.0],
+        hitting_ray,
+    );
     item(
         Declaration {
             id: "sphere.radius",
@@ -84,6 +92,7 @@ pub(super) fn radius(seed: Seed) -> DeclaredItem {
                 hitting_ray,
             ),
             placed_questions("sphere.radius", seed, &[HitCheck::Distance], hitting_ray),
+            tiny.into_iter().map(dust).collect(),
         ]
         .concat(),
     )
@@ -173,7 +182,7 @@ fn range_questions(
         let rays = rays.collect();
         sphere_question(&[HitCheck::Distance], &sphere, 0, rays)
     };
-    vec![table(1.0), table(2.0)]
+    vec![table(1.0), table(2.0), dust(table(1.0))]
 }
 
 /// Creates a question with rays that go on from a hit, as through glass: those that have entered the

@@ -9,7 +9,6 @@ use super::{
     unambiguous_rays,
 };
 use crate::items::{Declaration, DeclaredItem, Group, item, ray};
-use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
 use crate::tree::{RootPosition, Tree, decoy};
 
@@ -29,8 +28,9 @@ pub(super) fn root(seed: Seed) -> DeclaredItem {
             rays,
         )
     };
-    let mut rng = seed.rng("traverse.root.leaf_in_front");
-    let leaf_in_front = question_with_a_leaf_in_front(&mut rng);
+    let mut rng = seed.rng("traverse.root.child_in_front");
+    let children: [fn(&TreeNode) -> u32; 2] = [|root| root.l, |root| root.r];
+    let child_in_front = children.map(|child| question_with_a_child_in_front(&mut rng, child));
     item(
         Declaration {
             id: "traverse.root",
@@ -49,20 +49,19 @@ pub(super) fn root(seed: Seed) -> DeclaredItem {
         ]
         .map(question)
         .into_iter()
-        .chain([leaf_in_front])
+        .chain(child_in_front)
         .collect(),
     )
 }
 
-/// Creates a question about a tree whose first node is a leaf that one of the rays hits, to check
-/// that 0 is accepted as the index of a child.
-fn question_with_a_leaf_in_front(rng: &mut Rng) -> ExamQuestion {
+/// Creates a question about a tree whose first node is a child of the root, to check that 0 is
+/// accepted as the index of a child.
+fn question_with_a_child_in_front(rng: &mut Rng, child: fn(&TreeNode) -> u32) -> ExamQuestion {
     let tree = soup_tree(rng, 20, 0.9, 1);
     let rays = unambiguous_rays(rng, &tree, [10, 4], ray_from_around);
     let mut tree = tree.with_nodes_shuffled(rng, RootPosition::Last);
-    let mut hits = rays.iter().map(Ray64::from);
-    let leaf = hits.find_map(|ray64| tree.leaf_of_hit(&ray64));
-    tree.swap_nodes(0, leaf.expect("some rays hit something"));
+    let child = child(&tree.nodes[tree.root]) as usize;
+    tree.swap_nodes(0, child);
     traversal_question(&tree, rays)
 }
 

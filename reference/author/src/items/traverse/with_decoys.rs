@@ -4,6 +4,7 @@ use judging::exam::ExamQuestion;
 use protocol::Ray;
 
 use super::{add_unreferenced, ray_from_around, soup_tree, traversal_question, unambiguous_rays};
+use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, Group, item};
 use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
@@ -157,6 +158,7 @@ pub(super) fn prunes(seed: Seed) -> DeclaredItem {
         vec![
             question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct),
             question_with_decoys(&mut rng, &second, SlidesAnswer::Correct),
+            dust(question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct)),
         ],
     )
 }
@@ -185,6 +187,7 @@ pub(super) fn nearer_first(seed: Seed) -> DeclaredItem {
         vec![
             question_with_decoys(&mut rng, &fits, SlidesAnswer::Wrong),
             question_with_decoys(&mut rng, &left_last, SlidesAnswer::Wrong),
+            dust(question_with_decoys(&mut rng, &fits, SlidesAnswer::Wrong)),
         ],
     )
 }
@@ -215,6 +218,7 @@ pub(super) fn both_sides(seed: Seed) -> DeclaredItem {
         },
         vec![
             question_with_decoys(&mut rng, &one, SlidesAnswer::Wrong),
+            question_with_decoys(&mut rng, &both, SlidesAnswer::Wrong),
             question_with_decoys(&mut rng, &both, SlidesAnswer::Wrong),
             question_with_decoys(&mut rng, &alone, SlidesAnswer::Wrong),
         ],

@@ -4,6 +4,7 @@ use glam::DVec3;
 use protocol::Shape;
 
 use super::{question_without_decoys, ray_from_around, soup_tree};
+use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, Group, item, meshes, ray};
 use crate::oracle::{Ray64, scan};
 use crate::seed::{Rng, Seed};
@@ -12,7 +13,11 @@ use crate::tree::{Tree, construction};
 pub(super) fn closest_hit(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.closest_hit");
     // With large triangles, the boxes of siblings overlap considerably.
-    let tree = soup_tree(&mut rng, 40, 1.6, 1);
+    let mut question = || {
+        let tree = soup_tree(&mut rng, 40, 1.6, 1);
+        question_without_decoys(&mut rng, tree, [24, 8], ray_from_around)
+    };
+    let questions = vec![question(), dust(question())];
     item(
         Declaration {
             id: "traverse.closest_hit",
@@ -24,12 +29,7 @@ pub(super) fn closest_hit(seed: Seed) -> DeclaredItem {
             group: None,
             needs: &[Group::TriangleHits, Group::Boxes],
         },
-        vec![question_without_decoys(
-            &mut rng,
-            tree,
-            [24, 8],
-            ray_from_around,
-        )],
+        questions,
     )
 }
 

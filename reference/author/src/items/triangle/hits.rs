@@ -10,6 +10,7 @@ use super::aim::{
 };
 use super::table_questions;
 use crate::items::place::Place;
+use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, Group, item, ray, shapes_question};
 use crate::oracle::{Ray64, triangle};
 use crate::seed::{Rng, Seed};
@@ -107,7 +108,7 @@ fn range_questions(
         let rays = rays.collect();
         shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
     };
-    vec![table(), table()]
+    vec![table(), table(), dust(table())]
 }
 
 pub(super) fn range_max(seed: Seed) -> DeclaredItem {
@@ -285,6 +286,10 @@ pub(super) fn degenerate(seed: Seed) -> DeclaredItem {
     let point = flat([[1.0, 1.0]; 3]);
     let coinciding_corners = flat([[1.0, 2.0], [1.0, 2.0], [3.0, 2.0]]);
     let half_square = flat([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]]);
+    // Parallel to the plane at several distances, over the triangle and beside it.
+    let beside = [1.0, 2.0, 3.0, -1.0, 5.0].into_iter();
+    let parallel = beside.flat_map(|y| [2.0, -2.0, 1.0, -1.0].map(|z| along(y, z)));
+    let parallel = parallel.collect();
     let question = |shape: Shape, rays: Vec<Ray>| shapes_question(&[], vec![shape], rays);
     item(
         Declaration {
@@ -301,16 +306,9 @@ pub(super) fn degenerate(seed: Seed) -> DeclaredItem {
             question(line, vec![down(1.0, 1.0), down(2.0, 1.0), down(2.0, 3.0)]),
             question(point, vec![down(1.0, 1.0), down(0.0, 0.0)]),
             question(coinciding_corners, vec![down(2.0, 2.0), down(1.0, 2.0)]),
+            question(half_square, vec![along(1.0, 0.0), along(-1.0, 0.0)]),
             // On both sides of the plane, as t = z / 0 is +∞ on one of them and −∞ on the other.
-            question(
-                half_square,
-                vec![
-                    along(1.0, 0.0),
-                    along(1.0, 2.0),
-                    along(1.0, -2.0),
-                    along(-1.0, 0.0),
-                ],
-            ),
+            question(half_square, parallel),
             control(&mut rng),
         ],
     )

@@ -9,6 +9,7 @@ use super::place::moved_shape;
 use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 use crate::seed::Rng;
+use crate::tree::{Tree, decoy};
 
 /// A change of size and place of a whole question.
 #[derive(Clone, Copy, Debug)]
@@ -60,12 +61,42 @@ pub(super) fn in_a_room(rng: &mut Rng, asked: &ExamQuestion) -> Option<ExamQuest
     if bounds.diagonal() <= 0.0 {
         return None;
     }
-    let mut far = || (rng.sign() * rng.uniform(150.0, 400.0).round()) as f32;
-    let similarity = Similarity {
-        scale: (SIZE / bounds.diagonal()).log2().floor().exp2() as f32,
-        offset: Vec3::new(far(), far(), far()),
-    };
-    similarity.question(asked.clone())
+    // Far from the origin, rounding moves everything a little, and what was only just fair need not be.
+    rng.retry(|rng| {
+        let mut far = || (rng.sign() * rng.uniform(150.0, 400.0).round()) as f32;
+        let similarity = Similarity {
+            scale: (SIZE / bounds.diagonal()).log2().floor().exp2() as f32,
+            offset: Vec3::new(far(), far(), far()),
+        };
+        let moved = similarity.question(asked.clone());
+        moved.as_ref().is_none_or(is_fair).then_some(moved)
+    })
+}
+
+/// Returns whether a question about a tree is fair.
+fn is_fair(asked: &ExamQuestion) -> bool {
+    match &asked.question {
+        Question::Traverse {
+            shapes,
+            nodes,
+            root,
+            rays,
+        } => {
+            let tree = Tree {
+                shapes: shapes.clone(),
+                nodes: nodes.clone(),
+                root: *root as usize,
+            };
+            decoy::is_fair(&tree, &rays.to_vec())
+        }
+        Question::Camera { .. }
+        | Question::Shapes { .. }
+        | Question::BBox { .. }
+        | Question::Build { .. }
+        | Question::BuildAndTraverse { .. }
+        | Question::Radiance { .. }
+        | Question::Done => true,
+    }
 }
 
 impl Similarity {
@@ -161,12 +192,17 @@ impl Similarity {
         Interval::new(times.min * self.scale, times.max * self.scale)
     }
 
+    /// Moves a node. A sphere's centre and its box are rounded separately, so the box gets larger by
+    /// two units in the last place, to contain the sphere. A flat box stays flat.
     fn node(self, node: &TreeNode) -> TreeNode {
-        TreeNode {
-            min: self.point(node.min),
-            max: self.point(node.max),
-            ..*node
+        let (mut min, mut max) = (self.point(node.min), self.point(node.max));
+        for axis in 0..3 {
+            if self.offset != Vec3::ZERO && min[axis] < max[axis] {
+                min[axis] = min[axis].next_down().next_down();
+                max[axis] = max[axis].next_up().next_up();
+            }
         }
+        TreeNode { min, max, ..*node }
     }
 
     fn hit(self, hit: ExpectedHit) -> ExpectedHit {

@@ -98,15 +98,16 @@ pub fn bounds(shape: &Shape) -> Bounds {
 /// Returns whether all correct formulas in single precision agree on whether and where the ray hits
 /// this shape, because the hit or miss is not close to an edge, a tangent or an end of the range.
 pub fn is_unambiguous(ray: &Ray64, shape: &Shape) -> bool {
-    /// The minimum difference between a distance and the ends of the range.
-    const END_MARGIN: f64 = 2e-2;
+    /// The minimum difference between a distance and the ends of the range, in sizes of the shape.
+    const END_MARGIN: f64 = 1e-2;
     /// The minimum absolute value of the smallest weight.
     const EDGE_MARGIN: f64 = 2e-2;
     /// The minimum difference between the closest approach and the radius, in radii.
     const TANGENT_MARGIN: f64 = 3e-2;
 
-    let is_away_from_ends =
-        |t: f64| (t - ray.min).abs() >= END_MARGIN && (t - ray.max).abs() >= END_MARGIN;
+    let bounds = bounds(shape);
+    let margin = END_MARGIN * (bounds.max - bounds.min).max_element();
+    let is_away_from_ends = |t: f64| (t - ray.min).abs() >= margin && (t - ray.max).abs() >= margin;
     let corners = match *shape {
         Shape::Triangle { ref vertices, .. } => triangle::corners(vertices),
         Shape::FlatTriangle { corners, .. } => corners.map(|corner| corner.as_dvec3()),

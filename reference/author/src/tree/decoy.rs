@@ -135,14 +135,18 @@ pub fn is_fair(tree: &Tree, rays: &[Ray]) -> bool {
 
 /// Returns whether every decoy that would change the answer for this ray is out of reach.
 fn decoys_are_out_of_reach(tree: &Tree, ray64: &Ray64) -> bool {
+    /// The minimum distance between the hit and a decoy behind it that cannot be mistaken for it, in
+    /// sizes of the decoy.
+    const BEHIND: f64 = 0.03;
     let expected = tree
         .expected_hit(ray64)
         .map_or(ray64.max, |hit| hit.distance);
     let ordinary = tree.ordinary_primitives();
     let is_dangerous = |index: usize| {
+        let shape = &tree.shapes[index];
+        let end = expected + BEHIND * scan::bounds(shape).diagonal();
         !ordinary[index]
-            && scan::intersect(ray64, &tree.shapes[index])
-                .is_some_and(|hit| hit.distance < expected + 0.01)
+            && scan::intersect(ray64, shape).is_some_and(|hit| hit.distance < end)
     };
     tree.leaves().into_iter().all(|leaf| {
         let has_decoy = tree.primitives(leaf).any(is_dangerous);
@@ -161,14 +165,21 @@ fn every_traversal_is_correct(tree: &Tree, ray64: &Ray64) -> bool {
 /// Returns whether the expected hit does not depend on rounding: all ordinary primitives up to the
 /// closest hit are clearly hit or clearly missed, and no two are hit at the same distance.
 fn answer_is_unambiguous(tree: &Tree, ray64: &Ray64) -> bool {
+    /// The minimum distance between the hit and a shape behind it, in sizes of the shape.
+    const BEHIND: f64 = 0.03;
+    /// The minimum distance between the ray and a shape that is not looked at, in sizes of the shape.
+    const BESIDE: f64 = 0.07;
     let ordinary = tree.ordinary_primitives();
     let expected = tree.expected_hit(ray64);
-    let end = expected.map_or(ray64.max, |hit| hit.distance + 0.02);
-    let near = Ray64 { max: end, ..*ray64 };
     let shapes = tree.shapes.iter().zip(&ordinary);
     shapes.filter(|(_, ordinary)| **ordinary).all(|(shape, _)| {
         let bounds = scan::bounds(shape);
-        let is_near = bounds.grown(0.05).span(&near).is_some();
+        let size = bounds.diagonal();
+        let near = Ray64 {
+            max: expected.map_or(ray64.max, |hit| hit.distance + BEHIND * size),
+            ..*ray64
+        };
+        let is_near = bounds.grown(BESIDE * size).span(&near).is_some();
         let is_other = expected.is_none_or(|hit| hit.material != shape.material());
         !is_near
             || (scan::is_unambiguous(ray64, shape)

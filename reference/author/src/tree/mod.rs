@@ -114,8 +114,13 @@ impl Tree {
 
     /// Returns whether a primitive is in one of these leaves and inside that leaf's box.
     fn is_ordinary(&self, index: usize, leaves: &[usize]) -> bool {
-        // The tolerance allows for the rounding of boxes to single precision.
-        let enlarged = |leaf: usize| self.bounds(leaf).grown(1e-5);
+        /// Allows for the rounding of boxes to single precision, relative to their coordinates.
+        const ROUNDING: f64 = 2e-6;
+        let enlarged = |leaf: usize| {
+            let bounds = self.bounds(leaf);
+            let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
+            bounds.grown(ROUNDING * largest)
+        };
         let bounds = scan::bounds(&self.shapes[index]);
         let mut holders = leaves
             .iter()

@@ -67,7 +67,9 @@ impl<'a> Evidence<'a> {
         mistakes.filter(|&mistake| explains_all(mistake)).collect()
     }
 
-    /// Returns the mistakes that are in every pair that explains all answers.
+    /// Returns the mistakes whose hint is in every pair that explains all answers, if in one of these
+    /// pairs each mistake explains an item alone. Otherwise the second mistake may only make up for
+    /// what the first does not explain, as it would with the answers of an unknown mistake.
     fn causes_in_pairs(&self) -> Vec<usize> {
         let mut hints: Option<BTreeSet<&str>> = None;
         let mut members = BTreeSet::new();
@@ -76,7 +78,9 @@ impl<'a> Evidence<'a> {
                 let mut items = self.items.iter();
                 if items.all(|item| item.is_explained_by(&[one, other])) {
                     let pair = BTreeSet::from([self.hint(one), self.hint(other)]);
-                    members.extend([one, other]);
+                    if self.affects_more_than(one, other) && self.affects_more_than(other, one) {
+                        members.extend([one, other]);
+                    }
                     hints = Some(match hints {
                         None => pair,
                         Some(hints) => hints.intersection(&pair).copied().collect(),
@@ -91,14 +95,23 @@ impl<'a> Evidence<'a> {
             .collect()
     }
 
-    /// Returns the mistakes that explain every item that they affect, while no mistake with another
-    /// hint does.
+    /// Returns whether a mistake affects an item that another one leaves correct.
+    fn affects_more_than(&self, mistake: usize, other: usize) -> bool {
+        let mut affected = self.affected(mistake);
+        affected.any(|item| !item.wrong.contains_key(&other))
+    }
+
+    /// Returns the mistakes that explain every item that they affect, several and most of the wrong
+    /// ones, while no mistake with another hint does.
     fn partial_causes(&self) -> Vec<usize> {
+        let wrong = self.items.iter().filter(|item| item.is_wrong()).count();
         let is_cause = |mistake: usize| {
             let affected: Vec<_> = self.affected(mistake).collect();
             let explains = |mistake| affected.iter().all(|item| item.is_explained_by(&[mistake]));
             let mut others = self.mistakes.iter().copied();
-            explains(mistake)
+            affected.len() >= 2
+                && 2 * affected.len() > wrong
+                && explains(mistake)
                 && !self.has_same_defect_elsewhere(mistake)
                 && !others.any(|other| self.hint(other) != self.hint(mistake) && explains(other))
         };
@@ -145,6 +158,11 @@ impl<'a> Evidence<'a> {
 }
 
 impl Observed<'_> {
+    /// Returns whether any answer is wrong.
+    fn is_wrong(&self) -> bool {
+        !self.is_explained_by(&[])
+    }
+
     /// Returns whether each answer is the correct one where no mistake changes it, and otherwise made
     /// of those of the mistakes.
     fn is_explained_by(&self, mistakes: &[usize]) -> bool {

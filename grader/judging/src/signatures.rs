@@ -101,35 +101,40 @@ impl ObservedAnswer {
     }
 
     /// Returns whether the answer may come from a submission with several mistakes, given the correct
-    /// answer and those of the mistakes that change it. Of numbers, each may come from another one.
+    /// answer and those of the mistakes that change it. If several do, anything can come out, except
+    /// for numbers that at most one of them changes.
     pub fn is_made_of(&self, correct: &ObservedAnswer, wrong: &[&ObservedAnswer]) -> bool {
         if let [] | [_] = wrong {
             return self.matches(wrong.first().unwrap_or(&correct));
         }
-        let is_one_of_them = || wrong.iter().any(|wrong| self.matches(wrong));
         let (Some(own), Some(correct)) = (self.numbers(), correct.numbers()) else {
-            return is_one_of_them();
+            return true;
         };
         let all: Option<Vec<&[f32]>> = wrong.iter().map(|wrong| wrong.numbers()).collect();
-        let Some(all) = all.filter(|all| {
+        let all = all.filter(|all| {
             let mut lengths = all.iter().chain([&correct]).map(|numbers| numbers.len());
             lengths.all(|length| length == own.len())
-        }) else {
-            return is_one_of_them();
-        };
+        });
+        let Some(all) = all else { return true };
         own.iter()
             .zip(correct)
             .enumerate()
             .all(|(index, (&own, &correct))| {
                 let numbers = all.iter().map(|numbers| numbers[index]);
-                let mut changed = numbers
+                let changed: Vec<f32> = numbers
                     .filter(|number| !same_number(*number, correct))
-                    .peekable();
-                match changed.peek() {
-                    None => same_number(own, correct),
-                    Some(_) => changed.any(|number| same_number(own, number)),
+                    .collect();
+                match changed[..] {
+                    [] => same_number(own, correct),
+                    [only] => same_number(own, only),
+                    [_, _, ..] => true,
                 }
             })
+    }
+
+    /// Returns whether the answer is that nothing is hit.
+    pub fn is_miss(&self) -> bool {
+        matches!(self, ObservedAnswer::NoHit)
     }
 
     fn numbers(&self) -> Option<&[f32]> {

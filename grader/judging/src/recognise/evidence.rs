@@ -46,6 +46,9 @@ impl<'a> Evidence<'a> {
         if causes.is_empty() {
             causes = self.partial_causes();
         }
+        if causes.is_empty() {
+            causes = self.dominant_causes();
+        }
         causes.retain(|&mistake| self.is_informative(mistake));
         causes
     }
@@ -78,7 +81,9 @@ impl<'a> Evidence<'a> {
                 let mut items = self.items.iter();
                 if items.all(|item| item.is_explained_by(&[one, other])) {
                     let pair = BTreeSet::from([self.hint(one), self.hint(other)]);
-                    if self.affects_more_than(one, other) && self.affects_more_than(other, one) {
+                    let both_needed =
+                        self.affects_more_than(one, other) && self.affects_more_than(other, one);
+                    if both_needed && self.is_telling(one) && self.is_telling(other) {
                         members.extend([one, other]);
                     }
                     hints = Some(match hints {
@@ -110,6 +115,7 @@ impl<'a> Evidence<'a> {
             let explains = |mistake| affected.iter().all(|item| item.is_explained_by(&[mistake]));
             let mut others = self.mistakes.iter().copied();
             affected.len() >= 2
+                && self.is_telling(mistake)
                 && 2 * affected.len() > wrong
                 && explains(mistake)
                 && !self.has_same_defect_elsewhere(mistake)
@@ -117,6 +123,53 @@ impl<'a> Evidence<'a> {
         };
         let mistakes = self.mistakes.iter().copied();
         mistakes.filter(|&mistake| is_cause(mistake)).collect()
+    }
+
+    /// Returns the mistakes that explain most of the wrong items, and nearly all answers to those that
+    /// they affect, while no mistake with another hint comes close. A second mistake can change the
+    /// few answers that are left, in a way that depends on both.
+    fn dominant_causes(&self) -> Vec<usize> {
+        let wrong = self.items.iter().filter(|item| item.is_wrong()).count();
+        let explained = |mistake| {
+            let affected = self.affected(mistake);
+            affected
+                .filter(|item| item.is_explained_by(&[mistake]))
+                .count()
+        };
+        let is_cause = |mistake: usize| {
+            let items = explained(mistake);
+            let (agreeing, differing) = self.agreement(mistake);
+            let mut others = self.mistakes.iter().copied();
+            items >= 3
+                && 2 * items > wrong
+                && 4 * items >= 3 * self.affected(mistake).count()
+                && agreeing >= 3.max(4 * differing)
+                && !others.any(|other| {
+                    self.hint(other) != self.hint(mistake) && 2 * explained(other) > items
+                })
+        };
+        let mistakes = self.mistakes.iter().copied();
+        mistakes.filter(|&mistake| is_cause(mistake)).collect()
+    }
+
+    /// Returns how many wrong answers are those of a mistake, and how many answers to the items that
+    /// it affects differ from it. Misses and answers that are not given do not count as evidence: too
+    /// many mistakes lead to them.
+    fn agreement(&self, mistake: usize) -> (usize, usize) {
+        let (mut agreeing, mut differing) = (0, 0);
+        for item in self.affected(mistake) {
+            let correct = item.item.signatures.correct_answers.iter();
+            for (element, (answer, correct)) in item.answers.iter().zip(correct).enumerate() {
+                let wrong = item.wrong[&mistake].get(&element);
+                if answer.matches(wrong.unwrap_or(&correct)) {
+                    let is_telling = !answer.is_miss() && !answer.is_uninformative();
+                    agreeing += usize::from(wrong.is_some() && is_telling);
+                } else {
+                    differing += 1;
+                }
+            }
+        }
+        (agreeing, differing)
     }
 
     /// Returns whether an item that a mistake leaves correct has a tree with the same defect as one
@@ -145,6 +198,19 @@ impl<'a> Evidence<'a> {
             .affected(mistake)
             .flat_map(|item| item.wrong[&mistake].values());
         wrong.any(|answer| !answer.is_uninformative())
+    }
+
+    /// Returns whether a mistake does more than to miss everything: it gives a wrong answer other than
+    /// a miss, or leaves a hit correct in an item that it affects.
+    fn is_telling(&self, mistake: usize) -> bool {
+        let mut affected = self.affected(mistake);
+        affected.any(|item| {
+            let wrong = &item.wrong[&mistake];
+            let mut correct = item.item.signatures.correct_answers.iter().enumerate();
+            wrong.values().any(|answer| !answer.is_miss())
+                || correct
+                    .any(|(element, answer)| !answer.is_miss() && !wrong.contains_key(&element))
+        })
     }
 
     fn affected(&self, mistake: usize) -> impl Iterator<Item = &Observed<'a>> {

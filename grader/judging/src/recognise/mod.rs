@@ -1,11 +1,13 @@
 //! Recognises the known mistakes behind wrong answers.
 //!
-//! A false hint is worse than none, so a mistake is named only in three cases:
+//! A false hint is worse than none, so a mistake is named only in four cases:
 //!
 //! 1. It alone explains all answers in the task.
 //! 2. It explains them together with one other mistake, and no other pair does without it.
-//! 3. It explains every item that it affects, and no other known mistake explains these items. Other
-//!    items of the task may be wrong for another reason.
+//! 3. It explains every item that it affects, which are most of the wrong ones, and no other known
+//!    mistake explains these items. Other items of the task may be wrong for another reason.
+//! 4. It explains nearly all answers to the items that it affects, which are most of the wrong ones,
+//!    and no other known mistake comes close. A second mistake may have changed the others.
 
 mod evidence;
 

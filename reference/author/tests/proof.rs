@@ -96,8 +96,8 @@ fn reports_an_independent_mistake_that_does_not_apply() {
     };
     let message = |mistake: IndependentMistake| mistake.apply(&SOLUTIONS).unwrap_err().to_string();
     let in_sphere = message(mistake("sphere.far_first", "sphere.full_quadratic"));
-    let expected = "sphere.far_first no longer applies to sphere.full_quadratic: its `was` occurs 4 \
-                    times in sphere.rs with its given code, instead of once; adapt it in \
+    let expected = "sphere.far_first in sphere.full_quadratic no longer applies: its `was` occurs 4 times \
+                    in sphere.rs with its given code, instead of once; adapt it in \
                     mistakes/independent";
     assert_eq!(in_sphere, expected);
 
@@ -109,7 +109,7 @@ fn reports_an_independent_mistake_that_does_not_apply() {
     for (id, variant) in names {
         let expected = format!(
             "{id} in {variant}: the catalogue of mistakes must have all ids, and variants.toml the \
-             variant, whose file must be that of the mistake's task"
+             variant, which must solve the mistake's task"
         );
         assert_eq!(message(mistake(id, variant)), expected);
     }
@@ -193,6 +193,7 @@ fn reports_a_wrong_variant() {
         title: String::new(),
         source: None,
         may_lose: Vec::new(),
+        files: Vec::new(),
         crates: Vec::new(),
     };
     let lost = variant_losses(&SOLUTIONS.workbench, &variant, sources, &practice_exam());

@@ -35,25 +35,18 @@ pub enum IndependentError {
     Catalogue(#[from] CatalogueError),
     /// It names a mistake that is not known, or a variant that does not exist or solves other tasks.
     #[error(
-        "{id} in {variant}: the catalogue of mistakes must have all ids, and variants.toml the \
-         variant, whose file must be that of the mistake's task"
+        "{0}: the catalogue of mistakes must have all ids, and variants.toml the variant, which must \
+         solve the mistake's task"
     )]
-    Names {
-        /// The id of the mistake.
-        id: String,
-        /// The id of the variant.
-        variant: String,
-    },
+    Names(String),
     /// The text that it changes does not occur exactly once.
     #[error(
-        "{id} no longer applies to {variant}: its `was` occurs {count} times in {file} with its given \
-         code, instead of once; adapt it in mistakes/independent"
+        "{name} no longer applies: its `was` occurs {count} times in {file} with its given code, \
+         instead of once; adapt it in mistakes/independent"
     )]
     DoesNotApply {
-        /// The id of the mistake.
-        id: String,
-        /// The id of the variant.
-        variant: String,
+        /// The ids of the mistake and the variant.
+        name: String,
         /// The name of the file that it changes.
         file: String,
         /// The number of occurrences.
@@ -90,6 +83,11 @@ pub fn independent_mistakes(
 }
 
 impl IndependentMistake {
+    /// Returns the ids of the mistake and the variant, for people to read.
+    pub fn name(&self) -> String {
+        format!("{} in {}", self.id, self.variant)
+    }
+
     /// Returns the variant with this mistake.
     pub fn apply(&self, solutions: &Solutions) -> Result<Sources, IndependentError> {
         let is_known = |id: &String| {
@@ -104,18 +102,14 @@ impl IndependentMistake {
             variant.tasks(assignment).contains(task) && self.also.iter().all(is_known)
         });
         let Some((_, (variant, sources))) = found else {
-            return Err(IndependentError::Names {
-                id: self.id.clone(),
-                variant: self.variant.clone(),
-            });
+            return Err(IndependentError::Names(self.name()));
         };
         apply_changes(
             sources.clone(),
             &self.changes,
             &variant.file(),
             |file, count| IndependentError::DoesNotApply {
-                id: self.id.clone(),
-                variant: self.variant.clone(),
+                name: self.name(),
                 file: file.to_owned(),
                 count,
             },

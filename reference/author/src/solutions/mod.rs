@@ -52,10 +52,16 @@ pub enum SolutionsError {
     Recording(#[from] RecordingError),
     /// An independent mistake cannot be used.
     #[error(transparent)]
-    Independent(#[from] IndependentError),
+    Independent(Box<IndependentError>),
     /// There is no variant with this id.
     #[error("there is no variant {0}: see reference/variants/variants.toml for a list")]
     UnknownVariant(String),
+}
+
+impl From<IndependentError> for SolutionsError {
+    fn from(error: IndependentError) -> Self {
+        SolutionsError::Independent(Box::new(error))
+    }
 }
 
 /// The known mistakes and variants with their sources, and the means to build and run them.

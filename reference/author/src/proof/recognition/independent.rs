@@ -70,7 +70,6 @@ fn recognise_one(
     let IndependentMistake {
         id, variant, also, ..
     } = independent;
-    let name = format!("{id} in {variant}");
     let graded = grade_mistake(&solutions.workbench, mistake, sources, exam)?;
     let problems = graded.task_problems().into_iter();
     let is_true = |hint: &String| {
@@ -84,7 +83,7 @@ fn recognise_one(
         problems: problems
             .map(|problem| format!("{variant}: {problem}"))
             .collect(),
-        name,
+        name: independent.name(),
         true_hints,
         false_hints,
     })

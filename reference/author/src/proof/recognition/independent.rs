@@ -7,6 +7,7 @@ use indicatif::ParallelProgressIterator;
 use judging::exam::Exam;
 use rayon::prelude::*;
 
+use super::difference::items_unlike_signature;
 use super::{hints, observe};
 use crate::proof::ProofError;
 use crate::proof::grade::grade_mistake;
@@ -32,6 +33,8 @@ pub struct RecognisedIndependent {
     pub true_hints: BTreeSet<String>,
     /// The hints that are false.
     pub false_hints: BTreeSet<String>,
+    /// If it is not recognised, the items that it answers unlike the same mistake in the reference.
+    pub unlike: Vec<String>,
     /// Whether the code loses no points, although it is wrong, or loses points in another task.
     pub problems: Vec<String>,
 }
@@ -78,7 +81,12 @@ fn recognise_one(
     };
     let observations = observe(solutions, exam, mistake, sources)?;
     let hints = hints(&observations, exam, mistake).into_iter();
-    let (true_hints, false_hints) = hints.partition(is_true);
+    let (true_hints, false_hints): (BTreeSet<String>, BTreeSet<String>) = hints.partition(is_true);
+    let unlike = if true_hints.is_empty() {
+        items_unlike_signature(solutions, exam, mistake, sources)?
+    } else {
+        Vec::new()
+    };
     Ok(RecognisedIndependent {
         problems: problems
             .map(|problem| format!("{variant}: {problem}"))
@@ -86,6 +94,7 @@ fn recognise_one(
         name: independent.name(),
         true_hints,
         false_hints,
+        unlike,
     })
 }
 
@@ -142,7 +151,8 @@ impl fmt::Display for IndependentRecognition {
             if !result.false_hints.is_empty() {
                 writeln!(f, "{name}: false hint {}", list(&result.false_hints))?;
             } else if result.true_hints.is_empty() {
-                writeln!(f, "{name}: no hint")?;
+                let unlike = result.unlike.join(", ");
+                writeln!(f, "{name}: no hint; unlike in the reference: {unlike}")?;
             } else {
                 writeln!(f, "{name}: recognised")?;
             }

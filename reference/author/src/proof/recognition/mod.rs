@@ -1,6 +1,7 @@
 //! Measures the quality of hints: whether known mistakes are recognised, alone, in pairs and in
 //! other solutions, and whether an unknown mistake gets a hint that is not true of it.
 
+mod difference;
 mod independent;
 mod pairs;
 mod single;

@@ -114,6 +114,10 @@ pub enum Command {
             reason = "absent, without a value, with a value"
         )]
         pairs: Option<Option<usize>>,
+        /// Measure known mistakes that are written into variants, with the practice exam; fail if
+        /// one of them costs nothing
+        #[arg(long, conflicts_with_all = ["seeds", "pairs"])]
+        independent: bool,
     },
     /// List the mutants that cargo-mutants generates from the reference, and grade each of them
     Mutants {

@@ -16,7 +16,9 @@ use author::proof::by_heart::grade_by_heart;
 use author::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, calibrate, table};
 use author::proof::mutants::{self, MutantSelection};
 use author::proof::prove::prove;
-use author::proof::recognition::{recognise, recognise_pairs, recognise_with_seeds};
+use author::proof::recognition::{
+    recognise, recognise_independent, recognise_pairs, recognise_with_seeds,
+};
 use author::proof::{failures, matrix};
 use author::solutions::failed_items::FailedItems;
 use author::solutions::sources::Sources;
@@ -101,7 +103,14 @@ fn run(command: Command) -> CommandResult {
             generate(slice::from_ref(&coverage.table), check.mode(), "coverage")?;
             report(&coverage.problems, &coverage.summary_line())
         }
-        Command::Hints { seeds, pairs } => {
+        Command::Hints {
+            independent: true, ..
+        } => {
+            let practice = exams::load_practice(root)?;
+            let recognition = recognise_independent(&solutions()?, &practice)?;
+            report(&recognition.problems(), &recognition.to_string())
+        }
+        Command::Hints { seeds, pairs, .. } => {
             let solutions = solutions()?;
             match (seeds, pairs) {
                 (Some(seeds), _) => println!("{}", recognise_with_seeds(&solutions, seeds)?),

@@ -10,9 +10,10 @@ use std::sync::LazyLock;
 use author::exams::load_practice;
 use author::proof::by_heart::grade_by_heart;
 use author::proof::grade::{grade_mistake, variant_losses};
-use author::proof::recognition::recognise;
+use author::proof::recognition::{recognise, recognise_independent};
 use author::solutions::Solutions;
 use author::solutions::catalogue::Change;
+use author::solutions::independent::{IndependentMistake, independent_mistakes};
 use author::solutions::variants::Variant;
 use author::solutions::workbench::Workbench;
 use grader::handed_out::RAYS;
@@ -61,6 +62,57 @@ fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
         recognition.confused_when_unknown.len() * 10 <= SOLUTIONS.mistakes.len(),
         "{recognition}"
     );
+}
+
+#[test]
+fn mistakes_in_other_solutions_cost_points_and_most_are_recognised() {
+    let recognition = recognise_independent(&SOLUTIONS, &practice_exam()).unwrap();
+    println!("{recognition}");
+    assert_eq!(recognition.problems(), [""; 0]);
+    assert!(recognition.results.len() >= 60, "{recognition}");
+    let (recognised, count) = (recognition.recognised(), recognition.results.len());
+    assert!(recognised * 100 >= count * 80, "{recognition}");
+    assert!(recognition.with_false_hint() <= 1, "{recognition}");
+}
+
+#[test]
+fn each_mistake_is_in_one_other_solution_at_most() {
+    let all = independent_mistakes(&SOLUTIONS).expect("every independent mistake applies");
+    let ids: BTreeSet<&str> = all.iter().map(|(mistake, _)| mistake.id.as_str()).collect();
+    assert_eq!(ids.len(), all.len());
+}
+
+#[test]
+fn reports_an_independent_mistake_that_does_not_apply() {
+    let mistake = |id: &str, variant: &str| IndependentMistake {
+        id: id.to_owned(),
+        variant: variant.to_owned(),
+        also: Vec::new(),
+        changes: vec![Change {
+            file: None,
+            was: "discriminant".to_owned(),
+            now: String::new(),
+        }],
+    };
+    let message = |mistake: IndependentMistake| mistake.apply(&SOLUTIONS).unwrap_err().to_string();
+    let in_sphere = message(mistake("sphere.far_first", "sphere.full_quadratic"));
+    let expected = "sphere.far_first in sphere.full_quadratic no longer applies: its `was` occurs 4 times \
+                    in sphere.rs with its given code, instead of once; adapt it in \
+                    mistakes/independent";
+    assert_eq!(in_sphere, expected);
+
+    let names = [
+        ("sphere.no_such_mistake", "sphere.full_quadratic"),
+        ("sphere.far_first", "sphere.no_such_variant"),
+        ("sphere.far_first", "bvh.queue"),
+    ];
+    for (id, variant) in names {
+        let expected = format!(
+            "{id} in {variant}: the catalogue of mistakes must have all ids, and variants.toml the \
+             variant, which must solve the mistake's task"
+        );
+        assert_eq!(message(mistake(id, variant)), expected);
+    }
 }
 
 #[test]
@@ -141,6 +193,7 @@ fn reports_a_wrong_variant() {
         title: String::new(),
         source: None,
         may_lose: Vec::new(),
+        files: Vec::new(),
         crates: Vec::new(),
     };
     let lost = variant_losses(&SOLUTIONS.workbench, &variant, sources, &practice_exam());

@@ -181,7 +181,9 @@ fn share_hints(mistakes: &mut [Mistake]) -> Result<(), CatalogueError> {
     Ok(())
 }
 
-fn toml_files(folder: &Path) -> Result<Vec<PathBuf>, PathError> {
+/// Returns the TOML files in a folder, in the order of their names. A folder that does not exist
+/// has none.
+pub(super) fn toml_files(folder: &Path) -> Result<Vec<PathBuf>, PathError> {
     if !folder.exists() {
         return Ok(Vec::new());
     }
@@ -206,22 +208,37 @@ impl Mistake {
 
     /// Returns the reference with this mistake.
     pub fn apply(&self, reference: &Sources) -> Result<Sources, CatalogueError> {
-        let mut sources = reference.clone();
-        for change in &self.changes {
-            let own_file = reference.handed_out().assignment.info(self.task()).file;
-            let file = change.file.as_deref().unwrap_or(own_file);
-            let text = sources.text(file).unwrap_or_default();
-            let times = text.matches(&change.was).count();
-            if times != 1 {
-                return Err(CatalogueError::DoesNotApply {
-                    id: self.id.clone(),
-                    file: format!("{}/{file}", reference.handed_out().reference),
-                    count: times,
-                });
+        let handed_out = reference.handed_out();
+        let own_file = handed_out.assignment.info(self.task()).file;
+        let sources = reference.clone();
+        apply_changes(sources, &self.changes, own_file, |file, count| {
+            CatalogueError::DoesNotApply {
+                id: self.id.clone(),
+                file: format!("{}/{file}", handed_out.reference),
+                count,
             }
-            let text = text.replacen(&change.was, &change.now, 1);
-            sources = sources.with_file(file, text);
-        }
-        Ok(sources)
+        })
     }
+}
+
+/// Applies changes to a solution: to `own_file`, or to the files that they name. A text that does
+/// not occur exactly once is an error, which `does_not_apply` makes of the file and the number of
+/// occurrences.
+pub(super) fn apply_changes<E>(
+    mut sources: Sources,
+    changes: &[Change],
+    own_file: &str,
+    does_not_apply: impl Fn(&str, usize) -> E,
+) -> Result<Sources, E> {
+    for change in changes {
+        let file = change.file.as_deref().unwrap_or(own_file);
+        let text = sources.text(file).unwrap_or_default();
+        let count = text.matches(&change.was).count();
+        if count != 1 {
+            return Err(does_not_apply(file, count));
+        }
+        let text = text.replacen(&change.was, &change.now, 1);
+        sources = sources.with_file(file, text);
+    }
+    Ok(sources)
 }

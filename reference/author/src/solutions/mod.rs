@@ -9,6 +9,7 @@
 pub mod by_heart;
 pub mod catalogue;
 pub mod failed_items;
+pub mod independent;
 pub mod mutants;
 pub mod recording;
 pub mod sources;
@@ -21,6 +22,7 @@ use grader::files::PathError;
 
 use crate::solutions::catalogue::{CatalogueError, Mistake, mistakes};
 use crate::solutions::failed_items::FailedItems;
+use crate::solutions::independent::IndependentError;
 use crate::solutions::recording::{Recorder, RecordingError};
 use crate::solutions::sources::Sources;
 use crate::solutions::toml_file::TomlFileError;
@@ -48,9 +50,18 @@ pub enum SolutionsError {
     /// The exam's picture cannot be recorded.
     #[error(transparent)]
     Recording(#[from] RecordingError),
+    /// An independent mistake cannot be used.
+    #[error(transparent)]
+    Independent(Box<IndependentError>),
     /// There is no variant with this id.
     #[error("there is no variant {0}: see reference/variants/variants.toml for a list")]
     UnknownVariant(String),
+}
+
+impl From<IndependentError> for SolutionsError {
+    fn from(error: IndependentError) -> Self {
+        SolutionsError::Independent(Box::new(error))
+    }
 }
 
 /// The known mistakes and variants with their sources, and the means to build and run them.

@@ -1,5 +1,6 @@
 //! Variants: known correct solutions that differ from the reference. With the given code of the
-//! reference's `STEM.rs`, each file `reference/variants/STEM/NAME.rs` replaces that file.
+//! reference's `STEM.rs`, each file `reference/variants/STEM/NAME.rs` replaces that file. A variant
+//! whose files use each other is a folder `reference/variants/STEM/NAME` of several such files.
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +19,7 @@ const FOLDER: &str = "reference/variants";
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
-    /// The stem of the file that it replaces, a dot, and a name, such as `sphere.stable_quadratic`.
+    /// The stem of the file that it replaces, or of one of them, a dot, and a name, such as `sphere.stable_quadratic`.
     pub id: String,
     /// A description of its method.
     pub title: String,
@@ -29,6 +30,9 @@ pub struct Variant {
     /// builder that does not use the surface area heuristic.
     #[serde(default)]
     pub may_lose: Vec<String>,
+    /// The names of the files that it replaces, if it is a folder of several.
+    #[serde(default)]
+    pub files: Vec<String>,
     /// The crates that it uses although submissions may not.
     #[serde(default)]
     pub crates: Vec<String>,
@@ -63,31 +67,41 @@ pub fn variants(root: &Path) -> Result<Vec<Variant>, TomlFileError> {
 }
 
 impl Variant {
-    /// Returns the name of the task file that it replaces.
+    /// Returns the name of the task file that it is about: the only one that it replaces, or one of
+    /// several.
     pub fn file(&self) -> String {
         format!("{}.rs", self.id.split('.').next().unwrap_or_default())
     }
 
-    /// Returns the path of its file, relative to the workspace's root.
-    pub fn path(&self) -> PathBuf {
-        Path::new(FOLDER).join(format!("{}.rs", self.id.replace('.', "/")))
+    /// Returns the names of the task files that it replaces, each with the path of its file,
+    /// relative to the workspace's root.
+    fn files(&self) -> Vec<(String, PathBuf)> {
+        let path = Path::new(FOLDER).join(self.id.replace('.', "/"));
+        if self.files.is_empty() {
+            return vec![(self.file(), path.with_extension("rs"))];
+        }
+        let files = self.files.iter();
+        files.map(|file| (file.clone(), path.join(file))).collect()
     }
 
-    /// Returns the tasks of the assignment that its file solves.
+    /// Returns the tasks of the assignment that its files solve.
     pub fn tasks(&self, assignment: &Assignment) -> Vec<Task> {
-        assignment.tasks_in(&self.file()).collect()
+        let files = self.files().into_iter();
+        files
+            .flat_map(|(file, _)| assignment.tasks_in(&file).collect::<Vec<_>>())
+            .collect()
     }
 
-    /// Returns the reference with one task file replaced by this variant and its given code.
+    /// Returns the reference with the task files replaced by this variant and its given code.
     pub fn apply(&self, reference: &Sources, root: &Path) -> Result<Sources, VariantError> {
-        let path = root.join(self.path());
-        let own = files::read_to_string(&path)?;
-        let file = self.file();
-        let given = given_code(reference.text(&file).unwrap_or_default(), &own)
-            .map_err(|source| VariantError::GivenCode { path, source })?;
-        let sources = reference
-            .clone()
-            .with_file(&file, format!("{own}\n{given}"));
+        let mut sources = reference.clone();
+        for (file, path) in self.files() {
+            let path = root.join(path);
+            let own = files::read_to_string(&path)?;
+            let given = given_code(reference.text(&file).unwrap_or_default(), &own)
+                .map_err(|source| VariantError::GivenCode { path, source })?;
+            sources = sources.with_file(&file, format!("{own}\n{given}"));
+        }
         Ok(sources.with_crates(&self.crates))
     }
 }

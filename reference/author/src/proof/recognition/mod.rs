@@ -1,6 +1,8 @@
-//! Measures the quality of hints: whether known mistakes are recognised, alone and in pairs, and
-//! whether an unknown mistake gets a hint that is not true of it.
+//! Measures the quality of hints: whether known mistakes are recognised, alone, in pairs and in
+//! other solutions, and whether an unknown mistake gets a hint that is not true of it.
 
+mod difference;
+mod independent;
 mod pairs;
 mod single;
 
@@ -10,6 +12,7 @@ use grader::probe::Fault;
 use judging::exam::Exam;
 use judging::recognise::Observations;
 
+pub use independent::{IndependentRecognition, RecognisedIndependent, recognise_independent};
 pub use pairs::{PairRecognition, recognise_pairs};
 pub use single::{Recognition, recognise, recognise_with_seeds};
 

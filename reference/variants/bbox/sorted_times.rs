@@ -1,0 +1,19 @@
+// Sorts the times at which the ray enters a slab, and those at which it leaves one, together with
+// the ends of `times`: the last entry and the first exit count.
+
+impl BBox {
+    pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {
+        let (mut entries, mut exits) = (vec![times.min], vec![times.max]);
+        for axis in 0..3 {
+            let mut crossings = [self.min, self.max]
+                .map(|corner| (corner[axis] - ray.origin[axis]) / ray.dir[axis]);
+            crossings.sort_by(f32::total_cmp);
+            entries.push(crossings[0]);
+            exits.push(crossings[1]);
+        }
+        entries.sort_by(f32::total_cmp);
+        exits.sort_by(f32::total_cmp);
+        let inside = Interval::new(*entries.last()?, *exits.first()?);
+        (inside.min <= inside.max).then_some(inside)
+    }
+}

@@ -1,0 +1,34 @@
+// Computes the distance of the centre from the ray as the length of the cross product o × d, which
+// is the area of a parallelogram whose base has length one.
+
+impl Sphere {
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let o = ray.origin - self.center;
+        let distance_squared = o.cross(ray.dir).length_squared();
+        let half_chord = (self.radius.powi(2) - distance_squared).sqrt();
+        if half_chord.is_nan() {
+            return None;
+        }
+        let middle = -o.dot(ray.dir);
+        let (near, far) = (middle - half_chord, middle + half_chord);
+        if ray.range.contains(near) {
+            Some(self.trace(ray, near))
+        } else {
+            ray.range.contains(far).then(|| self.trace(ray, far))
+        }
+    }
+
+    /// Returns the trace for the hit at distance `t`.
+    fn trace(&self, ray: &Ray, t: f32) -> Trace {
+        let position = ray.at(t);
+        let normal = (position - self.center).normalize();
+        Trace {
+            distance: t,
+            position,
+            normal,
+            uv: Sphere::uv(normal),
+            origin: ray.origin,
+            material: self.material,
+        }
+    }
+}

@@ -1,0 +1,31 @@
+// Takes the smallest of the roots in the range, with an iterator over the two signs.
+
+impl Sphere {
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let o = ray.origin - self.center;
+        let b = o.dot(ray.dir);
+        let c = o.length_squared() - self.radius * self.radius;
+        let discriminant = b * b - c;
+        [1.0, -1.0]
+            .into_iter()
+            .filter(|_| discriminant >= 0.0)
+            .map(|sign| -b + sign * discriminant.sqrt())
+            .filter(|t| ray.range.contains(*t))
+            .min_by(f32::total_cmp)
+            .map(|t| self.trace(ray, t))
+    }
+
+    /// Returns the trace for the hit at distance `t`.
+    fn trace(&self, ray: &Ray, t: f32) -> Trace {
+        let position = ray.at(t);
+        let normal = (position - self.center).normalize();
+        Trace {
+            distance: t,
+            position,
+            normal,
+            uv: Sphere::uv(normal),
+            origin: ray.origin,
+            material: self.material,
+        }
+    }
+}

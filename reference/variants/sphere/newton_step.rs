@@ -1,0 +1,51 @@
+// Has a type for the quadratic polynomial, and improves each root by one step of Newton's method.
+
+/// The polynomial a·t² + 2b·t + c.
+struct Quadratic {
+    a: f32,
+    b: f32,
+    c: f32,
+}
+
+impl Quadratic {
+    /// Returns the roots, the smaller one first.
+    fn roots(&self) -> Option<[f32; 2]> {
+        let root = (self.b * self.b - self.a * self.c).sqrt();
+        let roots = [-self.b - root, -self.b + root].map(|root| self.improve(root / self.a));
+        (!root.is_nan()).then_some(roots)
+    }
+
+    fn improve(&self, t: f32) -> f32 {
+        let value = (self.a * t + 2.0 * self.b) * t + self.c;
+        let slope = 2.0 * (self.a * t + self.b);
+        if slope == 0.0 { t } else { t - value / slope }
+    }
+}
+
+impl Sphere {
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let o = ray.origin - self.center;
+        let polynomial = Quadratic {
+            a: ray.dir.length_squared(),
+            b: o.dot(ray.dir),
+            c: o.length_squared() - self.radius * self.radius,
+        };
+        let in_range = |t: &f32| ray.range.contains(*t);
+        let t = polynomial.roots()?.into_iter().find(in_range)?;
+        Some(self.trace(ray, t))
+    }
+
+    /// Returns the trace for the hit at distance `t`.
+    fn trace(&self, ray: &Ray, t: f32) -> Trace {
+        let position = ray.at(t);
+        let normal = (position - self.center).normalize();
+        Trace {
+            distance: t,
+            position,
+            normal,
+            uv: Sphere::uv(normal),
+            origin: ray.origin,
+            material: self.material,
+        }
+    }
+}

@@ -1,0 +1,40 @@
+// Tries the roots one after the other with a macro that returns from the method.
+
+/// Returns the trace at a distance from the calling method if the distance is in the ray's range.
+macro_rules! return_if_in_range {
+    ($sphere:expr, $ray:expr, $t:expr) => {
+        let t = $t;
+        if t >= $ray.range.min && t <= $ray.range.max {
+            return Some($sphere.trace($ray, t));
+        }
+    };
+}
+
+impl Sphere {
+    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let o = ray.origin - self.center;
+        let a = ray.dir.length_squared();
+        let b = 2.0 * o.dot(ray.dir);
+        let c = o.length_squared() - self.radius * self.radius;
+        let discriminant = b * b - 4.0 * a * c;
+        if discriminant >= 0.0 {
+            return_if_in_range!(self, ray, (-b - discriminant.sqrt()) / (2.0 * a));
+            return_if_in_range!(self, ray, (-b + discriminant.sqrt()) / (2.0 * a));
+        }
+        None
+    }
+
+    /// Returns the trace for the hit at distance `t`.
+    fn trace(&self, ray: &Ray, t: f32) -> Trace {
+        let position = ray.at(t);
+        let normal = (position - self.center).normalize();
+        Trace {
+            distance: t,
+            position,
+            normal,
+            uv: Sphere::uv(normal),
+            origin: ray.origin,
+            material: self.material,
+        }
+    }
+}

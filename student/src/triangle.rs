@@ -58,7 +58,7 @@ impl Triangle {
     ///   that distance, and `origin` is the ray's origin.
     /// - `normal` and `uv` are interpolated between the corners with the weights w, u and v. Do not
     ///   flip the normal toward the ray. It does not have to have length one.
-    /// - Small triangles count as well, such as those with edges of length 1e-3. A triangle without
+    /// - Triangles of every size count, be they a thousandth or a millionth as large. A triangle without
     ///   area is never hit, and neither is one that is parallel to the ray.
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         todo!("task 2, triangle: where does {ray:?} hit {self:?}?")

@@ -35,7 +35,7 @@ pub struct RecognisedIndependent {
     pub false_hints: BTreeSet<String>,
     /// If it is not recognised, the items that it answers unlike the same mistake in the reference.
     pub unlike: Vec<String>,
-    /// Whether the code loses no points, although it is wrong, or loses points in another task.
+    /// A message if the code loses no points in its task, or points in another task.
     pub problems: Vec<String>,
 }
 

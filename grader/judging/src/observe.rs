@@ -158,7 +158,15 @@ fn observe_ray(checks: &[RayCheck], ray: &Ray) -> ObservedAnswer {
         RayCheck::Origin => lengths(&ray.origin.to_array(), 1.0),
         RayCheck::Direction => direction(ray.dir),
         RayCheck::UnitLength => vec![ray.dir.length() / DIRECTION],
-        RayCheck::Range => lengths(&[ray.range.min, ray.range.max], 1.0),
+        // The range of a camera ray has no end. All mistakes that give it one are alike.
+        RayCheck::Range => {
+            let end = if ray.range.max.is_finite() {
+                0.0
+            } else {
+                ray.range.max
+            };
+            lengths(&[ray.range.min, end], 1.0)
+        }
     };
     ObservedAnswer::Numbers(checks.iter().flat_map(part).collect())
 }

@@ -54,7 +54,9 @@ pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam, Solutio
     Ok(exam)
 }
 
-/// Returns whether all questions of an item are tables or trees. Pictures have no signatures.
+/// Returns whether all questions of an item are tables or trees. Pictures have no signatures, and
+/// neither have trees that the submission builds and then traverses: there, a wrong answer depends
+/// on the order of the submission's own nodes.
 fn is_table(item: &Item) -> bool {
     item.questions
         .iter()
@@ -62,7 +64,8 @@ fn is_table(item: &Item) -> bool {
             (Key::Rays { .. }, Question::Camera { samples, .. }) => {
                 matches!(samples, Samples::List(_))
             }
-            (Key::Rays { .. } | Key::FirstHits { .. } | Key::Radiance { .. }, _) => false,
+            (_, Question::BuildAndTraverse { .. })
+            | (Key::Rays { .. } | Key::FirstHits { .. } | Key::Radiance { .. }, _) => false,
             (Key::Hits { .. } | Key::Spans { .. } | Key::Tree { .. }, _) => true,
         })
 }

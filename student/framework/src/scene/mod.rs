@@ -6,6 +6,8 @@
 mod camera;
 mod error;
 mod file;
+mod json_error;
+mod json_path;
 mod material;
 mod mesh;
 mod number;
@@ -73,6 +75,11 @@ impl Scene {
     /// with the name of the file.
     #[cfg(feature = "cli")]
     pub fn load(path: &Path) -> Result<Scene, SceneError> {
+        let is_mesh = path.extension().is_some_and(|ending| ending == "obj");
+        if let (true, Some(name)) = (is_mesh, path.file_name()) {
+            let kind = SceneErrorKind::MeshAsScene(name.to_string_lossy().into_owned());
+            return Err(SceneError::new(None, kind).in_file(path));
+        }
         let text = error::read_text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         read::scene(&text, &mut |file| obj::load(&folder.join(file)))

@@ -12,11 +12,11 @@ use super::{MAX_LEAF_SIZE, Scene};
 /// The maximum number of triangles in one mesh. A mesh of this size takes about 2 GB of memory.
 const MAX_TRIANGLES: u64 = 1 << 24;
 
-/// Parses the scene in `text`. `load` loads a mesh from the path in the scene file.
+/// Parses the scene in `text`, and returns it with the names of its materials. `load` loads a mesh from the path in the scene file.
 pub(super) fn scene(
     text: &str,
     load: &mut dyn FnMut(&str) -> Result<Mesh, SceneErrorKind>,
-) -> Result<Scene, SceneError> {
+) -> Result<(Scene, Vec<String>), SceneError> {
     if text.trim().is_empty() {
         return Err(SceneError::new(None, SceneErrorKind::Empty));
     }
@@ -57,14 +57,15 @@ pub(super) fn scene(
             }
         }
     }
-    Ok(Scene {
+    let scene = Scene {
         about: file.about,
         camera: file.camera,
         environment: file.environment,
         materials,
         shapes,
         max_leaf_size: MAX_LEAF_SIZE,
-    })
+    };
+    Ok((scene, names))
 }
 
 fn parse(text: &str) -> Result<SceneFile, SceneError> {

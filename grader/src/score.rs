@@ -44,6 +44,9 @@ pub struct Score {
     /// The built handout on this machine, which the page links to. Not stored in the file.
     #[serde(skip)]
     pub book: Option<Book>,
+    /// The title of the assignment, for the page. Not stored in the file, which has its id.
+    #[serde(skip)]
+    pub assignment_title: &'static str,
     /// Sum of the points of all tasks.
     pub points: u32,
     /// Maximum number of points.

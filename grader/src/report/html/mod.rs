@@ -79,9 +79,10 @@ fn render_page(
 ) -> String {
     let book = rerun.and(score.book.as_ref());
     let title = format!(
-        "{}: {} of {} points",
-        score.submission, score.points, score.max_points
+        "{}: {} of {} points, {}",
+        score.assignment_title, score.points, score.max_points, score.submission
     );
+    let title = title.trim_start_matches(": ");
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -90,14 +91,14 @@ fn render_page(
                 meta http-equiv="Content-Security-Policy" content=(content_security_policy());
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
-                title { (plain_text(&title)) }
+                title { (plain_text(title)) }
                 style { (PreEscaped(STYLE)) }
             }
             body data-reload[reload == Reload::WhileUnfocused] {
                 a .skip href="#next" { "Skip to what to do next" }
                 (summary::header(score))
                 main {
-                    (summary::next_step(score, rerun))
+                    (summary::next_step(score, exam, answers, rerun))
                     (task::files(score))
                     @for task in &score.tasks {
                         (task::section(task, exam, answers, rerun, book))

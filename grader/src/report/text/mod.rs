@@ -1,19 +1,26 @@
 //! The terminal report, for students, 80 columns wide.
 
+mod item;
+mod short_table;
+
+use std::collections::BTreeSet;
 use std::fmt::{self, Write};
 
+use anstream::adapter::strip_str;
 use anstyle::{AnsiColor, Style};
 use judging::sanitize::{sanitize, sanitize_line};
-use judging::section::Section;
 
 use crate::report::shared_hints::{explained_items, with_something_new};
+use crate::report::text::item::{write_command, write_hidden_count, write_item, write_printed};
 use crate::sandbox::Isolation;
-use crate::score::{Hint, ItemScore, Score, TaskScore, Verdict};
+use crate::score::{ItemScore, Score, TaskScore, Verdict};
 use crate::task_selection::TaskSelection;
+
+pub use short_table::short_table;
 
 const WIDTH: usize = 80;
 const BAR_WIDTH: usize = 20;
-/// The maximum number of lines of a compiler message to show.
+/// The maximum number of lines of a compiler error to show.
 const MAX_COMPILER_LINES: usize = 20;
 
 const STRONG: Style = Style::new().bold();
@@ -32,30 +39,78 @@ pub enum HintDetail {
     Full,
 }
 
+/// The results of an earlier version of the submission that a report still shows.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OldResults<'a> {
+    /// The ids of the items that have not been graded again.
+    pub items: Option<&'a BTreeSet<String>>,
+    /// Whether the submission has not been compiled again.
+    pub build: bool,
+}
+
+impl OldResults<'_> {
+    fn includes(&self, item: &ItemScore) -> bool {
+        self.items.is_some_and(|old| old.contains(&item.id))
+    }
+}
+
+/// A report in parts, which a small terminal arranges in another order.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ReportParts {
+    /// The name of the submission and its points. Empty if only some tasks are graded.
+    pub headline: String,
+    /// One line for each task.
+    pub table: String,
+    /// The compiler's errors and the failing items, each after an empty line.
+    pub details: String,
+}
+
 /// Renders the report on the selected tasks with ANSI colours, which the output stream strips if
 /// necessary.
 pub fn report(score: &Score, tasks: &TaskSelection, hints: HintDetail) -> String {
-    let mut text = String::new();
-    write_report(&mut text, score, tasks, hints).expect("writing to a string cannot fail");
-    text
+    let parts = report_parts(score, tasks, hints, OldResults::default());
+    let ReportParts {
+        headline,
+        table,
+        details,
+    } = parts;
+    format!("\n{headline}{table}{details}\n")
 }
 
-fn write_report(
-    out: &mut String,
+/// Renders the parts of the report. Old results are grey.
+pub fn report_parts(
+    score: &Score,
+    tasks: &TaskSelection,
+    hints: HintDetail,
+    old: OldResults,
+) -> ReportParts {
+    let mut parts = ReportParts::default();
+    write_parts(&mut parts, score, tasks, hints, old).expect("writing to a string cannot fail");
+    parts
+}
+
+fn write_parts(
+    parts: &mut ReportParts,
     score: &Score,
     selection: &TaskSelection,
     hints: HintDetail,
+    old: OldResults,
 ) -> fmt::Result {
     let shown = |task: &&TaskScore| selection.includes(task.id);
     let tasks: Vec<&TaskScore> = score.tasks.iter().filter(shown).collect();
 
-    writeln!(out)?;
+    let is_old = |task: &TaskScore| task.items.iter().any(|item| old.includes(item));
     if selection.is_all() {
-        write_headline(out, score)?;
+        write_headline(&mut parts.headline, score)?;
+        grey_if(tasks.iter().any(|task| is_old(task)), &mut parts.headline);
     }
     for task in &tasks {
-        write_task_line(out, task)?;
+        let mut line = String::new();
+        write_task_line(&mut line, task)?;
+        grey_if(is_old(task), &mut line);
+        parts.table.push_str(&line);
     }
+    let out = &mut parts.details;
     // Single-line messages are omitted here, because the items of the task show them.
     let compiler_messages = score
         .build
@@ -65,44 +120,71 @@ fn write_report(
     for file in compiler_messages {
         write_compiler_message(out, &file.message)?;
     }
+    grey_if(old.build, out);
     for task in &tasks {
-        let failing = task.items.iter();
-        let failing: Vec<&ItemScore> = failing
-            .filter(|item| item.points < item.max_points)
-            .collect();
-        // The first failing item of each task is enough to start with. A report on selected tasks
-        // also has the other items that have evidence, and tells more than the first.
-        let shown = if selection.is_all() {
-            failing.iter().take(1).copied().collect()
-        } else {
-            with_something_new(&failing)
-        };
-        let mut explained = 0;
-        for item in &shown {
-            let same_hint = explained_items(item, &failing);
-            explained += same_hint.len();
-            write_item(out, item, hints, &same_hint)?;
-            write_command(out, "again", &item.rerun_command(&score.rerun_command))?;
-            if let Some(view) = item.view_command(&score.rerun_command) {
-                write_command(out, "view", &view)?;
-            }
-        }
-        let others = failing.len() - shown.len() - explained;
-        let how = if selection.is_all() {
-            format!(": {}", score.rerun_command.task(task.id.id()))
-        } else {
-            String::new()
-        };
-        write_hidden_count(out, others, &how)?;
-        if let Some(printed) = &task.printed {
-            write_printed(out, task, printed)?;
-        }
+        let mut text = String::new();
+        write_failing_items(&mut text, task, score, selection, hints)?;
+        grey_if(is_old(task), &mut text);
+        out.push_str(&text);
     }
     for note in &score.build.notes {
         let note = sanitize_line(note, usize::MAX);
         writeln!(out, "\n{FAINT}  note: {note}{FAINT:#}")?;
     }
-    writeln!(out)
+    Ok(())
+}
+
+/// Writes the failing items of a task that are shown, and how many there are more.
+fn write_failing_items(
+    out: &mut String,
+    task: &TaskScore,
+    score: &Score,
+    selection: &TaskSelection,
+    hints: HintDetail,
+) -> fmt::Result {
+    let failing = task.items.iter();
+    let failing: Vec<&ItemScore> = failing
+        .filter(|item| item.points < item.max_points)
+        .collect();
+    // The first failing item of each task is enough to start with. A report on selected tasks also
+    // has the other items that have evidence, and tells more than the first.
+    let shown = if selection.is_all() {
+        failing.iter().take(1).copied().collect()
+    } else {
+        with_something_new(&failing)
+    };
+    let mut explained = 0;
+    for item in &shown {
+        let same_hint = explained_items(item, &failing);
+        explained += same_hint.len();
+        write_item(out, item, hints, &same_hint)?;
+        write_command(out, "again", &item.rerun_command(&score.rerun_command))?;
+        if let Some(view) = item.view_command(&score.rerun_command) {
+            write_command(out, "view", &view)?;
+        }
+    }
+    let others = failing.len() - shown.len() - explained;
+    let how = if selection.is_all() {
+        format!(": {}", score.rerun_command.task(task.id.id()))
+    } else {
+        String::new()
+    };
+    write_hidden_count(out, others, &how)?;
+    match &task.printed {
+        Some(printed) => write_printed(out, task, printed),
+        None => Ok(()),
+    }
+}
+
+/// Makes all lines of a text grey if they are old.
+fn grey_if(is_old: bool, text: &mut String) {
+    if is_old {
+        let lines = strip_str(text).to_string();
+        let lines = lines
+            .lines()
+            .map(|line| format!("{FAINT}{line}{FAINT:#}\n"));
+        *text = lines.collect();
+    }
 }
 
 fn write_headline(out: &mut String, score: &Score) -> fmt::Result {
@@ -148,150 +230,17 @@ fn points_style(points: u32, max_points: u32) -> Style {
 fn write_compiler_message(out: &mut String, message: &str) -> fmt::Result {
     writeln!(out)?;
     let message = sanitize(message, usize::MAX);
-    for line in message.lines().take(MAX_COMPILER_LINES) {
-        writeln!(out, "  {BAD}│{BAD:#} {line}")?;
-    }
-    if message.lines().count() > MAX_COMPILER_LINES {
-        writeln!(out, "  {BAD}│{BAD:#} …")?;
-    }
-    Ok(())
-}
-
-/// Writes an item and the ids of other items with the same hint.
-fn write_item(
-    out: &mut String,
-    item: &ItemScore,
-    hints: HintDetail,
-    same_hint: &[&str],
-) -> fmt::Result {
-    let style = points_style(item.points, item.max_points);
-    let verdict = item.verdict.label();
-    let gap = (WIDTH - 2).saturating_sub(item.id.chars().count() + verdict.chars().count());
-    writeln!(
-        out,
-        "\n  {STRONG}{}{STRONG:#}{:gap$}{style}{verdict}{style:#}",
-        item.id, ""
-    )?;
-    for line in wrap(&item.title, WIDTH - 4) {
-        writeln!(out, "    {line}")?;
-    }
-    let hint = hint_text(&item.hints, hints, same_hint);
-    let section = item.section.as_ref().map(Section::location);
-    let rows = [
-        ("what", Some(&item.message)),
-        (
-            "asked",
-            item.evidence.as_ref().map(|evidence| &evidence.asked),
-        ),
-        ("got", item.evidence.as_ref().map(|evidence| &evidence.got)),
-        (
-            "wanted",
-            item.evidence.as_ref().map(|evidence| &evidence.wanted),
-        ),
-        ("look", item.look.as_ref()),
-        ("hint", hint.as_ref()),
-        ("read", section.as_ref()),
-    ];
-    for (label, text) in rows {
-        if let Some(text) = text.filter(|text| !text.is_empty()) {
-            write_row(out, label, text)?;
+    // The errors of the file, with empty lines between them.
+    for (number, error) in message.split("\n\n").enumerate() {
+        if number > 0 {
+            writeln!(out, "  {BAD}│{BAD:#}")?;
+        }
+        for line in error.lines().take(MAX_COMPILER_LINES) {
+            writeln!(out, "  {BAD}│{BAD:#} {line}")?;
+        }
+        if error.lines().count() > MAX_COMPILER_LINES {
+            writeln!(out, "  {BAD}│{BAD:#} …")?;
         }
     }
     Ok(())
-}
-
-/// Joins the hints of an item, and names the other items that they explain. Returns `None` if there
-/// are none.
-fn hint_text(hints: &[Hint], detail: HintDetail, same_hint: &[&str]) -> Option<String> {
-    let text = |hint: &Hint| match detail {
-        HintDetail::Nudge => hint.nudge.clone(),
-        HintDetail::Full => hint.hint.clone(),
-    };
-    let all: Vec<String> = hints.iter().map(text).collect();
-    let more = match detail {
-        HintDetail::Nudge => " (run with --hints for more)",
-        HintDetail::Full => "",
-    };
-    let explained = match same_hint.len() {
-        0 => String::new(),
-        1 => format!("\nThe same mistake explains 1 more item: {}", same_hint[0]),
-        count => format!(
-            "\nThe same mistake explains {count} more items: {}",
-            same_hint.join(", ")
-        ),
-    };
-    (!all.is_empty()).then(|| format!("{}{more}{explained}", all.join(" Or: ")))
-}
-
-/// Writes a label and its text, wrapped to the width, with later lines indented.
-fn write_row(out: &mut String, label: &str, text: &str) -> fmt::Result {
-    const INDENT: usize = 12;
-    let mut lines = wrap(&sanitize(text, usize::MAX), WIDTH - INDENT).into_iter();
-    let first = lines.next().unwrap_or_default();
-    writeln!(out, "    {FAINT}{label:<7}{FAINT:#} {first}")?;
-    lines.try_for_each(|line| writeln!(out, "{:INDENT$}{line}", ""))
-}
-
-fn wrap(text: &str, width: usize) -> Vec<String> {
-    let mut lines = Vec::new();
-    for paragraph in text.lines() {
-        let mut line = String::new();
-        for word in paragraph.split_whitespace() {
-            let fits = line.chars().count() + 1 + word.chars().count() <= width;
-            if !line.is_empty() && !fits {
-                lines.push(std::mem::take(&mut line));
-            }
-            if !line.is_empty() {
-                line.push(' ');
-            }
-            line.push_str(word);
-        }
-        lines.push(line);
-    }
-    lines
-}
-
-/// Writes a command about the item.
-fn write_command(out: &mut String, label: &str, command: &str) -> fmt::Result {
-    let command = sanitize_line(command, usize::MAX);
-    writeln!(out, "    {FAINT}{label:<7} {command}{FAINT:#}")
-}
-
-/// Writes the number of failing items that are not shown, and `how` to see them.
-fn write_hidden_count(out: &mut String, count: usize, how: &str) -> fmt::Result {
-    let items = match count {
-        0 => return Ok(()),
-        1 => "item",
-        _ => "items",
-    };
-    let how = sanitize_line(how, usize::MAX);
-    writeln!(
-        out,
-        "    {FAINT}and {count} more {items} of this task{how}{FAINT:#}"
-    )
-}
-
-fn write_printed(out: &mut String, task: &TaskScore, printed: &str) -> fmt::Result {
-    const MAX_PRINTED_LINES: usize = 5;
-    writeln!(
-        out,
-        "\n  {FAINT}printed during \"{}\":{FAINT:#}",
-        task.title
-    )?;
-    for line in printed.lines().take(MAX_PRINTED_LINES) {
-        let line = sanitize_line(line, WIDTH - 5);
-        writeln!(out, "  {FAINT}│{FAINT:#} {line}")?;
-    }
-    Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::wrap;
-
-    #[test]
-    fn wraps_between_words() {
-        assert_eq!(wrap("one two three", 7), ["one two", "three"]);
-        assert_eq!(wrap("a\nlonger-than-that", 4), ["a", "longer-than-that"]);
-    }
 }

@@ -10,6 +10,7 @@ use judging::section::Section;
 use judging::signatures::KnownMistake;
 
 use crate::build::NotCompiled;
+use crate::bundle_version::bundle_version;
 use crate::handed_out::HandedOut;
 use crate::probe::Fault;
 use crate::rerun_command::RerunCommand;
@@ -103,6 +104,7 @@ pub fn pending_score(
     Score {
         schema: SCHEMA_VERSION,
         submission: submission.to_owned(),
+        bundle: bundle_version().map(str::to_owned),
         assignment_title: handed_out.assignment.title,
         exam: name,
         isolation: Isolation::None,

@@ -15,6 +15,7 @@ use super::resolve::{
 };
 use crate::book::Book;
 use crate::build::{Build, BuildError, Builder, NotCompiled};
+use crate::bundle_version::mixed_versions;
 use crate::error::Error;
 use crate::format::StudentView;
 use crate::format::outputs::{OutputError, Outputs};
@@ -240,6 +241,7 @@ impl<'a> Grader<'a> {
         score.book = Book::find(&self.workspace);
         score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
+        score.build.notes.extend(mixed_versions(&self.workspace));
         score.timings.build_ms = millis(built.took);
         score.timings.stages.build = built.took;
         score

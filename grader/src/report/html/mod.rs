@@ -33,7 +33,7 @@ const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 /// Hashes for the content security policy. After a change to `page.css` or `page.js`, a test fails
 /// and prints the new hash.
-const STYLE_HASH: &str = "sha256-qibRcJHkq9fgBigRYMh7+w5UjfMsEbtiUPBJxSczQCU=";
+const STYLE_HASH: &str = "sha256-YDMRxncsJWDw3Wc4ijsTVJeG3wRFhCq3GVcpLWvFwdI=";
 const SCRIPT_HASH: &str = "sha256-TEagcJHpDUBf05TrmAO7R1lMuk5kMF98DelmUffG3CY=";
 
 /// Whether an open page reloads itself to show a newer version.
@@ -129,7 +129,11 @@ fn footer(score: &Score, rerun: Option<&RerunCommand>) -> Markup {
             @if rerun.is_some() {
                 p {
                     "Exam " code { (plain_text(&score.exam.id)) } ", "
-                    code { (plain_text(score.exam.hash.get(..12).unwrap_or_default())) } ". "
+                    code { (plain_text(score.exam.hash.get(..12).unwrap_or_default())) }
+                    @if let Some(version) = &score.bundle {
+                        ", version " code { (plain_text(version)) } " of the assignment"
+                    }
+                    ". "
                     "For programs, " code { "score.json" } " beside this page has the same data."
                 }
             }

@@ -188,7 +188,9 @@ fn grey_if(is_old: bool, text: &mut String) {
 }
 
 fn write_headline(out: &mut String, score: &Score) -> fmt::Result {
-    let title = format!("  {}, {} exam", score.submission, score.exam.id);
+    let version = score.bundle.as_ref();
+    let version = version.map_or(String::new(), |version| format!(", version {version}"));
+    let title = format!("  {}, {} exam{version}", score.submission, score.exam.id);
     let title = sanitize_line(&title, usize::MAX);
     let points = format!("{} / {}", score.points, score.max_points);
     let gap = WIDTH.saturating_sub(2 + title.chars().count() + points.len());

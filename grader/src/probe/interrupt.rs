@@ -9,8 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// Makes the request. Probes end as if they had run out of time, so whoever grades must discard
-    /// the results.
+    /// Makes the request. Probes end as if they had run out of time, so the caller must discard the
+    /// results.
     pub fn request(&self) {
         self.0.store(true, Ordering::Relaxed);
     }

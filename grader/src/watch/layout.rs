@@ -8,7 +8,7 @@ pub(super) struct Page<'a> {
     /// The phase of grading.
     pub(super) status: &'a str,
     pub(super) report: &'a ReportParts,
-    /// What to do next, if anything.
+    /// The next step, if there is one.
     pub(super) next: &'a str,
     /// The table in one line.
     pub(super) short_table: &'a str,

@@ -61,7 +61,7 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
     }
 }
 
-/// What happens while a picture is rendered.
+/// The events while a picture is rendered.
 struct Events {
     sender: Sender<Event>,
     receiver: Receiver<Event>,

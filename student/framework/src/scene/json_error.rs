@@ -48,7 +48,7 @@ fn value_offset(text: &str, path: &Path, message: &str) -> usize {
     }
     let key = format!("{name:?}");
     // The path of an unknown key ends with that key, and so leads to its value.
-    let is_of_value = path.iter().last().and_then(segment_name) == Some(name);
+    let is_of_value = path.iter().next_back().and_then(segment_name) == Some(name);
     let key_start = if is_of_value {
         text[..start].rfind(&key)
     } else {
@@ -82,7 +82,7 @@ fn data_message(message: &str, path: &Path) -> String {
         );
     }
     let text = type_message(message).unwrap_or_else(|| message.to_owned());
-    match path.iter().filter_map(segment_name).last() {
+    match path.iter().filter_map(segment_name).next_back() {
         Some(key) if !text.starts_with('`') => format!("`{key}`: {text}"),
         Some(_) | None => text,
     }

@@ -13,7 +13,7 @@
 //! | files of the report | [`cached_report`], [`report_files`] |
 //! | exam runs and reports | [`run_exam`], [`verdict`], [`report_answers`], [`report`], [`mod@format`] |
 //! | steps of an exam run | [`select_isolation`], [`build`], [`probe`]; [`drawing`] of judged answers, in [`svg`] |
-//! | results | [`score`], [`rerun_command`], [`stage_times`] |
+//! | results | [`score`], [`rerun_command`], [`source_paths`], [`bundle_version`], [`stage_times`] |
 //! | inputs | [`policy`], [`submission`], [`handed_out`], [`exam_source`], [`question_ref`], [`task_selection`] |
 //! | a separate package | [`judging`]: exams, their keys, and the comparison of answers with keys |
 //! | the machine | [`book`], [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`zipfile`]; [`files`], [`system`], [`nearest_name`] |
@@ -21,6 +21,7 @@
 pub mod alone;
 pub mod book;
 pub mod build;
+pub mod bundle_version;
 pub mod cache_lookup;
 pub mod cached_report;
 pub mod capture;
@@ -50,6 +51,7 @@ pub mod run_exam;
 pub mod sandbox;
 pub mod score;
 pub mod select_isolation;
+pub mod source_paths;
 pub mod stage_times;
 pub mod submission;
 pub mod svg;

@@ -11,7 +11,7 @@ use protocol::{Answer, ElementOutcome, Question};
 
 use crate::build::Builder;
 use crate::error::Error;
-use crate::grade::collect;
+use crate::grade::{collect, source_paths};
 use crate::nearest_name::suggestion;
 use crate::options::GradeOptions;
 use crate::probe::{Budget, Culprit, Fault, Launcher};
@@ -38,8 +38,9 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     for (file, why) in &build.not_compiled {
         writeln!(text, "{}\n", file_message(file, why)).expect("writing to a string cannot fail");
     }
+    let paths = source_paths(options, &workspace);
     let Some(program) = &build.probe else {
-        return Ok(text);
+        return Ok(paths.in_text(&text).into_owned());
     };
     let launcher = build.launcher(program);
     let exam_run = ExamRun::new(&launcher, item, options.budget)?;
@@ -59,7 +60,7 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
             item.count()
         )),
     }
-    Ok(text)
+    Ok(paths.in_text(&text).into_owned())
 }
 
 fn find_item<'a>(exam: &'a Exam, id: &str) -> Result<&'a Item, Error> {

@@ -37,6 +37,9 @@ pub struct Score {
     /// Whether every item has been graded. False while the file is being written, or if the grader
     /// was stopped.
     pub complete: bool,
+    /// Version of the bundle that students got. Absent if the grader is not from a bundle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bundle: Option<String>,
     /// The options to repeat in commands. Not stored in the file, whose contents must not depend on
     /// paths.
     #[serde(skip)]
@@ -44,6 +47,9 @@ pub struct Score {
     /// The built handout on this machine, which the page links to. Not stored in the file.
     #[serde(skip)]
     pub book: Option<Book>,
+    /// The title of the assignment, for the page. Not stored in the file, which has its id.
+    #[serde(skip)]
+    pub assignment_title: &'static str,
     /// Sum of the points of all tasks.
     pub points: u32,
     /// Maximum number of points.
@@ -274,7 +280,7 @@ pub struct FileReport {
     /// Line of the compiler's first error in the file, counted from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<u32>,
-    /// The compiler's first error in the file, or why the file could not be read.
+    /// The compiler's errors in the file, or why the file could not be read.
     pub message: String,
 }
 

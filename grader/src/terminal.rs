@@ -14,7 +14,7 @@ use crate::desktop;
 use crate::doctor::{diagnose, package};
 use crate::error::Error;
 use crate::format::github;
-use crate::grade::{GradedSubmission, grade};
+use crate::grade::{GradedSubmission, grade, source_paths};
 use crate::handed_out::HandedOut;
 use crate::options::GradeOptions;
 use crate::report::next_step::next_step;
@@ -52,11 +52,10 @@ pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<Ex
     let cached = may_reuse.then(|| find_cached_report(options)).transpose()?;
     let (points, files) = match cached.flatten() {
         Some((cached, files)) => {
-            print_text(&format!(
-                "{}{UNCHANGED_NOTICE}{}",
-                cached.report,
-                file_list(&files)
-            ))?;
+            print_text(
+                options,
+                &format!("{}{UNCHANGED_NOTICE}{}", cached.report, file_list(&files)),
+            )?;
             (cached.points, Some(files))
         }
         None => grade_and_store(options, print)?,
@@ -78,10 +77,8 @@ fn grade_and_store(
 ) -> Result<(u32, Option<ReportFiles>), Error> {
     let graded = grade(options)?;
     let text = terminal_report(&graded, options);
-    print_text(&format!(
-        "{text}{}",
-        graded.files.as_ref().map_or(String::new(), file_list)
-    ))?;
+    let files = graded.files.as_ref().map_or(String::new(), file_list);
+    print_text(options, &format!("{text}{files}"))?;
     if let (Some(key), Some(files)) = (&graded.cache_key, &graded.files) {
         cached_report::store(key, &graded.score, &text, files);
     }
@@ -139,9 +136,11 @@ fn file_list(files: &ReportFiles) -> String {
     paths.map(|file| format!("  {file}\n")).collect()
 }
 
-/// Prints the text. On GitHub Actions, printed text can contain workflow commands; these are
-/// disabled.
-fn print_text(text: &str) -> Result<(), Error> {
+/// Prints the text, with the paths of the task files. On GitHub Actions, printed text can contain
+/// workflow commands; these are disabled.
+fn print_text(options: &GradeOptions, text: &str) -> Result<(), Error> {
+    // A cached report gets the paths only here, since the folder may have moved.
+    let text = &*source_paths(options, &Workspace::find()?).in_text(text);
     match std::env::var_os("GITHUB_ACTIONS") {
         Some(_) => {
             let token = github::random_token().map_err(io::Error::other)?;

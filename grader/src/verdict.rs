@@ -10,6 +10,7 @@ use judging::section::Section;
 use judging::signatures::KnownMistake;
 
 use crate::build::NotCompiled;
+use crate::bundle_version::bundle_version;
 use crate::handed_out::HandedOut;
 use crate::probe::Fault;
 use crate::rerun_command::RerunCommand;
@@ -21,6 +22,8 @@ use crate::score::{
 
 /// Maximum length of a student's or the compiler's text in a message, in characters.
 const MAX_TEXT_CHARS: usize = 2_000;
+/// Maximum length of a file's compiler errors, in characters.
+const MAX_COMPILER_CHARS: usize = 10_000;
 
 /// The outcome of running one item.
 #[derive(Clone, Debug)]
@@ -101,6 +104,8 @@ pub fn pending_score(
     Score {
         schema: SCHEMA_VERSION,
         submission: submission.to_owned(),
+        bundle: bundle_version().map(str::to_owned),
+        assignment_title: handed_out.assignment.title,
         exam: name,
         isolation: Isolation::None,
         complete: false,
@@ -208,7 +213,7 @@ pub fn file_message(file: &str, why: &NotCompiled) -> String {
             format!("{file} has no `{part}`, which other files use")
         }
         NotCompiled::Error { text, .. } | NotCompiled::Compiler(text) => {
-            sanitize(text, MAX_TEXT_CHARS)
+            sanitize(text, MAX_COMPILER_CHARS)
         }
     }
 }

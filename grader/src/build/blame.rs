@@ -13,11 +13,11 @@ pub enum NotCompiled {
     Unreadable(TaskFileError),
     /// The file lacks a declaration that other files use.
     MissingDeclaration(&'static str),
-    /// The compiler's first error in the file.
+    /// The compiler's errors in the file.
     Error {
-        /// The compiler's message.
+        /// The compiler's messages, with an empty line between them.
         text: String,
-        /// Number of the line with the error, counted from 1, or `None` if it is unknown.
+        /// Number of the line with the first error, counted from 1, or `None` if it is unknown.
         line: Option<u32>,
     },
     /// The compiler failed, and its messages name no file.
@@ -25,6 +25,17 @@ pub enum NotCompiled {
 }
 
 impl NotCompiled {
+    /// Returns the errors of a file as a reason, or `None` if there are none.
+    fn of_errors<'a>(file: &str, errors: impl Iterator<Item = &'a Diagnostic>) -> Option<Self> {
+        let errors: Vec<&Diagnostic> = errors.collect();
+        let first = errors.first()?;
+        let texts: Vec<&str> = errors.iter().map(|error| error.text()).collect();
+        Some(NotCompiled::Error {
+            text: texts.join("\n\n"),
+            line: first.line_in(file),
+        })
+    }
+
     /// Returns whether compiling again would give the same result.
     pub fn is_reproducible(&self) -> bool {
         match self {
@@ -63,20 +74,18 @@ pub(super) fn incomplete_files(submission: &Submission) -> BTreeMap<&'static str
     submission.files.iter().filter_map(why).collect()
 }
 
-/// Replaces the reason for each of these files by the first error in it, such as a misspelt
-/// `struct`, which says more.
+/// Replaces the reason for each of these files by the errors in it, such as a misspelt `struct`,
+/// which say more.
 pub(super) fn explain(incomplete: &mut BTreeMap<&'static str, NotCompiled>, errors: &[Diagnostic]) {
     for (name, why) in incomplete {
-        if let Some(error) = errors.iter().find(|error| error.originates_in(name)) {
-            *why = NotCompiled::Error {
-                text: error.text().to_owned(),
-                line: error.line_in(name),
-            };
+        let in_file = errors.iter().filter(|error| error.originates_in(name));
+        if let Some(errors) = NotCompiled::of_errors(name, in_file) {
+            *why = errors;
         }
     }
 }
 
-/// Records each file that the errors name, with its first error. Returns whether any of these files
+/// Records each file that the errors name, with all of them. Returns whether any of these files
 /// had not been recorded before.
 pub(super) fn blame(
     errors: &[Diagnostic],
@@ -84,13 +93,12 @@ pub(super) fn blame(
     not_compiled: &mut BTreeMap<&'static str, NotCompiled>,
 ) -> bool {
     let before = not_compiled.len();
-    for error in errors {
-        if let Some(name) = error.blamed_file(task_files) {
-            let why = || NotCompiled::Error {
-                text: error.text().to_owned(),
-                line: error.line_in(name),
-            };
-            not_compiled.entry(name).or_insert_with(why);
+    for file in task_files {
+        let in_file = errors
+            .iter()
+            .filter(|error| error.blamed_file(task_files) == Some(file.name));
+        if let Some(why) = NotCompiled::of_errors(file.name, in_file) {
+            not_compiled.entry(file.name).or_insert(why);
         }
     }
     not_compiled.len() > before

@@ -35,6 +35,7 @@ use crate::build::substitution::{ReferenceParts, Substitution, SubstitutionError
 use crate::build::toolchain::{Toolchain, ToolchainError};
 use crate::files::{AtPath, PathError};
 use crate::handed_out::{HandedOut, TaskFile};
+use crate::probe::Interrupt;
 use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, TaskFileError};
 use crate::workspace::Workspace;
@@ -243,6 +244,7 @@ impl Builder {
             substitutions: self.substitutions(submission, &not_compiled, build_dir.path()),
             probe,
             not_compiled,
+            interrupt: Interrupt::default(),
             control: Control {
                 rustc: self.rustc.clone(),
                 folder: build_dir.path().to_owned(),

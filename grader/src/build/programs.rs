@@ -9,7 +9,7 @@ use crate::build::build_dir::BuildDir;
 use crate::build::control::Control;
 use crate::build::substitution::Substitution;
 use crate::handed_out::HandedOut;
-use crate::probe::Launcher;
+use crate::probe::{Interrupt, Launcher};
 use crate::sandbox::Isolation;
 
 /// A built submission.
@@ -21,6 +21,8 @@ pub struct Build {
     pub probe: Option<PathBuf>,
     /// Files whose tasks cannot be graded, with the reasons.
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
+    /// Ends the programs' answers early.
+    pub interrupt: Interrupt,
     pub(super) substitutions: Vec<Substitution>,
     pub(super) control: Control,
     /// The directory that contains the programs. It is removed when this value is dropped.
@@ -55,6 +57,7 @@ impl Build {
         Launcher {
             program: program.to_owned(),
             sandbox: self.control.rustc.sandbox.clone(),
+            interrupt: self.interrupt.clone(),
         }
     }
 

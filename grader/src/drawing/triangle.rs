@@ -70,17 +70,63 @@ fn draw_along_ray(
 fn draw_outline(canvas: &mut Canvas, window: &Window, corners: [DVec2; 3]) {
     let page = corners.map(|corner| window.page_position(corner));
     canvas.polygon(&page, LineStyle::Outline, Fill::Tint(Ink::Text, 0.08));
-    let middle = (page[0] + page[1] + page[2]) / 3.0;
-    let mut labels: Vec<DVec2> = Vec::new();
-    for (at, name) in page.into_iter().zip(["p0", "p1", "p2"]) {
-        // The labels are moved away from the centre, so that none covers an edge or another label.
-        let outward = (at - middle).normalize_or_zero();
-        let mut label = at + 11.0 * outward + dvec2(0.0, 4.0);
-        let is_taken = |other: &DVec2| (*other - label).abs().cmplt(dvec2(15.0, 11.0)).all();
-        if labels.iter().any(is_taken) {
-            label.x -= 17.0 * outward.x.signum();
-        }
-        labels.push(label);
+    for (label, name) in label_positions(page).into_iter().zip(["p0", "p1", "p2"]) {
         canvas.text(label, Anchor::Middle, Ink::Faint, name);
+    }
+}
+
+/// The size of a label, with some space around it.
+const LABEL: DVec2 = dvec2(16.0, 12.0);
+
+/// Returns where the corners' labels are written: away from the centre, so that none covers an edge,
+/// and not on top of each other, even if corners coincide.
+fn label_positions(corners: [DVec2; 3]) -> Vec<DVec2> {
+    /// Steps to the sides, in sizes of a label. Two labels can block at most four of them.
+    const STEPS: [DVec2; 9] = [
+        dvec2(0.0, 0.0),
+        dvec2(-1.0, 0.0),
+        dvec2(1.0, 0.0),
+        dvec2(0.0, -1.0),
+        dvec2(0.0, 1.0),
+        dvec2(-2.0, 0.0),
+        dvec2(2.0, 0.0),
+        dvec2(0.0, -2.0),
+        dvec2(0.0, 2.0),
+    ];
+    let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    let mut labels: Vec<DVec2> = Vec::new();
+    for corner in corners {
+        let outward = (corner - middle).normalize_or_zero();
+        let label = corner + 11.0 * outward + dvec2(0.0, 4.0);
+        let is_free = |at: &DVec2| labels.iter().all(|other| !overlap(*other, *at));
+        let mut positions = STEPS.into_iter().map(|step| label + step * LABEL);
+        labels.push(positions.find(is_free).unwrap_or(label));
+    }
+    labels
+}
+
+fn overlap(a: DVec2, b: DVec2) -> bool {
+    (a - b).abs().cmplt(0.99 * LABEL).all()
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn corner() -> impl Strategy<Value = DVec2> {
+        // On a coarse grid, so that corners often coincide or are near each other.
+        (0_i32..8, 0_i32..8).prop_map(|(x, y)| dvec2(f64::from(x), f64::from(y)) * 4.0)
+    }
+
+    proptest! {
+        #[test]
+        fn labels_never_overlap(a in corner(), b in corner(), c in corner()) {
+            let labels = label_positions([a, b, c]);
+            prop_assert!(!overlap(labels[0], labels[1]), "{labels:?}");
+            prop_assert!(!overlap(labels[0], labels[2]), "{labels:?}");
+            prop_assert!(!overlap(labels[1], labels[2]), "{labels:?}");
+        }
     }
 }

@@ -24,6 +24,8 @@ pub(super) fn visible_score(score: &Score, items: &[ItemView]) -> Score {
         // default.
         rerun_command: RerunCommand::default(),
         book: None,
+        bundle: score.bundle.clone(),
+        assignment_title: score.assignment_title,
         points: score.points,
         max_points: score.max_points,
         tasks: score

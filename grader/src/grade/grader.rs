@@ -10,15 +10,19 @@ use judging::exam::Exam;
 use judging::exam_file::{ExamFile, ExamName};
 
 use super::build_report::build_report;
-use super::resolve::{builder, collect, default_folder, lateness, policy, submission_path};
+use super::resolve::{
+    builder, collect, default_folder, lateness, policy, source_paths, submission_path,
+};
 use crate::book::Book;
 use crate::build::{Build, BuildError, Builder, NotCompiled};
+use crate::bundle_version::mixed_versions;
 use crate::error::Error;
 use crate::format::StudentView;
 use crate::format::outputs::{OutputError, Outputs};
 use crate::handed_out::HandedOut;
 use crate::options::GradeOptions;
 use crate::policy::{Lateness, Policy};
+use crate::probe::Interrupt;
 use crate::report::html::Reload;
 use crate::report_answers::ReportAnswers;
 use crate::report_files::ReportFiles;
@@ -27,6 +31,7 @@ use crate::run_exam::run_exam;
 use crate::sandbox::Isolation;
 use crate::score::Score;
 use crate::select_isolation::with_requested_level;
+use crate::source_paths::SourcePaths;
 use crate::submission::Submission;
 use crate::verdict::pending_score;
 use crate::workspace::Workspace;
@@ -63,6 +68,11 @@ impl BuiltSubmission {
             build,
             took: started_at.elapsed(),
         })
+    }
+
+    /// Returns what ends the answers of the submission's programs early.
+    pub fn interrupt(&self) -> &Interrupt {
+        &self.build.interrupt
     }
 
     /// Returns how long the build took.
@@ -201,6 +211,11 @@ impl<'a> Grader<'a> {
         &self.exam
     }
 
+    /// Returns the paths of the submission's task files.
+    pub fn source_paths(&self) -> SourcePaths {
+        source_paths(self.options, &self.workspace)
+    }
+
     /// Reads the submission's files as they are now.
     pub fn collect(&self) -> Result<Submission, Error> {
         collect(self.options, &self.workspace)
@@ -226,6 +241,7 @@ impl<'a> Grader<'a> {
         score.book = Book::find(&self.workspace);
         score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
+        score.build.notes.extend(mixed_versions(&self.workspace));
         score.timings.build_ms = millis(built.took);
         score.timings.stages.build = built.took;
         score

@@ -15,11 +15,13 @@ use crate::options::GradeOptions;
 use crate::report::html::Reload;
 use crate::report_files::ReportFiles;
 use crate::score::Score;
+use crate::source_paths::SourcePaths;
 use crate::verdict::{file_line, file_message};
+use crate::workspace::Workspace;
 
 pub use build_report::build_report;
 pub use grader::{BuiltSubmission, Grader};
-pub use resolve::{builder, collect, default_folder};
+pub use resolve::{builder, collect, default_folder, source_paths};
 
 /// The score of a submission, and the files to which it was written.
 #[derive(Debug)]
@@ -47,7 +49,7 @@ impl GradedSubmission {
 /// Grades the submission that the options name, and writes its reports.
 pub fn grade(options: &GradeOptions) -> Result<GradedSubmission, Error> {
     let started_at = Instant::now();
-    let print_errors = print_compile_errors();
+    let print_errors = print_compile_errors(source_paths(options, &Workspace::find()?));
     let (grader, submission, built) = Grader::prepare_and_build(options, print_errors)?;
     let prepared = started_at.elapsed().saturating_sub(built.took());
     let exam = grader.exam();
@@ -91,7 +93,7 @@ pub fn grade(options: &GradeOptions) -> Result<GradedSubmission, Error> {
 
 /// Returns a function that prints the first line of each file's compiler error to standard error,
 /// once per file. The report that follows contains the complete errors.
-fn print_compile_errors() -> impl FnMut(&BTreeMap<&'static str, NotCompiled>) {
+fn print_compile_errors(paths: SourcePaths) -> impl FnMut(&BTreeMap<&'static str, NotCompiled>) {
     let mut printed = BTreeSet::new();
     move |files| {
         for (file, why) in files.iter().filter(|(file, _)| printed.insert(**file)) {
@@ -99,7 +101,8 @@ fn print_compile_errors() -> impl FnMut(&BTreeMap<&'static str, NotCompiled>) {
             let first = message.lines().next().unwrap_or_default();
             let line = file_line(why).map(|line| format!(":{line}"));
             let line = line.unwrap_or_default();
-            anstream::eprintln!("{file}{line}: {first}; grading the rest");
+            let text = format!("{file}{line}: {first}; grading the rest");
+            anstream::eprintln!("{}", paths.in_text(&text));
         }
     }
 }

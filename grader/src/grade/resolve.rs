@@ -9,6 +9,7 @@ use crate::build::{BuildError, Builder};
 use crate::error::Error;
 use crate::options::{Dependents, GradeOptions};
 use crate::policy::{Lateness, Policy, PolicyError, SubmissionTime, SubmissionTimeError};
+use crate::source_paths::SourcePaths;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
@@ -69,6 +70,11 @@ pub(super) fn submission_path(options: &GradeOptions, workspace: &Workspace) -> 
         Some(path) => workspace.resolve(path),
         None => workspace.root().join(options.handed_out.student),
     }
+}
+
+/// Returns the paths of the task files of the submission that the options name.
+pub fn source_paths(options: &GradeOptions, workspace: &Workspace) -> SourcePaths {
+    SourcePaths::of(&submission_path(options, workspace), options.handed_out)
 }
 
 #[cfg(test)]

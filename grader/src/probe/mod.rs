@@ -4,6 +4,7 @@
 mod budget;
 mod culprit;
 mod fault;
+mod interrupt;
 mod limits;
 mod streams;
 
@@ -28,6 +29,7 @@ use streams::{Batch, Streams};
 pub use budget::{Allowance, Budget};
 pub use culprit::Culprit;
 pub use fault::{Crash, Fault, TimeLimit};
+pub use interrupt::Interrupt;
 pub use limits::{ItemLimits, TimeUsed};
 
 /// Maximum size of a submission's output that is stored, in bytes.
@@ -66,6 +68,7 @@ pub struct Probe {
     memory: u64,
     /// Time used for questions.
     used: TimeUsed,
+    interrupt: Interrupt,
 }
 
 /// A launcher, which starts the probes of one submission.
@@ -75,6 +78,8 @@ pub struct Launcher {
     pub program: PathBuf,
     /// The sandbox in which the program runs.
     pub sandbox: Sandbox,
+    /// Ends the answers of its probes early.
+    pub interrupt: Interrupt,
 }
 
 impl Launcher {
@@ -113,9 +118,14 @@ impl Launcher {
             output: Capture::start(stderr, MAX_OUTPUT_BYTES),
             memory: 0,
             used: TimeUsed::default(),
+            interrupt: Interrupt::default(),
         };
         match probe.ask([], START_LIMITS) {
-            Ok(_) => Ok(probe),
+            Ok(_) => {
+                // Only now, so that an interrupted start does not look like a fault of the machine.
+                probe.interrupt = self.interrupt.clone();
+                Ok(probe)
+            }
             Err(fault) => {
                 let output = probe.finish();
                 Err(io::Error::other(format!(
@@ -211,9 +221,10 @@ impl Probe {
                 Err(RecvTimeoutError::Timeout) => {}
             }
             self.memory = self.memory.max(self.process.memory().unwrap_or(0));
-            if let Some(over) =
-                stopwatch.exceeded(self.process.time(), self.output.total() - printed_before)
-            {
+            let exceeded =
+                stopwatch.exceeded(self.process.time(), self.output.total() - printed_before);
+            let interrupted = (self.interrupt.is_requested()).then_some(TimeLimit::Wall);
+            if let Some(over) = exceeded.or(interrupted) {
                 self.process.kill();
                 return Err(Fault::TimedOut(over));
             }
@@ -294,6 +305,7 @@ mod tests {
         let launcher = Launcher {
             program,
             sandbox: Sandbox::none(),
+            interrupt: Interrupt::default(),
         };
         let mut probe = launcher.start(START_LIMITS.cpu).unwrap();
         let started_at = Instant::now();
@@ -308,10 +320,33 @@ mod tests {
     }
 
     #[test]
+    fn an_interrupt_ends_a_program_that_answers_nothing() {
+        use std::os::unix::fs::PermissionsExt;
+
+        // Answers the first question, and then hangs without using time.
+        let script = "#!/bin/sh\nhead -c 12\nprintf '\\005'\nexec sleep 600\n";
+        let folder = tempfile::TempDir::new().unwrap();
+        let program = folder.path().join("program");
+        std::fs::write(&program, script).unwrap();
+        std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
+        let launcher = Launcher {
+            program,
+            sandbox: Sandbox::none(),
+            interrupt: Interrupt::default(),
+        };
+        let mut probe = launcher.start(START_LIMITS.cpu).unwrap();
+        launcher.interrupt.request();
+        let fault = probe.ask([], START_LIMITS).unwrap_err();
+        assert_eq!(fault, Fault::TimedOut(TimeLimit::Wall));
+        assert!(probe.take_time_used().waiting < START_LIMITS.waiting / 2);
+    }
+
+    #[test]
     fn a_program_that_fails_to_start_is_a_grader_error() {
         let launcher = Launcher {
             program: "/usr/bin/false".into(),
             sandbox: Sandbox::none(),
+            interrupt: Interrupt::default(),
         };
         let error = launcher
             .start(Duration::from_secs(1))

@@ -1,23 +1,28 @@
 //! `cargo grade --watch`: grades again whenever a file is saved, starting with the items that
 //! failed last time.
 
+mod layout;
 pub mod save_watcher;
 mod screen;
 
+use std::collections::BTreeSet;
 use std::convert::Infallible;
 use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
 
 use judging::exam::Exam;
 
 use crate::desktop;
 use crate::error::Error;
-use crate::grade::Grader;
+use crate::grade::{BuiltSubmission, Grader};
+use crate::handed_out::HandedOut;
 use crate::options::GradeOptions;
 use crate::report::html::Reload;
 use crate::report_files::ReportFiles;
 use crate::score::Score;
 use crate::submission::Submission;
-use crate::watch::save_watcher::SaveWatcher;
+use crate::watch::save_watcher::{POLL_INTERVAL, SaveWatcher};
 use crate::watch::screen::{Phase, Screen};
 
 /// Grades until the process is stopped or an error occurs. With `open`, opens the report's page in a
@@ -25,85 +30,142 @@ use crate::watch::screen::{Phase, Screen};
 pub fn watch(options: &GradeOptions, open: bool) -> Result<Infallible, Error> {
     let grader = Grader::prepare(options)?;
     let watcher = SaveWatcher::new(|| grader.collect().ok());
-    let mut screen = Screen::open(options.tasks.clone(), options.hints);
+    let screen = Screen::open(options, grader.source_paths());
     let mut submission = grader.collect()?;
     let mut last: Option<Score> = None;
     let mut page = open.then(|| files(&grader, &submission)).flatten();
     loop {
-        match grade_version(&grader, &submission, &watcher, last.as_ref(), &mut screen) {
+        match grade_version(&grader, &submission, last.as_ref(), &screen) {
             Ok(score) => {
                 last = Some(score);
                 // Only once: from now on, the page reloads itself.
                 if let Some(files) = page.take() {
                     desktop::show(&files.page);
                 }
+                submission = watcher.wait_for_change(&submission);
             }
-            // The screen shows an older version, so grade the new one at once.
-            Err(Interruption::Saved) => {}
+            // Not `wait_for_change`: if the save is undone meanwhile, the same version is graded
+            // again, because the screen shows a part of its results.
+            Err(Interruption::Saved) => submission = watcher.wait_for_version(),
             Err(Interruption::Failed(error)) => return Err(error),
         }
-        submission = watcher.wait_for_change(&submission);
     }
 }
 
-/// Grades one version of the submission: first the items that failed last time, then all of them.
-/// Afterwards the screen shows that the grader is waiting for the next version.
+/// Grades one version of the submission, until another one is saved.
 fn grade_version(
     grader: &Grader,
     submission: &Submission,
-    watcher: &SaveWatcher,
     last: Option<&Score>,
-    screen: &mut Screen,
+    screen: &Screen,
 ) -> Result<Score, Interruption> {
-    if let Some(last) = last {
-        screen.show(last, Phase::Compiling)?;
+    match last {
+        Some(last) => screen.show(last, Phase::Compiling, &all_items(last))?,
+        None => screen.announce(&submission.name)?,
     }
     let built = grader.build(submission)?;
-    let stop_if_saved = || {
-        if watcher.has_changed_since(submission) {
-            Err(Interruption::Saved)
-        } else {
-            Ok(())
-        }
-    };
+    let is_done = AtomicBool::new(false);
+    thread::scope(|scope| {
+        // A program that hangs is ended at once, and not only between two items.
+        scope.spawn(|| {
+            let has_changed = || grader.collect().is_ok_and(|now| now != *submission);
+            while !is_done.load(Ordering::Relaxed) {
+                if has_changed() {
+                    return built.interrupt().request();
+                }
+                thread::sleep(POLL_INTERVAL);
+            }
+        });
+        let graded = run_exams(grader, submission, &built, last, screen);
+        is_done.store(true, Ordering::Relaxed);
+        graded
+    })
+}
 
-    let failed = last.map(|last| failed_items(grader.exam(), last));
-    // Items that passed last time are shown as passed until they are tested again.
-    let mut shown = grader.pending_score(submission, &built);
-    if let (Some(last), Some(failed)) = (last, &failed) {
+/// Runs the items that failed last time, and then all of them. Afterwards the screen shows that the
+/// grader is waiting for the next version.
+fn run_exams(
+    grader: &Grader,
+    submission: &Submission,
+    built: &BuiltSubmission,
+    last: Option<&Score>,
+    screen: &Screen,
+) -> Result<Score, Interruption> {
+    // Checked before results are shown: those of an interrupted item are wrong.
+    let stop_if_saved = || match built.interrupt().is_requested() {
+        true => Err(Interruption::Saved),
+        false => Ok(()),
+    };
+    let exam = grader.exam();
+    let mut shown = grader.pending_score(submission, built);
+    let mut old = BTreeSet::new();
+    if let Some(last) = last {
         shown.tasks.clone_from(&last.tasks);
         shown.update_totals();
+        old = all_items(last);
+        let failed = failed_items(exam, last);
+        let mut ids = ids_in_order(&failed, grader.handed_out());
         let mut done = 0;
-        grader.run_exam(failed, &built, &mut shown, |score, _| {
-            done += 1;
-            let total = failed.items.len();
-            screen.show(score, Phase::RegradingFailed { done, total })?;
-            stop_if_saved()
+        let total = failed.items.len();
+        screen.show(&shown, Phase::RegradingFailed { done, total }, &old)?;
+        grader.run_exam(&failed, built, &mut shown, |score, _| {
+            stop_if_saved()?;
+            if let Some(id) = ids.next() {
+                old.remove(id);
+                done += 1;
+            }
+            screen.show(score, Phase::RegradingFailed { done, total }, &old)?;
+            Ok::<_, Interruption>(())
         })?;
     }
 
-    let mut score = grader.pending_score(submission, &built);
-    let exam = grader.exam();
+    let mut score = grader.pending_score(submission, built);
     let mut files = files(grader, submission);
+    let mut ids = ids_in_order(exam, grader.handed_out());
     let mut done = 0;
-    grader.run_exam(exam, &built, &mut score, |score, answers| {
-        done += 1;
+    if last.is_none() {
+        let total = exam.items.len();
+        screen.show(&score, Phase::Grading { done, total }, &old)?;
+    }
+    grader.run_exam(exam, built, &mut score, |score, answers| {
+        stop_if_saved()?;
+        if let Some(id) = ids.next() {
+            done += 1;
+            // The items that failed have been graded above, and their hints are known.
+            if old.remove(id)
+                && let Some(item) = score.items().find(|item| item.id == id)
+            {
+                shown.record(item.clone());
+                shown.update_totals();
+            }
+        }
         let total = exam.items.len();
         if let Some(files) = &mut files {
             files.write_score(score)?;
         }
-        match (score.complete, &failed) {
-            (true, _) => screen.show(score, Phase::Waiting)?,
-            (false, Some(_)) => screen.show(&shown, Phase::Grading { done, total })?,
-            (false, None) => screen.show(score, Phase::Grading { done, total })?,
+        match (score.complete, last) {
+            (true, _) => screen.show(score, Phase::Waiting, &BTreeSet::new())?,
+            (false, Some(_)) => screen.show(&shown, Phase::Grading { done, total }, &old)?,
+            (false, None) => screen.show(score, Phase::Grading { done, total }, &old)?,
         }
         // The page is written after the screen is updated, so that the screen does not wait for it.
         if let Some(files) = &mut files {
             files.write_page(score, exam, answers)?;
         }
-        stop_if_saved()
+        Ok::<_, Interruption>(())
     })?;
     Ok(score)
+}
+
+fn all_items(score: &Score) -> BTreeSet<String> {
+    score.items().map(|item| item.id.clone()).collect()
+}
+
+/// Returns the ids of an exam's items in the order in which they are graded.
+fn ids_in_order<'a>(exam: &'a Exam, handed_out: &HandedOut) -> impl Iterator<Item = &'a str> {
+    let tasks = handed_out.assignment.tasks();
+    let of_task = move |task| exam.items.iter().filter(move |item| item.task == task);
+    tasks.flat_map(of_task).map(|item| item.id.as_str())
 }
 
 /// Returns the report's files. Their page reloads itself when the user returns to it.

@@ -9,7 +9,7 @@ use std::time::Duration;
 use crate::submission::Submission;
 
 /// Time between two reads of the files.
-const POLL_INTERVAL: Duration = Duration::from_millis(20);
+pub const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Watches a submission that may be saved at any time.
 pub struct SaveWatcher<'a> {
@@ -35,9 +35,18 @@ impl<'a> SaveWatcher<'a> {
     /// Waits for the next version and returns it. Two reads in a row must give the same version,
     /// because editors write a file in several steps, and some delete it first.
     pub fn wait_for_change(&self, last: &Submission) -> Submission {
+        self.wait_for(|now| now != last)
+    }
+
+    /// Waits until two reads in a row give the same version, whichever it is.
+    pub fn wait_for_version(&self) -> Submission {
+        self.wait_for(|_| true)
+    }
+
+    fn wait_for(&self, is_wanted: impl Fn(&Submission) -> bool) -> Submission {
         let mut before = None;
         loop {
-            let now = (self.collect)().filter(|now| now != last);
+            let now = (self.collect)().filter(&is_wanted);
             match now {
                 Some(now) if before.as_ref() == Some(&now) => return now,
                 now => before = now,
@@ -81,6 +90,12 @@ mod tests {
             Some(watcher.wait_for_change(&version("old").unwrap())),
             version("whole")
         );
+    }
+
+    #[test]
+    fn a_version_may_be_the_last_one_again() {
+        let watcher = watcher_reading(["half", "old", "old"].map(version).to_vec());
+        assert_eq!(Some(watcher.wait_for_version()), version("old"));
     }
 
     #[test]

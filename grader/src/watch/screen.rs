@@ -1,13 +1,17 @@
 //! The terminal output of `--watch`: a single page, redrawn in one write so that it does not
 //! flicker. Without a terminal, reports are printed one after the other.
 
+use std::collections::BTreeSet;
 use std::io;
 
 use console::{Term, truncate_str};
 
-use crate::report::text::{HintDetail, report};
-use crate::score::Score;
-use crate::task_selection::TaskSelection;
+use crate::options::GradeOptions;
+use crate::report::next_step::next_step;
+use crate::report::text::{OldResults, ReportParts, report_parts, short_table};
+use crate::score::{Score, Verdict};
+use crate::source_paths::SourcePaths;
+use crate::watch::layout::{Page, fit};
 
 /// The current phase of grading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,52 +37,93 @@ pub enum Phase {
 }
 
 /// The terminal, file or pipe that shows the reports.
-pub struct Screen {
+pub struct Screen<'a> {
     term: Term,
-    tasks: TaskSelection,
-    hints: HintDetail,
+    options: &'a GradeOptions,
+    paths: SourcePaths,
 }
 
-impl Screen {
+impl<'a> Screen<'a> {
     /// Opens standard output. Reports show the selected tasks only.
-    pub fn open(tasks: TaskSelection, hints: HintDetail) -> Self {
+    pub fn open(options: &'a GradeOptions, paths: SourcePaths) -> Self {
         let term = Term::buffered_stdout();
         if term.is_term() {
             // Scrolls up what is on the screen, so that it is not overwritten.
             let rows = usize::from(term.size().0);
             let _ = term.write_str(&"\n".repeat(rows));
         }
-        Screen { term, tasks, hints }
+        Screen {
+            term,
+            options,
+            paths,
+        }
     }
 
-    /// Shows a score, complete or not.
-    pub fn show(&mut self, score: &Score, phase: Phase) -> io::Result<()> {
-        let report = report(score, &self.tasks, self.hints);
+    /// Shows that the first version is being compiled.
+    pub fn announce(&self, submission: &str) -> io::Result<()> {
+        if !self.term.is_term() {
+            return Ok(());
+        }
+        let status = format!("  {submission}: compiling …");
+        self.draw(&Page {
+            status: &status,
+            report: &ReportParts::default(),
+            next: "",
+            short_table: "",
+            rest: "",
+        })
+    }
+
+    /// Shows a score, complete or not. The items in `old` have not been graded since the last save.
+    pub fn show(&self, score: &Score, phase: Phase, old: &BTreeSet<String>) -> io::Result<()> {
+        if !self.term.is_term() && phase != Phase::Waiting {
+            return Ok(());
+        }
+        let GradeOptions { tasks, hints, .. } = self.options;
+        let old_results = OldResults {
+            items: Some(old),
+            build: phase == Phase::Compiling,
+        };
+        let report = report_parts(score, tasks, *hints, old_results);
+        let next = match phase {
+            Phase::Waiting => next_step(score, tasks, self.options.handed_out.assignment),
+            Phase::Compiling | Phase::RegradingFailed { .. } | Phase::Grading { .. } => {
+                String::new()
+            }
+        };
+        let status = status_line(score, phase, !old.is_empty());
         if self.term.is_term() {
-            self.draw(&status_line(score, phase), &report)
-        } else if phase == Phase::Waiting {
-            anstream::print!("{report}");
-            anstream::println!("{}\n", status_line(score, phase).trim());
-            Ok(())
+            let page = Page {
+                status: &status,
+                report: &ReportParts {
+                    details: self.paths.in_text(&report.details).into_owned(),
+                    ..report
+                },
+                next: &next,
+                short_table: &short_table(score, tasks),
+                rest: &format!("  … the rest: {}", command_for_the_rest(score)),
+            };
+            self.draw(&page)
         } else {
+            let ReportParts {
+                headline,
+                table,
+                details,
+            } = report;
+            let details = self.paths.in_text(&details);
+            anstream::print!("\n{headline}{table}{details}\n{next}");
+            anstream::println!("{}\n", status.trim());
             Ok(())
         }
     }
 
     /// Draws as much as fits on the screen. Lines are truncated, because a wrapped line would push
     /// the others down.
-    fn draw(&self, line: &str, report: &str) -> io::Result<()> {
+    fn draw(&self, page: &Page) -> io::Result<()> {
         let (rows, columns) = self.term.size();
-        let (rows, columns) = (usize::from(rows), usize::from(columns));
-        let fits = rows.saturating_sub(2);
-        let lines: Vec<&str> = std::iter::once(line).chain(report.lines()).collect();
-        let cut = (lines.len() > fits).then_some("  … to see the rest: cargo grade --task TASK");
-        let kept = lines
-            .len()
-            .min(fits - usize::from(cut.is_some() && fits > 0));
-
+        let columns = usize::from(columns);
         self.term.move_cursor_to(0, 0)?;
-        for line in lines[..kept].iter().copied().chain(cut) {
+        for line in fit(page, usize::from(rows).saturating_sub(1)) {
             self.term.clear_line()?;
             self.term
                 .write_line(&strip_unwanted_colours(&truncate_str(line, columns, "…")))?;
@@ -88,17 +133,33 @@ impl Screen {
     }
 }
 
+/// Returns the command that shows all of what may not fit: the first task that fails.
+fn command_for_the_rest(score: &Score) -> String {
+    let fails = |verdict: &Verdict| !matches!(verdict, Verdict::Pass | Verdict::Pending);
+    let mut tasks = score.tasks.iter();
+    let failing = tasks.find(|task| task.items.iter().any(|item| fails(&item.verdict)));
+    match failing.or(score.tasks.first()) {
+        Some(task) => score.rerun_command.task(task.id.id()),
+        None => "cargo grade".to_owned(),
+    }
+}
+
 /// Returns the status line, which is shown above the report.
-fn status_line(score: &Score, phase: Phase) -> String {
+fn status_line(score: &Score, phase: Phase, has_old_results: bool) -> String {
     let name = &score.submission;
     let seconds = |millis: u64| format!("{:.1} s", millis as f64 / 1e3);
+    let old = if has_old_results {
+        " (grey: before this save)"
+    } else {
+        ""
+    };
     match phase {
-        Phase::Compiling => format!("  {name}: compiling …"),
+        Phase::Compiling => format!("  {name}: compiling …{old}"),
         Phase::RegradingFailed { done, total } => {
-            format!("  {name}: testing what failed before, {done} of {total} …")
+            format!("  {name}: testing what failed before, {done} of {total} …{old}")
         }
         Phase::Grading { done, total } => {
-            format!("  {name}: testing everything, {done} of {total} …")
+            format!("  {name}: testing everything, {done} of {total} …{old}")
         }
         Phase::Waiting => format!(
             "  {name}: graded in {}; save a file to grade again, or press Ctrl-C to stop",

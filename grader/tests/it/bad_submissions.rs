@@ -107,7 +107,8 @@ fn a_typo_in_a_declaration_is_reported_with_the_compilers_words_and_line() {
         "pub struct Sphere {",
         "pub strct Sphere {",
     );
-    let text = std::fs::read_to_string(typo.path().join("sphere.rs")).unwrap();
+    let sphere = typo.path().join("sphere.rs");
+    let text = std::fs::read_to_string(&sphere).unwrap();
     let line = 1 + text
         .lines()
         .position(|line| line.contains("strct"))
@@ -120,7 +121,7 @@ fn a_typo_in_a_declaration_is_reported_with_the_compilers_words_and_line() {
     let message = file["message"].as_str().unwrap();
     assert!(message.contains("| pub strct Sphere {"), "{message}");
     assert!(message.contains(&format!("sphere.rs:{line}:")), "{message}");
-    let begin = format!("sphere.rs:{line}: error: ");
+    let begin = format!("{}:{line}: error: ", sphere.display());
     assert!(graded.error().starts_with(&begin), "{}", graded.error());
 
     // A declaration that is written differently is no error.
@@ -130,6 +131,41 @@ fn a_typo_in_a_declaration_is_reported_with_the_compilers_words_and_line() {
         "pub struct\n    Sphere {",
     );
     assert_eq!(spaced.grade().verdicts("sphere"), ["pass"]);
+}
+
+#[test]
+fn every_error_of_a_file_is_shown_with_a_path_that_an_editor_can_open() {
+    let submission = Submission::reference("errors")
+        .with_replaced(
+            "sphere.rs",
+            "self.center - self.radius",
+            "self.centre - self.radius",
+        )
+        .with_replaced(
+            "sphere.rs",
+            "self.center + self.radius",
+            "self.center + self.radios",
+        );
+    let graded = submission.grade();
+    let report = graded.report();
+    for error in ["no field `centre` on type", "no field `radios` on type"] {
+        assert!(report.contains(error), "{report}");
+    }
+    let arrows: Vec<&str> = report
+        .lines()
+        .filter(|line| line.contains("--> "))
+        .collect();
+    assert_eq!(arrows.len(), 2, "{report}");
+    for arrow in arrows {
+        let (_, place) = arrow
+            .split_once("--> SUBMISSION/sphere.rs:")
+            .expect("a path");
+        let parts: Vec<&str> = place.split(':').collect();
+        assert!(
+            parts.len() == 2 && parts.iter().all(|part| part.parse::<u32>().is_ok()),
+            "{place}"
+        );
+    }
 }
 
 #[test]

@@ -25,3 +25,5 @@ mod reset;
 mod scores;
 mod substitution;
 mod watch;
+#[cfg(unix)]
+mod watch_terminal;

@@ -57,6 +57,10 @@ pub enum Command {
         /// The students' book to include as handout/book, as built by `cargo book --students`
         #[arg(long, value_name = "FOLDER")]
         book: Option<PathBuf>,
+        /// Leave out the files that students write, so that they can unpack the archive over an older
+        /// one
+        #[arg(long, conflicts_with = "check")]
+        update: bool,
         /// Unpack the bundle with an empty home directory, run the commands that its documents
         /// show, and grade the starter and the reference
         #[arg(long)]

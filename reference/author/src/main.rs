@@ -72,8 +72,16 @@ fn run(command: Command) -> CommandResult {
             };
             make_book(root, &root.join(book_folder(folder, students)), students)
         }
-        Command::Bundle { out, book, check } => {
-            let bundle = Bundle::collect(root, HANDED_OUT, book.as_deref())?;
+        Command::Bundle {
+            out,
+            book,
+            update,
+            check,
+        } => {
+            let mut bundle = Bundle::collect(root, HANDED_OUT, book.as_deref())?;
+            if update {
+                bundle = bundle.without_students_files(HANDED_OUT);
+            }
             write_bundle(root, &bundle, out.as_deref(), check)
         }
         Command::Package {
@@ -225,7 +233,9 @@ fn write_bundle(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -
         problems = bundle::check::check(root, HANDED_OUT, bundle)?;
     }
     let (count, size) = (bundle.files.len(), bundle.size() / 1000);
-    let line = format!("{count} files, {size} kB, searched for {secrets}");
+    let version = bundle.version();
+    let version = version.map_or(String::new(), |version| format!("version {version}, "));
+    let line = format!("{version}{count} files, {size} kB, searched for {secrets}");
     report(&problems, &line)?;
     if let Some(out) = out {
         archive::write(bundle, out)?;

@@ -300,3 +300,32 @@ fn the_first_stub_is_on_the_line_that_the_first_page_names() {
     let stub = camera.lines().nth(line - 1).unwrap();
     assert!(stub.contains("todo!(\"task 1, camera:"), "{stub}");
 }
+
+#[test]
+fn every_package_has_the_bundles_version_and_so_has_the_lock_file() {
+    let version = BUNDLE.version().expect("a bundle has a version");
+    assert_eq!(version.len(), 12);
+    let lock = BUNDLE.text("Cargo.lock").unwrap();
+    for name in ["grader", "framework", "protocol", "student"] {
+        let package = format!("name = \"{name}\"\nversion = \"0.1.0+{version}\"\n");
+        assert!(lock.contains(&package), "{package}");
+    }
+}
+
+#[test]
+fn an_update_has_everything_but_the_students_files_and_the_same_version() {
+    let update = BUNDLE.clone().without_students_files(&RAYS);
+    let missing: Vec<&String> = BUNDLE
+        .files
+        .keys()
+        .filter(|path| !update.files.contains_key(*path))
+        .collect();
+    let own = ["bbox", "bvh", "camera", "sphere", "triangle"];
+    assert_eq!(
+        missing,
+        own.map(|name| format!("student/src/{name}.rs"))
+            .iter()
+            .collect::<Vec<_>>()
+    );
+    assert_eq!(update.version(), BUNDLE.version());
+}

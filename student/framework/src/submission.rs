@@ -36,13 +36,13 @@ pub trait Submission: Sync {
 }
 
 /// A submission's camera.
-pub trait CameraRays: Sync {
+pub trait CameraRays: Send + Sync {
     /// Calls `Camera::sample_ray`. The ray is in camera space.
     fn ray(&self, pixel: UVec2, offset: Vec2) -> Ray;
 }
 
 /// A list or tree of a submission's primitives.
-pub trait Aggregate: Sync {
+pub trait Aggregate: Send + Sync {
     /// Returns the closest hit on any of the primitives.
     fn closest_hit(&self, ray: &Ray) -> Option<Trace>;
 }

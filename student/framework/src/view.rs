@@ -65,6 +65,24 @@ pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, epsilon: f32
     }
 }
 
+/// Returns the value of each pixel's first hit as it is, for files that hold numbers: normals,
+/// distances, and u and v. Without a hit, the distance is infinite, and the others are zero. For
+/// `Shaded` and `Bvh`, which show no value of a hit, returns `None`.
+pub fn raw_values(view: ViewMode, hits: &[Option<Trace>]) -> Option<Vec<Vec3>> {
+    let value: fn(&Trace) -> Vec3 = match view {
+        ViewMode::Normals => |hit| hit.normal,
+        ViewMode::Depth => |hit| Vec3::splat(hit.distance),
+        ViewMode::Uv => |hit| hit.uv.extend(0.0),
+        ViewMode::Shaded | ViewMode::Bvh => return None,
+    };
+    let miss = match view {
+        ViewMode::Depth => Vec3::INFINITY,
+        ViewMode::Shaded | ViewMode::Normals | ViewMode::Uv | ViewMode::Bvh => Vec3::ZERO,
+    };
+    let of_pixel = |hit: &Option<Trace>| hit.as_ref().map_or(miss, value);
+    Some(hits.iter().map(of_pixel).collect())
+}
+
 /// The boxes of a tree that contain a point.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
 struct TreeLocation {
@@ -192,6 +210,24 @@ mod tests {
         assert_eq!(pixels[1], Vec3::ZERO);
         assert!(pixels[2].abs_diff_eq(Vec3::splat(0.05), 1e-6));
         assert_eq!(pixels[3], Vec3::ZERO);
+    }
+
+    #[test]
+    fn raw_values_are_those_of_the_hits() {
+        let values = |view| raw_values(view, &[hit(3.5), None]);
+        assert_eq!(
+            values(ViewMode::Depth),
+            Some(vec![Vec3::splat(3.5), Vec3::INFINITY])
+        );
+        assert_eq!(
+            values(ViewMode::Normals),
+            Some(vec![Vec3::Y * 2.0, Vec3::ZERO])
+        );
+        assert_eq!(
+            values(ViewMode::Uv),
+            Some(vec![vec3(1.25, -0.25, 0.0), Vec3::ZERO])
+        );
+        assert_eq!(values(ViewMode::Bvh), None);
     }
 
     #[test]

@@ -33,7 +33,7 @@ const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 /// Hashes for the content security policy. After a change to `page.css` or `page.js`, a test fails
 /// and prints the new hash.
-const STYLE_HASH: &str = "sha256-qibRcJHkq9fgBigRYMh7+w5UjfMsEbtiUPBJxSczQCU=";
+const STYLE_HASH: &str = "sha256-YDMRxncsJWDw3Wc4ijsTVJeG3wRFhCq3GVcpLWvFwdI=";
 const SCRIPT_HASH: &str = "sha256-TEagcJHpDUBf05TrmAO7R1lMuk5kMF98DelmUffG3CY=";
 
 /// Whether an open page reloads itself to show a newer version.
@@ -79,9 +79,10 @@ fn render_page(
 ) -> String {
     let book = rerun.and(score.book.as_ref());
     let title = format!(
-        "{}: {} of {} points",
-        score.submission, score.points, score.max_points
+        "{}: {} of {} points, {}",
+        score.assignment_title, score.points, score.max_points, score.submission
     );
+    let title = title.trim_start_matches(": ");
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -90,14 +91,14 @@ fn render_page(
                 meta http-equiv="Content-Security-Policy" content=(content_security_policy());
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
-                title { (plain_text(&title)) }
+                title { (plain_text(title)) }
                 style { (PreEscaped(STYLE)) }
             }
             body data-reload[reload == Reload::WhileUnfocused] {
                 a .skip href="#next" { "Skip to what to do next" }
                 (summary::header(score))
                 main {
-                    (summary::next_step(score, rerun))
+                    (summary::next_step(score, exam, answers, rerun))
                     (task::files(score))
                     @for task in &score.tasks {
                         (task::section(task, exam, answers, rerun, book))
@@ -128,7 +129,11 @@ fn footer(score: &Score, rerun: Option<&RerunCommand>) -> Markup {
             @if rerun.is_some() {
                 p {
                     "Exam " code { (plain_text(&score.exam.id)) } ", "
-                    code { (plain_text(score.exam.hash.get(..12).unwrap_or_default())) } ". "
+                    code { (plain_text(score.exam.hash.get(..12).unwrap_or_default())) }
+                    @if let Some(version) = &score.bundle {
+                        ", version " code { (plain_text(version)) } " of the assignment"
+                    }
+                    ". "
                     "For programs, " code { "score.json" } " beside this page has the same data."
                 }
             }

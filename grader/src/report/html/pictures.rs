@@ -5,9 +5,10 @@
 
 use glam::UVec2;
 use judging::describe;
-use judging::exam::Item;
+use judging::exam::{Exam, Item};
 use judging::picture::{self, LayerComparison, Picture, WorstPixel};
 use maud::{Markup, html};
+use protocol::Question;
 
 use super::elements::{command, evidence_table, plain_text};
 use super::mask;
@@ -52,6 +53,29 @@ pub(super) fn passed(item: &Item, answers: &ReportAnswers) -> Markup {
             div .panels {
                 @for layer in &picture.layers {
                     (panel(picture.film, layer.name, &layer.pixels, "yours"))
+                }
+            }
+        }
+    }
+}
+
+/// Renders the last path-traced picture of the submission beside the reference's, or nothing if the
+/// exam has none.
+pub(super) fn beside_the_references(exam: &Exam, answers: &ReportAnswers) -> Markup {
+    let mut pictures = exam.items.iter().rev().flat_map(|item| {
+        let questions = item.questions.iter().enumerate();
+        questions.filter_map(|(index, question)| {
+            let is_light = matches!(question.question, Question::Radiance { .. });
+            let answer = answers.answer(&item.id, index).filter(|_| is_light)?;
+            picture::compare(question, answer)
+        })
+    });
+    html! {
+        @if let Some(picture) = pictures.next() {
+            div .panels .trophy {
+                @for layer in &picture.layers {
+                    (panel(picture.film, layer.name, &layer.got, "drawn with your code"))
+                    (panel(picture.film, layer.name, &layer.wanted, "drawn with the reference"))
                 }
             }
         }

@@ -1,10 +1,13 @@
 //! Renders the top of the page: the points, and what to do next.
 
+use judging::exam::Exam;
 use maud::{Markup, html};
 
 use super::counted;
 use super::elements::{command, plain_text};
+use super::pictures;
 use super::prose::prose;
+use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
 use crate::score::{ItemScore, Score, TaskScore, Verdict, VerdictKind};
@@ -14,6 +17,7 @@ use crate::svg::number;
 pub(super) fn header(score: &Score) -> Markup {
     html! {
         header {
+            @if !score.assignment_title.is_empty() { p .assignment { (score.assignment_title) } }
             h1 { span .untrusted { (plain_text(&score.submission)) } }
             p .total {
                 strong { (score.points) " of " (score.max_points) }
@@ -77,13 +81,21 @@ fn bar(task: &TaskScore) -> Markup {
 }
 
 /// Renders what to do next: fix the first failing item, in lecture order.
-pub(super) fn next_step(score: &Score, rerun: Option<&RerunCommand>) -> Markup {
+pub(super) fn next_step(
+    score: &Score,
+    exam: &Exam,
+    answers: &ReportAnswers,
+    rerun: Option<&RerunCommand>,
+) -> Markup {
     let fails = |item: &&ItemScore| item.points < item.max_points;
     html! {
         section aria-labelledby="next" {
             h2 #next { "What to do next" }
             @match score.items().find(fails) {
-                None => (all_passed(score)),
+                None => {
+                    (all_passed(score))
+                    (pictures::beside_the_references(exam, answers))
+                }
                 Some(item) => (first_failure(item, rerun)),
             }
         }

@@ -1,7 +1,6 @@
 //! Renders the section of a task, and the section about the submitted files.
 
-use judging::exam::{Exam, Item};
-use judging::picture;
+use judging::exam::Exam;
 use maud::{Markup, html};
 
 use super::elements::plain_text;
@@ -10,10 +9,6 @@ use crate::book::Book;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore};
-
-/// The maximum number of failing items per task that are open when the page loads. Items with
-/// pictures are not subject to this limit.
-const MAX_OPEN_ITEMS: usize = 3;
 
 /// Renders the files that did not compile, and the notes. Returns nothing if there are neither.
 pub(super) fn files(score: &Score) -> Markup {
@@ -56,8 +51,8 @@ pub(super) fn section(
                 span .points { " " (task.points) " / " (task.max_points) }
             }
             @for (index, score) in failing.iter().enumerate() {
-                @let is_open = starts_open(index, score, exam_item(score));
-                (item::failing(score, exam_item(score), answers, rerun, book, is_open))
+                // The first is enough to start with.
+                (item::failing(score, exam_item(score), answers, rerun, book, index == 0))
             }
             @if let Some(printed) = &task.printed {
                 details #(format!("{}-printed", task.id)) .printed {
@@ -77,9 +72,4 @@ pub(super) fn section(
             }
         }
     }
-}
-
-fn starts_open(index: usize, score: &ItemScore, item: Option<&Item>) -> bool {
-    let has_picture = item.is_some_and(|item| item.questions.iter().any(picture::asks_for_picture));
-    index == 0 || (score.evidence.is_some() && (index < MAX_OPEN_ITEMS || has_picture))
 }

@@ -88,7 +88,7 @@ fn keep_members(members: &mut Array, bundle: &Bundle) {
     });
 }
 
-fn parse(path: &str, text: &str) -> Result<DocumentMut, ManifestError> {
+pub(super) fn parse(path: &str, text: &str) -> Result<DocumentMut, ManifestError> {
     text.parse().map_err(|source| ManifestError::Toml {
         path: path.to_owned(),
         source,

@@ -13,6 +13,7 @@ mod lock;
 mod manifests;
 pub mod secrets;
 mod test_modules;
+mod version;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -110,9 +111,22 @@ impl Bundle {
             bundle.insert(file.path, file.contents);
         }
         manifests::add_trimmed(root, &mut bundle)?;
+        version::add(root, handed_out, &mut bundle)?;
         let lock = lock::lock_file(root, &bundle)?;
         bundle.insert("Cargo.lock", lock);
         Ok(bundle)
+    }
+
+    /// Returns the version, or `None` if the bundle's manifests have none.
+    pub fn version(&self) -> Option<String> {
+        version::find(self.text("Cargo.toml")?)
+    }
+
+    /// Removes the files that students write, so that the bundle can be unpacked over an older one.
+    pub fn without_students_files(mut self, handed_out: &HandedOut) -> Self {
+        self.files
+            .retain(|path, _| !version::is_students_own(path, handed_out));
+        self
     }
 
     /// Inserts a file, replacing any existing file with the same path.

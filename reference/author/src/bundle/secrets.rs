@@ -24,6 +24,8 @@ const GIVEN_FOLDERS: [&str; 2] = ["student/src/", "student/protocol/"];
 /// The minimum length of a secret line, not counting white space. Shorter lines occur by
 /// coincidence.
 const MIN_LENGTH: usize = 21;
+/// Lines, without white space, that Rust code of any kind has.
+const IDIOMS: [&str; 1] = ["thread::scope(|scope|{"];
 /// The id of the only exam that students may have.
 const PRACTICE_ID: &str = "practice";
 
@@ -159,7 +161,8 @@ fn normalize(line: &str) -> Option<String> {
         .iter()
         .any(|start| line.trim_start().starts_with(start));
     let line: String = line.split_whitespace().collect();
-    (computes && !is_no_code && line.len() >= MIN_LENGTH).then_some(line)
+    let is_idiom = IDIOMS.contains(&line.as_str());
+    (computes && !is_no_code && !is_idiom && line.len() >= MIN_LENGTH).then_some(line)
 }
 
 /// Returns whether the line contains arithmetic.
@@ -202,6 +205,7 @@ mod tests {
             "/// The surface normal there, of length one.",
             "Shape::Sphere { center, radius, .. } => {",
             "fn hit() -> Option {",
+            "        thread::scope(|scope| {",
         ] {
             assert_eq!(normalize(line), None, "{line}");
         }

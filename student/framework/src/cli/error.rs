@@ -25,6 +25,8 @@ pub(super) enum RenderError {
     PixelOutsideFilm { pixel: UVec2, size: UVec2 },
     #[error("cannot start threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
+    #[error("cannot start a thread: {0}")]
+    Thread(std::io::Error),
     #[error("cannot write {}: {source}", .path.display())]
     Unwritable {
         path: PathBuf,
@@ -52,6 +54,7 @@ impl RenderError {
             | RenderError::FolderNotFound(_)
             | RenderError::PixelOutsideFilm { .. }
             | RenderError::Threads(_)
+            | RenderError::Thread(_)
             | RenderError::Unwritable { .. } => ExitCode::from(2),
         }
     }

@@ -7,28 +7,36 @@ use image::{ImageFormat, Rgb32FImage, RgbImage};
 use super::error::RenderError;
 use crate::film::{Film, Tone};
 
-/// Writes a picture to a file. An EXR file stores linear floats. Other formats store bytes, whose
+/// Writes a picture to a file in one step, so that a reader never sees a part of it. An EXR file stores linear floats. Other formats store bytes, whose
 /// values are converted for a screen.
 pub(super) fn write(film: &Film, tone: Tone, path: &Path) -> Result<(), RenderError> {
     let (width, height) = film.size.into();
-    let written = match ImageFormat::from_path(path) {
-        Ok(ImageFormat::OpenExr) => {
+    let part = path.with_added_extension("part");
+    let format = ImageFormat::from_path(path).unwrap_or(ImageFormat::Png);
+    let written = match format {
+        ImageFormat::OpenExr => {
             let floats = film.pixels_top_down().flat_map(|pixel| pixel.to_array());
             let image = Rgb32FImage::from_raw(width, height, floats.collect());
-            image.expect(FITS).save(path)
+            image.expect(FITS).save_with_format(&part, format)
         }
         _ => {
             let bytes = film
                 .pixels_top_down()
                 .flat_map(|pixel| tone.to_bytes(pixel));
             let image = RgbImage::from_raw(width, height, bytes.collect());
-            image.expect(FITS).save(path)
+            image.expect(FITS).save_with_format(&part, format)
         }
     };
+    let written = written.and_then(|()| Ok(std::fs::rename(&part, path)?));
     written.map_err(|source| RenderError::Unwritable {
         path: path.to_owned(),
         source,
     })
+}
+
+/// Returns whether the format of a file holds numbers of any size, and not colours for a screen.
+pub(super) fn holds_numbers(path: &Path) -> bool {
+    matches!(ImageFormat::from_path(path), Ok(ImageFormat::OpenExr))
 }
 
 const FITS: &str = "a film has as many pixels as its size says";

@@ -1,22 +1,30 @@
 //! The command that renders a scene with a submission's code.
 
+mod canvas;
 mod error;
 pub mod examples;
 mod files;
 mod image_file;
 mod options;
 mod parallel;
+mod pixel;
 mod progress;
+mod stages;
 
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
 use std::time::Instant;
 
 use clap::Parser;
-use glam::{UVec2, Vec2, Vec3};
+use glam::{UVec2, Vec2};
 use protocol::{Trace, Tree};
 
 use crate::attempt::{attempt, keep_panics_quiet};
+use crate::cli::canvas::{Canvas, Event, on_ctrl_c};
 use crate::cli::error::RenderError;
 use crate::cli::options::Options;
 use crate::cli::parallel::{RenderPool, value_or_error};
@@ -28,7 +36,7 @@ use crate::submission::{Submission, World};
 use crate::view::{self, ViewMode};
 
 /// Runs the command. Exit codes: 0 for success, 1 if the submission's code panicked, 2 for invalid
-/// input.
+/// input, 130 after Ctrl-C.
 pub fn main(submission: &dyn Submission) -> ExitCode {
     let options = match Options::try_parse() {
         Ok(options) => options,
@@ -40,7 +48,11 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
         }
     };
     keep_panics_quiet();
-    match run(submission, &options) {
+    let events = Events::new();
+    let ran = events
+        .keep_picture_on_ctrl_c()
+        .and_then(|()| run(submission, &options, &events));
+    match ran {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -49,41 +61,78 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
     }
 }
 
-fn run(submission: &dyn Submission, options: &Options) -> Result<(), RenderError> {
-    let path = files::find_scene(&options.scene)?;
-    let scene = Scene::load(&path)?;
-    let scene = scene.on_film(options.size.unwrap_or(scene.camera.pinhole.film));
-    let out = files::output_path(options, &path)?;
-    let pool = RenderPool::new(scene.camera.pinhole.film, options.threads)?;
-
-    pool.run(|| render_or_print(submission, options, &scene, &out, &pool))
+/// The events while a picture is rendered.
+struct Events {
+    sender: Sender<Event>,
+    receiver: Receiver<Event>,
+    /// Whether there is an unfinished picture, which Ctrl-C keeps.
+    has_picture: Arc<AtomicBool>,
 }
 
-/// Converts the scene to the submission's types, and renders a picture or prints one pixel.
-fn render_or_print(
-    submission: &dyn Submission,
-    options: &Options,
-    scene: &Scene,
-    out: &Path,
-    pool: &RenderPool,
-) -> Result<(), RenderError> {
-    let world = value_or_error(attempt(|| World::new(submission, scene)), None)?;
-    let tree = value_or_error(attempt(|| world.tree()), None)?;
-    if let Some(pixel) = options.pixel {
-        return print_pixel(pixel, options, scene, &world);
+impl Events {
+    fn new() -> Self {
+        let (sender, receiver) = channel();
+        Events {
+            sender,
+            receiver,
+            has_picture: Arc::default(),
+        }
     }
 
+    fn keep_picture_on_ctrl_c(&self) -> Result<(), RenderError> {
+        let (sender, has_picture) = (self.sender.clone(), Arc::clone(&self.has_picture));
+        on_ctrl_c(move || {
+            // Only the first time, so that pressing it again ends the process in any case.
+            let is_kept = has_picture.swap(false, Ordering::Relaxed);
+            if !is_kept || sender.send(Event::Interrupted).is_err() {
+                std::process::exit(canvas::INTERRUPTED);
+            }
+        })
+    }
+}
+
+/// A scene in the submission's types, and what is needed to render it.
+struct Job<'a> {
+    options: &'a Options,
+    scene: &'a Scene,
+    world: &'a World,
+    tree: &'a Tree,
+    pool: &'a RenderPool,
+    out: &'a Path,
+}
+
+fn run(submission: &dyn Submission, options: &Options, events: &Events) -> Result<(), RenderError> {
+    let path = files::find_scene(&options.scene)?;
+    let loading = format!("loading {}", path.display());
+    let (scene, names) = stages::show(&loading, || Scene::load_with_names(&path))?;
+    let scene = &scene.on_film(options.size.unwrap_or(scene.camera.pinhole.film));
+    let out = &files::output_path(options, &path)?;
+    let pool = &RenderPool::new(scene.camera.pinhole.film, options.threads)?;
+
+    let (world, tree) = &stages::build(submission, scene)?;
+    stages::try_methods(submission, scene, world, tree)?;
+    if let Some(pixel) = options.pixel {
+        return pixel::print(pixel, options, submission, scene, &names, world);
+    }
     // Traces one ray first, so that if the submission still has a stub, the stub's panic is the
     // only message.
     let corner = UVec2::ZERO;
-    let first = || first_hit(scene, &world, corner, &mut RenderStats::default());
+    let first = || first_hit(scene, world, corner, &mut RenderStats::default());
     value_or_error(attempt(first), Some(corner))?;
     if tree.nodes.is_empty() && !scene.shapes.is_empty() {
         let count = scene.shapes.len();
         eprintln!("note: task 3, build: no tree yet, so each ray may test all {count} primitives");
     }
+    let job = Job {
+        options,
+        scene,
+        world,
+        tree,
+        pool,
+        out,
+    };
     let started = Instant::now();
-    let (film, stats) = render(pool, options, scene, &world, &tree)?;
+    let (film, stats) = render(&job, events)?;
     let time = started.elapsed();
     image_file::write(&film, options.tone(), out)?;
     println!("{}", progress::summary(out, film.size, stats, time));
@@ -97,28 +146,64 @@ fn render_or_print(
     Ok(())
 }
 
-fn render(
-    pool: &RenderPool,
-    options: &Options,
-    scene: &Scene,
-    world: &World,
-    tree: &Tree,
-) -> Result<(Film, RenderStats), RenderError> {
+fn render(job: &Job, events: &Events) -> Result<(Film, RenderStats), RenderError> {
+    let Job {
+        options,
+        scene,
+        world,
+        ..
+    } = *job;
     let size = scene.camera.pinhole.film;
-    let progress = Progress::new(size.y);
     let integrator = Integrator::new(scene, world, options.settings(size));
-    let (pixels, stats) = match options.view {
-        ViewMode::Shaded => pool.render(&progress, |pixel, stats| {
-            integrator.pixel_radiance(pixel, stats)
-        })?,
-        ViewMode::Normals | ViewMode::Depth | ViewMode::Uv | ViewMode::Bvh => {
-            let first = |pixel, stats: &mut RenderStats| first_hit(scene, world, pixel, stats);
-            let (hits, stats) = pool.render(&progress, first)?;
-            let epsilon = integrator.epsilon();
-            (view::picture(options.view, &hits, tree, epsilon), stats)
-        }
-    };
+    if options.view == ViewMode::Shaded {
+        return render_light(job, &integrator, events);
+    }
+    let progress = Progress::new(u64::from(size.y));
+    let first = |pixel, stats: &mut RenderStats| first_hit(scene, world, pixel, stats);
+    let (hits, stats) = job.pool.render(&progress, first)?;
+    let raw = image_file::holds_numbers(job.out).then(|| view::raw_values(options.view, &hits));
+    let epsilon = integrator.epsilon();
+    let pixels = raw
+        .flatten()
+        .unwrap_or_else(|| view::picture(options.view, &hits, job.tree, epsilon));
     Ok((Film { size, pixels }, stats))
+}
+
+/// Renders the picture in passes, and writes it every second.
+fn render_light(
+    job: &Job,
+    integrator: &Integrator,
+    events: &Events,
+) -> Result<(Film, RenderStats), RenderError> {
+    let Job { options, out, .. } = *job;
+    let size = job.scene.camera.pinhole.film;
+    let canvas = &Canvas::new(size);
+    let samples = options.samples;
+    let progress = Progress::new(u64::from(size.y) * u64::from(samples));
+    thread::scope(|scope| {
+        let Events {
+            sender,
+            receiver,
+            has_picture,
+        } = events;
+        let (tone, finished) = (options.tone(), sender.clone());
+        has_picture.store(true, Ordering::Relaxed);
+        let rendering = scope.spawn(move || {
+            let sample = |pixel, sample, stats: &mut RenderStats| {
+                integrator.sample_radiance(pixel, sample, stats)
+            };
+            let rendered = job.pool.accumulate(&progress, canvas, samples, sample);
+            // The receiver below is not dropped before.
+            let _ = finished.send(Event::Finished);
+            rendered
+        });
+        canvas.write_until_finished(receiver, tone, out, samples);
+        has_picture.store(false, Ordering::Relaxed);
+        rendering
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })?;
+    Ok((canvas.film().0, canvas.stats()))
 }
 
 /// Returns the hit of the ray through the centre of a pixel.
@@ -126,31 +211,6 @@ fn first_hit(scene: &Scene, world: &World, pixel: UVec2, stats: &mut RenderStats
     stats.rays += 1;
     let ray = world.camera_ray(pixel, Vec2::splat(0.5));
     world.hit(&scene.camera.placement.to_world(&ray))
-}
-
-/// Prints the hit and the radiance of one pixel, and renders nothing else. This is useful in a
-/// debugger.
-fn print_pixel(
-    pixel: UVec2,
-    options: &Options,
-    scene: &Scene,
-    world: &World,
-) -> Result<(), RenderError> {
-    let size = scene.camera.pinhole.film;
-    if pixel.cmpge(size).any() {
-        return Err(RenderError::PixelOutsideFilm { pixel, size });
-    }
-    let integrator = Integrator::new(scene, world, options.settings(size));
-    let mut stats = RenderStats::default();
-    let first = value_or_error(
-        attempt(|| first_hit(scene, world, pixel, &mut stats)),
-        Some(pixel),
-    )?;
-    println!("pixel {pixel}, hit at its centre: {first:#?}");
-    let light = attempt(|| integrator.pixel_radiance(pixel, &mut stats));
-    let light: Vec3 = value_or_error(light, Some(pixel))?;
-    println!("radiance: {light}, traced rays: {}", stats.rays);
-    Ok(())
 }
 
 impl Options {

@@ -58,7 +58,8 @@ pub(super) struct Options {
         long,
         value_name = "STOPS",
         default_value_t = 0.0,
-        allow_negative_numbers = true
+        allow_negative_numbers = true,
+        value_parser = stops
     )]
     pub(super) exposure: f32,
 
@@ -90,6 +91,11 @@ fn size(text: &str) -> Result<UVec2, String> {
     }
 }
 
+fn stops(text: &str) -> Result<f32, String> {
+    let stops = text.parse().ok().filter(|stops: &f32| stops.abs() <= 100.0);
+    stops.ok_or_else(|| "expected a number of stops such as 1.5, from -100 to 100".to_owned())
+}
+
 fn pixel(text: &str) -> Result<UVec2, String> {
     pair(text, ',').ok_or_else(|| "expected a pixel such as 12,34".to_owned())
 }
@@ -110,6 +116,14 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Options::command().debug_assert();
+    }
+
+    #[test]
+    fn an_exposure_is_a_number_of_stops() {
+        assert_eq!(stops("-1.5"), Ok(-1.5));
+        for text in ["nan", "inf", "-inf", "1e9", "bright"] {
+            assert!(stops(text).is_err(), "{text}");
+        }
     }
 
     #[test]

@@ -1,15 +1,20 @@
 //! Renders a picture with many threads.
 
-use glam::UVec2;
+use glam::{UVec2, Vec3};
 use protocol::ElementOutcome;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use super::canvas::{Canvas, passes};
 use super::error::{RenderError, SubmissionPanic};
 use super::progress::Progress;
 use crate::attempt::attempt;
 use crate::integrator::RenderStats;
 use crate::probe::STACK_BYTES;
+
+/// The name of the threads, which the message of a stack overflow contains.
+const THREAD_NAME: &str = "a ray, in Camera::sample_ray, Bvh::hit, BBox::hit, Triangle::hit or \
+                           Sphere::hit";
 
 /// The size of a film, and the threads that render it.
 pub(super) struct RenderPool {
@@ -23,13 +28,9 @@ impl RenderPool {
         let threads = ThreadPoolBuilder::new()
             .num_threads(threads.map_or(0, usize::from))
             .stack_size(STACK_BYTES)
+            .thread_name(|_| THREAD_NAME.to_owned())
             .build()?;
         Ok(RenderPool { size, threads })
-    }
-
-    /// Runs `code` on one of the threads, whose stacks have the same size as in grading.
-    pub(super) fn run<T: Send>(&self, code: impl FnOnce() -> T + Send) -> T {
-        self.threads.install(code)
     }
 
     /// Calls `pixel` for each pixel and returns the results, row by row from the bottom. Threads
@@ -42,12 +43,8 @@ impl RenderPool {
     ) -> Result<(Vec<T>, RenderStats), RenderError> {
         let row = |y| {
             let mut stats = RenderStats::default();
-            let mut one = |x| {
-                let position = UVec2::new(x, y);
-                value_or_error(attempt(|| pixel(position, &mut stats)), Some(position))
-            };
-            let row: Vec<T> = (0..self.size.x).map(&mut one).collect::<Result<_, _>>()?;
-            progress.finish_row(stats);
+            let row = self.row(y, |position, _| pixel(position, &mut stats))?;
+            progress.finish_row(stats, 1);
             Ok((row, stats))
         };
         let rows = || (0..self.size.y).into_par_iter().map(row).collect();
@@ -57,6 +54,48 @@ impl RenderPool {
             .into_iter()
             .fold(RenderStats::default(), RenderStats::merge);
         Ok((rows.into_iter().flatten().collect(), stats))
+    }
+
+    /// Adds samples to each pixel of the canvas: first one, and then as many again as there are. A
+    /// pixel's samples are added in order, so the picture does not depend on the passes.
+    pub(super) fn accumulate(
+        &self,
+        progress: &Progress,
+        canvas: &Canvas,
+        samples: u32,
+        sample: impl Fn(UVec2, u32, &mut RenderStats) -> Vec3 + Sync,
+    ) -> Result<(), RenderError> {
+        for pass in passes(samples) {
+            let add = |y| {
+                let mut row = canvas.row(y);
+                let mut stats = RenderStats::default();
+                row.sums = self.row(y, |position, x| {
+                    let add = |sum, number| sum + sample(position, number, &mut stats);
+                    pass.clone().fold(row.sums[x], add)
+                })?;
+                row.samples = pass.end;
+                row.stats = row.stats.merge(stats);
+                canvas.set_row(y, row);
+                progress.finish_row(stats, pass.len() as u64);
+                Ok::<(), RenderError>(())
+            };
+            self.threads
+                .install(|| (0..self.size.y).into_par_iter().try_for_each(add))?;
+        }
+        Ok(())
+    }
+
+    /// Calls `pixel` for each pixel of a row, with its position and its index in the row.
+    fn row<T>(
+        &self,
+        y: u32,
+        mut pixel: impl FnMut(UVec2, usize) -> T,
+    ) -> Result<Vec<T>, RenderError> {
+        let mut one = |x: u32| {
+            let position = UVec2::new(x, y);
+            value_or_error(attempt(|| pixel(position, x as usize)), Some(position))
+        };
+        (0..self.size.x).map(&mut one).collect()
     }
 }
 

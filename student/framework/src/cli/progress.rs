@@ -18,21 +18,22 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    pub(super) fn new(rows: u32) -> Self {
+    /// Creates a bar for this many rows of pixels, each counted once for each sample.
+    pub(super) fn new(rows: u64) -> Self {
         let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {eta} left  {msg}")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         Progress {
-            bar: ProgressBar::new(u64::from(rows)).with_style(style),
+            bar: ProgressBar::new(rows).with_style(style),
             rays: AtomicU64::new(0),
             started: Instant::now(),
         }
     }
 
-    /// Records that one more row is finished.
-    pub(super) fn finish_row(&self, stats: RenderStats) {
+    /// Records that one more row has got this many samples.
+    pub(super) fn finish_row(&self, stats: RenderStats, samples: u64) {
         let rays = self.rays.fetch_add(stats.rays, Ordering::Relaxed) + stats.rays;
         self.bar.set_message(rate(rays, self.started.elapsed()));
-        self.bar.inc(1);
+        self.bar.inc(samples);
     }
 }
 

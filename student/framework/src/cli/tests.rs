@@ -8,7 +8,7 @@ use glam::{UVec2, Vec2, Vec3};
 use protocol::{Interval, PinholeCamera, Ray, Shape, TreeNode};
 
 use super::options::Options;
-use super::run;
+use super::{Events, run};
 use crate::attempt::keep_panics_quiet;
 use crate::sphere_submission::CORRECT;
 use crate::submission::{Aggregate, CameraRays, Hierarchy, Submission};
@@ -50,7 +50,7 @@ fn render(
     let mut arguments = vec!["render".to_owned(), path("spheres.json"), path(out)];
     arguments.extend(more.split_whitespace().map(str::to_owned));
     let options = Options::try_parse_from(arguments).map_err(|error| error.to_string())?;
-    let result = run(submission, &options).map_err(|error| error.to_string());
+    let result = run(submission, &options, &Events::new()).map_err(|error| error.to_string());
     let bytes = result.and_then(|()| fs::read(path(out)).map_err(|error| error.to_string()));
     // If this fails, the system removes the temporary folder later.
     let _ = fs::remove_dir_all(&folder);
@@ -175,16 +175,63 @@ fn reports_the_pixel_of_a_panic_and_the_command_to_rerun_it() {
         "{message}"
     );
     assert!(
-        message.contains("\n  at pixel [0, 0]; rerun with: cargo render "),
+        message.contains("\n  at pixel [6, 4]; rerun with: cargo render "),
         "{message}"
     );
-    assert!(message.ends_with("--pixel 0,0"), "{message}");
+    assert!(message.ends_with("--pixel 6,4"), "{message}");
+}
+
+/// Recurses until the stack overflows.
+fn recurse(depth: u64) -> u64 {
+    let frame = std::hint::black_box([depth; 64]);
+    if frame[1] == u64::MAX {
+        return 0;
+    }
+    recurse(depth + 1) + frame[0]
+}
+
+/// A stack overflow ends the process, so the test starts itself once more as the process that ends.
+#[test]
+fn a_stack_overflow_names_the_task() {
+    const IS_CHILD: &str = "FRAMEWORK_TEST_OVERFLOWS";
+    if std::env::var_os(IS_CHILD).is_some() {
+        let endless = Unfinished {
+            camera: || Ray::new(Vec3::ZERO, Vec3::splat(recurse(0) as f32)),
+        };
+        let ended = render(&endless, "overflow", "a.png", "");
+        panic!("the stack does not overflow: {ended:?}");
+    }
+    let child = std::process::Command::new(std::env::current_exe().expect("tests have a path"))
+        .args([
+            "--exact",
+            "cli::tests::a_stack_overflow_names_the_task",
+            "--nocapture",
+        ])
+        .env(IS_CHILD, "1")
+        .output()
+        .expect("the test can be started");
+    let message = String::from_utf8_lossy(&child.stderr);
+    assert!(!child.status.success());
+    assert!(
+        message.contains("thread 'task 1, camera'") && message.contains("overflowed its stack"),
+        "{message}"
+    );
+}
+
+#[test]
+fn an_exr_file_holds_the_distances_themselves() {
+    let bytes = render(&CORRECT, "raw", "a.exr", "--view depth --size 3x3");
+    let picture = image::load_from_memory(&bytes.expect("rendering succeeds"));
+    let picture = picture.expect("the file is an EXR").to_rgb32f();
+    // The spheres at the sides are three away, with radius one.
+    let distance = picture.get_pixel(0, 1).0[0];
+    assert!((2.0..3.5).contains(&distance), "{distance}");
 }
 
 #[test]
 fn reports_the_name_of_a_missing_scene() {
     let options = Options::try_parse_from(["render", "no-such-scene"]).expect("the options parse");
-    let message = run(&CORRECT, &options)
+    let message = run(&CORRECT, &options, &Events::new())
         .expect_err("the scene does not exist")
         .to_string();
     let expected = "cannot find the scene no-such-scene";

@@ -67,6 +67,7 @@ struct CameraEntry {
     #[serde(deserialize_with = "number::positive")]
     vertical_fov: f32,
     /// The number of pixels, across and up.
+    #[serde(deserialize_with = "number::film")]
     film: [u32; 2],
     /// The width of the sensor divided by its height; default: the aspect ratio of the film.
     #[serde(default, deserialize_with = "number::optional")]

@@ -41,7 +41,13 @@ pub enum SceneErrorKind {
     /// The text is empty.
     #[error("the scene is empty: it needs at least a camera, materials and shapes")]
     Empty,
-    /// The text is not a valid scene file. Holds the parser's message.
+    /// The file is a mesh.
+    #[error(
+        "this is a mesh, not a scene. A scene can show it, with this entry in its `shapes`: \
+         {{ \"mesh\": {{ \"file\": {0:?}, \"material\": \"…\" }} }}; see scenes/README.md"
+    )]
+    MeshAsScene(String),
+    /// The text is not a valid scene file. Holds the message.
     #[error("{0}")]
     Syntax(String),
     /// A shape uses a material that the scene does not define.
@@ -65,6 +71,17 @@ pub enum SceneErrorKind {
     /// An OBJ file is invalid. Holds the message.
     #[error("{0}")]
     Obj(String),
+    /// A coordinate of the mesh is too large after its transformation.
+    #[error(
+        "the mesh has a coordinate beyond 1e9 after `scale`, `rotate` and `translate`: use \
+         smaller numbers"
+    )]
+    MeshTooLarge,
+    /// No triangle of the mesh has an area.
+    #[error(
+        "no triangle of the mesh has an area, so no ray can hit it: use another mesh or `scale`"
+    )]
+    MeshWithoutArea,
     /// The subdivided mesh would be too large.
     #[error(
         "with `subdivide` {levels} the mesh has {triangles} triangles, and the limit is {limit}: \
@@ -111,6 +128,14 @@ impl TextPosition {
         }
     }
 
+    /// Creates the position of the character at an offset in bytes.
+    pub(super) fn at_offset(text: &str, offset: usize) -> Self {
+        let before = &text[..offset];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let line = before.matches('\n').count() + 1;
+        TextPosition::new(text, line, offset - line_start + 1)
+    }
+
     /// Finds the first position at which `key` has the value `value`.
     pub(super) fn of_value(text: &str, key: &str, value: &str) -> Option<Self> {
         let (key, value) = (format!("{key:?}"), format!("{value:?}"));
@@ -121,19 +146,40 @@ impl TextPosition {
         let (start, _) = text
             .match_indices(&value)
             .find(|(start, _)| follows_key(*start))?;
-        let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
-        let line = text[..start].matches('\n').count() + 1;
-        Some(TextPosition::new(text, line, start - line_start + 1))
+        Some(TextPosition::at_offset(text, start))
     }
 }
 
-/// Reads a text file.
+/// Reads a text file, without the byte order mark that some editors put at its start.
 #[cfg(feature = "cli")]
 pub(super) fn read_text(path: &Path) -> Result<String, SceneError> {
     let failed = |kind| SceneError::new(None, kind).in_file(path);
     let bytes = std::fs::read(path).map_err(|error| failed(SceneErrorKind::Unreadable(error)))?;
-    String::from_utf8(bytes)
-        .map_err(|error| failed(SceneErrorKind::NotUtf8(error.utf8_error().valid_up_to())))
+    if let Some(text) = utf_16(&bytes) {
+        return Ok(text);
+    }
+    let text = String::from_utf8(bytes)
+        .map_err(|error| failed(SceneErrorKind::NotUtf8(error.utf8_error().valid_up_to())))?;
+    Ok(match text.strip_prefix('\u{feff}') {
+        Some(text) => text.to_owned(),
+        None => text,
+    })
+}
+
+/// Decodes a text that begins with a byte order mark of UTF-16, as PowerShell writes.
+#[cfg(feature = "cli")]
+fn utf_16(bytes: &[u8]) -> Option<String> {
+    let (pairs, []) = bytes.as_chunks::<2>() else {
+        return None;
+    };
+    let (mark, pairs) = pairs.split_first()?;
+    let decode: fn([u8; 2]) -> u16 = match mark {
+        [0xff, 0xfe] => u16::from_le_bytes,
+        [0xfe, 0xff] => u16::from_be_bytes,
+        _ => return None,
+    };
+    let units: Vec<u16> = pairs.iter().copied().map(decode).collect();
+    String::from_utf16(&units).ok()
 }
 
 impl fmt::Display for SceneError {

@@ -140,6 +140,52 @@ fn reports_the_name_of_an_unreadable_file() {
 }
 
 #[test]
+fn reads_files_with_a_byte_order_mark() {
+    let folder = Folder::new("marks");
+    folder.write("a.obj", format!("\u{feff}{SQUARE}"));
+    let text = scene_with("");
+    let little: Vec<u8> = format!("\u{feff}{text}")
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes)
+        .collect();
+    let big: Vec<u8> = format!("\u{feff}{text}")
+        .encode_utf16()
+        .flat_map(u16::to_be_bytes)
+        .collect();
+    for bytes in [format!("\u{feff}{text}").into_bytes(), little, big] {
+        let scene = Scene::load(&folder.write("s.json", bytes)).expect("the scene is valid");
+        assert_eq!(scene.shapes.len(), 2);
+    }
+}
+
+#[test]
+fn a_mesh_is_not_a_scene() {
+    let folder = Folder::new("mesh-as-scene");
+    let message = folder.problem(&folder.write("a.obj", SQUARE));
+    assert!(
+        message.starts_with("a.obj: this is a mesh, not a scene") && message.contains("\"a.obj\""),
+        "{message}"
+    );
+}
+
+#[test]
+fn rejects_a_mesh_that_no_ray_can_hit() {
+    let folder = Folder::new("no-area");
+    folder.write("a.obj", SQUARE);
+    let message = folder.problem(&folder.write("s.json", scene_with(r#", "scale": 1e-30"#)));
+    assert!(
+        message.starts_with("s.json:5:25: no triangle of the mesh has an area"),
+        "{message}"
+    );
+    folder.write("a.obj", SQUARE.replace('1', "1e5").replace("f 1e5", "f 1"));
+    let message = folder.problem(&folder.write("s.json", scene_with(r#", "scale": 1e6"#)));
+    assert!(
+        message.starts_with("s.json:5:25: the mesh has a coordinate beyond 1e9"),
+        "{message}"
+    );
+}
+
+#[test]
 fn every_scene_in_the_scenes_folder_loads() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     // A bundle of this repository may have no scenes.

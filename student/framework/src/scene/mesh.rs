@@ -3,7 +3,9 @@
 use glam::{Mat3, Vec2, Vec3};
 use protocol::{Shape, Vertex};
 
+use super::error::SceneErrorKind;
 use super::file::MeshEntry;
+use super::number::MAX_COORDINATE;
 use crate::math::sin_cos;
 
 /// An indexed triangle mesh. Triangles share positions, which subdivision uses to find neighbours.
@@ -28,10 +30,18 @@ pub(super) struct Face {
 impl Mesh {
     /// Returns the mesh's triangles, transformed as `entry` specifies. Triangles without area are
     /// left out, because they have no normal and no ray can hit them.
-    pub(super) fn shapes(&self, entry: &MeshEntry, material: u32) -> Vec<Shape> {
+    pub(super) fn shapes(
+        &self,
+        entry: &MeshEntry,
+        material: u32,
+    ) -> Result<Vec<Shape>, SceneErrorKind> {
         let rotation = rotation(entry.rotate);
         let transform = |p: Vec3| rotation * (p * entry.scale) + entry.translate;
         let positions: Vec<Vec3> = self.positions.iter().copied().map(transform).collect();
+        let is_in_range = |p: &Vec3| p.abs().max_element() <= MAX_COORDINATE;
+        if !positions.iter().all(is_in_range) {
+            return Err(SceneErrorKind::MeshTooLarge);
+        }
         let shape = |face: &Face| {
             let corners = face.corners.map(|corner| positions[corner]);
             let flat = cross(corners).try_normalize()?;
@@ -45,7 +55,11 @@ impl Mesh {
                 material,
             })
         };
-        self.faces.iter().filter_map(shape).collect()
+        let shapes: Vec<Shape> = self.faces.iter().filter_map(shape).collect();
+        if shapes.is_empty() {
+            return Err(SceneErrorKind::MeshWithoutArea);
+        }
+        Ok(shapes)
     }
 
     /// Returns the same mesh with a normal at each position: the mean of the normals of the faces

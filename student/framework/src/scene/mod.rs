@@ -6,6 +6,8 @@
 mod camera;
 mod error;
 mod file;
+mod json_error;
+mod json_path;
 mod material;
 mod mesh;
 mod number;
@@ -63,7 +65,8 @@ impl Scene {
     /// # Errors
     /// Fails if the text is not a valid scene, or if the scene uses a mesh.
     pub fn from_text(text: &str) -> Result<Scene, SceneError> {
-        read::scene(text, &mut |_| Err(SceneErrorKind::MeshWithoutFolder))
+        let parsed = read::scene(text, &mut |_| Err(SceneErrorKind::MeshWithoutFolder));
+        parsed.map(|(scene, _)| scene)
     }
 
     /// Loads a scene from a file. Paths of meshes are relative to the file's folder.
@@ -73,6 +76,17 @@ impl Scene {
     /// with the name of the file.
     #[cfg(feature = "cli")]
     pub fn load(path: &Path) -> Result<Scene, SceneError> {
+        Scene::load_with_names(path).map(|(scene, _)| scene)
+    }
+
+    /// Loads a scene like [`Scene::load`], with the names of its materials.
+    #[cfg(feature = "cli")]
+    pub(crate) fn load_with_names(path: &Path) -> Result<(Scene, Vec<String>), SceneError> {
+        let is_mesh = path.extension().is_some_and(|ending| ending == "obj");
+        if let (true, Some(name)) = (is_mesh, path.file_name()) {
+            let kind = SceneErrorKind::MeshAsScene(name.to_string_lossy().into_owned());
+            return Err(SceneError::new(None, kind).in_file(path));
+        }
         let text = error::read_text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         read::scene(&text, &mut |file| obj::load(&folder.join(file)))

@@ -4,6 +4,7 @@ use protocol::Shape;
 
 use super::error::{SceneError, SceneErrorKind, TextPosition};
 use super::file::{MeshEntry, SceneFile, ShapeEntry};
+use super::json_error::scene_error;
 use super::mesh::Mesh;
 use super::subdivide::subdivide;
 use super::{MAX_LEAF_SIZE, Scene};
@@ -11,15 +12,15 @@ use super::{MAX_LEAF_SIZE, Scene};
 /// The maximum number of triangles in one mesh. A mesh of this size takes about 2 GB of memory.
 const MAX_TRIANGLES: u64 = 1 << 24;
 
-/// Parses the scene in `text`. `load` loads a mesh from the path in the scene file.
+/// Parses the scene in `text`, and returns it with the names of its materials. `load` loads a mesh from the path in the scene file.
 pub(super) fn scene(
     text: &str,
     load: &mut dyn FnMut(&str) -> Result<Mesh, SceneErrorKind>,
-) -> Result<Scene, SceneError> {
+) -> Result<(Scene, Vec<String>), SceneError> {
     if text.trim().is_empty() {
         return Err(SceneError::new(None, SceneErrorKind::Empty));
     }
-    let file: SceneFile = serde_json::from_str(text).map_err(|error| syntax_error(text, &error))?;
+    let file = parse(text)?;
     let (names, materials): (Vec<String>, Vec<_>) = file.materials.0.into_iter().unzip();
     let index_of = |name: &str| {
         let index = names.iter().position(|known| known == name);
@@ -51,18 +52,31 @@ pub(super) fn scene(
                 let failed =
                     |kind| SceneError::new(TextPosition::of_value(text, "file", &entry.file), kind);
                 let mesh = load(&entry.file).and_then(|mesh| subdivide_mesh(mesh, entry));
-                shapes.extend(mesh.map_err(failed)?.shapes(entry, material));
+                let mesh = mesh.and_then(|mesh| mesh.shapes(entry, material));
+                shapes.extend(mesh.map_err(failed)?);
             }
         }
     }
-    Ok(Scene {
+    let scene = Scene {
         about: file.about,
         camera: file.camera,
         environment: file.environment,
         materials,
         shapes,
         max_leaf_size: MAX_LEAF_SIZE,
-    })
+    };
+    Ok((scene, names))
+}
+
+fn parse(text: &str) -> Result<SceneFile, SceneError> {
+    let mut parser = serde_json::Deserializer::from_str(text);
+    let file = serde_path_to_error::deserialize(&mut parser)
+        .map_err(|error| scene_error(text, error.path(), error.inner()))?;
+    let whole_text = serde_path_to_error::Track::new().path();
+    parser
+        .end()
+        .map_err(|error| scene_error(text, &whole_text, &error))?;
+    Ok(file)
 }
 
 /// Subdivides a mesh as many times as `entry` specifies.
@@ -82,32 +96,4 @@ fn subdivide_mesh(mut mesh: Mesh, entry: &MeshEntry) -> Result<Mesh, SceneErrorK
         mesh = subdivide(&mesh);
     }
     Ok(mesh.with_smooth_normals())
-}
-
-/// Converts an error of the parser, separating the position from the message.
-fn syntax_error(text: &str, error: &serde_json::Error) -> SceneError {
-    let (line, column) = (error.line(), error.column());
-    let message = error.to_string();
-    let suffix = format!(" at line {line} column {column}");
-    let message = message.strip_suffix(&suffix).unwrap_or(&message);
-    // Line 0 means that the parser does not know the position.
-    let position = (line > 0).then(|| TextPosition::new(text, line, column));
-    SceneError::new(position, SceneErrorKind::Syntax(in_scene_terms(message)))
-}
-
-/// Replaces serde's terms in a message: the fields of a struct are the keys of a scene file, and
-/// the variants of an enum are kinds of shapes or materials.
-fn in_scene_terms(message: &str) -> String {
-    const TERMS: [(&str, &str); 4] = [
-        ("unknown field ", "unknown key "),
-        ("missing field ", "missing key "),
-        ("duplicate field ", "duplicate key "),
-        ("unknown variant ", "unknown kind "),
-    ];
-    for (term, replacement) in TERMS {
-        if let Some(rest) = message.strip_prefix(term) {
-            return format!("{replacement}{rest}");
-        }
-    }
-    message.to_owned()
 }

@@ -1,0 +1,97 @@
+//! The version of the bundle that students got: the build metadata in the versions of its packages.
+//! In this repository, there is none.
+
+use std::fs;
+
+use crate::workspace::Workspace;
+
+/// The manifests of the given code that the grader compiles with a submission.
+const MANIFESTS: [(&str, &str); 3] = [
+    ("student/framework", "student/framework/Cargo.toml"),
+    ("student/protocol", "student/protocol/Cargo.toml"),
+    ("student", "student/Cargo.toml"),
+];
+
+/// Returns the version of the bundle that this program is from.
+pub fn bundle_version() -> Option<&'static str> {
+    metadata(env!("CARGO_PKG_VERSION"))
+}
+
+/// Returns a note if folders of the workspace are from another version than this program.
+pub fn mixed_versions(workspace: &Workspace) -> Option<String> {
+    let version_of = |(folder, manifest): (&'static str, &str)| {
+        let text = fs::read_to_string(workspace.root().join(manifest)).ok()?;
+        Some((folder, manifest_version(&text)?))
+    };
+    let versions: Vec<(&str, Option<String>)> =
+        MANIFESTS.into_iter().filter_map(version_of).collect();
+    mixed(bundle_version(), &versions)
+}
+
+fn mixed(grader: Option<&str>, folders: &[(&str, Option<String>)]) -> Option<String> {
+    let name =
+        |version: Option<&str>| version.map_or("without a version".to_owned(), str::to_owned);
+    let others: Vec<String> = folders
+        .iter()
+        .filter(|(_, version)| version.as_deref() != grader)
+        .map(|(folder, version)| format!("{folder} is {}", name(version.as_deref())))
+        .collect();
+    (!others.is_empty()).then(|| {
+        format!(
+            "this folder has a mix of versions: the grader is {}, and {}. Unpack the newest archive \
+             again, over all given files",
+            name(grader),
+            others.join(", ")
+        )
+    })
+}
+
+/// Returns the bundle's version in the version of a package, or `None` if the package has none. The
+/// outer `None` means that the manifest has no version of its own.
+fn manifest_version(text: &str) -> Option<Option<String>> {
+    let manifest: toml::Table = text.parse().ok()?;
+    let version = manifest.get("package")?.get("version")?.as_str()?;
+    Some(metadata(version).map(str::to_owned))
+}
+
+fn metadata(version: &str) -> Option<&str> {
+    version.split_once('+').map(|(_, metadata)| metadata)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_version_is_the_build_metadata_of_a_package() {
+        let of = |version: &str| manifest_version(&format!("[package]\nversion = \"{version}\""));
+        assert_eq!(of("0.1.0+3f9a"), Some(Some("3f9a".to_owned())));
+        assert_eq!(of("0.1.0"), Some(None));
+        assert_eq!(
+            manifest_version("[package]\nversion.workspace = true"),
+            None
+        );
+    }
+
+    #[test]
+    fn a_mix_of_versions_is_named_in_a_line() {
+        let folder = |version: &str| Some(version.to_owned());
+        let same = [
+            ("student/framework", folder("3f9a")),
+            ("student", folder("3f9a")),
+        ];
+        assert_eq!(mixed(Some("3f9a"), &same), None);
+        let note = mixed(Some("77aa"), &same[..1]).expect("the versions differ");
+        assert_eq!(
+            note,
+            "this folder has a mix of versions: the grader is 77aa, and student/framework is 3f9a. \
+             Unpack the newest archive again, over all given files"
+        );
+    }
+
+    #[test]
+    fn this_repository_has_no_mix() {
+        let workspace = Workspace::find().unwrap();
+        assert_eq!(mixed_versions(&workspace), None);
+    }
+}

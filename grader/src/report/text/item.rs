@@ -1,0 +1,148 @@
+//! A failing item in the terminal report.
+
+use std::fmt::{self, Write};
+
+use judging::sanitize::{sanitize, sanitize_line};
+use judging::section::Section;
+
+use super::{FAINT, HintDetail, STRONG, WIDTH, points_style};
+use crate::score::{Hint, ItemScore, TaskScore};
+
+/// Writes an item and the ids of other items with the same hint.
+pub(super) fn write_item(
+    out: &mut String,
+    item: &ItemScore,
+    hints: HintDetail,
+    same_hint: &[&str],
+) -> fmt::Result {
+    let style = points_style(item.points, item.max_points);
+    let verdict = item.verdict.label();
+    let gap = (WIDTH - 2).saturating_sub(item.id.chars().count() + verdict.chars().count());
+    writeln!(
+        out,
+        "\n  {STRONG}{}{STRONG:#}{:gap$}{style}{verdict}{style:#}",
+        item.id, ""
+    )?;
+    for line in wrap(&item.title, WIDTH - 4) {
+        writeln!(out, "    {line}")?;
+    }
+    let hint = hint_text(&item.hints, hints, same_hint);
+    let section = item.section.as_ref().map(Section::location);
+    let rows = [
+        ("what", Some(&item.message)),
+        (
+            "asked",
+            item.evidence.as_ref().map(|evidence| &evidence.asked),
+        ),
+        ("got", item.evidence.as_ref().map(|evidence| &evidence.got)),
+        (
+            "wanted",
+            item.evidence.as_ref().map(|evidence| &evidence.wanted),
+        ),
+        ("look", item.look.as_ref()),
+        ("hint", hint.as_ref()),
+        ("read", section.as_ref()),
+    ];
+    for (label, text) in rows {
+        if let Some(text) = text.filter(|text| !text.is_empty()) {
+            write_row(out, label, text)?;
+        }
+    }
+    Ok(())
+}
+
+/// Joins the hints of an item, and names the other items that they explain. Returns `None` if there
+/// are none.
+fn hint_text(hints: &[Hint], detail: HintDetail, same_hint: &[&str]) -> Option<String> {
+    let text = |hint: &Hint| match detail {
+        HintDetail::Nudge => hint.nudge.clone(),
+        HintDetail::Full => hint.hint.clone(),
+    };
+    let all: Vec<String> = hints.iter().map(text).collect();
+    let more = match detail {
+        HintDetail::Nudge => " (run with --hints for more)",
+        HintDetail::Full => "",
+    };
+    let explained = match same_hint.len() {
+        0 => String::new(),
+        1 => format!("\nThe same mistake explains 1 more item: {}", same_hint[0]),
+        count => format!(
+            "\nThe same mistake explains {count} more items: {}",
+            same_hint.join(", ")
+        ),
+    };
+    (!all.is_empty()).then(|| format!("{}{more}{explained}", all.join(" Or: ")))
+}
+
+/// Writes a label and its text, wrapped to the width, with later lines indented.
+fn write_row(out: &mut String, label: &str, text: &str) -> fmt::Result {
+    const INDENT: usize = 12;
+    let mut lines = wrap(&sanitize(text, usize::MAX), WIDTH - INDENT).into_iter();
+    let first = lines.next().unwrap_or_default();
+    writeln!(out, "    {FAINT}{label:<7}{FAINT:#} {first}")?;
+    lines.try_for_each(|line| writeln!(out, "{:INDENT$}{line}", ""))
+}
+
+fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines = Vec::new();
+    for paragraph in text.lines() {
+        let mut line = String::new();
+        for word in paragraph.split_whitespace() {
+            let fits = line.chars().count() + 1 + word.chars().count() <= width;
+            if !line.is_empty() && !fits {
+                lines.push(std::mem::take(&mut line));
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line.push_str(word);
+        }
+        lines.push(line);
+    }
+    lines
+}
+
+/// Writes a command about the item.
+pub(super) fn write_command(out: &mut String, label: &str, command: &str) -> fmt::Result {
+    let command = sanitize_line(command, usize::MAX);
+    writeln!(out, "    {FAINT}{label:<7} {command}{FAINT:#}")
+}
+
+/// Writes the number of failing items that are not shown, and `how` to see them.
+pub(super) fn write_hidden_count(out: &mut String, count: usize, how: &str) -> fmt::Result {
+    let items = match count {
+        0 => return Ok(()),
+        1 => "item",
+        _ => "items",
+    };
+    let how = sanitize_line(how, usize::MAX);
+    writeln!(
+        out,
+        "    {FAINT}and {count} more {items} of this task{how}{FAINT:#}"
+    )
+}
+
+pub(super) fn write_printed(out: &mut String, task: &TaskScore, printed: &str) -> fmt::Result {
+    const MAX_PRINTED_LINES: usize = 5;
+    writeln!(
+        out,
+        "\n  {FAINT}printed during \"{}\":{FAINT:#}",
+        task.title
+    )?;
+    for line in printed.lines().take(MAX_PRINTED_LINES) {
+        let line = sanitize_line(line, WIDTH - 5);
+        writeln!(out, "  {FAINT}│{FAINT:#} {line}")?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::wrap;
+
+    #[test]
+    fn wraps_between_words() {
+        assert_eq!(wrap("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrap("a\nlonger-than-that", 4), ["a", "longer-than-that"]);
+    }
+}

@@ -1,0 +1,248 @@
+//! The terminal report, for students, 80 columns wide.
+
+mod item;
+mod short_table;
+
+use std::collections::BTreeSet;
+use std::fmt::{self, Write};
+
+use anstream::adapter::strip_str;
+use anstyle::{AnsiColor, Style};
+use judging::sanitize::{sanitize, sanitize_line};
+
+use crate::report::shared_hints::{explained_items, with_something_new};
+use crate::report::text::item::{write_command, write_hidden_count, write_item, write_printed};
+use crate::sandbox::Isolation;
+use crate::score::{ItemScore, Score, TaskScore, Verdict};
+use crate::task_selection::TaskSelection;
+
+pub use short_table::short_table;
+
+const WIDTH: usize = 80;
+const BAR_WIDTH: usize = 20;
+/// The maximum number of lines of a compiler error to show.
+const MAX_COMPILER_LINES: usize = 20;
+
+const STRONG: Style = Style::new().bold();
+const FAINT: Style = Style::new().dimmed();
+const GOOD: Style = AnsiColor::Green.on_default();
+const PART: Style = AnsiColor::Yellow.on_default();
+const BAD: Style = AnsiColor::Red.on_default();
+
+/// The level of detail of a hint about a recognised mistake.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HintDetail {
+    /// A question that points toward the mistake.
+    #[default]
+    Nudge,
+    /// A description of the mistake.
+    Full,
+}
+
+/// The results of an earlier version of the submission that a report still shows.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OldResults<'a> {
+    /// The ids of the items that have not been graded again.
+    pub items: Option<&'a BTreeSet<String>>,
+    /// Whether the submission has not been compiled again.
+    pub build: bool,
+}
+
+impl OldResults<'_> {
+    fn includes(&self, item: &ItemScore) -> bool {
+        self.items.is_some_and(|old| old.contains(&item.id))
+    }
+}
+
+/// A report in parts, which a small terminal arranges in another order.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ReportParts {
+    /// The name of the submission and its points. Empty if only some tasks are graded.
+    pub headline: String,
+    /// One line for each task.
+    pub table: String,
+    /// The compiler's errors and the failing items, each after an empty line.
+    pub details: String,
+}
+
+/// Renders the report on the selected tasks with ANSI colours, which the output stream strips if
+/// necessary.
+pub fn report(score: &Score, tasks: &TaskSelection, hints: HintDetail) -> String {
+    let parts = report_parts(score, tasks, hints, OldResults::default());
+    let ReportParts {
+        headline,
+        table,
+        details,
+    } = parts;
+    format!("\n{headline}{table}{details}\n")
+}
+
+/// Renders the parts of the report. Old results are grey.
+pub fn report_parts(
+    score: &Score,
+    tasks: &TaskSelection,
+    hints: HintDetail,
+    old: OldResults,
+) -> ReportParts {
+    let mut parts = ReportParts::default();
+    write_parts(&mut parts, score, tasks, hints, old).expect("writing to a string cannot fail");
+    parts
+}
+
+fn write_parts(
+    parts: &mut ReportParts,
+    score: &Score,
+    selection: &TaskSelection,
+    hints: HintDetail,
+    old: OldResults,
+) -> fmt::Result {
+    let shown = |task: &&TaskScore| selection.includes(task.id);
+    let tasks: Vec<&TaskScore> = score.tasks.iter().filter(shown).collect();
+
+    let is_old = |task: &TaskScore| task.items.iter().any(|item| old.includes(item));
+    if selection.is_all() {
+        write_headline(&mut parts.headline, score)?;
+        grey_if(tasks.iter().any(|task| is_old(task)), &mut parts.headline);
+    }
+    for task in &tasks {
+        let mut line = String::new();
+        write_task_line(&mut line, task)?;
+        grey_if(is_old(task), &mut line);
+        parts.table.push_str(&line);
+    }
+    let out = &mut parts.details;
+    // Single-line messages are omitted here, because the items of the task show them.
+    let compiler_messages = score
+        .build
+        .not_compiled
+        .iter()
+        .filter(|file| file.message.contains('\n'));
+    for file in compiler_messages {
+        write_compiler_message(out, &file.message)?;
+    }
+    grey_if(old.build, out);
+    for task in &tasks {
+        let mut text = String::new();
+        write_failing_items(&mut text, task, score, selection, hints)?;
+        grey_if(is_old(task), &mut text);
+        out.push_str(&text);
+    }
+    for note in &score.build.notes {
+        let note = sanitize_line(note, usize::MAX);
+        writeln!(out, "\n{FAINT}  note: {note}{FAINT:#}")?;
+    }
+    Ok(())
+}
+
+/// Writes the failing items of a task that are shown, and how many there are more.
+fn write_failing_items(
+    out: &mut String,
+    task: &TaskScore,
+    score: &Score,
+    selection: &TaskSelection,
+    hints: HintDetail,
+) -> fmt::Result {
+    let failing = task.items.iter();
+    let failing: Vec<&ItemScore> = failing
+        .filter(|item| item.points < item.max_points)
+        .collect();
+    // The first failing item of each task is enough to start with. A report on selected tasks also
+    // has the other items that have evidence, and tells more than the first.
+    let shown = if selection.is_all() {
+        failing.iter().take(1).copied().collect()
+    } else {
+        with_something_new(&failing)
+    };
+    let mut explained = 0;
+    for item in &shown {
+        let same_hint = explained_items(item, &failing);
+        explained += same_hint.len();
+        write_item(out, item, hints, &same_hint)?;
+        write_command(out, "again", &item.rerun_command(&score.rerun_command))?;
+        if let Some(view) = item.view_command(&score.rerun_command) {
+            write_command(out, "view", &view)?;
+        }
+    }
+    let others = failing.len() - shown.len() - explained;
+    let how = if selection.is_all() {
+        format!(": {}", score.rerun_command.task(task.id.id()))
+    } else {
+        String::new()
+    };
+    write_hidden_count(out, others, &how)?;
+    match &task.printed {
+        Some(printed) => write_printed(out, task, printed),
+        None => Ok(()),
+    }
+}
+
+/// Makes all lines of a text grey if they are old.
+fn grey_if(is_old: bool, text: &mut String) {
+    if is_old {
+        let lines = strip_str(text).to_string();
+        let lines = lines
+            .lines()
+            .map(|line| format!("{FAINT}{line}{FAINT:#}\n"));
+        *text = lines.collect();
+    }
+}
+
+fn write_headline(out: &mut String, score: &Score) -> fmt::Result {
+    let version = score.bundle.as_ref();
+    let version = version.map_or(String::new(), |version| format!(", version {version}"));
+    let title = format!("  {}, {} exam{version}", score.submission, score.exam.id);
+    let title = sanitize_line(&title, usize::MAX);
+    let points = format!("{} / {}", score.points, score.max_points);
+    let gap = WIDTH.saturating_sub(2 + title.chars().count() + points.len());
+    writeln!(out, "{STRONG}{title}{:gap$}{points}{STRONG:#}\n", "")?;
+    // Students who grade their own work need no isolation.
+    if score.isolation > Isolation::None {
+        writeln!(out, "{FAINT}  isolation: {}{FAINT:#}\n", score.isolation)?;
+    }
+    Ok(())
+}
+
+fn write_task_line(out: &mut String, task: &TaskScore) -> fmt::Result {
+    let style = points_style(task.points, task.max_points);
+    let filled = (BAR_WIDTH as u32 * task.points) / task.max_points.max(1);
+    let bar: String = (0..BAR_WIDTH as u32)
+        .map(|i| if i < filled { '█' } else { '·' })
+        .collect();
+    let (passed, all) = (passed_count(task), task.items.len());
+    writeln!(
+        out,
+        "  {:24} {style}{bar}{style:#}  {:>3} / {:<3} {FAINT}{passed:>5} of {all} passed{FAINT:#}",
+        task.title, task.points, task.max_points,
+    )
+}
+
+fn passed_count(task: &TaskScore) -> usize {
+    let passed = |item: &&ItemScore| item.verdict == Verdict::Pass;
+    task.items.iter().filter(passed).count()
+}
+
+fn points_style(points: u32, max_points: u32) -> Style {
+    match points {
+        0 => BAD,
+        _ if points == max_points => GOOD,
+        _ => PART,
+    }
+}
+
+fn write_compiler_message(out: &mut String, message: &str) -> fmt::Result {
+    writeln!(out)?;
+    let message = sanitize(message, usize::MAX);
+    // The errors of the file, with empty lines between them.
+    for (number, error) in message.split("\n\n").enumerate() {
+        if number > 0 {
+            writeln!(out, "  {BAD}│{BAD:#}")?;
+        }
+        for line in error.lines().take(MAX_COMPILER_LINES) {
+            writeln!(out, "  {BAD}│{BAD:#} {line}")?;
+        }
+        if error.lines().count() > MAX_COMPILER_LINES {
+            writeln!(out, "  {BAD}│{BAD:#} …")?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,27 @@
+//! The points of all tasks in one line, for small terminals.
+
+use crate::score::{Score, TaskScore};
+use crate::task_selection::TaskSelection;
+
+/// Returns the points of the selected tasks, and those of all tasks if all are selected.
+pub fn short_table(score: &Score, selection: &TaskSelection) -> String {
+    let tasks = score.tasks.iter();
+    let tasks = tasks
+        .filter(|task| selection.includes(task.id))
+        .map(of_task);
+    let tasks: Vec<String> = tasks.collect();
+    let tasks = tasks.join(", ");
+    if selection.is_all() {
+        format!("  {} / {}: {tasks}", score.points, score.max_points)
+    } else {
+        format!("  {tasks}")
+    }
+}
+
+fn of_task(task: &TaskScore) -> String {
+    if task.points == task.max_points {
+        format!("{} ✓", task.id)
+    } else {
+        format!("{} {}/{}", task.id, task.points, task.max_points)
+    }
+}

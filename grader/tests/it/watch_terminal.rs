@@ -1,0 +1,171 @@
+//! Tests of `--watch` in a terminal. `tmux` is the terminal: it says what is on the screen.
+
+use std::fs;
+use std::process::Command;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::harness::{Submission, workspace};
+
+/// A grader that watches a submission in a terminal. It ends when this is dropped.
+struct Terminal {
+    /// The name of this test's own tmux server.
+    server: String,
+}
+
+impl Terminal {
+    /// Starts the grader in a terminal with this many rows of 80 columns. Returns `None` without
+    /// tmux, which is required in CI.
+    fn watch(submission: &Submission, rows: u32, options: &str) -> Option<Self> {
+        if Command::new("tmux").arg("-V").output().is_err() {
+            assert!(std::env::var_os("CI").is_none(), "tmux is not installed");
+            eprintln!("SKIPPED: tmux is not installed");
+            return None;
+        }
+        let path = submission.path().display().to_string();
+        let terminal = Terminal {
+            server: format!(
+                "grader-{}-{rows}-{}",
+                std::process::id(),
+                path.replace('/', "-")
+            ),
+        };
+        let command = format!(
+            "'{}' --watch '{path}' --no-reference --out '{path}/out' {options}",
+            env!("CARGO_BIN_EXE_grader")
+        );
+        let started = terminal
+            .tmux()
+            .current_dir(workspace())
+            .args([
+                "-f",
+                "/dev/null",
+                "new-session",
+                "-d",
+                "-x",
+                "80",
+                "-y",
+                &rows.to_string(),
+            ])
+            .arg(command)
+            .status();
+        assert!(started.is_ok_and(|status| status.success()));
+        Some(terminal)
+    }
+
+    fn tmux(&self) -> Command {
+        let mut command = Command::new("tmux");
+        command.args(["-L", &self.server]);
+        // The tests look at colours.
+        command.env("TERM", "xterm-256color").env_remove("NO_COLOR");
+        command
+    }
+
+    /// Returns the screen, with escape sequences for colours.
+    fn screen(&self) -> String {
+        let captured = self.tmux().args(["capture-pane", "-p", "-e"]).output();
+        String::from_utf8(captured.unwrap().stdout).unwrap()
+    }
+
+    /// Waits until the screen has the text, and returns the screen.
+    fn wait_for(&self, text: &str) -> String {
+        let deadline = Instant::now() + Duration::from_secs(100);
+        loop {
+            let screen = self.screen();
+            if screen.contains(text) {
+                return screen;
+            }
+            assert!(Instant::now() < deadline, "no {text:?} in:\n{screen}");
+            thread::sleep(Duration::from_millis(10));
+        }
+    }
+
+    /// Waits until the grader is waiting, and returns the lines of the screen without colours.
+    fn lines_of_the_report(&self) -> Vec<String> {
+        let screen = self.wait_for("save a file");
+        let plain = anstream::adapter::strip_str(&screen).to_string();
+        plain
+            .lines()
+            .map(|line| line.trim_end().to_owned())
+            .collect()
+    }
+}
+
+impl Drop for Terminal {
+    fn drop(&mut self) {
+        let _ = self.tmux().arg("kill-server").output();
+    }
+}
+
+fn wrong_camera(name: &str) -> Submission {
+    Submission::reference(name).with_replaced("camera.rs", "- 0.5;", "- 0.4;")
+}
+
+#[test]
+fn twelve_lines_show_the_failing_item_and_a_short_table() {
+    let submission = wrong_camera("twelve");
+    let Some(terminal) = Terminal::watch(&submission, 12, "") else {
+        return;
+    };
+    let lines = terminal.lines_of_the_report();
+    assert!(lines[0].contains("twelve: graded in"), "{lines:#?}");
+    assert!(lines[1].contains("camera.corners"), "{lines:#?}");
+    let last: Vec<&String> = lines.iter().filter(|line| !line.is_empty()).collect();
+    let [.., rest, table] = &last[..] else {
+        panic!("{lines:#?}")
+    };
+    assert!(rest.contains("… the rest: cargo grade "), "{lines:#?}");
+    assert!(
+        rest.ends_with("--task camera") || rest.ends_with('…'),
+        "{lines:#?}"
+    );
+    assert!(
+        table.contains("83 / 100: camera 0/15, triangle ✓"),
+        "{lines:#?}"
+    );
+    assert!(!lines.concat().contains("TASK"), "{lines:#?}");
+}
+
+#[test]
+fn twenty_four_lines_show_a_failing_item_and_the_whole_table() {
+    let submission = wrong_camera("twenty-four");
+    let Some(terminal) = Terminal::watch(&submission, 24, "") else {
+        return;
+    };
+    let lines = terminal.lines_of_the_report().join("\n");
+    for text in [
+        "83 / 100",
+        "Task 3: boxes",
+        "camera.corners",
+        "more items of this task",
+    ] {
+        assert!(lines.contains(text), "{text}:\n{lines}");
+    }
+}
+
+#[test]
+fn a_save_interrupts_an_endless_loop_and_old_results_are_grey() {
+    let camera = fs::read_to_string(wrong_camera("x").path().join("camera.rs")).unwrap();
+    let submission = wrong_camera("hanging");
+    // With this limit, the loop takes five minutes.
+    let Some(terminal) = Terminal::watch(&submission, 24, "--cpu-limit 300") else {
+        return;
+    };
+    terminal.wait_for("save a file");
+    let right = camera.replace("- 0.4;", "- 0.5;");
+    let hanging = camera.replace(
+        "        let height =",
+        "        while self.film.x > 0 { std::hint::black_box(self); }\n        let height =",
+    );
+    assert_ne!(hanging, camera);
+    fs::write(submission.path().join("camera.rs"), hanging).unwrap();
+    let screen = terminal.wait_for("testing what failed before, 0 of");
+    assert!(screen.contains("grey: before this save"), "{screen}");
+    let grey = screen.find("\u{1b}[2m").expect("something is grey");
+    assert!(screen[grey..].contains("camera.corners"), "{screen}");
+    fs::write(submission.path().join("camera.rs"), right).unwrap();
+    let screen = terminal.wait_for("100 / 100");
+    assert!(!screen.contains("out of time"), "{screen}");
+    let last = terminal.lines_of_the_report().join("\n");
+    assert!(last.contains("cargo render cornell-box"), "{last}");
+}

@@ -1,0 +1,75 @@
+//! The version of a bundle: a hash of everything in it but the students' own files.
+//!
+//! It is part of the version of each package, as in `0.1.0+3f9a1c02e1d4`. So Cargo compiles everything
+//! again after an update, although the unpacked files are older than what it has compiled; and the
+//! grader knows which version of each part there is.
+
+use std::path::Path;
+
+use grader::files;
+use grader::handed_out::HandedOut;
+use judging::content_hash::ContentHash;
+use toml_edit::{DocumentMut, value};
+
+use crate::bundle::Bundle;
+use crate::bundle::manifests::{ManifestError, parse};
+
+/// The number of digits of a version.
+const DIGITS: usize = 12;
+
+/// Adds the version to all manifests of a bundle, which has no lock file yet.
+pub(super) fn add(
+    root: &Path,
+    handed_out: &HandedOut,
+    bundle: &mut Bundle,
+) -> Result<(), ManifestError> {
+    let mut hash = ContentHash::default();
+    // The dependencies are part of what students get.
+    hash.add(&files::read(root.join("Cargo.lock"))?);
+    let given = bundle.files.iter();
+    for (path, contents) in given.filter(|(path, _)| !is_students_own(path, handed_out)) {
+        hash.add(path.as_bytes());
+        hash.add(contents);
+    }
+    let hash = hash.hex();
+    let version = &hash[..DIGITS];
+    let paths: Vec<String> = bundle.files.keys().cloned().collect();
+    for path in paths.iter().filter(|path| path.ends_with("Cargo.toml")) {
+        let mut manifest = parse(path, bundle.text(path).unwrap_or_default())?;
+        for table in ["package", "workspace"] {
+            add_to(&mut manifest, table, version);
+        }
+        bundle.insert(path, manifest.to_string());
+    }
+    Ok(())
+}
+
+/// Returns the version in the text of the root's manifest.
+pub(super) fn find(manifest: &str) -> Option<String> {
+    let manifest: DocumentMut = manifest.parse().ok()?;
+    let version = manifest.get("workspace")?.get("package")?.get("version")?;
+    let (_, version) = version.as_str()?.split_once('+')?;
+    Some(version.to_owned())
+}
+
+/// Returns whether a file is one that students write.
+pub(super) fn is_students_own(path: &str, handed_out: &HandedOut) -> bool {
+    let name = path.strip_prefix("student/src/");
+    name.is_some_and(|name| handed_out.task_file(name).is_some())
+}
+
+/// Adds the version to the one in the table `package` or `workspace.package`, if there is one.
+fn add_to(manifest: &mut DocumentMut, table: &str, version: &str) {
+    let table = match table {
+        "workspace" => manifest
+            .get_mut(table)
+            .and_then(|item| item.get_mut("package")),
+        _ => manifest.get_mut(table),
+    };
+    let Some(item) = table.and_then(|table| table.get_mut("version")) else {
+        return;
+    };
+    if let Some(plain) = item.as_str() {
+        *item = value(format!("{plain}+{version}"));
+    }
+}

@@ -1,0 +1,119 @@
+//! The steps before the first pixel. Each says what it does, since a loop without end looks like a
+//! large scene; and runs on a thread with the name of the task, since the message of a stack
+//! overflow contains the name of its thread and nothing else.
+
+use std::io;
+use std::thread;
+use std::time::Duration;
+
+use glam::{Vec2, Vec3};
+use indicatif::{ProgressBar, ProgressStyle};
+use protocol::{Interval, Ray, Shape, Tree};
+
+use super::error::RenderError;
+use super::parallel::value_or_error;
+use crate::attempt::attempt;
+use crate::probe::STACK_BYTES;
+use crate::scene::Scene;
+use crate::submission::{Submission, World};
+
+/// Runs a step, and shows its name meanwhile if standard error is a terminal.
+pub(super) fn show<T>(step: &str, code: impl FnOnce() -> T) -> T {
+    let spinner = ProgressBar::new_spinner().with_message(format!("{step} …"));
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
+        spinner.set_style(style);
+    }
+    spinner.enable_steady_tick(Duration::from_millis(100));
+    let value = code();
+    spinner.finish_and_clear();
+    value
+}
+
+/// Runs a step of the submission's code on a thread of its own with the name of the task.
+fn run<T: Send>(
+    task: &str,
+    step: &str,
+    code: impl FnOnce() -> Result<T, RenderError> + Send,
+) -> Result<T, RenderError> {
+    show(&format!("{task}: {step}"), || {
+        thread::scope(|scope| {
+            let thread = thread::Builder::new()
+                .name(task.to_owned())
+                .stack_size(STACK_BYTES)
+                .spawn_scoped(scope, code)
+                .map_err(RenderError::Thread)?;
+            thread
+                .join()
+                .unwrap_or_else(|_| Err(RenderError::Thread(io::Error::other("a thread panicked"))))
+        })
+    })
+}
+
+/// Converts the scene to the submission's types, and builds the tree.
+pub(super) fn build(
+    submission: &dyn Submission,
+    scene: &Scene,
+) -> Result<(World, Tree), RenderError> {
+    let camera = run("task 1, camera", "Camera::new", || {
+        value_or_error(attempt(|| submission.camera(&scene.camera.pinhole)), None)
+    })?;
+    let count = scene.shapes.len();
+    let step = format!("Bvh::build over {count} primitives");
+    run("task 3, build", &step, || {
+        let build = || submission.build(&scene.shapes, scene.max_leaf_size);
+        let bvh = value_or_error(attempt(build), None)?;
+        let world = World::from_parts(camera, bvh);
+        let tree = value_or_error(attempt(|| world.tree()), None)?;
+        Ok((world, tree))
+    })
+}
+
+/// Calls each method that rendering will call, with one ray. An error is not reported here: not
+/// every picture calls every method.
+pub(super) fn try_methods(
+    submission: &dyn Submission,
+    scene: &Scene,
+    world: &World,
+    tree: &Tree,
+) -> Result<(), RenderError> {
+    let middle = scene.camera.pinhole.film / 2;
+    let camera_ray = run("task 1, camera", "Camera::sample_ray", || {
+        value_or_error(
+            attempt(|| world.camera_ray(middle, Vec2::splat(0.5))),
+            Some(middle),
+        )
+    })?;
+    let ray = &scene.camera.placement.to_world(&camera_ray);
+    let is_triangle = |shape: &&Shape| !matches!(shape, Shape::Sphere { .. });
+    let is_sphere = |shape: &&Shape| matches!(shape, Shape::Sphere { .. });
+    let triangle = scene.shapes.iter().find(is_triangle);
+    let sphere = scene.shapes.iter().find(is_sphere);
+    for (task, step, shape) in [
+        ("task 2, triangle", "Triangle::hit", triangle),
+        ("task 2, sphere", "Sphere::hit", sphere),
+    ] {
+        if let Some(shape) = shape {
+            try_method(task, step, || {
+                submission.primitive_list(&[*shape]).closest_hit(ray);
+            })?;
+        }
+    }
+    // Without a tree, no box is tested.
+    if !tree.nodes.is_empty() {
+        let toward = Ray::new(Vec3::splat(2.0), Vec3::NEG_ONE);
+        try_method("task 3, bbox", "BBox::hit", || {
+            let times = Interval::new(0.0, f32::INFINITY);
+            submission.intersect_box(Vec3::ZERO, Vec3::ONE, &toward, times);
+        })?;
+    }
+    try_method("task 3, traverse", "Bvh::hit", || {
+        world.hit(ray);
+    })
+}
+
+fn try_method(task: &str, step: &str, method: impl FnOnce() + Send) -> Result<(), RenderError> {
+    run(task, step, || {
+        attempt(method);
+        Ok(())
+    })
+}

@@ -1,8 +1,8 @@
 //! The threads that compile: one watches the files and builds the program that draws, the other
 //! builds the program that records, when it is wanted.
 
-use std::cell::RefCell;
 use std::fs;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
@@ -18,62 +18,70 @@ use crate::studio::Studio;
 
 /// The folders of a submission in which its files usually are.
 const USUAL_FOLDERS: [&str; 3] = ["", "src", "student/src"];
+/// The polling interval for the times and sizes of the files.
+const POLL_INTERVAL: Duration = Duration::from_millis(20);
 /// The time after which the files are read again even if none of them seems to have changed.
 const READ_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Reads the submission, but only if the times or sizes of its files have changed, or after a while.
-/// Reading takes a millisecond, which is too long for fifty times a second.
-struct Reader<'a> {
+/// Notices saves by the times and sizes of the files. Reading and comparing the texts takes half a
+/// millisecond, which is too long for fifty times a second while nothing happens.
+struct Stamps<'a> {
     programs: &'a Programs,
-    last: RefCell<Option<LastRead>>,
-}
-
-struct LastRead {
-    stamps: Vec<Option<(SystemTime, u64)>>,
+    /// The usual folders that have files of the submission.
+    folders: Vec<PathBuf>,
+    last: Vec<Option<(SystemTime, u64)>>,
     at: Instant,
-    submission: Option<Submission>,
 }
 
-impl Reader<'_> {
-    fn read(&self) -> Option<Submission> {
-        let stamps = self.stamps();
-        let mut last = self.last.borrow_mut();
-        let is_current =
-            |last: &&LastRead| last.stamps == stamps && last.at.elapsed() < READ_INTERVAL;
-        if let Some(last) = last.as_ref().filter(is_current) {
-            return last.submission.clone();
-        }
-        let submission = self.programs.collect().ok();
-        *last = Some(LastRead {
-            stamps,
+impl<'a> Stamps<'a> {
+    fn new(programs: &'a Programs) -> Self {
+        let mut stamps = Stamps {
+            programs,
+            folders: Vec::new(),
+            last: Vec::new(),
             at: Instant::now(),
-            submission: submission.clone(),
-        });
-        submission
+        };
+        stamps.renew();
+        stamps
     }
 
-    fn stamps(&self) -> Vec<Option<(SystemTime, u64)>> {
+    /// Notes the present times and sizes.
+    fn renew(&mut self) {
+        let all = USUAL_FOLDERS
+            .iter()
+            .map(|folder| self.programs.folder().join(folder));
+        let has_file = |folder: &PathBuf| RAYS.file_names().any(|file| folder.join(file).is_file());
+        self.folders = all.filter(has_file).collect();
+        self.last = self.read();
+        self.at = Instant::now();
+    }
+
+    /// Waits until a file seems to have changed, or for a while: a file can be replaced by one of
+    /// the same time and size, and an archive or another folder is not looked at.
+    fn wait(&mut self) {
+        while self.at.elapsed() < READ_INTERVAL && self.read() == self.last {
+            thread::sleep(POLL_INTERVAL);
+        }
+        self.renew();
+    }
+
+    fn read(&self) -> Vec<Option<(SystemTime, u64)>> {
         let stamp = |path| {
             let metadata = fs::metadata(path).ok()?;
             Some((metadata.modified().ok()?, metadata.len()))
         };
-        let folders = USUAL_FOLDERS
+        let files = self
+            .folders
             .iter()
-            .map(|folder| self.programs.folder().join(folder));
-        folders
-            .flat_map(|folder| RAYS.file_names().map(move |file| folder.join(file)))
-            .map(stamp)
-            .collect()
+            .flat_map(|folder| RAYS.file_names().map(|file| folder.join(file)));
+        files.map(stamp).collect()
     }
 }
 
 /// Builds the submission, and again after each save, until the process ends.
 fn watch(studio: &Studio, programs: &Programs, first: Submission) {
-    let reader = Reader {
-        programs,
-        last: RefCell::new(None),
-    };
-    let watcher = SaveWatcher::new(|| reader.read());
+    let watcher = SaveWatcher::new(|| programs.collect().ok());
+    let mut stamps = Stamps::new(programs);
     let mut submission = first;
     loop {
         studio.update(|session, _| session.compiling(submission.clone()));
@@ -83,6 +91,10 @@ fn watch(studio: &Studio, programs: &Programs, first: Submission) {
         };
         let state = state(programs.build_drawing(&submission, report));
         studio.update(|session, now| session.built(state, now));
+        // A file may have been saved since it was read.
+        while !watcher.has_changed_since(&submission) {
+            stamps.wait();
+        }
         submission = watcher.wait_for_change(&submission);
     }
 }

@@ -48,6 +48,7 @@ struct Snapshot {
 enum Values {
     Light(Layer<Vec3>),
     Hits(Layer<Option<Trace>>, ViewMode, Option<Arc<TreeModel>>, f32),
+    Clay(Layer<Option<Trace>>, Vec3),
     Tests(Layer<TestCounts>),
 }
 
@@ -89,6 +90,7 @@ fn snapshot(session: &Session) -> Snapshot {
     let values = match session.view {
         View::Shaded => Values::Light(session.light.clone()),
         View::Tests => Values::Tests(session.tests.clone()),
+        View::Clay => Values::Clay(session.hits.clone(), session.camera().placement.position),
         View::Normals => hits(session, ViewMode::Normals),
         View::Depth => hits(session, ViewMode::Depth),
         View::Uv => hits(session, ViewMode::Uv),
@@ -140,6 +142,10 @@ impl Snapshot {
                     Shown::Panicked => Some(PANIC_COLOUR),
                 })
             }
+            Values::Clay(layer, eye) => self.each(|pixel| match layer.shown(pixel)? {
+                Shown::Value(hit, _) => Some(Tone::Data.to_bytes(clay(hit?, *eye))),
+                Shown::Panicked => Some(PANIC_COLOUR),
+            }),
             Values::Tests(layer) => {
                 let total = |counts: TestCounts| counts.boxes.saturating_add(counts.primitives);
                 let most = layer
@@ -170,6 +176,19 @@ impl Snapshot {
             .flat_map(|pixel| colour(pixel).unwrap_or_default())
             .collect()
     }
+}
+
+/// Returns the colour of a hit as if everything were made of clay, and lit from the camera: the more
+/// the surface is turned away, the darker. A normal that points away is shown in blue.
+fn clay(hit: Trace, eye: Vec3) -> Vec3 {
+    let toward_eye = (eye - hit.position).normalize_or_zero();
+    let cosine = hit.normal.normalize_or_zero().dot(toward_eye);
+    let colour = if cosine < 0.0 {
+        Vec3::new(0.45, 0.6, 0.95)
+    } else {
+        Vec3::new(0.92, 0.86, 0.78)
+    };
+    (0.12 + 0.88 * cosine.abs()) * colour
 }
 
 /// The conversion of radiance to bytes, as [`Tone::Light`] does it, but with a table: powers take
@@ -224,7 +243,29 @@ fn encode(film: UVec2, bytes: &[u8]) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec2;
+
     use super::*;
+
+    #[test]
+    fn clay_is_lighter_where_it_faces_the_camera() {
+        let hit = |normal| Trace {
+            distance: 5.0,
+            position: Vec3::ZERO,
+            normal,
+            uv: Vec2::ZERO,
+            origin: Vec3::Z,
+            material: 0,
+        };
+        let eye = Vec3::new(0.0, 0.0, 5.0);
+        let luminance = |normal| clay(hit(normal), eye).element_sum();
+        assert!(
+            luminance(Vec3::Z) > luminance(Vec3::ONE) && luminance(Vec3::ONE) > luminance(Vec3::X)
+        );
+        let away = clay(hit(Vec3::NEG_Z), eye);
+        assert!(away.z > away.x, "a normal that points away is blue");
+        assert!(clay(hit(Vec3::NAN), eye).is_finite());
+    }
 
     #[test]
     fn the_table_gives_the_same_bytes_as_the_framework() {

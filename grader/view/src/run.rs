@@ -10,6 +10,7 @@ use std::time::Instant;
 use grader::files::AtPath;
 use grader::handed_out::RAYS;
 use grader::select_isolation::IsolationRequest;
+use grader::system::available_memory;
 use grader::workspace::Workspace;
 
 use crate::access::Access;
@@ -18,7 +19,7 @@ use crate::error::ViewError;
 use crate::exam_question::subject_of_question;
 use crate::program::Programs;
 use crate::routes::Routes;
-use crate::session::Session;
+use crate::session::{Resources, Session};
 use crate::studio::Studio;
 use crate::subject::{PathSettings, SceneList, Subject};
 use crate::{browser, composer, http, watcher, workers};
@@ -44,13 +45,15 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
     let submission = programs.collect()?;
 
     let cores = arguments.threads.map_or_else(available_cores, usize::from);
+    // Half of it is left for other programs, such as the browser.
+    let memory = available_memory().map_or(u64::MAX, |bytes| bytes / 2);
     let session = Session::new(
         subject,
         scenes.names(),
         settings,
         arguments.size,
         arguments.samples,
-        cores,
+        Resources { cores, memory },
         Instant::now(),
     );
     let studio = Arc::new(Studio::new(session));

@@ -58,6 +58,7 @@ function showTexts(state) {
   else if (state.seconds_left !== null) parts.push(`${Math.max(1, Math.round(state.seconds_left))} s left`);
   setText("status", parts.join("; "));
   const legends = {
+    clay: "lit from the camera; where the normal points away from it, blue",
     normals: "x, y and z of the normal, from −1 to 1, as red, green and blue",
     depth: "distance: the nearest hit is white, the farthest almost black",
     uv: "u and v as red and green",

@@ -67,6 +67,7 @@ impl Session {
                 return Ok(Some(name.clone()));
             }
             Command::View(view) => {
+                self.timing_mut().stop(now);
                 self.view = *view;
                 self.is_dirty = true;
                 self.is_picture_complete = false;

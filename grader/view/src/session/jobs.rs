@@ -16,8 +16,8 @@ const SLICE_MS: u32 = 30;
 const DRAW_LIMITS: [Duration; 2] = [Duration::from_secs(5), Duration::from_secs(2)];
 /// The limit of CPU time for opening a scene, and for each shape in it.
 const OPEN_LIMIT: [Duration; 2] = [Duration::from_secs(10), Duration::from_micros(60)];
-/// The memory of all drawing programs together that their number is limited to, in bytes.
-const MEMORY: u64 = 3 << 30;
+/// The maximum memory of all programs together, in bytes.
+const MAX_MEMORY: u64 = 3 << 30;
 /// An estimate of the memory that a program needs for each shape, while it builds the tree.
 const BYTES_PER_SHAPE: u64 = 700;
 
@@ -105,7 +105,7 @@ impl Session {
                 View::Shaded => self
                     .light
                     .take(|sample| Quantity::Light { sample }, milliseconds),
-                View::Normals | View::Depth | View::Uv | View::Bvh => {
+                View::Clay | View::Normals | View::Depth | View::Uv | View::Bvh => {
                     self.hits.take(|_| Quantity::Hit, milliseconds)
                 }
                 View::Tests => None,
@@ -114,7 +114,7 @@ impl Session {
             let limit = DRAW_LIMITS[usize::from(self.is_careful)];
             DrawJob::Draw { tile, draw, limit }
         };
-        self.drawing_since.get_or_insert(now);
+        self.timing_mut().start(now);
         Some(self.work(program, job))
     }
 
@@ -139,7 +139,7 @@ impl Session {
         }
         let milliseconds = if self.is_careful { 0 } else { SLICE_MS };
         let (tile, draw) = self.tests.take(|_| Quantity::Tests, milliseconds)?;
-        self.drawing_since.get_or_insert(now);
+        self.timing_mut().start(now);
         let limit = DRAW_LIMITS[usize::from(self.is_careful)];
         Some(self.work(program, RecordingJob::Draw { tile, draw, limit }))
     }
@@ -158,11 +158,11 @@ impl Session {
     }
 
     /// Returns the number of programs that draw at the same time: one per core, or fewer if the tree
-    /// is large, since each has a tree of its own.
+    /// is large, since each has a tree of its own, and so has the program that records.
     pub fn programs(&self) -> usize {
         let shapes = self.subject.data.shapes.len() as u64;
-        let fit = MEMORY / (shapes * BYTES_PER_SHAPE).max(1);
-        usize::try_from(fit)
+        let fit = self.memory.min(MAX_MEMORY) / (shapes * BYTES_PER_SHAPE).max(1);
+        usize::try_from(fit.saturating_sub(1))
             .unwrap_or(usize::MAX)
             .clamp(1, self.cores)
     }

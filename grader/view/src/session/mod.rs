@@ -7,9 +7,10 @@ mod jobs;
 mod notes;
 mod picture;
 mod results;
+mod timing;
+mod view;
 mod view_state;
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -17,7 +18,6 @@ use framework::scene::Camera;
 use glam::{UVec2, Vec3};
 use grader::submission::Submission;
 use protocol::Trace;
-use serde::{Deserialize, Serialize};
 use view_probe::messages::{Aim, Opened, TestCounts};
 
 use crate::model::explanation::Explanation;
@@ -30,26 +30,19 @@ pub use builds::BuildState;
 pub use commands::Command;
 pub use jobs::{DrawJob, Key, RecordingJob, Work};
 pub use notes::{Note, PanicNote};
+use timing::Timing;
+pub use view::View;
 
 /// The time after the last request of a page until drawing pauses.
 const WATCHED_FOR: Duration = Duration::from_secs(40);
 
-/// The quantity that the picture shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum View {
-    /// The scene with its lighting.
-    Shaded,
-    /// Normals.
-    Normals,
-    /// Distances.
-    Depth,
-    /// Texture coordinates.
-    Uv,
-    /// Boxes around the hit.
-    Bvh,
-    /// Numbers of tests.
-    Tests,
+/// The cores and the memory that the programs may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Resources {
+    /// The number of programs that draw at the same time.
+    pub cores: usize,
+    /// The memory of all programs together, in bytes.
+    pub memory: u64,
 }
 
 /// The pixel or ray that is explained. It stays the same when the camera moves.
@@ -113,12 +106,12 @@ pub struct Session {
     explanation_number: u64,
     is_explanation_busy: bool,
     explanation_fault: Option<String>,
-    rays: VecDeque<(Instant, u64)>,
+    /// The times of drawing the three layers.
+    timings: [Timing; 3],
     started_at: Instant,
-    drawing_since: Option<Instant>,
-    drawn_for: Duration,
     watched_at: Instant,
     cores: usize,
+    memory: u64,
     /// The number of the picture that is on the page.
     pub picture_number: u64,
     /// Whether the picture on the page is of an earlier version of the code.
@@ -135,7 +128,7 @@ impl Session {
         settings: PathSettings,
         film: Option<UVec2>,
         samples: u32,
-        cores: usize,
+        resources: Resources,
         now: Instant,
     ) -> Self {
         let film = film.unwrap_or(subject.camera.pinhole.film);
@@ -176,12 +169,11 @@ impl Session {
             explanation_number: 0,
             is_explanation_busy: false,
             explanation_fault: None,
-            rays: VecDeque::new(),
+            timings: Default::default(),
             started_at: now,
-            drawing_since: None,
-            drawn_for: Duration::ZERO,
             watched_at: now,
-            cores,
+            cores: resources.cores,
+            memory: resources.memory,
             picture_number: 0,
             is_stale: false,
             is_picture_complete: false,
@@ -258,19 +250,30 @@ impl Session {
         self.panics.clear();
         self.invalid_paths = 0;
         self.started_at = now;
-        self.drawing_since = None;
-        self.drawn_for = Duration::ZERO;
+        self.timings = Default::default();
         self.version += 1;
     }
 
     /// Reports that a page is open.
     pub fn watch(&mut self, now: Instant) {
+        if !self.is_watched(now) {
+            let paused_at = self.watched_at + WATCHED_FOR;
+            self.timing_mut().stop(paused_at);
+        }
         self.watched_at = now;
     }
 
     /// Returns whether a page is open.
     fn is_watched(&self, now: Instant) -> bool {
         now.saturating_duration_since(self.watched_at) < WATCHED_FOR
+    }
+
+    fn timing(&self) -> &Timing {
+        &self.timings[self.view.layer()]
+    }
+
+    fn timing_mut(&mut self) -> &mut Timing {
+        &mut self.timings[self.view.layer()]
     }
 
     fn forget_tree(&mut self) {

@@ -3,9 +3,10 @@
 use grader::handed_out::RAYS;
 use protocol::{ElementOutcome, Panic};
 use serde::Serialize;
-use view_probe::messages::Part;
+use view_probe::messages::{Part, TreeSize};
 
-use super::{BuildState, Session};
+use super::{BuildState, Session, View};
+use crate::program::FileError;
 
 /// A remark about the submission.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -46,6 +47,9 @@ impl Session {
                 None,
             );
         }
+        if let (View::Tests, Some(BuildState::Failed(errors))) = (self.view, &self.recording) {
+            add(recording_failed(errors), None);
+        }
         let Some(opened) = &self.opened else {
             return notes;
         };
@@ -67,17 +71,8 @@ impl Session {
                 format!("{}: panicked: {}", title("build"), panic.message),
                 Some(panic.location.clone()),
             ),
-            ElementOutcome::Value(size) if size.nodes == 0 && size.primitives > 0 => {
-                add(
-                    format!(
-                        "{}: no tree yet, so each ray may test all {} primitives.",
-                        title("build"),
-                        size.primitives
-                    ),
-                    self.line_of("bvh.rs", "pub fn build"),
-                );
-            }
-            ElementOutcome::Value(_) | ElementOutcome::Skipped => {}
+            ElementOutcome::Value(size) => self.add_notes_about_tree(*size, &mut add),
+            ElementOutcome::Skipped => {}
         }
         if self.invalid_paths > 0 {
             add(
@@ -92,11 +87,46 @@ impl Session {
         notes
     }
 
-    /// Returns the file and line in which a declaration of the submission begins.
-    fn line_of(&self, file: &str, declaration: &str) -> Option<String> {
+    fn add_notes_about_tree(&self, size: TreeSize, mut add: impl FnMut(String, Option<String>)) {
+        let (build, hit) = ("pub fn build", "pub fn hit");
+        let effect = match size.primitives {
+            0 => String::new(),
+            count => format!(", so each ray tests all {count} primitives"),
+        };
+        if size.nodes == 0 && self.is_from_starter("bvh.rs", build) {
+            let text = format!("{}: not written yet{effect}.", title("build"));
+            add(text, self.line_of("bvh.rs", build));
+        } else if size.nodes == 0 && size.primitives > 0 {
+            let text = format!("{}: the tree has no nodes.", title("build"));
+            add(text, self.line_of("bvh.rs", build));
+        }
+        if self.is_from_starter("bvh.rs", hit) {
+            let text = format!("{}: not written yet{effect}.", title("traverse"));
+            add(text, self.line_of("bvh.rs", hit));
+        }
+        if size.primitives == 0 && !self.subject.data.shapes.is_empty() {
+            let text = "Nothing can be drawn yet: write the `hit` of triangles or spheres first.";
+            add(text.to_owned(), None);
+        }
+    }
+
+    /// Returns whether a method of the submission is that of the starter.
+    fn is_from_starter(&self, file: &str, declaration: &str) -> bool {
+        let starter = RAYS.task_file(file).map(|file| file.starter);
+        let starter = starter.and_then(|text| method(text, declaration));
+        let own = self.text(file).and_then(|text| method(text, declaration));
+        own.is_some() && own == starter
+    }
+
+    fn text(&self, file: &str) -> Option<&str> {
         let mut files = self.submission.as_ref()?.files.iter();
         let (_, text) = files.find(|(known, _)| known.name == file)?;
-        let mut lines = text.as_ref().ok()?.lines();
+        text.as_deref().ok()
+    }
+
+    /// Returns the file and line in which a declaration of the submission begins.
+    fn line_of(&self, file: &str, declaration: &str) -> Option<String> {
+        let mut lines = self.text(file)?.lines();
         let number = lines.position(|line| line.trim_start().starts_with(declaration))?;
         Some(format!("{file}:{}", number + 1))
     }
@@ -114,6 +144,29 @@ impl Session {
             }),
         }
     }
+}
+
+/// Returns the lines of a method, without indentation and empty lines. It ends with the first line
+/// that is a brace as far to the left as its declaration.
+fn method<'a>(text: &'a str, declaration: &str) -> Option<Vec<&'a str>> {
+    let mut lines = text
+        .lines()
+        .skip_while(|line| !line.trim_start().starts_with(declaration))
+        .peekable();
+    let indentation = |line: &str| line.len() - line.trim_start().len();
+    let depth = indentation(lines.peek()?);
+    let body = lines.take_while(|line| line.trim_end() != format!("{}}}", " ".repeat(depth)));
+    let lines = body.map(str::trim).filter(|line| !line.is_empty());
+    Some(lines.collect())
+}
+
+/// Returns the reason why tests cannot be recorded.
+pub(super) fn recording_failed(errors: &[FileError]) -> String {
+    format!(
+        "Your files compile, but not with the changes that record the tests, so the tests cannot be \
+         shown: {}",
+        errors.first().map_or("", |error| &error.text)
+    )
 }
 
 /// Returns the title of a task.

@@ -18,7 +18,7 @@ impl Session {
     pub fn has_picture(&self) -> bool {
         match self.view {
             View::Shaded => self.light.has_coarse_picture(),
-            View::Normals | View::Depth | View::Uv => self.hits.has_coarse_picture(),
+            View::Clay | View::Normals | View::Depth | View::Uv => self.hits.has_coarse_picture(),
             View::Bvh => self.hits.has_coarse_picture() && self.tree.is_some(),
             View::Tests => self.tests.has_coarse_picture(),
         }
@@ -28,7 +28,7 @@ impl Session {
     pub fn is_complete(&self) -> bool {
         match self.view {
             View::Shaded => self.light.is_complete(),
-            View::Normals | View::Depth | View::Uv => self.hits.is_complete(),
+            View::Clay | View::Normals | View::Depth | View::Uv => self.hits.is_complete(),
             View::Bvh => self.hits.is_complete() && self.tree.is_some(),
             View::Tests => self.tests.is_complete(),
         }

@@ -8,14 +8,12 @@ use grader::probe::Fault;
 use protocol::{ElementOutcome, Panic, Tree};
 use view_probe::messages::{Draw, Drawn, Opened, Quantity, Values};
 
-use super::{Key, Pinned, Session};
+use super::{Key, Pinned, Session, View};
 use crate::model::explanation::Explanation;
 use crate::model::tree::TreeModel;
 
 /// The number of pixels that may end the program before drawing stops.
 const MAX_FAULTS: u32 = 3;
-/// The time for which the rate of rays is averaged.
-const RATE_WINDOW: Duration = Duration::from_secs(2);
 
 impl Session {
     /// Reports that a program has opened the scene.
@@ -72,19 +70,15 @@ impl Session {
             self.add_panic(panic, pixel, indices.len() as u64);
         }
         self.invalid_paths += drawn.invalid_paths;
-        self.rays.push_back((now, drawn.rays));
-        while self
-            .rays
-            .front()
-            .is_some_and(|(then, _)| now.saturating_duration_since(*then) > RATE_WINDOW)
-        {
-            self.rays.pop_front();
-        }
+        let layer = match &drawn.values {
+            Values::Light(_) => View::Shaded.layer(),
+            Values::Hits(_) => View::Normals.layer(),
+            Values::Tests(_) => View::Tests.layer(),
+        };
+        self.timings[layer].add(drawn.rays, now);
         self.is_dirty = true;
-        if self.is_complete()
-            && let Some(since) = self.drawing_since.take()
-        {
-            self.drawn_for += now.saturating_duration_since(since);
+        if self.is_complete() {
+            self.timing_mut().stop(now);
             self.version += 1;
         }
     }

@@ -5,6 +5,7 @@ use std::time::Instant;
 use framework::math::tan;
 use serde::Serialize;
 
+use super::notes::recording_failed;
 use super::{BuildState, Note, PanicNote, Session, View};
 use crate::program::FileError;
 
@@ -83,13 +84,10 @@ impl Session {
         let (build, errors) = self.build_state();
         let progress = match self.view {
             View::Shaded => self.light.progress(),
-            View::Normals | View::Depth | View::Uv | View::Bvh => self.hits.progress(),
+            View::Clay | View::Normals | View::Depth | View::Uv | View::Bvh => self.hits.progress(),
             View::Tests => self.tests.progress(),
         };
-        let running = self
-            .drawing_since
-            .map(|since| now.saturating_duration_since(since));
-        let seconds = (self.drawn_for + running.unwrap_or_default()).as_secs_f64();
+        let seconds = self.timing().drawn_for(now).as_secs_f64();
         let is_complete = self.is_complete();
         let is_drawing = !is_complete && self.fault.is_none() && build == "ready";
         let left = seconds * (1.0 - progress) / progress;
@@ -131,7 +129,7 @@ impl Session {
             most_tests: (self.view == View::Tests)
                 .then(|| self.most_tests())
                 .flatten(),
-            rays_per_second: self.rays_per_second(),
+            rays_per_second: self.timing().rays_per_second(),
             seconds,
             seconds_left: (is_drawing && left.is_finite()).then_some(left),
             programs: self.programs(),
@@ -170,12 +168,13 @@ impl Session {
     /// Returns the reason why the pinned pixel is not explained.
     fn explanation_problem(&self) -> Option<String> {
         self.pinned?;
+        if let (BuildState::Failed(_) | BuildState::Broken(_), None) =
+            (&self.drawing, &self.explanation)
+        {
+            return Some("The pixel is explained as soon as your files compile.".to_owned());
+        }
         match &self.recording {
-            Some(BuildState::Failed(errors)) => Some(format!(
-                "Your files compile, but not with the changes that record the tests, so they cannot \
-                 be listed here: {}",
-                errors.first().map_or("", |error| &error.text)
-            )),
+            Some(BuildState::Failed(errors)) => Some(recording_failed(errors)),
             Some(BuildState::Broken(why)) => Some(why.clone()),
             Some(BuildState::Compiling | BuildState::Ready(_)) | None => {
                 self.explanation_fault.clone()
@@ -189,19 +188,5 @@ impl Session {
         drawn
             .map(|counts| counts.boxes.saturating_add(counts.primitives))
             .max()
-    }
-
-    /// Returns the rays per second, averaged over the last seconds of drawing.
-    fn rays_per_second(&self) -> f64 {
-        let (Some((first, _)), Some((last, _))) = (self.rays.front(), self.rays.back()) else {
-            return 0.0;
-        };
-        let rays: u64 = self.rays.iter().skip(1).map(|(_, rays)| rays).sum();
-        let seconds = last.saturating_duration_since(*first).as_secs_f64();
-        if seconds > 0.0 {
-            rays as f64 / seconds
-        } else {
-            0.0
-        }
     }
 }

@@ -75,7 +75,7 @@ fn every_view_has_a_picture_of_its_own() {
     let arguments = ["checkered-teapot", "--size", "64x48", "--samples", "1"];
     let viewer = Viewer::start(&Submission::reference(), &arguments);
     let mut pictures = Vec::new();
-    for view in ["shaded", "normals", "depth", "uv", "bvh", "tests"] {
+    for view in ["shaded", "clay", "normals", "depth", "uv", "bvh", "tests"] {
         assert_eq!(viewer.send(&json!({ "view": view })), 204);
         viewer.wait_for(|state| state["view"] == view && state["is_picture_complete"] == true);
         let picture = viewer.picture();

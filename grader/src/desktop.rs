@@ -5,7 +5,7 @@ use std::{env, io};
 
 /// Reasons why a file was not opened.
 #[derive(Debug, thiserror::Error)]
-enum OpenError {
+pub enum OpenError {
     /// There is no desktop session in which the user would see the file.
     #[error("no desktop session is available")]
     NoDesktop,
@@ -22,7 +22,8 @@ pub fn show(file: &Path) {
     }
 }
 
-fn open(file: &Path) -> Result<(), OpenError> {
+/// Opens a file with the desktop's default program for it, without waiting for that program.
+pub fn open(file: &Path) -> Result<(), OpenError> {
     if !has_desktop() {
         return Err(OpenError::NoDesktop);
     }

@@ -21,6 +21,8 @@ pub struct Access {
     cookie: String,
     /// The names of hosts that lead here.
     hosts: Vec<String>,
+    /// The name that a codespace gives to the port.
+    forwarded: Option<String>,
 }
 
 /// The decision about a request.
@@ -39,13 +41,21 @@ impl Access {
     pub fn new(port: u16, allowed_hosts: &[String]) -> Result<Self, getrandom::Error> {
         let hosts = LOOPBACK.map(str::to_owned).into_iter();
         let forwarded = forwarded_host(port, |name| env::var(name).ok());
-        let hosts = hosts.chain(allowed_hosts.iter().cloned()).chain(forwarded);
+        let hosts = hosts
+            .chain(allowed_hosts.iter().cloned())
+            .chain(forwarded.clone());
         Ok(Access {
             token: secret()?,
             session: secret()?,
             cookie: format!("view-{port}"),
             hosts: hosts.map(|host| host.to_lowercase()).collect(),
+            forwarded,
         })
+    }
+
+    /// Returns the public name of the port, if this machine is a GitHub codespace.
+    pub fn forwarded(&self) -> Option<&str> {
+        self.forwarded.as_deref()
     }
 
     /// Returns the path with the token.
@@ -145,6 +155,7 @@ mod tests {
             hosts: ["localhost", "[::1]", "my-80.example"]
                 .map(str::to_owned)
                 .to_vec(),
+            forwarded: None,
         }
     }
 

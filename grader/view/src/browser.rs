@@ -1,20 +1,23 @@
 //! Opens the page in a browser.
 
 use std::io::Write;
+use std::path::Path;
 
 use grader::desktop;
 use tempfile::NamedTempFile;
 
-/// Opens `url` in a browser, and returns a file that must exist until it has been read.
+/// Opens `url` in a browser, and returns a file in `folder` that must exist until it has been read.
+/// If there is no desktop, prints what to do instead.
 ///
 /// The browser gets the path of a file that leads to the address, because a program's arguments can
 /// be read by all users of a machine, and the address contains a secret. Only the user can read the
-/// file.
-pub fn open(url: &str) -> std::io::Result<NamedTempFile> {
+/// file. It is not in the system's folder of temporary files, which browsers that are installed as
+/// snaps cannot read.
+pub fn open(folder: &Path, url: &str, port: u16) -> std::io::Result<NamedTempFile> {
     let mut file = tempfile::Builder::new()
-        .prefix("cargo-view-")
+        .prefix("open-viewer-")
         .suffix(".html")
-        .tempfile()?;
+        .tempfile_in(folder)?;
     write!(
         file,
         "<!doctype html><html lang=\"en\"><title>cargo view</title>\
@@ -22,6 +25,11 @@ pub fn open(url: &str) -> std::io::Result<NamedTempFile> {
          <meta http-equiv=\"refresh\" content=\"0;url={url}\"><a href=\"{url}\">Open the viewer</a></html>"
     )?;
     file.flush()?;
-    desktop::show(file.path());
+    if let Err(why) = desktop::open(file.path()) {
+        anstream::eprintln!(
+            "{why}: open the address yourself. From another machine, forward the port first, with \
+             `ssh -L {port}:localhost:{port}` or in your editor."
+        );
+    }
     Ok(file)
 }

@@ -1,11 +1,11 @@
 //! Starts everything.
 
-use std::io;
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Instant;
+use std::{fs, io};
 
 use grader::files::AtPath;
 use grader::handed_out::RAYS;
@@ -62,12 +62,17 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
     let access = Access::new(port, &arguments.allow_host)?;
     let url = format!("http://127.0.0.1:{port}{}", access.first_path());
     anstream::println!("{}: open {url}", programs.folder().display());
+    if let Some(forwarded) = access.forwarded() {
+        let path = access.first_path();
+        anstream::println!("From outside of this codespace: open https://{forwarded}{path}");
+    }
     anstream::println!("The page redraws after every save. Press Ctrl-C to stop.");
     let redirection = if arguments.no_open {
         None
     } else {
-        let folder = std::env::temp_dir();
-        Some(browser::open(&url).at("write to", &folder)?)
+        let folder = workspace.output_folder();
+        fs::create_dir_all(&folder).at("create", &folder)?;
+        Some(browser::open(&folder, &url, port).at("write to", &folder)?)
     };
     let routes = Routes {
         access,

@@ -112,6 +112,7 @@ function showControls(state) {
   get("pick-y").max = state.film[1] - 1;
   if (state.pinned?.pixel && JSON.stringify(state.pinned) !== JSON.stringify(last?.pinned)) {
     [get("pick-x").value, get("pick-y").value] = state.pinned.pixel;
+    get("pick-sample").value = String(state.pinned.sample ?? "");
   }
 }
 

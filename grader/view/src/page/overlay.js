@@ -2,7 +2,7 @@
 
 const canvas = document.getElementById("lines");
 let camera = null;
-let layers = { level: [], node: [], steps: [] };
+let layers = { level: [], node: [], path: [], steps: [] };
 let pixel = null;
 let film = [1, 1];
 
@@ -75,7 +75,7 @@ function draw() {
   const context = canvas.getContext("2d");
   context.clearRect(0, 0, canvas.width, canvas.height);
   if (!camera) return;
-  for (const line of [...layers.level, ...layers.steps, ...layers.node]) drawLine(context, line, scale);
+  for (const line of [...layers.level, ...layers.path, ...layers.steps, ...layers.node]) drawLine(context, line, scale);
   if (pixel) {
     const [w, h] = [canvas.width / film[0], canvas.height / film[1]];
     const [x, y] = [(pixel[0] + 0.5) * w, (film[1] - 0.5 - pixel[1]) * h];

@@ -51,6 +51,7 @@ function clear() {
   content.replaceChildren();
   delete content.dataset.version;
   setLines("steps", []);
+  setLines("path", []);
 }
 
 function show(explanation, state) {
@@ -62,6 +63,8 @@ function show(explanation, state) {
   content.append(element("h3", {}, title + path));
   if (radiance) content.append(element("p", {}, `Radiance of the path: ${radiance.map(number).join(", ")}`));
   if (panic) content.append(element("p", { class: "rule" }, `Panicked: ${panic[0]} (${panic[1]})`));
+  // All rays of a path are in the picture, whichever of them is stepped through.
+  setLines("path", rays.length > 1 ? rays.map((ray) => rayLine(ray, 1)) : []);
   if (rays.length === 0) content.append(element("p", {}, "No ray was passed to `Bvh::hit`."));
   rays.forEach((ray, i) => {
     const parent = rays.length === 1 ? content
@@ -186,11 +189,16 @@ function lines(ray, step) {
     if (row.triangle) all.push({ points: [...row.triangle, row.triangle[0]], fill: true, ...style });
     else if (row.corners) all.push(...boxLines(...row.corners, style));
   });
+  all.push(rayLine(ray, 2.5));
+  return all;
+}
+
+/** Returns the line from the start of a ray to its hit. It is dashed if there is none. */
+function rayLine(ray, width) {
   const end = ray.hit?.distance ?? ray.range[1] ?? farthest(ray);
   const along = (t) => ray.origin.map((x, i) => x + t * ray.dir[i]);
-  all.push({ points: [along(Math.max(ray.range[0] ?? 0, 0)), along(end)], colour: COLOURS.ray, width: 2,
-    dash: ray.hit ? [] : [6, 4] });
-  return all;
+  return { points: [along(Math.max(ray.range[0] ?? 0, 0)), along(end)], colour: COLOURS.ray, width,
+    dash: ray.hit ? [] : [6, 4] };
 }
 
 function farthest(ray) {

@@ -1,15 +1,18 @@
 // Talks to the viewer: sends commands, and waits for news.
 
-/** Sends a command, such as { view: "depth" }. Returns the reason if it is refused. */
+const refused = document.getElementById("refused");
+
+/** Sends a command, such as { view: "depth" }. If it is refused, the page shows why. */
 export async function send(command) {
-  const answer = await fetch("/command", { method: "POST", body: JSON.stringify(command) });
-  return answer.ok ? null : answer.text();
+  // If the viewer has ended, the request for news fails, too, and the page says so.
+  const answer = await fetch("/command", { method: "POST", body: JSON.stringify(command) }).catch(() => null);
+  refused.textContent = answer && !answer.ok ? await answer.text() : "";
 }
 
 /** Returns some data, or null if there is none. */
 export async function load(path) {
-  const answer = await fetch(path);
-  return answer.ok ? answer.json() : null;
+  const answer = await fetch(path).catch(() => null);
+  return answer?.ok ? answer.json() : null;
 }
 
 /** Calls `show` with each new state, and `connected` with whether the viewer answers. */
@@ -58,7 +61,7 @@ export async function move(kind, amounts) {
   isMoving = true;
   while (movements.length > 0) {
     const { kind, amounts } = movements.shift();
-    await send({ move: { [kind]: amounts.length === 1 ? amounts[0] : amounts } }).catch(() => null);
+    await send({ move: { [kind]: amounts.length === 1 ? amounts[0] : amounts } });
   }
   isMoving = false;
 }

@@ -32,8 +32,11 @@ export async function showTree(state) {
   document.getElementById("tree-facts").textContent =
     `${count(summary.primitives, "primitive")}, ${count(summary.nodes, "node")}, ${count(summary.levels, "level")}; `
     + `SAH cost ${number(summary.cost)}: the expected number of tests of a ray that hits the root's box.`;
-  showWorst();
+  showTable("worst", summary.worst);
+  document.getElementById("node-index").max = summary.nodes - 1;
   drawStrip();
+  // The tree may have been built again.
+  if (selected) await goTo(selected.node);
   await showLevel();
 }
 
@@ -46,6 +49,7 @@ async function showLevel() {
   const text = document.getElementById("boxes-count");
   if (!isOn.checked || !summary) {
     boxes = [];
+    document.getElementById("drawn").hidden = true;
     text.textContent = "";
     setLines("level", []);
     return;
@@ -53,6 +57,8 @@ async function showLevel() {
   const found = await load(`/boxes?level=${level.value}&below=${below.checked}`);
   if (!found) return;
   boxes = found.boxes;
+  document.getElementById("drawn").hidden = false;
+  showTable("drawn-boxes", boxes);
   const rest = found.count > boxes.length ? `, of which the ${boxes.length} largest are drawn` : "";
   text.textContent = count(found.count, "box").replace("boxs", "boxes") + rest;
   setLines("level", boxes.flatMap((node) =>
@@ -70,16 +76,28 @@ function select(node) {
   selected = node;
   document.getElementById("node").textContent = node ? facts(node) : "";
   setLines("node", node ? boxLines(node.min, node.max, { colour: COLOURS.node, width: 3 }) : []);
+  if (node) document.getElementById("node-index").value = node.node;
+  for (const [id, of] of relatives) document.getElementById(id).disabled = (of(node) ?? null) === null;
   drawStrip();
 }
 
-function showWorst() {
-  const table = document.getElementById("worst");
+/** The nodes that the buttons lead to. */
+const relatives = [["node-parent", (node) => node?.parent], ["node-first", (node) => node?.children?.[0]],
+  ["node-second", (node) => node?.children?.[1]]];
+
+async function goTo(index) {
+  const node = await load(`/node?node=${index}`);
+  if (node) select(node);
+  else document.getElementById("node").textContent = `There is no node ${index} in the tree.`;
+}
+
+function showTable(id, nodes) {
+  const table = document.getElementById(id);
   const headings = ["node", "level", "primitives", "area", "share of the cost", "children hit"];
   table.replaceChildren(element("thead", {}, element("tr", {}, ...headings.map((text) =>
     element("th", { scope: "col" }, text)))));
   const body = element("tbody", {});
-  for (const node of summary.worst) {
+  for (const node of nodes) {
     const button = element("button", { type: "button", "aria-label": `Show node ${node.node}` }, String(node.node));
     button.addEventListener("click", () => select(node));
     const cells = [button, node.level, `${node.primitives}${node.leaf ? " (leaf)" : ""}`,
@@ -120,13 +138,23 @@ export function listen() {
   isOn.addEventListener("change", change);
   below.addEventListener("change", change);
   let hovered = null;
-  strip.addEventListener("pointermove", async (event) => {
+  const point = async (event) => {
     const bar = barAt(event);
     if (!bar || bar.node === hovered) return;
     hovered = bar.node;
     const node = await load(`/node?node=${bar.node}`);
     if (node && hovered === bar.node) select(node);
+  };
+  strip.addEventListener("pointermove", point);
+  strip.addEventListener("pointerdown", point);
+  strip.addEventListener("pointerleave", () => { hovered = null; });
+  document.getElementById("choose-node").addEventListener("submit", (event) => {
+    event.preventDefault();
+    goTo(document.getElementById("node-index").value);
   });
+  for (const [id, of] of relatives) {
+    document.getElementById(id).addEventListener("click", () => goTo(of(selected)));
+  }
   new ResizeObserver(drawStrip).observe(strip);
 }
 

@@ -1,8 +1,10 @@
 //! The page in a browser, used like a student does.
 
 use browser_support::{Chromium, DESKTOP, Tab, Viewer as Reader, violations};
+use glam::{UVec2, uvec2};
 use serde_json::json;
 
+use crate::expected_tests::Expected;
 use crate::harness::{Submission, Viewer};
 
 const IS_COMPLETE: &str = "document.body.dataset.complete === 'true'";
@@ -24,6 +26,32 @@ fn open(viewer: &Viewer, chromium: &Chromium, reader: Reader) -> Tab {
 fn text(tab: &mut Tab, selector: &str) -> String {
     let text = tab.eval(&format!("document.querySelector('{selector}').innerText"));
     text.as_str().unwrap().to_owned()
+}
+
+/// Explains a pixel with the page's form.
+fn explain(tab: &mut Tab, viewer: &Viewer, pixel: UVec2) {
+    let UVec2 { x, y } = pixel;
+    tab.eval(&format!(
+        "document.getElementById('pick-x').value = {x}; document.getElementById('pick-y').value = {y}; \
+         document.getElementById('pick').requestSubmit(); 0"
+    ));
+    viewer.wait_for(|state| {
+        state["pinned"]["pixel"] == json!([x, y]) && state["explanation"].is_number()
+    });
+    let title = format!("Pixel ({x}, {y})");
+    let is_shown =
+        format!("document.querySelector('#explanation h3')?.innerText.startsWith('{title}')");
+    tab.wait_until(&is_shown, TEXT);
+}
+
+/// Returns the tests in the page's table, in the form of [`Expected::tests`].
+fn table(tab: &mut Tab) -> Vec<String> {
+    let cells = tab.eval(
+        "[...document.querySelectorAll('#explanation tbody tr td:nth-child(2)')]\
+         .map((cell) => cell.innerText.replace(/triangle (\\d+), in leaf \\d+/, 'shape $1')\
+         .replace(/ \\(level \\d+\\)/, ''))",
+    );
+    serde_json::from_value(cells).unwrap()
 }
 
 /// Returns the middle of the picture in the window.
@@ -61,11 +89,16 @@ fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
     let rows = explanation["rays"][0]["rows"].as_array().unwrap().len();
     let shown = tab.eval("document.querySelectorAll('#explanation tbody tr').length");
     assert_eq!(shown, rows);
+    // No tree is drawn here, so the camera is the scene's own again.
+    tab.eval("document.querySelector('[data-own]').click(); 0");
+    viewer.wait_for(|state| state["camera"]["is_own"] == true);
+    let expected = Expected::of_scene("checkered-teapot", uvec2(96, 72));
+    for pixel in [uvec2(48, 36), uvec2(40, 40), uvec2(3, 70)] {
+        explain(&mut tab, &viewer, pixel);
+        assert_eq!(table(&mut tab), expected.tests(pixel), "{pixel}");
+    }
     let row = text(&mut tab, "#explanation tbody tr");
-    assert!(
-        row.contains("node 0 (level 0)") && row.contains("entered"),
-        "{row}"
-    );
+    assert!(row.contains("node 0 (level 0)"), "{row}");
     // Step by step, forward and backward.
     let steps = "document.querySelector('[aria-current=step] button').innerText";
     tab.eval("document.querySelector('[aria-label=\"First step\"]').click(); 0");

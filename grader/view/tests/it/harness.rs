@@ -63,6 +63,15 @@ impl Submission {
         fs::write(self.path().join(file), text).unwrap();
     }
 
+    /// Replaces `Bvh::hit`.
+    pub fn replace_traversal(&self, hit: &str) {
+        let text = self.read("bvh.rs");
+        let start = text.find("    pub fn hit(&self, ray: &Ray)").unwrap();
+        let end = start + text[start..].find("\n    }\n").unwrap() + "\n    }\n".len();
+        let (before, after) = (&text[..start], &text[end..]);
+        self.write("bvh.rs", &format!("{before}{hit}{after}"));
+    }
+
     /// Replaces text in a file, and panics if the file does not contain it.
     pub fn replace(&self, file: &str, from: &str, to: &str) {
         let text = self.read(file);
@@ -101,7 +110,7 @@ impl Viewer {
     }
 
     /// Starts the viewer, and exchanges the token for the cookie.
-    fn try_run(command: &mut Command) -> Result<Self, String> {
+    pub fn try_run(command: &mut Command) -> Result<Self, String> {
         let mut child = command
             .args(["--port", "0"])
             .stdout(Stdio::piped())
@@ -130,6 +139,17 @@ impl Viewer {
         let cookie = answer.head.split("Set-Cookie: ").nth(1).unwrap();
         viewer.cookie = cookie.split(';').next().unwrap().to_owned();
         Ok(viewer)
+    }
+
+    /// Ends the viewer without letting it clean up.
+    pub fn kill(&mut self) {
+        self.child.kill().unwrap();
+        self.child.wait().unwrap();
+    }
+
+    /// Returns the process of the viewer.
+    pub fn process(&self) -> u32 {
+        self.child.id()
     }
 
     /// Sends a request with exactly these headers.

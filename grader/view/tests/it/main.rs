@@ -2,6 +2,7 @@
 
 mod access;
 mod browser;
+mod expected_tests;
 mod explanations;
 mod failures;
 mod harness;

@@ -32,6 +32,10 @@ pub struct NodeInfo {
     pub node: u32,
     /// Its level, 0 for the root.
     pub level: u32,
+    /// Its parent, except for the root.
+    pub parent: Option<u32>,
+    /// The children of an interior node.
+    pub children: Option<[u32; 2]>,
     /// The lower corner of its box.
     pub min: [f32; 3],
     /// The upper corner of its box.
@@ -177,6 +181,8 @@ impl TreeModel {
         Some(NodeInfo {
             node: index,
             level: self.level(index)?,
+            parent: self.parent(index),
+            children: (!node.is_leaf()).then_some([node.l, node.r]),
             min: node.min.to_array(),
             max: node.max.to_array(),
             leaf: node.is_leaf(),

@@ -24,6 +24,7 @@ fn levels_counts_and_costs_follow_from_the_tree() {
     assert_eq!(model.levels(), 3);
     let info = model.info(1).unwrap();
     assert_eq!((info.level, info.primitives, info.leaf), (1, 3, false));
+    assert_eq!((info.parent, info.children), (Some(3), Some([0, 2])));
     assert_eq!(
         (info.area, info.cost, info.overlap),
         (0.25, 0.25, Some(0.5))

@@ -1,20 +1,27 @@
 //! A list of the tests that a correct traversal makes for a pixel, computed independently of the
 //! viewer.
 
+use std::collections::BTreeSet;
+
 use framework::scene::Scene;
 use framework::submission::Submission as _;
 use glam::{UVec2, Vec2};
-use protocol::{Ray, Shape, Tree};
+use grader::exam_source::ExamSource;
+use grader::handed_out::RAYS;
+use protocol::{Question, Ray, Shape, Tree, TreeNode};
 use reference::world::Student;
 
 use crate::harness::workspace;
 
-/// A scene with the reference's tree.
+/// A scene with the reference's tree, or a question of the practice exam with its tree.
 pub struct Expected {
-    scene: Scene,
-    /// The shapes, with their numbers as materials, so that the tree says which is where.
-    numbered: Vec<Shape>,
-    tree: Tree,
+    /// The shapes. In a scene, they have their numbers as materials, so that the tree says which is
+    /// where.
+    shapes: Vec<Shape>,
+    pub tree: Tree,
+    scene: Option<Scene>,
+    /// The ray of the question.
+    ray: Option<Ray>,
 }
 
 impl Expected {
@@ -22,26 +29,91 @@ impl Expected {
     pub fn of_scene(name: &str, film: UVec2) -> Self {
         let path = workspace().join(format!("scenes/{name}.json"));
         let scene = Scene::load(&path).unwrap().on_film(film);
-        let mut numbered = scene.shapes.clone();
-        for (number, shape) in (0..).zip(&mut numbered) {
+        let mut shapes = scene.shapes.clone();
+        for (number, shape) in (0..).zip(&mut shapes) {
             if let Shape::Triangle { material, .. } = shape {
                 *material = number;
             }
         }
-        let tree = Student.build(&numbered, scene.max_leaf_size).tree();
+        let tree = Student.build(&shapes, scene.max_leaf_size).tree();
         Expected {
-            scene,
-            numbered,
+            shapes,
             tree,
+            scene: Some(scene),
+            ray: None,
+        }
+    }
+
+    /// Reads a question about traversal from the practice exam.
+    pub fn of_question(item: &str, number: usize) -> Self {
+        let exam = ExamSource::Practice.load(&RAYS).unwrap().exam;
+        let item = exam.items.iter().find(|known| known.id == item).unwrap();
+        let (question, element) = item.element(number).unwrap();
+        let Question::Traverse {
+            shapes,
+            nodes,
+            root,
+            rays,
+        } = &item.questions[question].question
+        else {
+            panic!("{} is not about traversal", item.id);
+        };
+        Expected {
+            shapes: shapes.clone(),
+            tree: Tree {
+                nodes: nodes.clone(),
+                root: *root,
+                order: (0..).take(shapes.len()).collect(),
+            },
+            scene: None,
+            ray: Some(rays.to_vec()[element]),
         }
     }
 
     /// Returns the tests for the ray through the centre of a pixel, as texts.
     pub fn tests(&self, pixel: UVec2) -> Vec<String> {
-        let camera = Student.camera(&self.scene.camera.pinhole);
+        let scene = self.scene.as_ref().unwrap();
+        let camera = Student.camera(&scene.camera.pinhole);
         let ray = camera.ray(pixel, Vec2::splat(0.5));
-        let ray = self.scene.camera.placement.to_world(&ray);
-        tests(&self.tree, &self.numbered, &ray)
+        let ray = scene.camera.placement.to_world(&ray);
+        tests(&self.tree, &self.shapes, &ray)
+    }
+
+    /// Returns the tests for the ray of the question, as texts.
+    pub fn tests_of_question(&self) -> Vec<String> {
+        tests(&self.tree, &self.shapes, &self.ray.unwrap())
+    }
+
+    /// Returns the nodes that a traversal with these tests has entered.
+    pub fn entered(&self, tests: &[String]) -> BTreeSet<u32> {
+        let entered = tests.iter().map(|test| {
+            let (kind, number) = test.split_once(' ').unwrap();
+            let number: u32 = number.parse().unwrap();
+            match kind {
+                "node" => self.parent(number),
+                _ => self.leaf_of(number),
+            }
+        });
+        entered.flatten().collect()
+    }
+
+    /// Returns the parent of a node.
+    pub fn parent(&self, node: u32) -> Option<u32> {
+        let is_parent = |parent: &&(u32, &TreeNode)| {
+            !parent.1.is_leaf() && (parent.1.l == node || parent.1.r == node)
+        };
+        let nodes: Vec<(u32, &TreeNode)> = (0..).zip(&self.tree.nodes).collect();
+        nodes.iter().find(is_parent).map(|(index, _)| *index)
+    }
+
+    fn leaf_of(&self, shape: u32) -> Option<u32> {
+        let slot = self.tree.order.iter().position(|known| *known == shape)?;
+        let slot = u32::try_from(slot).unwrap();
+        let holds = |node: &TreeNode| {
+            node.is_leaf() && (node.start..node.start + node.size).contains(&slot)
+        };
+        let leaf = self.tree.nodes.iter().position(holds)?;
+        u32::try_from(leaf).ok()
     }
 }
 
@@ -97,6 +169,23 @@ fn entry(tree: &Tree, index: u32, ray: &Ray, tests: &mut Vec<String>) -> Option<
         (node.min.as_dvec3() - origin) / dir,
         (node.max.as_dvec3() - origin) / dir,
     );
-    let (first, last) = (a.min(b).max_element().max(0.0), a.max(b).min_element());
+    let (start, end) = (f64::from(ray.range.min), f64::from(ray.range.max));
+    let (first, last) = (
+        a.min(b).max_element().max(start),
+        a.max(b).min_element().min(end),
+    );
     (first <= last).then_some(first)
+}
+
+/// Returns the tests in an explanation as texts.
+pub fn listed_tests(ray: &serde_json::Value) -> Vec<String> {
+    let rows = ray["rows"].as_array().unwrap().iter();
+    let text = |row: &serde_json::Value| match row["is_box"].as_bool().unwrap() {
+        true => {
+            assert_eq!(row["nodes"].as_array().unwrap().len(), 1, "{row}");
+            format!("node {}", row["nodes"][0])
+        }
+        false => format!("shape {}", row["shape"]),
+    };
+    rows.map(text).collect()
 }

@@ -3,21 +3,8 @@
 use glam::uvec2;
 use serde_json::Value;
 
-use crate::expected_tests::Expected;
+use crate::expected_tests::{Expected, listed_tests};
 use crate::harness::{Submission, Viewer};
-
-/// Returns the tests in an explanation as texts.
-fn listed_tests(ray: &Value) -> Vec<String> {
-    let rows = ray["rows"].as_array().unwrap().iter();
-    let text = |row: &Value| match row["is_box"].as_bool().unwrap() {
-        true => {
-            assert_eq!(row["nodes"].as_array().unwrap().len(), 1, "{row}");
-            format!("node {}", row["nodes"][0])
-        }
-        false => format!("shape {}", row["shape"]),
-    };
-    rows.map(text).collect()
-}
 
 #[test]
 fn the_tests_of_a_pixel_are_those_of_the_references_traversal() {

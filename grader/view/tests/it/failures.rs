@@ -1,5 +1,8 @@
 //! Submissions that are not finished or fail: the page shows as much as there is, and says why.
 
+#[cfg(target_os = "linux")]
+use std::time::{Duration, Instant};
+
 use serde_json::{Value, json};
 
 use crate::harness::{Submission, Viewer};
@@ -185,4 +188,67 @@ fn a_stack_overflow_while_building_is_reported_and_can_be_fixed() {
     submission.write("bvh.rs", &correct);
     let state = viewer.wait_for_picture();
     assert_eq!(state["notes"], json!([]));
+}
+
+#[test]
+fn a_panic_while_building_names_its_line_and_the_page_survives() {
+    let submission = Submission::reference();
+    let correct = submission.read("bvh.rs");
+    let signature = correct
+        .lines()
+        .find(|line| line.contains("pub fn build("))
+        .unwrap();
+    let panic = "assert!(primitives.is_empty(), \"not today\");";
+    submission.replace("bvh.rs", signature, &format!("{signature} {panic}"));
+    let viewer = Viewer::start(&submission, &["flat", "--size", "8x8", "--samples", "1"]);
+    let state = viewer.wait_for(|state| state["notes"] != json!([]));
+    let notes = notes(&state);
+    let line = correct.lines().position(|line| line == signature).unwrap() + 1;
+    assert!(
+        notes.contains("panicked: not today") && notes.contains(&format!("bvh.rs:{line}")),
+        "{notes}"
+    );
+    submission.write("bvh.rs", &correct);
+    let state = viewer.wait_for_picture();
+    assert_eq!(state["notes"], json!([]));
+}
+
+/// Returns the processes that a process has started.
+#[cfg(target_os = "linux")]
+fn children(parent: u32) -> Vec<u32> {
+    let is_child = |process: &u32| {
+        let status = std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
+        // The name in parentheses can contain spaces.
+        let fields = status.rsplit_once(')').map_or("", |(_, fields)| fields);
+        fields.split_whitespace().nth(1) == Some(&parent.to_string())
+    };
+    let entries = std::fs::read_dir("/proc").unwrap().flatten();
+    let processes = entries.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
+    processes.filter(is_child).collect()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_killed_viewer_leaves_no_program_running_even_one_that_hangs() {
+    let submission = Submission::reference();
+    let signature = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
+    let hang = "while pixel.x < 9999 { std::hint::black_box(()); }";
+    submission.replace("camera.rs", signature, &format!("{signature} {hang}"));
+    let viewer = Viewer::start(&submission, &["flat", "--size", "16x12"]);
+    viewer.wait_for(|state| state["build"] == "ready");
+    let deadline = Instant::now() + Duration::from_secs(60);
+    let mut programs = Vec::new();
+    while programs.is_empty() {
+        assert!(Instant::now() < deadline, "no program was started");
+        programs = children(viewer.process());
+    }
+    viewer.kill();
+    let is_running = |program: &u32| {
+        let status = std::fs::read_to_string(format!("/proc/{program}/stat"));
+        status.is_ok_and(|text| !text.contains(") Z "))
+    };
+    while programs.iter().any(is_running) {
+        assert!(Instant::now() < deadline, "{programs:?} are still running");
+        std::thread::sleep(Duration::from_millis(10));
+    }
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, ChildStderr, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use grader::handed_out::RAYS;
@@ -21,8 +21,15 @@ pub fn workspace() -> PathBuf {
 
 /// Returns a command that starts the viewer in the workspace's folder.
 pub fn view() -> Command {
+    let mut command = view_and_open();
+    command.arg("--no-open");
+    command
+}
+
+/// Returns a command that starts the viewer, and opens the page.
+pub fn view_and_open() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_view"));
-    command.current_dir(workspace()).arg("--no-open");
+    command.current_dir(workspace());
     command
 }
 
@@ -94,6 +101,9 @@ pub struct Viewer {
     /// The path of the first address, with the token.
     pub first: String,
     cookie: String,
+    /// Not read, but open, as a terminal is.
+    _output: BufReader<ChildStdout>,
+    errors: ChildStderr,
 }
 
 impl Viewer {
@@ -109,45 +119,71 @@ impl Viewer {
         Viewer::try_run(command.args(arguments))
     }
 
-    /// Starts the viewer, and exchanges the token for the cookie.
-    pub fn try_run(command: &mut Command) -> Result<Self, String> {
+    /// Starts the viewer at any port, and exchanges the token for the cookie.
+    fn try_run(command: &mut Command) -> Result<Self, String> {
+        let mut viewer = Viewer::run(command)?;
+        viewer.visit();
+        Ok(viewer)
+    }
+
+    /// Starts the viewer at any port, and does not open the page.
+    pub fn run(command: &mut Command) -> Result<Self, String> {
+        Viewer::spawn(command.args(["--port", "0"]))
+    }
+
+    /// Starts the viewer without a choice of the port, and exchanges the token for the cookie.
+    pub fn run_at_the_usual_port(command: &mut Command) -> Self {
+        let mut viewer = Viewer::spawn(command).unwrap();
+        viewer.visit();
+        viewer
+    }
+
+    fn spawn(command: &mut Command) -> Result<Self, String> {
         let mut child = command
-            .args(["--port", "0"])
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
         let mut line = String::new();
-        let stdout = child.stdout.take().unwrap();
-        let mut stderr = child.stderr.take().unwrap();
-        BufReader::new(stdout).read_line(&mut line).unwrap();
+        let mut output = BufReader::new(child.stdout.take().unwrap());
+        let mut errors = child.stderr.take().unwrap();
+        output.read_line(&mut line).unwrap();
         if line.is_empty() {
             let mut error = String::new();
-            stderr.read_to_string(&mut error).unwrap();
+            errors.read_to_string(&mut error).unwrap();
             child.wait().unwrap();
             return Err(error);
         }
         let url = line.rsplit_once("open http://127.0.0.1:").unwrap().1.trim();
         let (port, first) = url.split_once('/').unwrap();
-        let mut viewer = Viewer {
-            child,
+        Ok(Viewer {
             port: port.parse().unwrap(),
             first: format!("/{first}"),
             cookie: String::new(),
-        };
-        let answer = viewer.request("GET", &viewer.first, "Host: localhost\r\n", "");
-        let cookie = answer.head.split("Set-Cookie: ").nth(1).unwrap();
-        viewer.cookie = cookie.split(';').next().unwrap().to_owned();
-        Ok(viewer)
+            child,
+            _output: output,
+            errors,
+        })
     }
 
-    /// Ends the viewer without letting it clean up.
-    pub fn kill(&mut self) {
+    /// Exchanges the token for the cookie, like a browser.
+    pub fn visit(&mut self) {
+        let answer = self.request("GET", &self.first, "Host: localhost\r\n", "");
+        let cookie = answer.head.split("Set-Cookie: ").nth(1).unwrap();
+        self.cookie = cookie.split(';').next().unwrap().to_owned();
+    }
+
+    /// Kills the viewer, and returns what it has printed as errors.
+    pub fn kill(mut self) -> String {
         self.child.kill().unwrap();
         self.child.wait().unwrap();
+        let mut errors = String::new();
+        self.errors.read_to_string(&mut errors).unwrap();
+        errors
     }
 
-    /// Returns the process of the viewer.
+    /// Returns the number of the process.
+    #[cfg(target_os = "linux")]
     pub fn process(&self) -> u32 {
         self.child.id()
     }

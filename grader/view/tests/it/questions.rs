@@ -1,10 +1,12 @@
 //! Questions of the practice exam, and other people's submissions.
 
+use std::collections::BTreeSet;
 use std::env;
 use std::io::Write;
 
 use serde_json::{Value, json};
 
+use crate::expected_tests::{Expected, listed_tests};
 use crate::harness::{Submission, Viewer, view};
 
 #[test]
@@ -24,6 +26,53 @@ fn a_question_about_traversal_shows_the_exams_tree_and_the_steps() {
         rows.iter()
             .all(|row| row["marks"].as_array().unwrap().is_empty())
     );
+}
+
+/// Returns the listed tests of an exam's ray, and the nodes that are marked.
+fn tests_and_marks(submission: &Submission, item: &str) -> (Vec<String>, BTreeSet<u32>) {
+    let viewer = Viewer::start(submission, &["--item", item]);
+    let ray = &viewer.explanation()["rays"][0];
+    let rows = ray["rows"].as_array().unwrap().iter();
+    let marks = rows.flat_map(|row| row["marks"].as_array().unwrap());
+    let nodes = marks.map(|mark| u32::try_from(mark[1].as_u64().unwrap()).unwrap());
+    (listed_tests(ray), nodes.collect())
+}
+
+#[test]
+fn in_a_tree_with_decoys_exactly_the_wrong_steps_of_the_slides_pseudo_code_are_marked() {
+    let reference = Submission::reference();
+    let slides = Submission::reference();
+    slides.replace_traversal(include_str!("slides_hit.rs"));
+    let mut wrong_steps = 0;
+    for (item, number) in [
+        ("traverse.prunes", 1),
+        ("traverse.prunes", 3),
+        ("traverse.skips_missed", 1),
+        ("traverse.skips_missed", 2),
+        ("traverse.nearer_first", 1),
+    ] {
+        let name = format!("{item}#{number}");
+        let expected = Expected::of_question(item, number);
+        let correct = expected.tests_of_question();
+        let (tests, marks) = tests_and_marks(&reference, &name);
+        assert_eq!((tests, marks), (correct.clone(), BTreeSet::new()), "{name}");
+
+        let (tests, marks) = tests_and_marks(&slides, &name);
+        let correct = expected.entered(&correct);
+        let entered = expected.entered(&tests);
+        let wrong: BTreeSet<u32> = entered.difference(&correct).copied().collect();
+        assert!(marks.is_subset(&wrong), "{name}: {marks:?} {wrong:?}");
+        // Below a wrong node, the walk may look correct again.
+        let first_wrong = wrong.iter().filter(|node| {
+            let parent = expected.parent(**node);
+            parent.is_some_and(|parent| correct.contains(&parent))
+        });
+        for node in first_wrong {
+            assert!(marks.contains(node), "{name}: node {node} is not marked");
+            wrong_steps += 1;
+        }
+    }
+    assert!(wrong_steps >= 4, "{wrong_steps}");
 }
 
 #[test]

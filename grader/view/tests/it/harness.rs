@@ -183,7 +183,7 @@ impl Viewer {
     }
 
     /// Returns the number of the process.
-    #[cfg(target_os = "linux")]
+    #[cfg_attr(not(target_os = "linux"), expect(dead_code, reason = "used on Linux"))]
     pub fn process(&self) -> u32 {
         self.child.id()
     }

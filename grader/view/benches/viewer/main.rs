@@ -1,0 +1,224 @@
+//! Measures how fast the viewer draws, and what it costs, for the table in
+//! `grader/benches/README.md`.
+//!
+//! Each round measures each quantity once, so that a busy machine affects all of them, and
+//! quantities are compared within a round.
+
+#[expect(dead_code, reason = "the tests use more of it")]
+#[path = "../../tests/it/harness.rs"]
+mod harness;
+mod process;
+
+use std::path::Path;
+use std::process::Command;
+use std::time::{Duration, Instant};
+use std::{fs, thread};
+
+use bench_support::bare::BareRustc;
+use bench_support::changed::{baseline, change};
+use bench_support::cost::Cost;
+use bench_support::median::median;
+use browser_support::{Chromium, DESKTOP};
+use grader::workspace::Workspace;
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+use harness::{Submission, Viewer, workspace};
+use process::{cpu_time, family, peak_memory};
+
+const ROUNDS: usize = 9;
+/// The scene whose camera is moved.
+const SCENE: &str = "checkered-teapot";
+const SIZE: &str = "320x240";
+/// The samples per pixel for the rate of rays.
+const SAMPLES: u32 = 64;
+/// The time for which an idle viewer is measured.
+const IDLE: Duration = Duration::from_secs(20);
+
+fn main() {
+    moves_and_rays();
+    saves();
+    idle();
+    large_mesh();
+}
+
+/// Measures the time from a movement of the camera to the first picture, and the rate of rays
+/// compared with `cargo render`.
+fn moves_and_rays() {
+    let samples = SAMPLES.to_string();
+    let arguments = [SCENE, "--size", SIZE, "--samples", &samples];
+    let viewer = Viewer::start(&Submission::reference(), &arguments);
+    let folder = TempDir::new().expect("a folder can be created");
+    rate_of_render(folder.path());
+    let (mut moves, mut ratios) = (Vec::new(), Vec::new());
+    for _ in 0..ROUNDS {
+        let before = viewer.wait_for_picture();
+        let start = Instant::now();
+        viewer.send(&json!({ "move": { "orbit": [0.1, 0.0] } }));
+        viewer.wait_for(|state| state["picture"] != before["picture"]);
+        viewer.get("/picture");
+        moves.push(1e3 * start.elapsed().as_secs_f64());
+        // The rays of the scene's own camera are those of `cargo render`.
+        viewer.send(&json!("own_camera"));
+        let state = viewer.wait_for_picture();
+        let rate = state["rays_per_second"].as_f64().expect("it is a number");
+        ratios.push(1e-6 * rate / rate_of_render(folder.path()));
+    }
+    moves.sort_by(f64::total_cmp);
+    let slowest = moves.last().expect("there are rounds");
+    print(
+        "camera move to the first coarse picture",
+        &format!("{:.0} ms (slowest {slowest:.0} ms)", median(moves.clone())),
+    );
+    let least = ratios
+        .iter()
+        .copied()
+        .reduce(f64::min)
+        .expect("there are rounds");
+    print(
+        "rays per second, compared with `cargo render`",
+        &format!("{:.2} (least {least:.2})", median(ratios)),
+    );
+}
+
+/// Returns the rate that `cargo render` reports, in millions of rays per second.
+fn rate_of_render(folder: &Path) -> f64 {
+    let mut command = Command::new(env!("CARGO"));
+    command.args([
+        "run",
+        "-q",
+        "--release",
+        "--package",
+        "reference",
+        "--",
+        SCENE,
+    ]);
+    command.args(["--size", SIZE, "--samples", &SAMPLES.to_string(), "--out"]);
+    let output = command
+        .arg(folder.join("picture.png"))
+        .current_dir(workspace())
+        .output()
+        .expect("cargo can be started");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned()
+        + &String::from_utf8_lossy(&output.stderr);
+    let rate = text.split_once(" Mrays/s").map(|(before, _)| before);
+    let rate = rate.and_then(|before| before.rsplit(' ').next()?.parse().ok());
+    rate.unwrap_or_else(|| panic!("no rate in {text}"))
+}
+
+/// Measures the time from saving a file to the first picture.
+fn saves() {
+    let root = workspace();
+    let submission = Submission::reference();
+    let arguments = [SCENE, "--size", SIZE, "--samples", "1"];
+    let viewer = Viewer::start(&submission, &arguments);
+    viewer.wait_for_picture();
+    let found = Workspace::find().expect("the benchmark runs in the workspace");
+    let bare = BareRustc::prepare(&found.cache_folder().join("dependencies"));
+    let folder = baseline(&root);
+    let (mut times, mut shares) = (Vec::new(), Vec::new());
+    for round in 0..ROUNDS {
+        change(&root, folder.path(), round);
+        let compile = Cost::of_program(&mut bare.compile(folder.path()))
+            .wall
+            .as_secs_f64();
+        let before = viewer.wait_for_picture();
+        let start = Instant::now();
+        change(&root, submission.path(), round);
+        // The old picture is composed again, greyed, while the files are compiled.
+        viewer.wait_for(|state| state["picture"] != before["picture"] && is_fresh(state));
+        viewer.get("/picture");
+        let took = start.elapsed().as_secs_f64();
+        times.push(took);
+        shares.push(took / (1.5 * compile + 0.3));
+    }
+    print(
+        "save to the first coarse picture",
+        &format!(
+            "{:.0} ms; {:.2} of 1.5 F + 0.3 s",
+            1e3 * median(times),
+            median(shares)
+        ),
+    );
+}
+
+fn is_fresh(state: &Value) -> bool {
+    state["build"] == "ready" && state["is_stale"] == false
+}
+
+/// Measures the CPU time of the viewer and its programs while a page shows a complete picture.
+fn idle() {
+    let arguments = [SCENE, "--size", SIZE, "--samples", "4"];
+    let viewer = Viewer::start(&Submission::reference(), &arguments);
+    let chromium = Chromium::start();
+    let mut tab = chromium.as_ref().map(Chromium::tab);
+    if let Some(tab) = &mut tab {
+        tab.open_url(
+            &format!("http://127.0.0.1:{}{}", viewer.port, viewer.first),
+            DESKTOP,
+        );
+    }
+    viewer.wait_for_picture();
+    thread::sleep(Duration::from_secs(2));
+    let of_viewer =
+        || -> Option<Duration> { family(viewer.process()).into_iter().map(cpu_time).sum() };
+    let (Some(before), start) = (of_viewer(), Instant::now()) else {
+        return print("idle viewer", "not known on this system");
+    };
+    thread::sleep(IDLE);
+    let used = of_viewer().unwrap_or_default().saturating_sub(before);
+    let share = 100.0 * used.as_secs_f64() / start.elapsed().as_secs_f64();
+    let page = if tab.is_some() {
+        "open in Chromium"
+    } else {
+        "not open in a browser"
+    };
+    print(
+        "idle viewer",
+        &format!("{share:.2} % of a core, page {page}"),
+    );
+}
+
+/// Measures the memory and the time for a mesh of a million triangles.
+fn large_mesh() {
+    let folder = TempDir::new().expect("a folder can be created");
+    let scenes = workspace().join("scenes");
+    let text = fs::read_to_string(scenes.join("checkered-teapot.json")).expect("the scene exists");
+    let mut scene: Value = serde_json::from_str(&text).expect("the scene is valid");
+    scene["shapes"][0]["mesh"]["subdivide"] = json!(4);
+    let path = folder.path().join("large.json");
+    fs::write(&path, scene.to_string()).expect("the scene can be written");
+    fs::copy(scenes.join("teapot.obj"), folder.path().join("teapot.obj")).expect("the mesh exists");
+    let path = path.to_str().expect("the path is text");
+    let start = Instant::now();
+    let viewer = Viewer::start(
+        &Submission::reference(),
+        &[path, "--size", SIZE, "--samples", "1"],
+    );
+    viewer.wait_for_picture();
+    let first = start.elapsed().as_secs_f64();
+    viewer.explain([160, 120], None);
+    let state = viewer.wait_for(|state| state["has_tree"] == true);
+    viewer.get("/tree");
+    let mib = |process| {
+        peak_memory(process).map_or("unknown".to_owned(), |bytes| (bytes >> 20).to_string())
+    };
+    let programs: Vec<String> = family(viewer.process())
+        .into_iter()
+        .skip(1)
+        .map(mib)
+        .collect();
+    print(
+        "a mesh of a million triangles",
+        &format!(
+            "picture after {first:.1} s; at most {} MiB in the viewer, {} MiB in its programs, of which {} draw",
+            mib(viewer.process()),
+            programs.join(", "),
+            state["programs"]
+        ),
+    );
+}
+
+fn print(quantity: &str, result: &str) {
+    println!("{quantity:48}{result}");
+}

@@ -163,6 +163,113 @@ fn the_keyboard_alone_explains_a_pixel_and_shows_the_tree() {
     tab.press("Enter", 13);
     let node = text(&mut tab, "#node");
     assert!(node.contains("of the SAH cost"), "{node}");
+    // From node to node, and the boxes in the picture as a table.
+    tab.eval("document.getElementById('node-index').value = 0; 0");
+    tab.eval("document.querySelector('#choose-node button').focus(); 0");
+    tab.press("Enter", 13);
+    let is_root = "document.getElementById('node').innerText.startsWith('Node 0, level 0')";
+    tab.wait_until(is_root, TEXT);
+    assert_eq!(
+        tab.eval("document.getElementById('node-parent').disabled"),
+        true
+    );
+    tab.eval("document.getElementById('node-second').focus(); 0");
+    tab.press("Enter", 13);
+    let is_child = "/^(Node|Leaf) \\d+, level 1/.test(document.getElementById('node').innerText)";
+    tab.wait_until(is_child, TEXT);
+    let rows = tab.eval("document.querySelectorAll('#drawn-boxes tbody tr').length");
+    let count = text(&mut tab, "#boxes-count");
+    assert_eq!(count, format!("{rows} boxes"));
+}
+
+#[test]
+fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let arguments = ["flat", "--size", "64x48", "--samples", "1"];
+    let viewer = Viewer::start(&Submission::reference(), &arguments);
+    let mut tab = open(&viewer, &chromium, DESKTOP);
+    tab.wait_until(IS_COMPLETE, TEXT);
+    tab.eval("document.getElementById('load-tree').click(); 0");
+    tab.wait_until("!document.getElementById('tree-content').hidden", TEXT);
+    let point = |tab: &mut Tab, canvas: &str, x: f64, y: f64| {
+        tab.eval(&format!(
+            "(() => {{ const at = document.getElementById('{canvas}').getBoundingClientRect(); \
+             document.getElementById('{canvas}').dispatchEvent(new PointerEvent('pointermove', \
+             {{ clientX: at.x + {x} * at.width, clientY: at.y + {y} * at.height }})); return 0; }})()"
+        ));
+    };
+    // The highest row of the strip is the root.
+    point(&mut tab, "strip", 0.5, 0.01);
+    let names =
+        |start: &str| format!("document.getElementById('node').innerText.startsWith('{start}')");
+    tab.wait_until(&names("Node 0, level 0"), TEXT);
+    // The boxes of level 1 are drawn over the picture.
+    tab.eval(
+        "document.getElementById('level').value = 1; \
+         document.getElementById('level').dispatchEvent(new Event('input')); 0",
+    );
+    tab.wait_until(
+        "document.getElementById('boxes-count').innerText !== ''",
+        TEXT,
+    );
+    point(&mut tab, "lines", 0.5, 0.5);
+    let is_named = "document.getElementById('node').innerText.includes(', level 1: ')";
+    tab.wait_until(is_named, TEXT);
+
+    let saved = tab.eval(
+        "fetch(document.getElementById('save').href)\
+         .then((file) => file.arrayBuffer()).then((bytes) => [...new Uint8Array(bytes)])",
+    );
+    let saved: Vec<u8> = serde_json::from_value(saved).unwrap();
+    assert!(
+        saved == viewer.get("/picture").body,
+        "another picture is saved"
+    );
+    assert_eq!(
+        tab.eval("document.getElementById('save').download"),
+        "flat.png"
+    );
+    // A refused command says why.
+    tab.eval(
+        "document.getElementById('exposure').value = 99; \
+         document.getElementById('exposure').dispatchEvent(new Event('change')); 0",
+    );
+    tab.wait_until(
+        "document.getElementById('refused').innerText.includes('out of range')",
+        TEXT,
+    );
+}
+
+#[test]
+fn two_windows_show_the_same_camera_and_pixel() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let arguments = ["flat", "--size", "32x24", "--samples", "1"];
+    let viewer = Viewer::start(&Submission::reference(), &arguments);
+    let mut first = open(&viewer, &chromium, DESKTOP);
+    first.wait_until(IS_COMPLETE, TEXT);
+    first.eval("document.querySelector('[data-side=top]').click(); 0");
+    first.eval("document.getElementById('pick-sample').value = '1'; 0");
+    explain(&mut first, &viewer, uvec2(20, 10));
+    let mut second = open(&viewer, &chromium, DESKTOP);
+    second.wait_until(HAS_TABLE, TEXT);
+    for tab in [&mut first, &mut second] {
+        assert!(text(tab, "#explanation h3").starts_with("Pixel (20, 10), path 2"));
+        assert_eq!(
+            tab.eval("document.getElementById('pick-sample').value"),
+            "1"
+        );
+    }
+    second.eval("document.getElementById('stage').focus(); 0");
+    second.press("Enter", 13);
+    first.bring_to_front();
+    first.wait_until(
+        "document.querySelector('#explanation h3').innerText.startsWith('Pixel (16, 1')",
+        TEXT,
+    );
 }
 
 #[test]

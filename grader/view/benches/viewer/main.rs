@@ -49,8 +49,14 @@ fn moves_and_rays() {
     let arguments = [SCENE, "--size", SIZE, "--samples", &samples];
     let viewer = Viewer::start(&Submission::reference(), &arguments);
     let folder = TempDir::new().expect("a folder can be created");
-    rate_of_render(folder.path());
-    let (mut moves, mut ratios) = (Vec::new(), Vec::new());
+    let mut build = Command::new(env!("CARGO"));
+    build.args(["build", "-q", "--release", "--package", "reference"]);
+    let status = build.current_dir(workspace()).status();
+    assert!(
+        status.is_ok_and(|status| status.success()),
+        "{build:?} failed"
+    );
+    let (mut moves, mut ratios, mut costs) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
         let before = viewer.wait_for_picture();
         let start = Instant::now();
@@ -59,10 +65,18 @@ fn moves_and_rays() {
         viewer.get("/picture");
         moves.push(1e3 * start.elapsed().as_secs_f64());
         // The rays of the scene's own camera are those of `cargo render`.
+        let cpu = cpu_time_of(&viewer);
         viewer.send(&json!("own_camera"));
         let state = viewer.wait_for_picture();
+        let cpu = cpu_time_of(&viewer)
+            .zip(cpu)
+            .map(|(now, before)| now - before);
         let rate = state["rays_per_second"].as_f64().expect("it is a number");
-        ratios.push(1e-6 * rate / rate_of_render(folder.path()));
+        let mut of_render = 0.0;
+        let render = Cost::of(|| of_render = rate_of_render(folder.path()));
+        ratios.push(1e-6 * rate / of_render);
+        // The pictures are the same, so the number of rays is.
+        costs.extend(cpu.map(|cpu| render.cpu.as_secs_f64() / cpu.as_secs_f64()));
     }
     moves.sort_by(f64::total_cmp);
     let slowest = moves.last().expect("there are rounds");
@@ -79,26 +93,26 @@ fn moves_and_rays() {
         "rays per second, compared with `cargo render`",
         &format!("{:.2} (least {least:.2})", median(ratios)),
     );
+    if !costs.is_empty() {
+        let least = costs.iter().copied().reduce(f64::min).unwrap_or_default();
+        print(
+            "the same per second of CPU time",
+            &format!("{:.2} (least {least:.2})", median(costs)),
+        );
+    }
 }
 
 /// Returns the rate that `cargo render` reports, in millions of rays per second.
 fn rate_of_render(folder: &Path) -> f64 {
-    let mut command = Command::new(env!("CARGO"));
-    command.args([
-        "run",
-        "-q",
-        "--release",
-        "--package",
-        "reference",
-        "--",
-        SCENE,
-    ]);
-    command.args(["--size", SIZE, "--samples", &SAMPLES.to_string(), "--out"]);
+    let program = Path::new(env!("CARGO_BIN_EXE_view")).with_file_name("reference");
+    let mut command = Command::new(program);
+    command.args([SCENE, "--size", SIZE, "--samples", &SAMPLES.to_string()]);
+    command.arg("--out");
     let output = command
         .arg(folder.join("picture.png"))
         .current_dir(workspace())
         .output()
-        .expect("cargo can be started");
+        .expect("the program has been built");
     let text = String::from_utf8_lossy(&output.stdout).into_owned()
         + &String::from_utf8_lossy(&output.stderr);
     let rate = text.split_once(" Mrays/s").map(|(before, _)| before);
@@ -160,13 +174,13 @@ fn idle() {
     }
     viewer.wait_for_picture();
     thread::sleep(Duration::from_secs(2));
-    let of_viewer =
-        || -> Option<Duration> { family(viewer.process()).into_iter().map(cpu_time).sum() };
-    let (Some(before), start) = (of_viewer(), Instant::now()) else {
+    let (Some(before), start) = (cpu_time_of(&viewer), Instant::now()) else {
         return print("idle viewer", "not known on this system");
     };
     thread::sleep(IDLE);
-    let used = of_viewer().unwrap_or_default().saturating_sub(before);
+    let used = cpu_time_of(&viewer)
+        .unwrap_or_default()
+        .saturating_sub(before);
     let share = 100.0 * used.as_secs_f64() / start.elapsed().as_secs_f64();
     let page = if tab.is_some() {
         "open in Chromium"
@@ -217,6 +231,11 @@ fn large_mesh() {
             state["programs"]
         ),
     );
+}
+
+/// Returns the CPU time that a viewer and its programs have used.
+fn cpu_time_of(viewer: &Viewer) -> Option<Duration> {
+    family(viewer.process()).into_iter().map(cpu_time).sum()
 }
 
 fn print(quantity: &str, result: &str) {

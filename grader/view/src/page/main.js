@@ -145,7 +145,7 @@ function listen() {
   stage.listen(sample);
   tree.listen();
   get("lines").addEventListener("pointermove", (event) => {
-    if (event.buttons === 0) tree.nodeAt(overlay.project, event.offsetX, event.offsetY);
+    if (event.buttons === 0) tree.nodeAt(event.offsetX, event.offsetY);
   });
   get("views").addEventListener("change", (event) => send({ view: event.target.value }));
   get("scene").addEventListener("change", (event) => event.target.value && send({ scene: event.target.value }));

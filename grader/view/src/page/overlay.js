@@ -59,13 +59,15 @@ function toCanvas([right, up, forward]) {
   return [(x + 1) / 2 * canvas.width, (1 - y) / 2 * canvas.height];
 }
 
-/** Returns the position of a point in the picture, in CSS pixels, or null if it is behind the camera. */
-export function project(point) {
+/** Returns the part of the picture that a box covers, [left, top, right, bottom] in CSS pixels, or null. */
+export function covered(min, max) {
   if (!camera) return null;
-  const seen = toCamera(point);
-  if (seen[2] <= 0) return null;
-  const [x, y] = toCanvas(seen);
-  return [x / canvas.width * canvas.clientWidth, y / canvas.height * canvas.clientHeight];
+  const parts = boxLines(min, max, {}).map(({ points }) => clip(...points.map(toCamera))).filter(Boolean);
+  if (parts.length === 0) return null;
+  const ends = parts.flat().map(toCanvas);
+  const scale = canvas.clientWidth / canvas.width;
+  const [xs, ys] = [0, 1].map((axis) => ends.map((end) => end[axis] * scale));
+  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
 }
 
 function draw() {

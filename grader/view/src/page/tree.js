@@ -1,6 +1,6 @@
 // The tree: boxes over the picture, a strip with a row for each level, and the worst nodes.
 import { load, send } from "./server.js";
-import { boxLines, COLOURS, setLines } from "./overlay.js";
+import { boxLines, COLOURS, covered, setLines } from "./overlay.js";
 import { element, number } from "./main.js";
 
 const strip = document.getElementById("strip");
@@ -159,19 +159,12 @@ export function listen() {
 }
 
 /** Names the smallest drawn box that contains a position in the picture. */
-export function nodeAt(project, x, y) {
-  const around = (node) => {
-    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) =>
-      project([i & 1 ? node.max[0] : node.min[0], i & 2 ? node.max[1] : node.min[1], i & 4 ? node.max[2] : node.min[2]]));
-    if (corners.some((corner) => corner === null)) return Infinity;
-    const [xs, ys] = [corners.map((c) => c[0]), corners.map((c) => c[1])];
-    const inside = Math.min(...xs) <= x && x <= Math.max(...xs) && Math.min(...ys) <= y && y <= Math.max(...ys);
-    return inside ? (Math.max(...xs) - Math.min(...xs)) * (Math.max(...ys) - Math.min(...ys)) : Infinity;
-  };
+export function nodeAt(x, y) {
   let [best, size] = [null, Infinity];
   for (const node of boxes) {
-    const area = around(node);
-    if (area < size) [best, size] = [node, area];
+    const [left, top, right, bottom] = covered(node.min, node.max) ?? [1, 1, 0, 0];
+    const area = (right - left) * (bottom - top);
+    if (left <= x && x <= right && top <= y && y <= bottom && area < size) [best, size] = [node, area];
   }
   if (best && best.node !== selected?.node) select(best);
 }

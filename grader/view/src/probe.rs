@@ -27,7 +27,7 @@ const MAX_RESPONSE_BYTES: usize = 512 << 20;
 /// The maximum size of the output that is kept, in bytes.
 const MAX_OUTPUT_BYTES: usize = 16 << 10;
 /// The polling interval for a program that is computing.
-const POLL_INTERVAL: Duration = Duration::from_millis(5);
+const POLL_INTERVAL: Duration = Duration::from_millis(20);
 /// The wall time that each request has in addition to a multiple of its CPU time.
 const WALL_RESERVE: Duration = Duration::from_secs(5);
 /// The time in which a program that has closed its pipe must end.

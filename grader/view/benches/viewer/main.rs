@@ -26,12 +26,12 @@ use tempfile::TempDir;
 use harness::{Submission, Viewer, workspace};
 use process::{cpu_time, family, peak_memory};
 
-const ROUNDS: usize = 9;
+const ROUNDS: usize = 7;
 /// The scene whose camera is moved.
 const SCENE: &str = "checkered-teapot";
 const SIZE: &str = "320x240";
 /// The samples per pixel for the rate of rays.
-const SAMPLES: u32 = 64;
+const SAMPLES: u32 = 128;
 /// The time for which an idle viewer is measured.
 const IDLE: Duration = Duration::from_secs(20);
 

@@ -16,14 +16,16 @@ pub(crate) fn draw(stage: &Stage, integrator: &Integrator, request: &Draw) -> Dr
     let mut stats = RenderStats::default();
     let mut pixels = Pixels::new(request);
     let values = match request.quantity {
-        Quantity::Hit => Values::Hits(pixels.each(None, |pixel| {
+        Quantity::Hit => Values::Hits(pixels.each(None, |_, pixel| {
             stats.rays += 1;
             stage.first_hit(pixel)
         })),
-        Quantity::Light { sample } => Values::Light(pixels.each(Default::default(), |pixel| {
-            integrator.sample_radiance(pixel, sample, &mut stats)
-        })),
-        Quantity::Tests => Values::Tests(pixels.each(TestCounts::default(), |pixel| {
+        Quantity::Light { sample } => {
+            Values::Light(pixels.each(Default::default(), |pass, pixel| {
+                integrator.sample_radiance(pixel, sample + pass, &mut stats)
+            }))
+        }
+        Quantity::Tests => Values::Tests(pixels.each(TestCounts::default(), |_, pixel| {
             stats.rays += 1;
             record::take_counts();
             stage.first_hit(pixel);
@@ -54,7 +56,7 @@ impl<'a> Pixels<'a> {
 
     /// Computes the value of each pixel, until the time is over. A pixel with a panic gets
     /// `replacement`.
-    fn each<T: Clone>(&mut self, replacement: T, mut value: impl FnMut(UVec2) -> T) -> Vec<T> {
+    fn each<T: Clone>(&mut self, replacement: T, mut value: impl FnMut(u32, UVec2) -> T) -> Vec<T> {
         let deadline = Instant::now() + Duration::from_millis(self.request.milliseconds.into());
         let mut values = Vec::new();
         let mut clock = Clock {
@@ -63,8 +65,8 @@ impl<'a> Pixels<'a> {
             interval: 1,
             read_at: Instant::now(),
         };
-        for (index, pixel) in (0..).zip(self.request.pixels()) {
-            match attempt(|| value(pixel)) {
+        for (index, (pass, pixel)) in (0..).zip(self.request.pixels()) {
+            match attempt(|| value(pass, pixel)) {
                 ElementOutcome::Value(value) => values.push(value),
                 ElementOutcome::Panicked(panic) => {
                     self.add_panic(panic, index);

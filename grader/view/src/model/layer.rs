@@ -9,6 +9,9 @@ use view_probe::messages::{Draw, Quantity};
 
 /// The side of a tile in pixels: a multiple of the largest stride.
 const TILE: u32 = 64;
+/// The maximum number of samples of a request. One sample of a tile takes only a few milliseconds, so
+/// that exchanging requests would take a tenth of the time.
+const MAX_PASSES: u32 = 8;
 /// The strides of the first steps.
 const STRIDES: [u32; 3] = [4, 2, 1];
 
@@ -79,11 +82,12 @@ impl<T: Copy + Default> Layer<T> {
         milliseconds: u32,
     ) -> Option<(usize, Draw)> {
         let steps = self.steps();
+        let samples = self.samples;
         let tiles = self.tiles.iter_mut().enumerate();
         let open = tiles.filter(|(_, tile)| !tile.is_busy && tile.step < steps);
         let (index, tile) = open.min_by_key(|(_, tile)| tile.step)?;
         tile.is_busy = true;
-        Some((index, tile.draw(quantity, milliseconds)))
+        Some((index, tile.draw(quantity, samples, milliseconds)))
     }
 
     /// Adds the values of the first pixels of a request, and marks the pixels with a panic, by their
@@ -96,26 +100,27 @@ impl<T: Copy + Default> Layer<T> {
         panicked: impl IntoIterator<Item = u32>,
         add: impl Fn(&mut T, T),
     ) {
-        for (pixel, value) in draw.pixels().zip(values) {
+        for ((_, pixel), value) in draw.pixels().zip(values) {
             let pixel = self.index(pixel);
             add(&mut self.values[pixel], *value);
             self.counts[pixel] += 1;
         }
         for number in panicked {
-            if let Some(pixel) = draw.pixels().nth(number as usize) {
+            if let Some((_, pixel)) = draw.pixels().nth(number as usize) {
                 let pixel = self.index(pixel);
                 self.panicked[pixel] = true;
             }
         }
-        let done = u32::try_from(values.len()).unwrap_or(u32::MAX);
-        let is_complete = draw.pixels().nth(done as usize).is_none();
+        let of_pass = u32::try_from(draw.pixels_of_pass().count()).unwrap_or(u32::MAX);
+        let done = u32::try_from(values.len()).unwrap_or(u32::MAX) + draw.first;
         let tile = &mut self.tiles[index];
         tile.is_busy = false;
-        if is_complete {
+        // A coarse step of a narrow tile can have no pixels.
+        if of_pass == 0 {
             tile.step += 1;
-            tile.first = 0;
         } else {
-            tile.first += done;
+            tile.step += done / of_pass;
+            tile.first = done % of_pass;
         }
     }
 
@@ -186,7 +191,7 @@ pub enum Shown<T> {
 }
 
 impl Tile {
-    fn draw(&self, quantity: fn(u32) -> Quantity, milliseconds: u32) -> Draw {
+    fn draw(&self, quantity: fn(u32) -> Quantity, samples: u32, milliseconds: u32) -> Draw {
         let step = self.step as usize;
         let (stride, drawn_stride, sample) = match STRIDES.get(step) {
             Some(stride) if step == 0 => (*stride, 0, 0),
@@ -198,6 +203,8 @@ impl Tile {
             size: self.size,
             stride,
             drawn_stride,
+            // At first every picture shows more; later it may show less often.
+            passes: (samples.saturating_sub(sample)).clamp(1, sample.clamp(1, MAX_PASSES)),
             first: self.first,
             quantity: quantity(sample),
             milliseconds,
@@ -221,8 +228,8 @@ mod tests {
             let Quantity::Light { sample } = draw.quantity else {
                 unreachable!("only light is drawn")
             };
-            let count = draw.pixels().take(most).count();
-            let values = vec![u64::from(sample + 1); count];
+            let numbers = draw.pixels().take(most).map(|(pass, _)| sample + pass + 1);
+            let values: Vec<u64> = numbers.map(u64::from).collect();
             layer.add(index, &draw, &values, [], |sum, sample| {
                 *sum = 10 * *sum + sample
             });
@@ -234,10 +241,10 @@ mod tests {
     fn each_pixel_gets_its_samples_in_order_whatever_a_request_draws() {
         for film in [uvec2(1, 1), uvec2(65, 3), uvec2(130, 70)] {
             for most in [1, 7, usize::MAX] {
-                let layer = draw_all(film, 4, most);
-                assert!(layer.is_complete() && layer.complete_samples() == 4);
+                let layer = draw_all(film, 9, most);
+                assert!(layer.is_complete() && layer.complete_samples() == 9);
                 assert!(
-                    layer.values().all(|value| value == Some(1234)),
+                    layer.values().all(|value| value == Some(123_456_789)),
                     "{film} {most}"
                 );
             }

@@ -66,7 +66,7 @@ impl Session {
             let first = indices
                 .first()
                 .and_then(|index| draw.pixels().nth(*index as usize));
-            let pixel = first.unwrap_or(UVec2::ZERO).to_array();
+            let pixel = first.map_or(UVec2::ZERO, |(_, pixel)| pixel).to_array();
             self.add_panic(panic, pixel, indices.len() as u64);
         }
         self.invalid_paths += drawn.invalid_paths;
@@ -89,7 +89,8 @@ impl Session {
         if key != self.numbers {
             return;
         }
-        let pixel = draw.pixels().next().filter(|_| draw.milliseconds == 0);
+        let pixel = draw.pixels().next().map(|(_, pixel)| pixel);
+        let pixel = pixel.filter(|_| draw.milliseconds == 0);
         let values = usize::from(pixel.is_some());
         let panicked = || (0..).take(values);
         match draw.quantity {

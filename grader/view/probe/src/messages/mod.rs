@@ -55,7 +55,9 @@ pub struct Draw {
     /// Leaves out pixels whose coordinates are multiples of this, because they have been drawn; 0
     /// leaves out none.
     pub drawn_stride: u32,
-    /// The number of these pixels that have been drawn already.
+    /// The number of samples to draw, one after the other for all of these pixels.
+    pub passes: u32,
+    /// The number of pixels of the first pass that have been drawn already.
     pub first: u32,
     /// The quantity to compute for each pixel.
     pub quantity: Quantity,
@@ -69,9 +71,9 @@ pub struct Draw {
 pub enum Quantity {
     /// The hit of the ray through the centre of the pixel.
     Hit,
-    /// The radiance of one path.
+    /// The radiance of one path per pass.
     Light {
-        /// The number of the path, from 0.
+        /// The number of the first pass's path, from 0.
         sample: u32,
     },
     /// The number of tests for the ray through the centre of the pixel. Needs the recording
@@ -80,14 +82,21 @@ pub enum Quantity {
 }
 
 impl Draw {
-    /// Returns the pixels to draw, in order, without those that have been drawn already.
-    pub fn pixels(self) -> impl Iterator<Item = UVec2> {
+    /// Returns the pixels to draw, in order, without those that have been drawn already. With each
+    /// comes the number of the pass, from 0.
+    pub fn pixels(self) -> impl Iterator<Item = (u32, UVec2)> {
+        (0..self.passes)
+            .flat_map(move |pass| self.pixels_of_pass().map(move |pixel| (pass, pixel)))
+            .skip(self.first as usize)
+    }
+
+    /// Returns the pixels of each pass.
+    pub fn pixels_of_pass(self) -> impl Iterator<Item = UVec2> {
         let Draw {
             origin,
             size,
             stride,
             drawn_stride,
-            first,
             ..
         } = self;
         let multiples = move |from: u32, length: u32| {
@@ -100,7 +109,6 @@ impl Draw {
             .flat_map(move |y| multiples(origin.x, size.x).map(move |x| (x, y)))
             .filter(move |&(x, y)| !is_drawn(x, y))
             .map(UVec2::from)
-            .skip(first as usize)
     }
 }
 
@@ -252,13 +260,14 @@ mod tests {
             size: uvec2(13, 6),
             stride,
             drawn_stride,
+            passes: 1,
             first: 0,
             quantity: Quantity::Hit,
             milliseconds: 0,
         };
         let all: Vec<UVec2> = [draw(4, 0), draw(2, 4), draw(1, 2)]
             .into_iter()
-            .flat_map(Draw::pixels)
+            .flat_map(Draw::pixels_of_pass)
             .collect();
         let distinct: BTreeSet<[u32; 2]> = all.iter().map(UVec2::to_array).collect();
         assert_eq!((all.len(), distinct.len()), (13 * 6, 13 * 6));
@@ -268,5 +277,9 @@ mod tests {
             ..draw(1, 0)
         };
         assert_eq!(rest.pixels().count(), 8);
+        let passes = Draw { passes: 3, ..rest };
+        let numbers: BTreeSet<u32> = passes.pixels().map(|(pass, _)| pass).collect();
+        assert_eq!(passes.pixels().count(), 8 + 2 * 78);
+        assert_eq!(numbers, [0, 1, 2].into());
     }
 }

@@ -36,7 +36,9 @@ struct Tile {
     size: UVec2,
     /// The number of steps that are complete.
     step: u32,
-    /// The number of pixels of the current step that are complete.
+    /// The number of samples of each pixel in the current request.
+    passes: u32,
+    /// The number of samples of this request that have been drawn.
     first: u32,
     is_busy: bool,
 }
@@ -50,6 +52,7 @@ impl<T: Copy + Default> Layer<T> {
             origin,
             size: (film - origin).min(UVec2::splat(TILE)),
             step: 0,
+            passes: 1,
             first: 0,
             is_busy: false,
         };
@@ -115,12 +118,11 @@ impl<T: Copy + Default> Layer<T> {
         let done = u32::try_from(values.len()).unwrap_or(u32::MAX) + draw.first;
         let tile = &mut self.tiles[index];
         tile.is_busy = false;
-        // A coarse step of a narrow tile can have no pixels.
-        if of_pass == 0 {
-            tile.step += 1;
+        if done >= of_pass * draw.passes {
+            tile.step += draw.passes;
+            tile.first = 0;
         } else {
-            tile.step += done / of_pass;
-            tile.first = done % of_pass;
+            tile.first = done;
         }
     }
 
@@ -191,20 +193,24 @@ pub enum Shown<T> {
 }
 
 impl Tile {
-    fn draw(&self, quantity: fn(u32) -> Quantity, samples: u32, milliseconds: u32) -> Draw {
+    fn draw(&mut self, quantity: fn(u32) -> Quantity, samples: u32, milliseconds: u32) -> Draw {
         let step = self.step as usize;
         let (stride, drawn_stride, sample) = match STRIDES.get(step) {
             Some(stride) if step == 0 => (*stride, 0, 0),
             Some(stride) => (*stride, STRIDES[step - 1], 0),
             None => (1, 0, self.step + 1 - STRIDES.len() as u32),
         };
+        // At first every picture shows more; later it may show less often.
+        if self.first == 0 {
+            let rest = samples.saturating_sub(sample);
+            self.passes = rest.clamp(1, sample.clamp(1, MAX_PASSES));
+        }
         Draw {
             origin: self.origin,
             size: self.size,
             stride,
             drawn_stride,
-            // At first every picture shows more; later it may show less often.
-            passes: (samples.saturating_sub(sample)).clamp(1, sample.clamp(1, MAX_PASSES)),
+            passes: self.passes,
             first: self.first,
             quantity: quantity(sample),
             milliseconds,

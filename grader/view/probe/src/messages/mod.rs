@@ -55,9 +55,10 @@ pub struct Draw {
     /// Leaves out pixels whose coordinates are multiples of this, because they have been drawn; 0
     /// leaves out none.
     pub drawn_stride: u32,
-    /// The number of samples to draw, one after the other for all of these pixels.
+    /// The number of samples to draw for each of these pixels, one after the other: rays of one pixel
+    /// need the same nodes, which are then in the cache.
     pub passes: u32,
-    /// The number of pixels of the first pass that have been drawn already.
+    /// The number of samples that have been drawn already.
     pub first: u32,
     /// The quantity to compute for each pixel.
     pub quantity: Quantity,
@@ -85,8 +86,8 @@ impl Draw {
     /// Returns the pixels to draw, in order, without those that have been drawn already. With each
     /// comes the number of the pass, from 0.
     pub fn pixels(self) -> impl Iterator<Item = (u32, UVec2)> {
-        (0..self.passes)
-            .flat_map(move |pass| self.pixels_of_pass().map(move |pixel| (pass, pixel)))
+        self.pixels_of_pass()
+            .flat_map(move |pixel| (0..self.passes).map(move |pass| (pass, pixel)))
             .skip(self.first as usize)
     }
 
@@ -279,7 +280,7 @@ mod tests {
         assert_eq!(rest.pixels().count(), 8);
         let passes = Draw { passes: 3, ..rest };
         let numbers: BTreeSet<u32> = passes.pixels().map(|(pass, _)| pass).collect();
-        assert_eq!(passes.pixels().count(), 8 + 2 * 78);
+        assert_eq!(passes.pixels().count(), 3 * 78 - 70);
         assert_eq!(numbers, [0, 1, 2].into());
     }
 }

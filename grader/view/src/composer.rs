@@ -18,8 +18,8 @@ use crate::studio::Studio;
 /// The time between two pictures, at first and later. A picture that is nearly complete changes
 /// little, and composing it takes time from drawing it.
 const INTERVALS: [(Duration, Duration); 3] = [
-    (Duration::from_millis(600), Duration::from_millis(60)),
-    (Duration::from_secs(4), Duration::from_millis(300)),
+    (Duration::from_millis(600), Duration::from_millis(100)),
+    (Duration::from_secs(4), Duration::from_millis(500)),
     (Duration::MAX, Duration::from_secs(1)),
 ];
 /// The colour of pixels whose code panicked.

@@ -11,7 +11,7 @@ use view_probe::messages::{Draw, Quantity};
 const TILE: u32 = 64;
 /// The maximum number of samples of a request. One sample of a tile takes only a few milliseconds, so
 /// that exchanging requests would take a tenth of the time.
-const MAX_PASSES: u32 = 8;
+const MAX_PASSES: u32 = 16;
 /// The strides of the first steps.
 const STRIDES: [u32; 3] = [4, 2, 1];
 

@@ -100,7 +100,7 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     }
     let changes = Changes {
         regrade: None,
-        resubmitted: find_resubmitted(&out, &rows),
+        resubmitted: find_resubmitted(&out, &rows)?,
         removed,
     };
     let class = GradedClass {

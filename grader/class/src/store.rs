@@ -2,10 +2,10 @@
 //! stamp last, so a killed run never leaves an incomplete entry that looks complete.
 
 use std::ffi::OsStr;
-use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use grader::files::{self, AtPath, PathError};
+use grader::files::{self, PathError};
 use grader::report::atomic_write;
 use grader::report::html::write_counted;
 use serde::de::DeserializeOwned;
@@ -72,9 +72,10 @@ impl Store {
     pub fn remove_temporary_files(&self) -> Result<(), StoreError> {
         let entries = self.ids()?.into_iter().map(|id| self.entry_folder(&id));
         for folder in entries.chain([self.folder.clone()]) {
-            let files = fs::read_dir(folder).into_iter().flatten().flatten();
-            for file in files.filter(|file| is_temporary(&file.file_name())) {
-                files::remove_if_exists(file.path())?;
+            for file in list_if_exists(&folder)? {
+                if is_temporary(file.file_name().unwrap_or_default()) {
+                    files::remove_if_exists(file)?;
+                }
             }
         }
         Ok(())
@@ -183,7 +184,7 @@ impl Store {
     }
 
     /// Returns the score of an earlier version of the submission in the same round, if there is one.
-    pub fn replaced_score(&self, id: &str) -> Option<ScoreSummary> {
+    pub fn replaced_score(&self, id: &str) -> Result<Option<ScoreSummary>, StoreError> {
         self.read_kept_score(id, REPLACED)
     }
 
@@ -205,7 +206,7 @@ impl Store {
         for source in files::read_dir(from.entry_folder(id))? {
             let name = source.file_name().unwrap_or_default();
             if name != STAMP && !is_temporary(name) {
-                files::copy(&source, folder.join(name))?;
+                atomic_write::write(files::read(&source)?, &folder.join(name))?;
             }
         }
         if let Some(stamp) = files::read_if_exists(from.entry_folder(id).join(STAMP))? {
@@ -259,22 +260,20 @@ impl Store {
     }
 
     /// Returns the previous score of an entry, if there is one.
-    pub fn previous_score(&self, id: &str) -> Option<ScoreSummary> {
+    pub fn previous_score(&self, id: &str) -> Result<Option<ScoreSummary>, StoreError> {
         self.read_kept_score(id, PREVIOUS)
     }
 
-    fn read_kept_score(&self, id: &str, name: &str) -> Option<ScoreSummary> {
-        let text = fs::read_to_string(self.entry_folder(id).join(name)).ok()?;
-        ScoreSummary::parse(&text).ok()
+    fn read_kept_score(&self, id: &str, name: &str) -> Result<Option<ScoreSummary>, StoreError> {
+        let path = self.entry_folder(id).join(name);
+        let text = files::read_if_exists(&path)?;
+        let score = text.map(|text| ScoreSummary::parse(&text)).transpose();
+        score.map_err(|error| StoreError::damaged(path, &error))
     }
 
     /// Returns the ids of all entries, sorted.
     pub fn ids(&self) -> Result<Vec<String>, StoreError> {
-        let folder = self.folder.join("students");
-        if !folder.try_exists().at("read", &folder)? {
-            return Ok(Vec::new());
-        }
-        let entries = files::read_dir(&folder)?;
+        let entries = list_if_exists(&self.folder.join("students"))?;
         let names = entries.iter().filter_map(|path| path.file_name()?.to_str());
         Ok(names.map(str::to_owned).collect())
     }
@@ -287,6 +286,14 @@ impl Store {
 
     fn read_stamp(&self, id: &str) -> Result<Option<Stamp>, StoreError> {
         read_json(self.entry_folder(id).join(STAMP))
+    }
+}
+
+/// Returns the paths of a folder's entries, or none if the folder does not exist.
+fn list_if_exists(folder: &Path) -> Result<Vec<PathBuf>, PathError> {
+    match files::read_dir(folder) {
+        Err(error) if error.source.kind() == ErrorKind::NotFound => Ok(Vec::new()),
+        listed => listed,
     }
 }
 

@@ -145,8 +145,7 @@ fn decoys_are_out_of_reach(tree: &Tree, ray64: &Ray64) -> bool {
     let is_dangerous = |index: usize| {
         let shape = &tree.shapes[index];
         let end = expected + BEHIND * scan::bounds(shape).diagonal();
-        !ordinary[index]
-            && scan::intersect(ray64, shape).is_some_and(|hit| hit.distance < end)
+        !ordinary[index] && scan::intersect(ray64, shape).is_some_and(|hit| hit.distance < end)
     };
     tree.leaves().into_iter().all(|leaf| {
         let has_decoy = tree.primitives(leaf).any(is_dangerous);

@@ -136,6 +136,7 @@ pub fn grade_class_with<'a, G: SubmissionGrader>(
         ..run
     };
     store.write_run(&run)?;
+    let run = save_previous_scores(&store, run)?;
     let slots = slot_count(arguments.jobs);
     if arguments.estimate {
         let estimate = estimate(&grader, &store, &run, entries, slots)?;
@@ -213,14 +214,7 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
             finished: false,
             ..run
         },
-        (Some(run), true) => {
-            // An abandoned regrade has already replaced some scores, so the scores that were saved
-            // before it are kept for the comparison.
-            if !run.is_unfinished_regrade() {
-                store.save_previous_scores()?;
-            }
-            run.next_round(settings)
-        }
+        (Some(run), true) => run.next_round(settings),
         (Some(run), false) => {
             return Err(Error::SettingsChanged {
                 out: store.folder().to_owned(),
@@ -228,6 +222,22 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
             });
         }
     };
+    Ok(run)
+}
+
+/// Saves the scores from before a regrade, unless that has been done. The round has already begun in
+/// `run.json`, so that a run killed here cannot be resumed as the last round, whose comparison with the
+/// one before it would be lost.
+fn save_previous_scores(store: &Store, run: Run) -> Result<Run, StoreError> {
+    if !run.must_save_previous {
+        return Ok(run);
+    }
+    store.save_previous_scores()?;
+    let run = Run {
+        must_save_previous: false,
+        ..run
+    };
+    store.write_run(&run)?;
     Ok(run)
 }
 

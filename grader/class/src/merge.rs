@@ -58,6 +58,7 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
             }
         }
     }
+    out.remove_temporary_files()?;
     for (id, path) in &sources {
         out.copy_entry(id, &Store::new(path))?;
     }

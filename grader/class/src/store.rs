@@ -134,8 +134,9 @@ impl Store {
             EntryOutcome::Fault(why) => EntryState::Fault(why.clone()),
         };
         if state != EntryState::Graded {
-            // The files of an earlier run must not be mistaken for those of this run.
-            for file in [SCORE, REPORT, FEEDBACK] {
+            // The files of an earlier run must not be mistaken for those of this run. Its stamp is
+            // removed first: it must not be left without a score.
+            for file in [STAMP, SCORE, REPORT, FEEDBACK] {
                 files::remove_if_exists(folder.join(file))?;
             }
         }
@@ -239,22 +240,26 @@ impl Store {
         }))
     }
 
-    /// Saves the current score of every entry as its previous score. If an entry has no current
-    /// score, its previous score is removed.
+    /// Saves the last score of every entry as its previous score. If there was nothing to grade, the
+    /// previous score is removed. If this is interrupted, it can be done again.
     pub fn save_previous_scores(&self) -> Result<(), StoreError> {
         for id in self.ids()? {
             let folder = self.entry_folder(&id);
             let path = folder.join(PREVIOUS);
-            files::remove_if_exists(folder.join(REPLACED))?;
-            if self
-                .read_stamp(&id)?
-                .is_some_and(|s| s.state == EntryState::Graded)
-            {
-                let text = files::read_to_string(folder.join(SCORE))?;
+            let last = match self.read_stamp(&id)?.map(|stamp| stamp.state) {
+                Some(EntryState::Graded) => Some(files::read_to_string(folder.join(SCORE))?),
+                Some(EntryState::NothingToGrade(_)) => {
+                    files::remove_if_exists(&path)?;
+                    None
+                }
+                // Grading it again has failed or was interrupted. If that was in this round, the score
+                // was set aside; otherwise, it is already the previous one.
+                Some(EntryState::Fault(_)) | None => files::read_if_exists(folder.join(REPLACED))?,
+            };
+            if let Some(text) = last {
                 atomic_write::write(&text, &path)?;
-            } else {
-                files::remove_if_exists(&path)?;
             }
+            files::remove_if_exists(folder.join(REPLACED))?;
         }
         Ok(())
     }

@@ -12,28 +12,41 @@ use crate::world::{Target, World};
 
 /// The options that write everything that is made of the grades.
 pub const EXPORT: [&str; 2] = ["--hand-back", "--canvas=ROOT/gradebook.csv"];
-/// The files that these options write.
-const EXPORTED: [&str; 2] = ["canvas.csv", "hand-back.zip"];
 /// The files that say what a folder has been through, which a new folder has not. They are compared
 /// with the model.
 const HISTORY: [&str; 4] = ["run.json", "drift.json", "previous.json", "replaced.json"];
+
+/// Everything that the files of a run in a new folder depend on.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Class {
+    submissions: Vec<(&'static str, Option<u32>)>,
+    exam: usize,
+    policy: usize,
+    is_exported: bool,
+}
 
 type Files = BTreeMap<PathBuf, Vec<u8>>;
 
 /// The files of runs in new folders.
 #[derive(Debug, Default)]
-pub struct FreshRuns(BTreeMap<(Vec<(&'static str, Option<u32>)>, usize, usize), Files>);
+pub struct FreshRuns(BTreeMap<Class, Files>);
 
 impl FreshRuns {
     /// Returns the files of a run in a new folder, of the class as it is now.
-    fn files(&mut self, world: &World) -> &Files {
-        let submissions = world
-            .submissions
-            .iter()
-            .map(|(name, version)| (*name, *version));
-        let key = (submissions.collect(), world.exam, world.policy);
-        self.0.entry(key).or_insert_with(|| {
-            let ended = world.grade(Target::Fresh, &EXPORT, DiskFault::None, ProcessFault::None);
+    fn files(&mut self, world: &World, is_exported: bool) -> &Files {
+        let submissions = world.submissions.iter();
+        let class = Class {
+            submissions: submissions
+                .map(|(name, version)| (*name, *version))
+                .collect(),
+            exam: world.exam,
+            policy: world.policy,
+            is_exported,
+        };
+        self.0.entry(class).or_insert_with(|| {
+            // A gradebook is also a list of those who should have submitted something.
+            let more: &[&str] = if is_exported { &EXPORT } else { &[] };
+            let ended = world.grade(Target::Fresh, more, DiskFault::None, ProcessFault::None);
             ended.result.expect("nothing goes wrong");
             let files = all_files(&world.folder(Target::Fresh));
             world.remove(Target::Fresh);
@@ -41,30 +54,31 @@ impl FreshRuns {
         })
     }
 
-    /// Compares the files in a folder with those of a fresh run. `is_exported` says whether the
-    /// gradebooks are those of the last run.
+    /// Compares the files in a folder with those of a fresh run. `history` is what the folder
+    /// contains, and what the folders that were merged into it contain. `is_exported` says whether the
+    /// run was made with [`EXPORT`].
     pub fn compare(
         &mut self,
         world: &World,
         target: Target,
-        observed: &Observed,
+        history: &[&Observed],
         is_exported: bool,
     ) -> Result<(), String> {
         let found = all_files(&world.folder(target));
-        let expected = self.files(world);
+        let expected = self.files(world, is_exported);
         for (name, expected) in expected {
             let last = name.file_name().unwrap_or_default().to_string_lossy();
-            if !is_exported && EXPORTED.contains(&&*last) || HISTORY.contains(&&*last) {
+            if HISTORY.contains(&&*last) {
                 continue;
             }
-            if last == "class.html" && has_changes(world, observed) {
+            if last == "class.html" && has_changes(world, history) {
                 continue;
             }
             let Some(found) = found.get(name) else {
                 return Err(format!("{target:?} lacks {}", name.display()));
             };
             let is_same = match &*last {
-                "entry.json" => stamp(found) == stamp(expected),
+                "entry.json" => stamp(found, target) == stamp(expected, target),
                 _ => found == expected,
             };
             if !is_same {
@@ -81,7 +95,13 @@ impl FreshRuns {
 }
 
 /// Returns whether the page of the class lists changes, which a fresh run does not.
-fn has_changes(world: &World, observed: &Observed) -> bool {
+fn has_changes(world: &World, history: &[&Observed]) -> bool {
+    history
+        .iter()
+        .any(|observed| lists_changes(world, observed))
+}
+
+fn lists_changes(world: &World, observed: &Observed) -> bool {
     let entries = observed.entries.iter();
     observed
         .run
@@ -93,18 +113,25 @@ fn has_changes(world: &World, observed: &Observed) -> bool {
             .any(|(id, _)| !world.submissions.contains_key(id.as_str()))
 }
 
-/// Returns a stamp without the key and the round.
-fn stamp(bytes: &[u8]) -> Value {
+/// Returns a stamp without the key and the round. After a merge, the people are those of the lists that
+/// the parts were graded with.
+fn stamp(bytes: &[u8], target: Target) -> Value {
     let mut stamp: Value = serde_json::from_slice(bytes).unwrap();
+    if target == Target::Merged {
+        stamp["about"] = Value::Null;
+    }
     stamp["key"] = Value::Null;
     stamp["round"] = Value::Null;
     stamp
 }
 
+/// Returns the texts from shortly before the first difference on.
 fn first_difference(one: &str, other: &str) -> String {
-    let mut pairs = one.lines().zip(other.lines());
-    let pair = pairs.find(|(one, other)| one != other);
-    let (one, other) = pair.unwrap_or(("(its end)", "(its end)"));
-    let short = |line: &str| line.chars().take(300).collect::<String>();
-    format!("{} instead of {}", short(one), short(other))
+    let same = one
+        .chars()
+        .zip(other.chars())
+        .take_while(|(one, other)| one == other);
+    let from = same.count().saturating_sub(60);
+    let short = |text: &str| text.chars().skip(from).take(160).collect::<String>();
+    format!("{:?} instead of {:?}", short(one), short(other))
 }

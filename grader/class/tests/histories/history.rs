@@ -163,7 +163,7 @@ impl History {
             Target::Whole => observed.run.is_none() || !has_other_exam,
             Target::Part(_) | Target::Merged | Target::Fresh => true,
         };
-        let is_possible = is_possible && !self.world.submissions.is_empty();
+        let is_possible = is_possible && self.world.is_class();
         let ended = self.world.grade(target, &more, disk, process);
         self.log.push(format!(
             "grade {target:?} {more:?} with {disk:?} and {process:?}: {}",
@@ -204,8 +204,10 @@ impl History {
         // The parts may have been graded before the last submissions.
         if is_complete && self.parts_are_current() {
             self.check_leftovers(Target::Merged)?;
+            let parts = (1..=PARTS).map(|part| &self.models[&Target::Part(part)].observed);
+            let history: Vec<_> = parts.chain([&observed]).collect();
             self.fresh
-                .compare(&self.world, Target::Merged, &observed, true)?;
+                .compare(&self.world, Target::Merged, &history, true)?;
         }
         self.models.get_mut(&Target::Merged).unwrap().observed = observed;
         Ok(())
@@ -298,7 +300,7 @@ impl History {
         self.check_leftovers(target)?;
         if target == Target::Whole {
             self.fresh
-                .compare(&self.world, target, &observed, is_exported)?;
+                .compare(&self.world, target, &[&observed], is_exported)?;
         }
         Ok(())
     }
@@ -314,7 +316,7 @@ impl History {
 
     /// Runs everything once more without faults, and compares it with new folders.
     fn end(&mut self) -> Result<(), String> {
-        if self.world.submissions.is_empty() {
+        if !self.world.is_class() {
             self.world.submit(STUDENTS[0], Some(self.next_version));
         }
         let none = (DiskFault::None, ProcessFault::None);

@@ -16,6 +16,9 @@ pub struct Model {
     kept: BTreeMap<String, (u64, ScoreId)>,
     /// The scores that the current round is compared with.
     before: BTreeMap<String, ScoreId>,
+    /// The last scores of entries in which there was nothing to grade later on. If reading such an entry
+    /// has failed since, a regrade may be compared with this score.
+    dropped: BTreeMap<String, ScoreId>,
 }
 
 impl Model {
@@ -34,7 +37,13 @@ impl Model {
                 return Err(format!("the files of {id} are gone"));
             }
         }
-        if now.round() > was.round() && !was.is_unfinished_regrade() {
+        if now.round() > was.round() && was.is_unfinished_regrade() {
+            // The scores of an abandoned regrade are given up.
+            let before = self.before.iter();
+            self.kept = before
+                .map(|(id, score)| (id.clone(), (0, *score)))
+                .collect();
+        } else if now.round() > was.round() {
             let kept = self.kept.iter();
             self.before = kept.map(|(id, (_, score))| (id.clone(), *score)).collect();
         }
@@ -69,7 +78,13 @@ impl Model {
                 self.kept.insert(id.to_owned(), (stamped_in, score));
             }
             // Staff have been told that there is nothing to grade.
-            (None, Some("no_submission")) => _ = self.kept.remove(id),
+            (None, Some("no_submission")) => {
+                let dropped = self
+                    .kept
+                    .remove(id)
+                    .map(|(_, score)| (id.to_owned(), score));
+                self.dropped.extend(dropped);
+            }
             (None, _) => {}
         }
         Ok(())
@@ -91,7 +106,8 @@ impl Model {
             }
             let is_regrade = self.observed.round() > 1;
             let before = self.before.get(*id).copied().filter(|_| is_regrade);
-            if is_regrade && files.previous != before {
+            let is_dropped = before.is_none() && files.previous == self.dropped.get(*id).copied();
+            if is_regrade && files.previous != before && !is_dropped {
                 return Err(format!(
                     "{id} is compared with {files:?} instead of {before:?}"
                 ));
@@ -103,7 +119,8 @@ impl Model {
     /// Returns the ids of the entries whose score a regrade has changed, among those of the class.
     pub fn drifts(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Vec<(String, ScoreId)> {
         let ids = class.keys().copied();
-        let before = ids.filter_map(|id| Some((id.to_owned(), *self.before.get(id)?)));
+        let entries = &self.observed.entries;
+        let before = ids.filter_map(|id| Some((id.to_owned(), entries.get(id)?.previous?)));
         before
             .filter(|(id, was)| class[id.as_str()] != Some(*was))
             .collect()

@@ -78,8 +78,8 @@ impl World {
             fs::write(world.policy_path(number), text).unwrap();
         }
         let mut gradebook = "Student,ID,SIS User ID,SIS Login ID,Section,Tracer (42)\n".to_owned();
-        for student in STUDENTS {
-            gradebook += &format!("{student},7,,{student},Lab,\n");
+        for (number, student) in STUDENTS.iter().enumerate() {
+            gradebook += &format!("{student},{number},,{student},Lab,\n");
         }
         fs::write(root.join("gradebook.csv"), gradebook).unwrap();
         world
@@ -119,6 +119,11 @@ impl World {
             }
         }
         self.submissions.insert(student, version);
+    }
+
+    /// Returns whether there is something to grade. A single empty folder is no class.
+    pub fn is_class(&self) -> bool {
+        self.submissions.len() > 1 || self.submissions.values().any(Option::is_some)
     }
 
     /// Removes a student.

@@ -37,6 +37,9 @@ struct Arguments {
     /// Number of processes; default: one per core
     #[arg(long)]
     jobs: Option<u64>,
+    /// Write the result into the table of long runs
+    #[arg(long)]
+    record: bool,
     /// Run the histories in this process, and write what is lost into this file
     #[arg(long, hide = true)]
     report: Option<PathBuf>,
@@ -53,7 +56,17 @@ fn main() -> ExitCode {
     };
     match &arguments.report {
         Some(report) => run_here(seeds, report),
-        None => run_in_processes(&seeds, arguments.jobs),
+        None => {
+            let result = run_in_processes(&seeds, arguments.jobs);
+            if arguments.record && !record(&seeds, &result) {
+                return ExitCode::FAILURE;
+            }
+            if result.ends_with(" lost 0") {
+                ExitCode::SUCCESS
+            } else {
+                ExitCode::FAILURE
+            }
+        }
     }
 }
 
@@ -67,8 +80,31 @@ fn run_here(seeds: Range<u64>, report: &Path) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Runs histories in several processes, and prints what is lost.
-fn run_in_processes(seeds: &Range<u64>, jobs: Option<u64>) -> ExitCode {
+/// Writes a number with commas between the thousands.
+fn in_thousands(number: u64) -> String {
+    match number / 1000 {
+        0 => number.to_string(),
+        thousands => format!("{},{:03}", in_thousands(thousands), number % 1000),
+    }
+}
+
+/// Writes the result into the table of long runs. Returns whether that succeeded.
+fn record(seeds: &Range<u64>, result: &str) -> bool {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let script = Command::new("bash")
+        .current_dir(root)
+        .args([
+            ".ci/record",
+            "histories",
+            &format!("{}..{}", seeds.start, seeds.end),
+            result,
+        ])
+        .status();
+    script.is_ok_and(|status| status.success())
+}
+
+/// Runs histories in several processes, prints what is lost, and returns the closing line.
+fn run_in_processes(seeds: &Range<u64>, jobs: Option<u64>) -> String {
     let cores = || thread::available_parallelism().map_or(1, |cores| cores.get() as u64);
     let count = seeds.end - seeds.start;
     let jobs = jobs.unwrap_or_else(cores).clamp(1, count.max(1));
@@ -100,11 +136,10 @@ fn run_in_processes(seeds: &Range<u64>, jobs: Option<u64>) -> ExitCode {
     for text in lost.iter().take(5) {
         println!("{text}");
     }
-    println!("histories {count}, lost {}", lost.len());
-    if lost.is_empty() {
-        ExitCode::SUCCESS
-    } else {
+    if !lost.is_empty() {
         println!("`cargo test -p class --test histories -- --seed NUMBER` repeats one");
-        ExitCode::FAILURE
     }
+    let result = format!("histories {}, lost {}", in_thousands(count), lost.len());
+    println!("{result}");
+    result
 }

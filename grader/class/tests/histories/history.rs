@@ -61,11 +61,12 @@ impl History {
     fn step(&mut self) -> Result<(), String> {
         match self.rng.u32(0..20) {
             0..=7 => self.grade(Target::Whole),
-            8..=10 => {
+            8..=9 => {
                 let part = self.rng.usize(1..=PARTS);
                 self.grade(Target::Part(part))
             }
-            11..=12 => self.merge(),
+            10..=11 => self.grade_parts_and_merge(),
+            12 => self.merge(),
             13..=15 => {
                 self.submit();
                 Ok(())
@@ -95,6 +96,18 @@ impl History {
                 Ok(())
             }
         }
+    }
+
+    /// Grades all parts, as several machines do, while the class may change, and merges them.
+    fn grade_parts_and_merge(&mut self) -> Result<(), String> {
+        for part in 1..=PARTS {
+            if self.rng.u32(0..4) == 0 {
+                self.submit();
+            }
+            let process = self.process_fault();
+            self.grade_with(Target::Part(part), false, true, DiskFault::None, process)?;
+        }
+        self.merge()
     }
 
     fn submit(&mut self) {

@@ -171,9 +171,11 @@ fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
         let mut changed = exam.clone();
         let (around, key) = path.rsplit_once('/').unwrap();
         let around = changed.pointer_mut(around);
-        match around.unwrap_or_else(|| panic!("the exam has no {path}")) {
-            Value::Array(list) => list[key.parse::<usize>().unwrap()] = value,
-            object => object[key] = value,
+        let around = around.unwrap_or_else(|| panic!("the exam has no {path}"));
+        if let Value::Array(list) = around {
+            list[key.parse::<usize>().unwrap()] = value;
+        } else {
+            around[key] = value;
         }
         let error = parse(&changed.to_string()).unwrap_err();
         assert!(error.contains(problem), "{path}: {error}");
@@ -185,22 +187,16 @@ fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
 fn camera_answers(exam: &Exam, change: impl Fn(Vec3) -> Vec3) -> Observations {
     let mut observations = Observations::default();
     for item in exam.items.iter().filter(|item| item.task.id() == "camera") {
-        let answer = |key: &Key| match key {
-            Key::Rays { directions, .. } => {
-                let ray = |&dir: &Vec3| Ray {
-                    origin: Vec3::ZERO,
-                    dir: change(dir),
-                    range: Interval::AHEAD,
-                };
-                Answer::Rays(
-                    directions
-                        .iter()
-                        .map(ray)
-                        .map(ElementOutcome::Value)
-                        .collect(),
-                )
-            }
-            key => panic!("the camera is asked for rays, not for {key:?}"),
+        let answer = |key: &Key| {
+            let Key::Rays { directions, .. } = key else {
+                panic!("the camera is asked for rays, not for {key:?}");
+            };
+            let rays = directions.iter().map(|&dir| Ray {
+                origin: Vec3::ZERO,
+                dir: change(dir),
+                range: Interval::AHEAD,
+            });
+            Answer::Rays(rays.map(ElementOutcome::Value).collect())
         };
         let answers: Vec<Answer> = item
             .questions

@@ -50,7 +50,7 @@ pub struct CachedReport {
 impl CachedReport {
     /// Reads the cached report that is stored beside these files, if there is a valid one.
     pub fn read(files: &ReportFiles) -> Option<Self> {
-        serde_json::from_slice(&fs::read(files.folder.join(RECORD)).ok()?).ok()
+        serde_json::from_slice(&crate::files::read(files.folder.join(RECORD)).ok()?).ok()
     }
 
     /// Returns whether the report is about this submission, regardless of the other inputs.

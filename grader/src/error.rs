@@ -73,6 +73,7 @@ impl Error {
     /// Returns 2 for errors that the user can fix, and 3 for errors of the grader or the machine.
     pub fn exit_code(&self) -> u8 {
         match self {
+            Error::Submission(error) if error.is_machine_fault() => 3,
             Error::Reset(ResetError::File(_))
             | Error::HandIn(HandInError::Archive(_) | HandInError::ReadBack(_)) => 3,
             Error::Submission(_)

@@ -1,14 +1,13 @@
 //! Reads exams: the practice exam of an assignment, which is embedded in this program, a file, or standard input.
 
 use std::borrow::Cow;
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use judging::content_hash::file_hash;
 use judging::exam_file::{self, ExamError, ExamFile};
 
-use crate::files::{AtPath, PathError};
+use crate::files::{self, AtPath, PathError};
 use crate::handed_out::HandedOut;
 
 /// Maximum size of an exam file, in bytes. The committed exams have about 3,000,000.
@@ -83,7 +82,10 @@ impl ExamSource {
             ExamSource::Practice => Cow::Borrowed(handed_out.practice_exam.as_bytes()),
             ExamSource::StandardInput => Cow::Owned(read(Path::new("-"), io::stdin())?),
             ExamSource::File(path) => {
-                let file = File::open(path).at(ACTION, path)?;
+                let file = files::open(path).map_err(|error| PathError {
+                    action: ACTION,
+                    ..error
+                })?;
                 Cow::Owned(read(path, file)?)
             }
         })

@@ -7,6 +7,8 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::disk::{self, Operation};
+
 /// The error if a file, a folder or a program cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot {action} {path}: {}", self.reason())]
@@ -61,25 +63,43 @@ impl PathError {
 
 /// Reads a file.
 pub fn read(path: impl AsRef<Path>) -> Result<Vec<u8>, PathError> {
-    fs::read(&path).at("read", path)
+    read_file(path.as_ref()).at("read", path)
 }
 
 /// Reads a text file.
 pub fn read_to_string(path: impl AsRef<Path>) -> Result<String, PathError> {
-    fs::read_to_string(&path).at("read", path)
+    read_text(path.as_ref()).at("read", path)
 }
 
 /// Reads a text file, or returns `None` if it does not exist.
 pub fn read_if_exists(path: impl AsRef<Path>) -> Result<Option<String>, PathError> {
-    match fs::read_to_string(&path) {
+    match read_text(path.as_ref()) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         read => read.at("read", path).map(Some),
     }
 }
 
+/// Opens a file for reading.
+pub fn open(path: impl AsRef<Path>) -> Result<File, PathError> {
+    let path = path.as_ref();
+    let opened = disk::before(Operation::Read(path)).and_then(|()| File::open(path));
+    opened.at("read", path)
+}
+
+fn read_file(path: &Path) -> io::Result<Vec<u8>> {
+    disk::before(Operation::Read(path))?;
+    fs::read(path)
+}
+
+fn read_text(path: &Path) -> io::Result<String> {
+    disk::before(Operation::Read(path))?;
+    fs::read_to_string(path)
+}
+
 /// Returns the paths of a folder's entries, sorted.
 pub fn read_dir(folder: impl AsRef<Path>) -> Result<Vec<PathBuf>, PathError> {
     let list = || {
+        disk::before(Operation::List(folder.as_ref()))?;
         let entries = fs::read_dir(&folder)?;
         entries.map(|entry| Ok(entry?.path())).collect()
     };
@@ -91,7 +111,11 @@ pub fn read_dir(folder: impl AsRef<Path>) -> Result<Vec<PathBuf>, PathError> {
 
 /// Writes a file into an existing folder.
 pub fn write(path: impl AsRef<Path>, contents: impl AsRef<[u8]>) -> Result<(), PathError> {
-    fs::write(&path, contents).at("write", path)
+    let write = |path: &Path, contents: &[u8]| {
+        disk::before(Operation::Write(path, contents))?;
+        fs::write(path, contents)
+    };
+    write(path.as_ref(), contents.as_ref()).at("write", path)
 }
 
 /// Writes a file, and creates its folder if it does not exist.
@@ -112,12 +136,20 @@ pub fn copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> Result<(), PathErro
 
 /// Creates a folder, and those around it, if they do not exist.
 pub fn create_dir_all(folder: impl AsRef<Path>) -> Result<(), PathError> {
-    fs::create_dir_all(&folder).at("create", folder)
+    let create = |folder: &Path| {
+        disk::before(Operation::CreateFolder(folder))?;
+        fs::create_dir_all(folder)
+    };
+    create(folder.as_ref()).at("create", folder)
 }
 
 /// Removes a file if it exists.
 pub fn remove_if_exists(path: impl AsRef<Path>) -> Result<(), PathError> {
-    match fs::remove_file(&path) {
+    let remove = |path: &Path| {
+        disk::before(Operation::Remove(path))?;
+        fs::remove_file(path)
+    };
+    match remove(path.as_ref()) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
         removed => removed.at("remove", path),
     }

@@ -16,7 +16,7 @@
 //! | results | [`score`], [`rerun_command`], [`source_paths`], [`bundle_version`], [`stage_times`] |
 //! | inputs | [`policy`], [`submission`], [`handed_out`], [`exam_source`], [`question_ref`], [`task_selection`] |
 //! | a separate package | [`judging`]: exams, their keys, and the comparison of answers with keys |
-//! | the machine | [`book`], [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`zipfile`]; [`files`], [`system`], [`nearest_name`] |
+//! | the machine | [`book`], [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`zipfile`]; [`files`], above [`disk`]; [`system`], [`nearest_name`] |
 
 pub mod alone;
 pub mod book;
@@ -27,6 +27,7 @@ pub mod cached_report;
 pub mod capture;
 pub mod cli;
 pub mod desktop;
+pub mod disk;
 pub mod doctor;
 pub mod drawing;
 pub mod error;

@@ -53,12 +53,13 @@ impl fmt::Display for RemovedEntry {
 }
 
 /// Returns the scores that changed because their submission did.
-pub fn find_resubmitted(store: &Store, results: &[EntryResult]) -> Vec<Drift> {
-    let drift = |result: &EntryResult| {
+pub fn find_resubmitted(store: &Store, results: &[EntryResult]) -> Result<Vec<Drift>, StoreError> {
+    let mut drifts = Vec::new();
+    for result in results {
         let was = store.replaced_score(&result.id)?;
-        compare_scores(&result.id, &was, result.score())
-    };
-    results.iter().filter_map(drift).collect()
+        drifts.extend(was.and_then(|was| compare_scores(&result.id, &was, result.score())));
+    }
+    Ok(drifts)
 }
 
 /// Returns the entries in the store that are not among `ids`.

@@ -2,9 +2,6 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use grader::error::Error;
-use grader::format::{FormatContext, html};
-use grader::grade::Grader;
 use grader::policy::Policy;
 use grader::report::html::Reload;
 use grader::report::json;
@@ -14,11 +11,12 @@ use judging::content_hash::ContentHash;
 use judging::sanitize::sanitize;
 
 use crate::entry::Entry;
-use crate::input::collect_submission;
+use crate::input::{NotCollected, collect_submission};
 use crate::outcome::{EntryOutcome, EntryResult, EntryState, ScoreSummary};
 use crate::progress::Progress;
 use crate::run::Run;
 use crate::store::{Store, StoreError};
+use crate::submission_grader::SubmissionGrader;
 
 /// The maximum number of attempts to grade an entry. If all of them fail, the entry gets no score
 /// in this run.
@@ -29,7 +27,7 @@ const MAX_FAULT_CHARS: usize = 2_000;
 /// Grades entries and stores their results.
 pub struct EntryGrader<'a> {
     /// The grader, which grades every entry with the same exam.
-    pub grader: &'a Grader<'a>,
+    pub grader: &'a dyn SubmissionGrader,
     /// The output folder.
     pub store: &'a Store,
     /// The run, with the settings that scores depend on.
@@ -42,7 +40,11 @@ impl EntryGrader<'_> {
     /// Returns the result of an entry: the stored one if it is still valid, otherwise a new one.
     pub fn grade(&self, slot: usize, entry: &Entry) -> Result<EntryResult, StoreError> {
         let (result, is_new) = match collect_submission(entry, self.grader.handed_out()) {
-            Err(why) => {
+            Err(NotCollected::MachineFault(why)) => {
+                self.store.set_score_aside(&entry.id, self.run.round)?;
+                (self.finish(entry, fault(&why), "")?, true)
+            }
+            Err(NotCollected::NothingToGrade(why)) => {
                 let is_new = !self
                     .store
                     .has_state(&entry.id, &EntryState::NothingToGrade(why.clone()));
@@ -76,7 +78,7 @@ impl EntryGrader<'_> {
     ) -> Result<EntryResult, StoreError> {
         self.store.set_score_aside(&entry.id, self.run.round)?;
         self.store.remove_stamp(&entry.id)?;
-        let mut fault = String::new();
+        let mut why = String::new();
         for _ in 0..ATTEMPTS {
             // A bug in the grader that one submission triggers must not affect the others.
             let graded = catch_unwind(AssertUnwindSafe(|| {
@@ -86,15 +88,11 @@ impl EntryGrader<'_> {
                 Ok(Ok(score)) => {
                     return self.finish(entry, EntryOutcome::Graded(Box::new(score)), key);
                 }
-                Ok(Err(why)) => fault = why,
-                Err(_) => fault = "the grader panicked, with the message above".to_owned(),
+                Ok(Err(error)) => why = error,
+                Err(_) => why = "the grader panicked, with the message above".to_owned(),
             }
         }
-        self.finish(
-            entry,
-            EntryOutcome::Fault(sanitize(&fault, MAX_FAULT_CHARS)),
-            "",
-        )
+        self.finish(entry, fault(&why), "")
     }
 
     /// Grades an entry once. Its score and its pages are written when all items are graded.
@@ -104,29 +102,10 @@ impl EntryGrader<'_> {
         entry: &Entry,
         submission: &Submission,
     ) -> Result<ScoreSummary, String> {
-        let message = |error: Error| error.to_string();
-        self.progress.set_status(slot, &entry.id, "compiling");
-        let built = self.grader.build(submission).map_err(message)?;
-        let exam = self.grader.exam();
-        let count = exam.items.len();
         let mut files = ReportFiles::new(&self.store.entry_folder(&entry.id), Reload::Never);
-        let mut score = self.grader.pending_score(submission, &built);
-        let mut done = 0;
-        let run = self
-            .grader
-            .run_exam(exam, &built, &mut score, |score, answers| {
-                done += 1;
-                if score.complete {
-                    files.write(score, exam, answers)
-                } else {
-                    let status = format!("{done} of {count}");
-                    self.progress.set_status(slot, &entry.id, &status);
-                    Ok(())
-                }
-            });
-        run.map_err(message)?;
-        let student_view = self.grader.student_view(&score);
-        let page = html::render(&student_view, &FormatContext::default());
+        let show_status = |status: &str| self.progress.set_status(slot, &entry.id, status);
+        let graded = self.grader.grade(submission, &mut files, &show_status);
+        let (score, page) = graded.map_err(|error| error.to_string())?;
         let saved = self.store.save_feedback(&entry.id, &page);
         saved.map_err(|error| error.to_string())?;
         ScoreSummary::parse(&json::to_string(&score)).map_err(|error| error.to_string())
@@ -152,10 +131,16 @@ impl EntryGrader<'_> {
     }
 }
 
+fn fault(why: &str) -> EntryOutcome {
+    EntryOutcome::Fault(sanitize(why, MAX_FAULT_CHARS))
+}
+
 /// Returns whether an entry needs no grading: it has a valid result, or nothing to grade.
-pub fn is_done(grader: &Grader, store: &Store, run: &Run, entry: &Entry) -> bool {
-    let Ok(submission) = collect_submission(entry, grader.handed_out()) else {
-        return true;
+pub fn is_done(grader: &dyn SubmissionGrader, store: &Store, run: &Run, entry: &Entry) -> bool {
+    let submission = match collect_submission(entry, grader.handed_out()) {
+        Ok(submission) => submission,
+        Err(NotCollected::NothingToGrade(_)) => return true,
+        Err(NotCollected::MachineFault(_)) => return false,
     };
     let key = cache_key(run, grader.policy(), &submission);
     store.cached_result(entry, &key).is_some()

@@ -1,14 +1,11 @@
 //! Grades a class: reads a learning platform's export, and writes the files with the scores.
 
-use std::env;
-use std::fs;
 use std::num::NonZero;
 use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant};
 
 use grader::error::Error as GraderError;
-use grader::files::AtPath;
 use grader::grade::Grader;
 use grader::options::GradeOptions;
 use grader::policy::{Policy, PolicyError};
@@ -16,9 +13,7 @@ use grader::workspace::Workspace;
 use judging::content_hash::file_hash;
 
 use crate::cli::{ClassArguments, Lists};
-use crate::drift::{
-    Changes, Drift, RegradeChanges, compare_scores, find_removed, find_resubmitted,
-};
+use crate::drift::{Changes, RegradeChanges, compare_scores, find_removed, find_resubmitted};
 use crate::entry::{Entry, EntryInfo, Person};
 use crate::entry_grader::{EntryGrader, is_done};
 use crate::error::Error;
@@ -39,7 +34,8 @@ use crate::roster;
 use crate::run::{Run, Settings};
 use crate::shard::Shard;
 use crate::similarity;
-use crate::store::Store;
+use crate::store::{Store, StoreError};
+use crate::submission_grader::SubmissionGrader;
 
 /// Whether every submission of a class was graded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +51,16 @@ pub enum Completion {
 pub fn grade_class(
     arguments: &ClassArguments,
     options: &GradeOptions,
+) -> Result<Completion, Error> {
+    grade_class_with(arguments, options, |options| Ok(Grader::for_many(options)?))
+}
+
+/// Like [`grade_class`], with the grader that `prepare` returns. It is called when the input and the
+/// lists have been read.
+pub fn grade_class_with<'a, G: SubmissionGrader>(
+    arguments: &ClassArguments,
+    options: &'a GradeOptions,
+    prepare: impl FnOnce(&'a GradeOptions) -> Result<G, Error>,
 ) -> Result<Completion, Error> {
     check_lists(&arguments.lists)?;
     let workspace = Workspace::find().map_err(GraderError::from)?;
@@ -97,11 +103,11 @@ pub fn grade_class(
         return Ok(Completion::Complete);
     };
 
-    let grader = Grader::for_many(options)?;
+    let grader = prepare(options)?;
     warn_about_unmatched_extensions(grader.policy(), people.into_iter().chain(&missing));
     let store = Store::new(out);
     check_out(&store, path, arguments.shard)?;
-    let settings = settings(&grader, options)?;
+    let settings = grader.settings()?;
     let policy = policy_text(options.policy.as_deref())?;
     if store.read_run()?.is_some_and(|run| run.policy != policy) {
         anstream::eprintln!("the policy differs from the last run's, so final points may change");
@@ -130,6 +136,7 @@ pub fn grade_class(
         ..run
     };
     store.write_run(&run)?;
+    let run = save_previous_scores(&store, run)?;
     let slots = slot_count(arguments.jobs);
     if arguments.estimate {
         let estimate = estimate(&grader, &store, &run, entries, slots)?;
@@ -145,8 +152,8 @@ pub fn grade_class(
     store.write_run(&run)?;
 
     let changes = Changes {
-        regrade: find_regrade_changes(&store, &run, &results),
-        resubmitted: find_resubmitted(&store, &results),
+        regrade: find_regrade_changes(&store, &run, &results)?,
+        resubmitted: find_resubmitted(&store, &results)?,
         removed,
     };
     let rows = count_points(results, grader.policy(), &manual)?;
@@ -190,48 +197,6 @@ fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
     }
 }
 
-/// Returns everything that scores depend on, apart from the submissions.
-fn settings(grader: &Grader, options: &GradeOptions) -> Result<Settings, Error> {
-    let exam = grader.exam_name();
-    // The executable itself is hashed: any change to it, such as a build with another compiler, may
-    // change a score.
-    let program = env::current_exe().and_then(fs::read);
-    let program = program.at("read", "the grader's own program");
-    let program = program.map_err(GraderError::from)?;
-    Ok(Settings {
-        exam: exam.id.clone(),
-        exam_hash: exam.hash.clone(),
-        grader: file_hash(&program),
-        built_with: grader.builder_identity(),
-        isolation: grader.isolation().to_string(),
-        options: options_of_scores(options),
-    })
-}
-
-/// Returns the options that scores depend on, as text. Those with a setting of their own, and those
-/// that `cargo class` does not have, are left out.
-fn options_of_scores(options: &GradeOptions) -> String {
-    // Without `..`, so that a new option does not compile until this function handles it.
-    let GradeOptions {
-        dependents,
-        budget,
-        handed_out,
-        // settings of their own
-        exam: _,
-        isolation: _,
-        // applied to finished scores, apart from what students may see, which the cache key has
-        policy: _,
-        // options of a single submission
-        submission: _,
-        tasks: _,
-        gradescope_metadata: _,
-        hints: _,
-        out: _,
-        formats: _,
-    } = options;
-    format!("{handed_out:?} {dependents:?} {budget:?}")
-}
-
 /// Returns the text of the policy file, or `None` if no file is given. The file has already been
 /// parsed successfully.
 fn policy_text(path: Option<&Path>) -> Result<Option<String>, PolicyError> {
@@ -249,14 +214,7 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
             finished: false,
             ..run
         },
-        (Some(run), true) => {
-            // An abandoned regrade has already replaced some scores, so the scores that were saved
-            // before it are kept for the comparison.
-            if !run.is_unfinished_regrade() {
-                store.save_previous_scores()?;
-            }
-            run.next_round(settings)
-        }
+        (Some(run), true) => run.next_round(settings),
         (Some(run), false) => {
             return Err(Error::SettingsChanged {
                 out: store.folder().to_owned(),
@@ -264,6 +222,22 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
             });
         }
     };
+    Ok(run)
+}
+
+/// Saves the scores from before a regrade, unless that has been done. The round has already begun in
+/// `run.json`, so that a run killed here cannot be resumed as the last round, whose comparison with the
+/// one before it would be lost.
+fn save_previous_scores(store: &Store, run: Run) -> Result<Run, StoreError> {
+    if !run.must_save_previous {
+        return Ok(run);
+    }
+    store.save_previous_scores()?;
+    let run = Run {
+        must_save_previous: false,
+        ..run
+    };
+    store.write_run(&run)?;
     Ok(run)
 }
 
@@ -292,7 +266,7 @@ fn check_out(store: &Store, input: &Path, shard: Option<Shard>) -> Result<(), Er
 
 /// Grades the first entries without a result, two per slot, and measures each.
 fn estimate(
-    grader: &Grader,
+    grader: &dyn SubmissionGrader,
     store: &Store,
     run: &Run,
     entries: Vec<Entry>,
@@ -324,7 +298,7 @@ fn estimate(
 }
 
 fn grade_entries(
-    grader: &Grader,
+    grader: &dyn SubmissionGrader,
     store: &Store,
     run: &Run,
     entries: &[Entry],
@@ -355,14 +329,17 @@ fn find_regrade_changes(
     store: &Store,
     run: &Run,
     results: &[EntryResult],
-) -> Option<RegradeChanges> {
-    let before = run.before.as_ref()?;
-    let drift = |result: &EntryResult| -> Option<Drift> {
-        let was = store.previous_score(&result.id)?;
-        compare_scores(&result.id, &was, result.score())
+) -> Result<Option<RegradeChanges>, StoreError> {
+    let Some(before) = &run.before else {
+        return Ok(None);
     };
-    Some(RegradeChanges {
-        drifts: results.iter().filter_map(drift).collect(),
+    let mut drifts = Vec::new();
+    for result in results {
+        let was = store.previous_score(&result.id)?;
+        drifts.extend(was.and_then(|was| compare_scores(&result.id, &was, result.score())));
+    }
+    Ok(Some(RegradeChanges {
+        drifts,
         causes: before.differences(&run.settings),
-    })
+    }))
 }

@@ -74,29 +74,54 @@ impl Input {
     }
 }
 
-/// Reads the task files of an entry. The error is the reason why this entry cannot be graded, and
-/// does not affect others.
+/// The reason why an entry has no submission that can be graded. It does not affect other entries.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotCollected {
+    /// There is nothing to grade in it.
+    NothingToGrade(String),
+    /// The machine failed to read it, so that nothing is known about it.
+    MachineFault(String),
+}
+
+impl NotCollected {
+    /// Returns the reason as text.
+    pub fn into_text(self) -> String {
+        let (NotCollected::NothingToGrade(why) | NotCollected::MachineFault(why)) = self;
+        why
+    }
+}
+
+/// Reads the task files of an entry.
 pub fn collect_submission(
     entry: &Entry,
     handed_out: &'static HandedOut,
-) -> Result<Submission, String> {
+) -> Result<Submission, NotCollected> {
     let mut submission = match &entry.source {
         Source::Path(path) => collect_path(path, handed_out)?,
         Source::Files(files) => Submission::from_files(&entry.id, files, handed_out)
-            .map_err(|error| error_message(&error, Path::new("")))?,
-        Source::Missing(why) => return Err(why.clone()),
+            .map_err(|error| not_collected(&error, Path::new("")))?,
+        Source::Missing(why) => return Err(NotCollected::NothingToGrade(why.clone())),
     };
     submission.name.clone_from(&entry.id);
     Ok(submission)
 }
 
-fn collect_path(path: &Path, handed_out: &'static HandedOut) -> Result<Submission, String> {
+fn collect_path(path: &Path, handed_out: &'static HandedOut) -> Result<Submission, NotCollected> {
     let submission = if path.is_dir() {
         Submission::collect_with_archives(path, handed_out)
     } else {
         Submission::collect(path, handed_out)
     };
-    submission.map_err(|error| error_message(&error, path))
+    submission.map_err(|error| not_collected(&error, path))
+}
+
+fn not_collected(error: &SubmissionError, input: &Path) -> NotCollected {
+    let why = error_message(error, input);
+    if error.is_machine_fault() {
+        NotCollected::MachineFault(why)
+    } else {
+        NotCollected::NothingToGrade(why)
+    }
 }
 
 /// Returns the error's message without the path, which may be different in the next run.
@@ -134,6 +159,7 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
             format!("the folder or file cannot be read: {why}")
         }
         SubmissionError::Io { path, why } => format!("{} cannot be read: {why}", path.display()),
+        SubmissionError::Machine(error) => error.to_string(),
         SubmissionError::Archive { path, why } if path == input => why.to_string(),
         SubmissionError::Archive { path, why } => format!("{}: {why}", sanitize(&name(path), 200)),
     }

@@ -10,7 +10,7 @@
 //! |---|---|
 //! | commands | [`grade`], [`merge`]; [`output`] |
 //! | reports | [`report`], [`gradebook`], [`hand_back`], [`similarity`], [`estimate`], [`summary`], [`distribution`] |
-//! | grading of entries | [`entry_grader`], [`queue`], [`progress`] |
+//! | grading of entries | [`entry_grader`], [`submission_grader`], [`queue`], [`progress`] |
 //! | results | [`drift`], [`store`], [`run`], [`outcome`], [`model`], [`attempts`], [`late`], [`manual`] |
 //! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`], [`paths`] |
 
@@ -45,6 +45,7 @@ pub mod run;
 pub mod shard;
 pub mod similarity;
 pub mod store;
+pub mod submission_grader;
 pub mod summary;
 pub mod table;
 pub mod unpack;

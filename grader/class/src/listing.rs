@@ -4,6 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use grader::disk::{self, Operation};
 use grader::files::{self, AtPath, PathError};
 use grader::submission::is_archive_name;
 
@@ -73,6 +74,7 @@ pub fn hidden_names(folder: &Path) -> Result<Vec<String>, PathError> {
 
 fn list_children(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
     let mut nodes = Vec::new();
+    disk::before(Operation::List(folder))?;
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
         let name = entry.file_name().to_string_lossy().into_owned();

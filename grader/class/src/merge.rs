@@ -58,6 +58,7 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
             }
         }
     }
+    out.remove_temporary_files()?;
     for (id, path) in &sources {
         out.copy_entry(id, &Store::new(path))?;
     }
@@ -100,7 +101,7 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     }
     let changes = Changes {
         regrade: None,
-        resubmitted: find_resubmitted(&out, &rows),
+        resubmitted: find_resubmitted(&out, &rows)?,
         removed,
     };
     let class = GradedClass {

@@ -1,6 +1,8 @@
 //! The settings that all scores in an output folder depend on. They are stored with the scores, so
 //! that scores from different settings are never mixed.
 
+use std::ops::Not;
+
 use serde::{Deserialize, Serialize};
 
 use crate::shard::Shard;
@@ -17,6 +19,9 @@ pub struct Run {
     /// Whether the round was finished at least once, even if a later run of this round was killed.
     #[serde(default)]
     pub was_finished: bool,
+    /// Whether the scores from before a regrade must still be saved. Until then, nothing is graded.
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub must_save_previous: bool,
     /// The part of the class that is graded; `None` for the whole class.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
@@ -66,6 +71,7 @@ impl Run {
             round: 1,
             finished: false,
             was_finished: false,
+            must_save_previous: false,
             shard: None,
             policy: None,
             entries: Vec::new(),
@@ -76,18 +82,20 @@ impl Run {
     }
 
     /// Returns the next round, with nothing graded yet. It will be compared with the last round
-    /// that was finished.
+    /// that was finished. An abandoned regrade has already replaced some scores, so the scores that
+    /// were saved before it are kept for the comparison.
     pub fn next_round(&self, settings: Settings) -> Self {
-        let before = if self.is_unfinished_regrade() {
-            self.before.clone()
+        let (before, must_save_previous) = if self.is_unfinished_regrade() {
+            (self.before.clone(), self.must_save_previous)
         } else {
-            Some(self.settings.clone())
+            (Some(self.settings.clone()), true)
         };
         Run {
             schema: SCHEMA,
             round: self.round + 1,
             finished: false,
             was_finished: false,
+            must_save_previous,
             shard: None,
             policy: None,
             entries: Vec::new(),
@@ -97,8 +105,7 @@ impl Run {
         }
     }
 
-    /// Returns whether this is a regrade that was never finished. If it is, the scores from before
-    /// the regrade have already been saved.
+    /// Returns whether this is a regrade that was never finished.
     pub fn is_unfinished_regrade(&self) -> bool {
         !self.was_finished && self.before.is_some()
     }

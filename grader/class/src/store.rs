@@ -2,10 +2,10 @@
 //! stamp last, so a killed run never leaves an incomplete entry that looks complete.
 
 use std::ffi::OsStr;
-use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use grader::files::{self, AtPath, PathError};
+use grader::files::{self, PathError};
 use grader::report::atomic_write;
 use grader::report::html::write_counted;
 use serde::de::DeserializeOwned;
@@ -72,9 +72,10 @@ impl Store {
     pub fn remove_temporary_files(&self) -> Result<(), StoreError> {
         let entries = self.ids()?.into_iter().map(|id| self.entry_folder(&id));
         for folder in entries.chain([self.folder.clone()]) {
-            let files = fs::read_dir(folder).into_iter().flatten().flatten();
-            for file in files.filter(|file| is_temporary(&file.file_name())) {
-                files::remove_if_exists(file.path())?;
+            for file in list_if_exists(&folder)? {
+                if is_temporary(file.file_name().unwrap_or_default()) {
+                    files::remove_if_exists(file)?;
+                }
             }
         }
         Ok(())
@@ -133,8 +134,9 @@ impl Store {
             EntryOutcome::Fault(why) => EntryState::Fault(why.clone()),
         };
         if state != EntryState::Graded {
-            // The files of an earlier run must not be mistaken for those of this run.
-            for file in [SCORE, REPORT, FEEDBACK] {
+            // The files of an earlier run must not be mistaken for those of this run. Its stamp is
+            // removed first: it must not be left without a score.
+            for file in [STAMP, SCORE, REPORT, FEEDBACK] {
                 files::remove_if_exists(folder.join(file))?;
             }
         }
@@ -183,7 +185,7 @@ impl Store {
     }
 
     /// Returns the score of an earlier version of the submission in the same round, if there is one.
-    pub fn replaced_score(&self, id: &str) -> Option<ScoreSummary> {
+    pub fn replaced_score(&self, id: &str) -> Result<Option<ScoreSummary>, StoreError> {
         self.read_kept_score(id, REPLACED)
     }
 
@@ -205,7 +207,7 @@ impl Store {
         for source in files::read_dir(from.entry_folder(id))? {
             let name = source.file_name().unwrap_or_default();
             if name != STAMP && !is_temporary(name) {
-                files::copy(&source, folder.join(name))?;
+                atomic_write::write(files::read(&source)?, &folder.join(name))?;
             }
         }
         if let Some(stamp) = files::read_if_exists(from.entry_folder(id).join(STAMP))? {
@@ -238,43 +240,45 @@ impl Store {
         }))
     }
 
-    /// Saves the current score of every entry as its previous score. If an entry has no current
-    /// score, its previous score is removed.
+    /// Saves the last score of every entry as its previous score. If there was nothing to grade, the
+    /// previous score is removed. If this is interrupted, it can be done again.
     pub fn save_previous_scores(&self) -> Result<(), StoreError> {
         for id in self.ids()? {
             let folder = self.entry_folder(&id);
             let path = folder.join(PREVIOUS);
-            files::remove_if_exists(folder.join(REPLACED))?;
-            if self
-                .read_stamp(&id)?
-                .is_some_and(|s| s.state == EntryState::Graded)
-            {
-                let text = files::read_to_string(folder.join(SCORE))?;
+            let last = match self.read_stamp(&id)?.map(|stamp| stamp.state) {
+                Some(EntryState::Graded) => Some(files::read_to_string(folder.join(SCORE))?),
+                Some(EntryState::NothingToGrade(_)) => {
+                    files::remove_if_exists(&path)?;
+                    None
+                }
+                // Grading it again has failed or was interrupted. If that was in this round, the score
+                // was set aside; otherwise, it is already the previous one.
+                Some(EntryState::Fault(_)) | None => files::read_if_exists(folder.join(REPLACED))?,
+            };
+            if let Some(text) = last {
                 atomic_write::write(&text, &path)?;
-            } else {
-                files::remove_if_exists(&path)?;
             }
+            files::remove_if_exists(folder.join(REPLACED))?;
         }
         Ok(())
     }
 
     /// Returns the previous score of an entry, if there is one.
-    pub fn previous_score(&self, id: &str) -> Option<ScoreSummary> {
+    pub fn previous_score(&self, id: &str) -> Result<Option<ScoreSummary>, StoreError> {
         self.read_kept_score(id, PREVIOUS)
     }
 
-    fn read_kept_score(&self, id: &str, name: &str) -> Option<ScoreSummary> {
-        let text = fs::read_to_string(self.entry_folder(id).join(name)).ok()?;
-        ScoreSummary::parse(&text).ok()
+    fn read_kept_score(&self, id: &str, name: &str) -> Result<Option<ScoreSummary>, StoreError> {
+        let path = self.entry_folder(id).join(name);
+        let text = files::read_if_exists(&path)?;
+        let score = text.map(|text| ScoreSummary::parse(&text)).transpose();
+        score.map_err(|error| StoreError::damaged(path, &error))
     }
 
     /// Returns the ids of all entries, sorted.
     pub fn ids(&self) -> Result<Vec<String>, StoreError> {
-        let folder = self.folder.join("students");
-        if !folder.try_exists().at("read", &folder)? {
-            return Ok(Vec::new());
-        }
-        let entries = files::read_dir(&folder)?;
+        let entries = list_if_exists(&self.folder.join("students"))?;
         let names = entries.iter().filter_map(|path| path.file_name()?.to_str());
         Ok(names.map(str::to_owned).collect())
     }
@@ -287,6 +291,14 @@ impl Store {
 
     fn read_stamp(&self, id: &str) -> Result<Option<Stamp>, StoreError> {
         read_json(self.entry_folder(id).join(STAMP))
+    }
+}
+
+/// Returns the paths of a folder's entries, or none if the folder does not exist.
+fn list_if_exists(folder: &Path) -> Result<Vec<PathBuf>, PathError> {
+    match files::read_dir(folder) {
+        Err(error) if error.source.kind() == ErrorKind::NotFound => Ok(Vec::new()),
+        listed => listed,
     }
 }
 

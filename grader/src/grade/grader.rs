@@ -179,6 +179,11 @@ impl<'a> Grader<'a> {
         Outputs::new(formats, folder, &submitted, submission, hints)
     }
 
+    /// Returns the options.
+    pub fn options(&self) -> &GradeOptions {
+        self.options
+    }
+
     /// Returns the assignment.
     pub fn handed_out(&self) -> &'static HandedOut {
         self.options.handed_out

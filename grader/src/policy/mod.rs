@@ -161,3 +161,6 @@ impl Default for VisibilityPolicy {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,7 +1,6 @@
 //! Reads policies. An invalid policy is rejected with a message that shows the line and says what
 //! to do.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
@@ -11,7 +10,7 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use toml::value::Datetime;
 
-use crate::files::{AtPath, PathError};
+use crate::files::{self, PathError};
 use crate::policy::Policy;
 
 /// Reasons why a policy cannot be used.
@@ -58,8 +57,12 @@ impl Policy {
 
     /// Reads the text of the policy at `path`, which need not be valid.
     pub fn read_text(path: &Path) -> Result<String, PolicyError> {
-        let text = fs::read_to_string(path).at("read the policy", path);
-        text.map_err(PolicyError::File)
+        files::read_to_string(path).map_err(|error| {
+            PolicyError::File(PathError {
+                action: "read the policy",
+                ..error
+            })
+        })
     }
 
     /// Parses a policy. `path` is used in error messages only.

@@ -2,13 +2,12 @@
 //! gives to autograders
 //! (<https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/>).
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
 use serde::Deserialize;
 
-use crate::files::{AtPath, PathError};
+use crate::files::{self, PathError};
 use crate::policy::late::{Lateness, extended_due};
 use crate::policy::written_time::read_time;
 use crate::policy::{Extension, Policy};
@@ -65,7 +64,10 @@ struct Assignment {
 impl SubmissionTime {
     /// Reads Gradescope's file at `path`.
     pub fn read(path: &Path) -> Result<Self, SubmissionTimeError> {
-        let text = fs::read_to_string(path).at("read Gradescope's", path)?;
+        let text = files::read_to_string(path).map_err(|error| PathError {
+            action: "read Gradescope's",
+            ..error
+        })?;
         SubmissionTime::parse(&text).map_err(|why| SubmissionTimeError::Invalid {
             path: path.to_owned(),
             why,

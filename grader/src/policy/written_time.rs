@@ -70,12 +70,27 @@ pub fn read_time(text: &str, zone: Option<&TimeZone>) -> Result<Timestamp, TimeE
 fn normalise(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     let text = words.join(" ");
+    // The name of a time zone, as in RFC 9557, says no more than the offset before it.
+    let text = match text.split_once('[') {
+        Some((before, _)) if text.ends_with(']') => before,
+        Some(_) | None => &text,
+    };
     for name in [" UTC", " GMT", " Z", "Z"] {
         if let Some(before) = text.strip_suffix(name) {
-            return format!("{before} +0000").replace('T', " ");
+            return format!("{} +0000", without_separator(before));
         }
     }
-    text
+    text.to_owned()
+}
+
+/// Replaces the `T` between the date and the time by a space, but none in the name of a day.
+fn without_separator(text: &str) -> String {
+    match text.split_once('T') {
+        Some((date, time)) if date.ends_with(|sign: char| sign.is_ascii_digit()) => {
+            format!("{date} {time}")
+        }
+        Some(_) | None => text.to_owned(),
+    }
 }
 
 fn parse(form: &str, text: &str) -> Option<BrokenDownTime> {
@@ -210,6 +225,34 @@ mod tests {
                 let text = zoned.strftime(form).to_string();
                 prop_assert_eq!(read_time(&text, Some(&zone)), Ok(earlier), "{}", text);
             }
+        }
+
+        #[test]
+        fn the_names_of_utc_are_read_back(seconds in 0i64..4_000_000_000) {
+            let time = Timestamp::from_second(seconds / 60 * 60).unwrap();
+            let zoned = time.to_zoned(TimeZone::UTC);
+            for form in WITH_OFFSET {
+                let form = form.trim_end_matches("%:z").trim_end_matches("%z");
+                for name in ["Z", " Z", " UTC", " GMT"] {
+                    let text = format!("{}{name}", zoned.strftime(form.trim_end()));
+                    prop_assert_eq!(read_time(&text, None), Ok(time), "{}", text);
+                }
+            }
+        }
+
+        #[test]
+        fn the_forms_of_jiff_are_read_back(
+            nanoseconds in 0i128..4_000_000_000_000_000_000,
+            zone in prop::sample::select(vec!["Europe/Berlin", "America/New_York", "UTC"]),
+        ) {
+            let time = Timestamp::from_nanosecond(nanoseconds).unwrap();
+            let zoned = time.to_zoned(TimeZone::get(zone).unwrap());
+            let rfc = jiff::fmt::rfc2822::to_string(&zoned).unwrap();
+            for text in [time.to_string(), zoned.to_string(), format!("{:.9}", zoned)] {
+                prop_assert_eq!(read_time(&text, None), Ok(time), "{}", text);
+            }
+            let whole = Timestamp::from_second(time.as_second()).unwrap();
+            prop_assert_eq!(read_time(&rfc, None), Ok(whole), "{}", rfc);
         }
 
         #[test]

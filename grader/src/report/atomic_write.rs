@@ -6,18 +6,24 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
+use crate::disk::{self, Operation};
 use crate::files::{AtPath, PathError};
 use crate::system;
 
 /// Writes a file that everyone with access to its folder can read. Creates the folder if it does
 /// not exist. The contents go to a temporary file in the same folder, which is then renamed.
 pub fn write(contents: impl AsRef<[u8]>, path: &Path) -> Result<(), PathError> {
+    let contents = contents.as_ref();
     let written = || {
         let folder = path.parent().unwrap_or(Path::new("."));
+        disk::before(Operation::CreateFolder(folder))?;
         fs::create_dir_all(folder)?;
+        disk::before(Operation::CreateTemporary(folder))?;
         let mut file = NamedTempFile::new_in(folder)?;
-        file.write_all(contents.as_ref())?;
+        disk::before(Operation::Write(file.path(), contents))?;
+        file.write_all(contents)?;
         system::make_readable(file.as_file())?;
+        disk::before(Operation::Rename(file.path(), path))?;
         file.persist(path).map_err(|error| error.error)
     };
     written().map(drop).at("write", path)

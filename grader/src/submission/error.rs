@@ -1,10 +1,12 @@
 //! The reasons why a submission, or one of its files, cannot be graded.
 
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use super::archive::ArchiveError;
 use super::choice::AmbiguousSource;
 use super::display_name;
+use crate::files::PathError;
 use crate::handed_out::HandedOut;
 
 /// The maximum number of names in a message about a submission without task files.
@@ -78,6 +80,9 @@ pub enum SubmissionError {
         /// The system's message.
         why: String,
     },
+    /// The machine failed to read a file or folder. Nothing is known about the submission.
+    #[error("{0}; this is a fault of the machine, so try again")]
+    Machine(PathError),
     /// Several copies of the task files differ, and each could be the one that is meant.
     #[error(
         "{path} has task files that differ, in {}: put those that count into one folder, without the others",
@@ -100,6 +105,39 @@ pub enum SubmissionError {
         /// The reason why the archive is rejected.
         why: ArchiveError,
     },
+}
+
+impl SubmissionError {
+    /// Returns whether the machine is at fault, and not the submission.
+    pub fn is_machine_fault(&self) -> bool {
+        match self {
+            SubmissionError::Machine(_) => true,
+            SubmissionError::Archive { why, .. } => matches!(why, ArchiveError::Machine(_)),
+            SubmissionError::NotFound(_)
+            | SubmissionError::NotFileOrFolder(_)
+            | SubmissionError::NoTaskFiles { .. }
+            | SubmissionError::Link { .. }
+            | SubmissionError::Io { .. }
+            | SubmissionError::Ambiguous { .. }
+            | SubmissionError::TooManyFiles(_) => false,
+        }
+    }
+}
+
+/// Returns whether an error from reading a submission says something about the submission: it is gone,
+/// or its permissions deny reading. Other errors, such as those of a network drive, are the machine's,
+/// and must not cost points.
+pub(super) fn is_about_submission(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::NotFound
+            | ErrorKind::PermissionDenied
+            | ErrorKind::NotADirectory
+            | ErrorKind::IsADirectory
+            | ErrorKind::InvalidInput
+            | ErrorKind::InvalidData
+            | ErrorKind::UnexpectedEof
+    )
 }
 
 /// Returns the error for a folder or archive without task files, given the names in it.

@@ -8,8 +8,10 @@ use std::path::{Path, PathBuf};
 
 use super::archive::{self, is_archive_name};
 use super::choice::{self, Candidate, join};
-use super::error::ambiguous;
+use super::error::{ambiguous, is_about_submission};
 use super::{MAX_FILE_BYTES, SubmissionError, SubmissionFiles, TaskFileError, display_name};
+use crate::disk::{self, Operation};
+use crate::files::PathError;
 use crate::handed_out::HandedOut;
 use crate::system::{self, EntryKind, Folder};
 
@@ -40,7 +42,7 @@ pub(super) fn search(
     path: &Path,
     handed_out: &'static HandedOut,
 ) -> Result<Search, SubmissionError> {
-    let folder = Folder::open(path).map_err(|error| unreadable(path, &error))?;
+    let folder = Folder::open(path).map_err(|error| unreadable(path, error))?;
     let mut search = Search::default();
     search.visit(&folder, path, "", handed_out)?;
     Ok(search)
@@ -51,9 +53,9 @@ pub(super) fn search_one(
     path: &Path,
     handed_out: &'static HandedOut,
 ) -> Result<Search, SubmissionError> {
-    let io = |error: io::Error| unreadable(path, &error);
+    let io = |error: io::Error| unreadable(path, error);
     let folder = Folder::open(path).map_err(io)?;
-    let names = folder.names().map_err(io)?;
+    let names = list(&folder, path).map_err(io)?;
     let mut search = Search {
         names: names
             .into_iter()
@@ -62,7 +64,7 @@ pub(super) fn search_one(
         ..Search::default()
     };
     let names = search.names.clone();
-    let open = |name: &str| folder.file(&OsString::from(name));
+    let open = |name: &str| open(&folder, path, name);
     search.add_candidate(path, "", &names, open, handed_out)?;
     Ok(search)
 }
@@ -81,7 +83,10 @@ pub(super) fn search_files(
     // Of several files with the same name, the last one counts.
     let open = |name: &str| {
         let file = files.iter().rfind(|(other, _)| other == name);
-        file.map_or(Ok(None), |(_, path)| system::open_regular_file(path))
+        file.map_or(Ok(None), |(_, path)| {
+            disk::before(Operation::Read(path))?;
+            system::open_regular_file(path)
+        })
     };
     let names = search.names.clone();
     search.add_candidate(path, "", &names, open, handed_out)?;
@@ -132,8 +137,8 @@ impl Search {
         below: &str,
         handed_out: &'static HandedOut,
     ) -> Result<(), SubmissionError> {
-        let io = |error: io::Error| unreadable(&submission.join(below), &error);
-        let names = folder.names().map_err(io)?;
+        let io = |error: io::Error| unreadable(&submission.join(below), error);
+        let names = list(folder, &submission.join(below)).map_err(io)?;
         self.entries += names.len();
         if self.entries > MAX_ENTRIES {
             return Err(SubmissionError::TooManyFiles(submission.to_owned()));
@@ -156,7 +161,7 @@ impl Search {
         if below.is_empty() {
             self.names.clone_from(&names);
         }
-        let open = |name: &str| folder.file(&OsString::from(name));
+        let open = |name: &str| open(folder, &submission.join(below), name);
         self.add_candidate(submission, below, &names, open, handed_out)
     }
 
@@ -177,7 +182,7 @@ impl Search {
             Ok(Some(subfolder)) => self.visit(&subfolder, submission, path, handed_out),
             Ok(None) => Ok(()),
             Err(error) => {
-                self.errors.push(unreadable(Path::new(path), &error));
+                self.errors.push(unreadable(Path::new(path), error));
                 Ok(())
             }
         }
@@ -200,14 +205,16 @@ impl Search {
         }
         let mut files = SubmissionFiles::default();
         for (name, found_as) in &found {
-            files
-                .task_files
-                .insert(*name, read_file(open(found_as), name));
+            let read = read_file(open(found_as), name);
+            let read = read.map_err(|error| unreadable(&submission.join(folder), error))?;
+            files.task_files.insert(*name, read);
         }
         for name in names {
             if name.ends_with(".rs") && !found.values().any(|used| *used == name) {
                 let is_compared = handed_out.given_file(name).is_some();
                 let bytes = is_compared.then(|| read_file(open(name), "a given file"));
+                let bytes = bytes.transpose();
+                let bytes = bytes.map_err(|error| unreadable(&submission.join(folder), error))?;
                 let bytes = bytes.and_then(Result::ok).unwrap_or_default();
                 files.other_files.insert(name.to_owned(), bytes);
             }
@@ -223,27 +230,48 @@ impl Search {
     }
 }
 
-fn unreadable(path: &Path, error: &io::Error) -> SubmissionError {
+fn list(folder: &Folder, path: &Path) -> io::Result<Vec<OsString>> {
+    disk::before(Operation::List(path))?;
+    folder.names()
+}
+
+fn open(folder: &Folder, path: &Path, name: &str) -> io::Result<Option<File>> {
+    disk::before(Operation::Read(&path.join(name)))?;
+    folder.file(OsStr::new(name))
+}
+
+fn unreadable(path: &Path, error: io::Error) -> SubmissionError {
+    if !is_about_submission(&error) {
+        return SubmissionError::Machine(PathError {
+            action: "read",
+            path: PathBuf::from(display_name(&path.to_string_lossy())),
+            source: error,
+        });
+    }
     SubmissionError::Io {
         path: PathBuf::from(display_name(&path.to_string_lossy())),
         why: error.kind().to_string(),
     }
 }
 
+/// Reads a file. The outer error is the machine's; the inner one costs the file's points.
 fn read_file(
     opened: io::Result<Option<File>>,
     name: &'static str,
-) -> Result<Vec<u8>, TaskFileError> {
-    let io = |error: io::Error| TaskFileError::Io {
-        name,
-        why: error.kind().to_string(),
+) -> io::Result<Result<Vec<u8>, TaskFileError>> {
+    let read = || {
+        let Some(file) = opened? else {
+            return Ok(Err(TaskFileError::NotRegular(name)));
+        };
+        let mut bytes = Vec::new();
+        file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)?;
+        Ok(Ok(bytes))
     };
-    let Some(file) = opened.map_err(io)? else {
-        return Err(TaskFileError::NotRegular(name));
-    };
-    let mut bytes = Vec::new();
-    file.take(MAX_FILE_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(io)?;
-    Ok(bytes)
+    match read() {
+        Err(error) if is_about_submission(&error) => Ok(Err(TaskFileError::Io {
+            name,
+            why: error.kind().to_string(),
+        })),
+        read => read,
+    }
 }

@@ -112,9 +112,17 @@ impl Submission {
             path: path.to_owned(),
             link: display_name(link),
         };
+        let (faults, errors): (Vec<_>, Vec<_>) = search
+            .errors
+            .into_iter()
+            .partition(SubmissionError::is_machine_fault);
+        // What the machine did not read could be what counts.
+        if let Some(fault) = faults.into_iter().next() {
+            return Err(fault);
+        }
         let choice = choice::choose(search.candidates, handed_out);
         let choice = choice.map_err(|error| ambiguous(path, error))?;
-        let mut errors = search.errors.into_iter();
+        let mut errors = errors.into_iter();
         let Some(choice) = choice else {
             let error = errors.next().or_else(|| search.links.first().map(link));
             return Err(error.unwrap_or_else(|| no_task_files(path, &search.names, handed_out)));

@@ -8,6 +8,7 @@ mod cases;
 mod command_line;
 mod dependencies;
 mod faults;
+mod file_access;
 mod file_errors;
 mod formats;
 mod hand_in;

@@ -162,6 +162,51 @@ proptest! {
     }
 }
 
+/// A stream that delivers its bytes in pieces, and is interrupted between them.
+struct Pieces<'a> {
+    bytes: &'a [u8],
+    sizes: std::iter::Cycle<std::slice::Iter<'a, usize>>,
+    is_interrupted: bool,
+}
+
+impl std::io::Read for Pieces<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        self.is_interrupted = !self.is_interrupted;
+        if self.is_interrupted {
+            return Err(std::io::ErrorKind::Interrupted.into());
+        }
+        let size = self.sizes.next().map_or(1, |size| *size);
+        let size = size.min(buffer.len()).min(self.bytes.len());
+        let (piece, rest) = self.bytes.split_at(size);
+        buffer[..size].copy_from_slice(piece);
+        self.bytes = rest;
+        Ok(size)
+    }
+}
+
+proptest! {
+    #[test]
+    fn frames_do_not_depend_on_the_pieces_in_which_they_arrive(
+        answers in prop::collection::vec((answer(), any::<u64>()), 1..5),
+        sizes in prop::collection::vec(1usize..100, 1..20),
+    ) {
+        let append = |bytes, (answer, nonce): &(Answer, u64)| {
+            wire::append(bytes, *nonce, answer).unwrap()
+        };
+        let bytes = answers.iter().fold(Vec::new(), append);
+        let (mut whole, sizes) = (bytes.as_slice(), sizes.iter().cycle());
+        let mut pieces = Pieces { bytes: &bytes, sizes, is_interrupted: false };
+        for (_, nonce) in &answers {
+            let one = wire::read(&mut whole, bytes.len()).unwrap();
+            let other = wire::read(&mut pieces, bytes.len()).unwrap();
+            prop_assert_eq!(one.nonce, *nonce);
+            prop_assert_eq!((one.nonce, one.body), (other.nonce, other.body));
+        }
+        let end = wire::read(&mut pieces, bytes.len());
+        prop_assert!(matches!(end, Err(WireError::EndOfStream)));
+    }
+}
+
 #[test]
 fn rejects_an_oversized_frame_before_reading_its_body() {
     let mut header = u32::MAX.to_le_bytes().to_vec();

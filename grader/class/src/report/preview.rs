@@ -6,7 +6,7 @@ use grader::handed_out::HandedOut;
 use judging::sanitize::sanitize_line;
 
 use crate::entry::{Entry, Person};
-use crate::input::collect_submission;
+use crate::input::{NotCollected, collect_submission};
 use crate::layout::{RecognisedClass, UnmatchedPath};
 
 /// The maximum length of a name or reason, in characters.
@@ -95,7 +95,7 @@ fn count_submissions(entries: usize) -> String {
 }
 
 fn describe_files(entry: &Entry, handed_out: &'static HandedOut) -> Result<String, String> {
-    let submission = collect_submission(entry, handed_out)?;
+    let submission = collect_submission(entry, handed_out).map_err(NotCollected::into_text)?;
     let missing = submission.files.iter().filter(|(_, text)| text.is_err());
     let missing: Vec<String> = missing
         .filter_map(|(_, text)| text.as_ref().err().map(ToString::to_string))

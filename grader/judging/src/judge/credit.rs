@@ -66,6 +66,24 @@ mod tests {
     }
 
     #[test]
+    fn each_step_includes_its_last_position() {
+        for (wrong, credit) in [
+            (3, 10_000),
+            (4, 7_500),
+            (20, 7_500),
+            (21, 5_000),
+            (200, 5_000),
+            (201, 2_500),
+            (2_000, 2_500),
+            (2_001, 0),
+        ] {
+            assert_eq!(Credit::by_count(wrong, 10_000), Credit(credit), "{wrong}");
+        }
+        assert_eq!(Credit::by_count(50, 500_000), Credit::FULL);
+        assert_eq!(Credit::by_count(51, 500_000), Credit(7_500));
+    }
+
+    #[test]
     fn points_are_rounded_down_once() {
         let credit =
             Credit::weighted([(40, Credit::FULL), (30, Credit(7_500)), (30, Credit::FULL)]);

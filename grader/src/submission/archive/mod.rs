@@ -15,6 +15,8 @@ use std::path::Path;
 use unicode_normalization::UnicodeNormalization;
 
 use super::display_name;
+use super::error::is_about_submission;
+use crate::disk::{self, Operation};
 
 pub(super) use candidates::candidates;
 
@@ -63,9 +65,12 @@ pub enum ArchiveError {
     /// A member is a link or a device.
     #[error("{0} in it is a link or device, not a regular file: pack the file itself")]
     NotRegular(String),
-    /// The system cannot read the file.
+    /// The system does not let the file be read.
     #[error("the file cannot be read: {0}")]
     Io(String),
+    /// The machine failed to read the file.
+    #[error("the file cannot be read: {0}; this is a fault of the machine, so try again")]
+    Machine(String),
 }
 
 /// A regular file in an archive.
@@ -114,7 +119,8 @@ impl Archive {
     /// Opens an archive. Its kind is determined from its first bytes.
     pub fn open(path: &Path) -> Result<Self, ArchiveError> {
         let mut head = Vec::new();
-        let file = File::open(path).map_err(io_error)?;
+        let file = disk::before(Operation::Read(path)).and_then(|()| File::open(path));
+        let file = file.map_err(io_error)?;
         file.take(8).read_to_end(&mut head).map_err(io_error)?;
         Ok(Archive(match head.as_slice() {
             [] => return Err(ArchiveError::Empty),
@@ -250,7 +256,12 @@ fn check_special(path: &str) -> Result<(), ArchiveError> {
 }
 
 fn io_error(error: io::Error) -> ArchiveError {
-    ArchiveError::Io(error.kind().to_string())
+    let why = error.kind().to_string();
+    if is_about_submission(&error) {
+        ArchiveError::Io(why)
+    } else {
+        ArchiveError::Machine(why)
+    }
 }
 
 #[cfg(test)]

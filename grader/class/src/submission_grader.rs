@@ -1,0 +1,113 @@
+//! The seam between a class and the processes that grade a submission. A class needs nothing else of
+//! the grader than this trait, so that its handling of results can be tested without compiling.
+
+use std::env;
+
+use grader::error::Error;
+use grader::files;
+use grader::format::{FormatContext, html};
+use grader::grade::Grader;
+use grader::handed_out::HandedOut;
+use grader::options::GradeOptions;
+use grader::policy::Policy;
+use grader::report_files::ReportFiles;
+use grader::score::Score;
+use grader::submission::Submission;
+use judging::content_hash::file_hash;
+
+use crate::run::Settings;
+
+/// Grades submissions, each with the same exam and the same options.
+pub trait SubmissionGrader: Sync {
+    /// Returns the assignment.
+    fn handed_out(&self) -> &'static HandedOut;
+
+    /// Returns the course's policy.
+    fn policy(&self) -> &Policy;
+
+    /// Returns everything that scores depend on, apart from the submissions.
+    fn settings(&self) -> Result<Settings, Error>;
+
+    /// Grades a submission, and writes its score and its page for staff. `show_status` is called with
+    /// the progress. Returns the score, and the page that the student may see.
+    fn grade(
+        &self,
+        submission: &Submission,
+        files: &mut ReportFiles,
+        show_status: &dyn Fn(&str),
+    ) -> Result<(Score, String), Error>;
+}
+
+impl SubmissionGrader for Grader<'_> {
+    fn handed_out(&self) -> &'static HandedOut {
+        self.handed_out()
+    }
+
+    fn policy(&self) -> &Policy {
+        self.policy()
+    }
+
+    fn settings(&self) -> Result<Settings, Error> {
+        let exam = self.exam_name();
+        // The executable itself is hashed: any change to it, such as a build with another compiler,
+        // may change a score.
+        let program = env::current_exe().map_err(Error::Probe)?;
+        Ok(Settings {
+            exam: exam.id.clone(),
+            exam_hash: exam.hash.clone(),
+            grader: file_hash(&files::read(program)?),
+            built_with: self.builder_identity(),
+            isolation: self.isolation().to_string(),
+            options: options_of_scores(self.options()),
+        })
+    }
+
+    fn grade(
+        &self,
+        submission: &Submission,
+        files: &mut ReportFiles,
+        show_status: &dyn Fn(&str),
+    ) -> Result<(Score, String), Error> {
+        show_status("compiling");
+        let built = self.build(submission)?;
+        let exam = self.exam();
+        let count = exam.items.len();
+        let mut score = self.pending_score(submission, &built);
+        let mut done = 0;
+        self.run_exam(exam, &built, &mut score, |score, answers| {
+            done += 1;
+            if score.complete {
+                files.write(score, exam, answers)
+            } else {
+                show_status(&format!("{done} of {count}"));
+                Ok(())
+            }
+        })?;
+        let page = html::render(&self.student_view(&score), &FormatContext::default());
+        Ok((score, page))
+    }
+}
+
+/// Returns the options that scores depend on, as text. Those with a setting of their own, and those
+/// that `cargo class` does not have, are left out.
+fn options_of_scores(options: &GradeOptions) -> String {
+    // Without `..`, so that a new option does not compile until this function handles it.
+    let GradeOptions {
+        dependents,
+        budget,
+        handed_out,
+        // settings of their own
+        exam: _,
+        isolation: _,
+        // applied to finished scores, apart from what students may see, which the cache key has
+        policy: _,
+        // options of a single submission
+        submission: _,
+        tasks: _,
+        gradescope_metadata: _,
+        hints: _,
+        out: _,
+        formats: _,
+    } = options;
+    format!("{handed_out:?} {dependents:?} {budget:?}")
+}

@@ -1,0 +1,137 @@
+//! Compares the files of a run that ended well with those of a run in a new folder.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use crate::faulty_disk::DiskFault;
+use crate::observed::{Observed, all_files};
+use crate::recorded_grader::ProcessFault;
+use crate::world::{Target, World};
+
+/// The options that write everything that is made of the grades.
+pub const EXPORT: [&str; 2] = ["--hand-back", "--canvas=ROOT/gradebook.csv"];
+/// The files that say what a folder has been through, which a new folder has not. They are compared
+/// with the model.
+const HISTORY: [&str; 4] = ["run.json", "drift.json", "previous.json", "replaced.json"];
+
+/// Everything that the files of a run in a new folder depend on.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Class {
+    submissions: Vec<(&'static str, Option<u32>)>,
+    exam: usize,
+    policy: usize,
+    is_exported: bool,
+}
+
+type Files = BTreeMap<PathBuf, Vec<u8>>;
+
+/// The files of runs in new folders.
+#[derive(Debug, Default)]
+pub struct FreshRuns(BTreeMap<Class, Files>);
+
+impl FreshRuns {
+    /// Returns the files of a run in a new folder, of the class as it is now.
+    fn files(&mut self, world: &World, is_exported: bool) -> &Files {
+        let submissions = world.submissions.iter();
+        let class = Class {
+            submissions: submissions
+                .map(|(name, version)| (*name, *version))
+                .collect(),
+            exam: world.exam,
+            policy: world.policy,
+            is_exported,
+        };
+        self.0.entry(class).or_insert_with(|| {
+            // A gradebook is also a list of those who should have submitted something.
+            let more: &[&str] = if is_exported { &EXPORT } else { &[] };
+            let ended = world.grade(Target::Fresh, more, DiskFault::None, ProcessFault::None);
+            ended.result.expect("nothing goes wrong");
+            let files = all_files(&world.folder(Target::Fresh));
+            world.remove(Target::Fresh);
+            files
+        })
+    }
+
+    /// Compares the files in a folder with those of a fresh run. `history` is what the folder
+    /// contains, and what the folders that were merged into it contain. `is_exported` says whether the
+    /// run was made with [`EXPORT`].
+    pub fn compare(
+        &mut self,
+        world: &World,
+        target: Target,
+        history: &[&Observed],
+        is_exported: bool,
+    ) -> Result<(), String> {
+        let found = all_files(&world.folder(target));
+        let expected = self.files(world, is_exported);
+        for (name, expected) in expected {
+            let last = name.file_name().unwrap_or_default().to_string_lossy();
+            if HISTORY.contains(&&*last) {
+                continue;
+            }
+            if last == "class.html" && has_changes(world, history) {
+                continue;
+            }
+            let Some(found) = found.get(name) else {
+                return Err(format!("{target:?} lacks {}", name.display()));
+            };
+            let is_same = match &*last {
+                "entry.json" => stamp(found, target) == stamp(expected, target),
+                _ => found == expected,
+            };
+            if !is_same {
+                let (found, expected) = (
+                    String::from_utf8_lossy(found),
+                    String::from_utf8_lossy(expected),
+                );
+                let place = first_difference(&found, &expected);
+                return Err(format!("{target:?}: {} differs: {place}", name.display()));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Returns whether the page of the class lists changes, which a fresh run does not.
+fn has_changes(world: &World, history: &[&Observed]) -> bool {
+    history
+        .iter()
+        .any(|observed| lists_changes(world, observed))
+}
+
+fn lists_changes(world: &World, observed: &Observed) -> bool {
+    let entries = observed.entries.iter();
+    observed
+        .run
+        .as_ref()
+        .is_some_and(|run| !run["before"].is_null())
+        || entries.clone().any(|(_, files)| files.replaced.is_some())
+        || entries
+            .into_iter()
+            .any(|(id, _)| !world.submissions.contains_key(id.as_str()))
+}
+
+/// Returns a stamp without the key and the round. After a merge, the people are those of the lists that
+/// the parts were graded with.
+fn stamp(bytes: &[u8], target: Target) -> Value {
+    let mut stamp: Value = serde_json::from_slice(bytes).unwrap();
+    if target == Target::Merged {
+        stamp["about"] = Value::Null;
+    }
+    stamp["key"] = Value::Null;
+    stamp["round"] = Value::Null;
+    stamp
+}
+
+/// Returns the texts from shortly before the first difference on.
+fn first_difference(one: &str, other: &str) -> String {
+    let same = one
+        .chars()
+        .zip(other.chars())
+        .take_while(|(one, other)| one == other);
+    let from = same.count().saturating_sub(60);
+    let short = |text: &str| text.chars().skip(from).take(160).collect::<String>();
+    format!("{:?} instead of {:?}", short(one), short(other))
+}

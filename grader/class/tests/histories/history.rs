@@ -1,0 +1,392 @@
+//! A random history of a course, and the checks after each step.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+
+use class::grade::Completion;
+use class::shard::Shard;
+use fastrand::Rng;
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::comparison::{EXPORT, FreshRuns};
+use crate::faulty_disk::DiskFault;
+use crate::model::Model;
+use crate::observed::{Keys, ScoreId, all_files, observe};
+use crate::recorded_grader::{EXAMS, ProcessFault, score};
+use crate::world::{Ended, PARTS, POLICIES, STUDENTS, Target, World};
+
+/// The largest number of steps.
+const MAX_STEPS: usize = 14;
+
+/// A history that is under way.
+struct History {
+    rng: Rng,
+    world: World,
+    models: BTreeMap<Target, Model>,
+    fresh: FreshRuns,
+    next_version: u32,
+    /// The number of operations that the last run without a fault made, for each target.
+    operations: BTreeMap<Target, u64>,
+    log: Vec<String>,
+}
+
+/// Runs the history with this seed. The error says what was lost, after which steps.
+pub fn run(seed: u64) -> Result<(), String> {
+    let folder = TempDir::new().map_err(|error| error.to_string())?;
+    let mut history = History {
+        rng: Rng::with_seed(seed),
+        world: World::new(folder.path()),
+        models: BTreeMap::new(),
+        fresh: FreshRuns::default(),
+        next_version: 1,
+        operations: BTreeMap::new(),
+        log: Vec::new(),
+    };
+    let run = history.run();
+    run.map_err(|what| format!("{what}\nafter:\n  {}", history.log.join("\n  ")))
+}
+
+impl History {
+    fn run(&mut self) -> Result<(), String> {
+        for _ in 0..3 {
+            self.submit();
+        }
+        for _ in 0..self.rng.usize(3..=MAX_STEPS) {
+            self.step()?;
+        }
+        self.end()
+    }
+
+    fn step(&mut self) -> Result<(), String> {
+        match self.rng.u32(0..20) {
+            0..=7 => self.grade(Target::Whole),
+            8..=9 => {
+                let part = self.rng.usize(1..=PARTS);
+                self.grade(Target::Part(part))
+            }
+            10..=11 => self.grade_parts_and_merge(),
+            12 => self.merge(),
+            13..=15 => {
+                self.submit();
+                Ok(())
+            }
+            16 => {
+                let student = *self.rng.choice(&STUDENTS).unwrap();
+                self.log.push(format!("{student} leaves"));
+                self.world.withdraw(student);
+                Ok(())
+            }
+            17 => {
+                self.world.exam = self.rng.usize(0..EXAMS);
+                self.log
+                    .push(format!("the exam is number {}", self.world.exam));
+                Ok(())
+            }
+            18 => {
+                self.world.policy = self.rng.usize(0..POLICIES.len());
+                self.log
+                    .push(format!("the policy is number {}", self.world.policy));
+                Ok(())
+            }
+            _ => {
+                let days = self.rng.i64(-9_000..9_000);
+                self.log.push(format!("the clock jumps by {days} days"));
+                self.world.jump_clock(days);
+                Ok(())
+            }
+        }
+    }
+
+    /// Grades all parts, as several machines do, while the class may change, and merges them.
+    fn grade_parts_and_merge(&mut self) -> Result<(), String> {
+        for part in 1..=PARTS {
+            if self.rng.u32(0..4) == 0 {
+                self.submit();
+            }
+            let process = self.process_fault();
+            self.grade_with(Target::Part(part), false, true, DiskFault::None, process)?;
+        }
+        self.merge()
+    }
+
+    fn submit(&mut self) {
+        let student = *self.rng.choice(&STUDENTS).unwrap();
+        let version = (self.rng.u32(0..6) > 0).then_some(self.next_version);
+        self.next_version += 1;
+        self.log.push(format!("{student} submits {version:?}"));
+        self.world.submit(student, version);
+    }
+
+    fn disk_fault(&mut self, target: Target) -> DiskFault {
+        let most = self.operations.get(&target).copied().unwrap_or(60);
+        let at = self.rng.u64(1..=most);
+        match self.rng.u32(0..12) {
+            0..=3 => DiskFault::KilledAt(at),
+            4 => DiskFault::FullFrom(at),
+            5 => DiskFault::WriteErrorAt(at),
+            6 => DiskFault::ReadErrorAt(at),
+            _ => DiskFault::None,
+        }
+    }
+
+    fn process_fault(&mut self) -> ProcessFault {
+        let count = self.rng.u32(1..8);
+        match self.rng.u32(0..12) {
+            0 => ProcessFault::CannotStart(count),
+            1 => ProcessFault::Panics(count),
+            _ => ProcessFault::None,
+        }
+    }
+
+    /// Grades, with faults.
+    fn grade(&mut self, target: Target) -> Result<(), String> {
+        let (disk, process) = (self.disk_fault(target), self.process_fault());
+        let is_exported = self.rng.bool();
+        let is_regrade = target == Target::Whole && self.rng.u32(0..3) == 0;
+        self.grade_with(target, is_regrade, is_exported, disk, process)
+    }
+
+    fn grade_with(
+        &mut self,
+        target: Target,
+        is_regrade: bool,
+        is_exported: bool,
+        disk: DiskFault,
+        process: ProcessFault,
+    ) -> Result<(), String> {
+        let mut more: Vec<&str> = Vec::new();
+        if is_regrade {
+            more.push("--regrade");
+        }
+        if is_exported {
+            more.extend(EXPORT);
+        }
+        let exam = self.models.entry(target).or_default().observed.exam();
+        let has_other_exam = exam.is_some_and(|exam| exam != self.world.exam);
+        if matches!(target, Target::Part(_)) && has_other_exam {
+            // A part cannot be graded again in place.
+            self.world.remove(target);
+            self.models.insert(target, Model::default());
+            self.log.push(format!("{target:?} is removed"));
+        }
+        let observed = &self.models[&target].observed;
+        let is_possible = match target {
+            Target::Whole if is_regrade => observed.run.is_some(),
+            Target::Whole => observed.run.is_none() || !has_other_exam,
+            Target::Part(_) | Target::Merged | Target::Fresh => true,
+        };
+        let is_possible = is_possible && self.world.is_class();
+        let ended = self.world.grade(target, &more, disk, process);
+        self.log.push(format!(
+            "grade {target:?} {more:?} with {disk:?} and {process:?}: {}",
+            text(&ended)
+        ));
+        let had_process_fault = process != ProcessFault::None;
+        self.check(target, &ended, is_possible, is_exported, had_process_fault)?;
+        if disk == DiskFault::None && process == ProcessFault::None {
+            self.operations.insert(target, ended.operations);
+        }
+        Ok(())
+    }
+
+    fn merge(&mut self) -> Result<(), String> {
+        let disk = self.disk_fault(Target::Merged);
+        self.merge_with(disk)
+    }
+
+    fn merge_with(&mut self, disk: DiskFault) -> Result<(), String> {
+        let is_possible = self.can_merge();
+        // The keys of merged entries are those of the parts.
+        self.models.entry(Target::Merged).or_default().keys = self.keys();
+        let ended = self.world.merge(&EXPORT, disk);
+        self.log
+            .push(format!("merge with {disk:?}: {}", text(&ended)));
+        let keys = &mut self.models.get_mut(&Target::Merged).unwrap().keys;
+        let observed = observe(&self.world.folder(Target::Merged), keys)?;
+        if ended.result.is_ok() != is_possible && !ended.had_disk_fault {
+            return Err(format!(
+                "a merge that is possible: {is_possible}: {}",
+                text(&ended)
+            ));
+        }
+        if disk == DiskFault::None {
+            self.operations.insert(Target::Merged, ended.operations);
+        }
+        let is_complete = matches!(ended.result, Ok(Completion::Complete));
+        // The parts may have been graded before the last submissions.
+        if is_complete && self.parts_are_current() {
+            self.check_leftovers(Target::Merged)?;
+            let parts = (1..=PARTS).map(|part| &self.models[&Target::Part(part)].observed);
+            let history: Vec<_> = parts.chain([&observed]).collect();
+            self.fresh
+                .compare(&self.world, Target::Merged, &history, true)?;
+        }
+        self.models.get_mut(&Target::Merged).unwrap().observed = observed;
+        Ok(())
+    }
+
+    fn keys(&self) -> Keys {
+        let parts = (1..=PARTS).filter_map(|part| self.models.get(&Target::Part(part)));
+        parts.flat_map(|part| part.keys.clone()).collect()
+    }
+
+    fn can_merge(&self) -> bool {
+        let runs =
+            (1..=PARTS).map(|part| self.models.get(&Target::Part(part))?.observed.run.clone());
+        let runs: Option<Vec<Value>> = runs.collect();
+        runs.is_some_and(|runs| {
+            let same = |name: &str| runs.iter().all(|run| run[name] == runs[0][name]);
+            let finished = runs.iter().all(|run| run["finished"] == true);
+            finished && same("settings") && same("class") && same("policy")
+        })
+    }
+
+    fn parts_are_current(&self) -> bool {
+        let class = self.expected(Target::Whole);
+        let policy = match self.world.policy {
+            0 => Value::Null,
+            number => POLICIES[number].into(),
+        };
+        let mut ids = BTreeSet::new();
+        for part in 1..=PARTS {
+            let observed = &self.models[&Target::Part(part)].observed;
+            let run = observed.run.as_ref().expect("it was merged");
+            for id in run["entries"].as_array().unwrap() {
+                let id = id.as_str().unwrap();
+                let score = observed.entries[id].graded();
+                if class.get(id) != Some(&score) || run["policy"] != policy {
+                    return false;
+                }
+                ids.insert(id.to_owned());
+            }
+        }
+        ids.len() == class.len()
+    }
+
+    /// Returns the scores that a run must give to its entries.
+    fn expected(&self, target: Target) -> BTreeMap<&'static str, Option<ScoreId>> {
+        let exam = self.world.exam;
+        let submissions = self.world.submissions.iter();
+        let all = submissions.map(|(student, version)| {
+            let score = version.map(|version| ScoreId { version, exam });
+            (*student, score)
+        });
+        let all: Vec<_> = all.collect();
+        let shard = match target {
+            Target::Part(part) => format!("{part}/{PARTS}").parse().unwrap(),
+            Target::Whole | Target::Merged | Target::Fresh => Shard::ALL,
+        };
+        shard.select(all).into_iter().collect()
+    }
+
+    fn check(
+        &mut self,
+        target: Target,
+        ended: &Ended,
+        is_possible: bool,
+        is_exported: bool,
+        had_process_fault: bool,
+    ) -> Result<(), String> {
+        let expected = self.expected(target);
+        let folder = self.world.folder(target);
+        let model = self.models.entry(target).or_default();
+        let observed = observe(&folder, &mut model.keys)?;
+        model.update(observed.clone())?;
+        let is_complete = matches!(ended.result, Ok(Completion::Complete));
+        let had_fault = ended.had_disk_fault || had_process_fault;
+        if !had_fault && is_complete != is_possible {
+            return Err(format!(
+                "{target:?}, possible: {is_possible}: {}",
+                text(ended)
+            ));
+        }
+        if !is_complete {
+            return Ok(());
+        }
+        model.check_success(&expected)?;
+        let drifts = model.drifts(&expected);
+        if observed.round() > 1 {
+            let file = fs::read_to_string(folder.join("drift.json")).unwrap_or_default();
+            check_drifts(&file, &drifts, &expected)?;
+        }
+        self.check_leftovers(target)?;
+        if target == Target::Whole {
+            self.fresh
+                .compare(&self.world, target, &[&observed], is_exported)?;
+        }
+        Ok(())
+    }
+
+    fn check_leftovers(&self, target: Target) -> Result<(), String> {
+        let left = self.world.temporary_files(target);
+        if left.is_empty() {
+            Ok(())
+        } else {
+            Err(format!("{target:?} still has {left:?}"))
+        }
+    }
+
+    /// Runs everything once more without faults, and compares it with new folders.
+    fn end(&mut self) -> Result<(), String> {
+        if !self.world.is_class() {
+            self.world.submit(STUDENTS[0], Some(self.next_version));
+        }
+        let none = (DiskFault::None, ProcessFault::None);
+        let model = self.models.entry(Target::Whole).or_default();
+        let is_regrade = model
+            .observed
+            .exam()
+            .is_some_and(|exam| exam != self.world.exam);
+        self.grade_with(Target::Whole, is_regrade, true, none.0, none.1)?;
+        let folder = self.world.folder(Target::Whole);
+        let files = all_files(&folder);
+        self.grade_with(Target::Whole, false, true, none.0, none.1)?;
+        if files != all_files(&folder) {
+            return Err("a run without changes changed a file".to_owned());
+        }
+        for part in 1..=PARTS {
+            self.grade_with(Target::Part(part), false, true, none.0, none.1)?;
+        }
+        if !self.can_merge() || !self.parts_are_current() {
+            return Err("the parts cannot be merged".to_owned());
+        }
+        self.merge_with(DiskFault::None)
+    }
+}
+
+fn text(ended: &Ended) -> String {
+    match &ended.result {
+        Ok(completion) => format!("{completion:?}"),
+        Err(error) => format!("error: {error}"),
+    }
+}
+
+/// Compares the list of changes after a regrade with the scores that have changed.
+fn check_drifts(
+    file: &str,
+    drifts: &[(String, ScoreId)],
+    now: &BTreeMap<&str, Option<ScoreId>>,
+) -> Result<(), String> {
+    let list: Vec<Value> = serde_json::from_str(file).map_err(|error| error.to_string())?;
+    let found: BTreeSet<&str> = list
+        .iter()
+        .filter_map(|drift| drift["id"].as_str())
+        .collect();
+    let points = |id: &str, known: ScoreId| -> Vec<u32> {
+        let score = score(id, known.version, known.exam);
+        score.items().map(|item| item.points).collect()
+    };
+    let is_changed = |(id, was): &&(String, ScoreId)| {
+        now[id.as_str()].is_none_or(|now| points(id, now) != points(id, *was))
+    };
+    let expected = drifts.iter().filter(is_changed).map(|(id, _)| id.as_str());
+    let expected: BTreeSet<&str> = expected.collect();
+    if found == expected {
+        Ok(())
+    } else {
+        Err(format!(
+            "drift.json lists {found:?} instead of {expected:?}"
+        ))
+    }
+}

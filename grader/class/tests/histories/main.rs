@@ -1,0 +1,145 @@
+//! Histories of a class: random sequences of grading, regrading, merging, changed and removed
+//! submissions, exams and policies, in which runs are killed at any operation on a file, disks are
+//! full and processes do not start. After each step the files must be such as a model allows, and
+//! runs that end well give the same bytes as a run in a new folder.
+//!
+//! `cargo test -p class --test histories` runs 100 histories, with `-- --count 10000` more, and with
+//! `-- --seed 17` the one with this seed. No submission is compiled: scores are recorded.
+
+mod comparison;
+mod faulty_disk;
+mod history;
+mod model;
+mod observed;
+mod recorded_grader;
+mod world;
+
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitCode, Stdio};
+use std::thread;
+
+use clap::Parser;
+
+/// Runs random histories of a class.
+#[derive(Clone, Debug, Parser)]
+struct Arguments {
+    /// Number of histories
+    #[arg(long, default_value_t = 100)]
+    count: u64,
+    /// Seed of the first history
+    #[arg(long, default_value_t = 0)]
+    from: u64,
+    /// Run only the history with this seed
+    #[arg(long)]
+    seed: Option<u64>,
+    /// Number of processes; default: one per core
+    #[arg(long)]
+    jobs: Option<u64>,
+    /// Write the result into the table of long runs
+    #[arg(long)]
+    record: bool,
+    /// Run the histories in this process, and write what is lost into this file
+    #[arg(long, hide = true)]
+    report: Option<PathBuf>,
+    /// Words that test runners add
+    #[arg(hide = true)]
+    _words: Vec<String>,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let seeds = match arguments.seed {
+        Some(seed) => seed..seed + 1,
+        None => arguments.from..arguments.from + arguments.count,
+    };
+    match &arguments.report {
+        Some(report) => run_here(seeds, report),
+        None => {
+            let result = run_in_processes(&seeds, arguments.jobs);
+            if arguments.record && !record(&seeds, &result) {
+                return ExitCode::FAILURE;
+            }
+            if result.ends_with(" lost 0") {
+                ExitCode::SUCCESS
+            } else {
+                ExitCode::FAILURE
+            }
+        }
+    }
+}
+
+/// Runs histories in this process. The commands print as they do for people, so whoever starts this
+/// process ignores its output.
+fn run_here(seeds: Range<u64>, report: &Path) -> ExitCode {
+    faulty_disk::install();
+    let lost = seeds.filter_map(|seed| Some((seed, history::run(seed).err()?)));
+    let lost = lost.map(|(seed, what)| format!("\0history {seed}: {what}\n"));
+    fs::write(report, lost.collect::<String>()).unwrap();
+    ExitCode::SUCCESS
+}
+
+/// Writes a number with commas between the thousands.
+fn in_thousands(number: u64) -> String {
+    match number / 1000 {
+        0 => number.to_string(),
+        thousands => format!("{},{:03}", in_thousands(thousands), number % 1000),
+    }
+}
+
+/// Writes the result into the table of long runs. Returns whether that succeeded.
+fn record(seeds: &Range<u64>, result: &str) -> bool {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let script = Command::new("bash")
+        .current_dir(root)
+        .args([
+            ".ci/record",
+            "histories",
+            &format!("{}..{}", seeds.start, seeds.end),
+            result,
+        ])
+        .status();
+    script.is_ok_and(|status| status.success())
+}
+
+/// Runs histories in several processes, prints what is lost, and returns the closing line.
+fn run_in_processes(seeds: &Range<u64>, jobs: Option<u64>) -> String {
+    let cores = || thread::available_parallelism().map_or(1, |cores| cores.get() as u64);
+    let count = seeds.end - seeds.start;
+    let jobs = jobs.unwrap_or_else(cores).clamp(1, count.max(1));
+    let folder = tempfile::tempdir().unwrap();
+    let report = |job: u64| folder.path().join(job.to_string());
+    let start = |job: u64| -> Child {
+        let bound = |job: u64| seeds.start + count * job / jobs;
+        let (from, count) = (bound(job), bound(job + 1) - bound(job));
+        Command::new(std::env::current_exe().unwrap())
+            .args(["--from", &from.to_string(), "--count", &count.to_string()])
+            .arg("--report")
+            .arg(report(job))
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap()
+    };
+    let children: Vec<Child> = (0..jobs).map(start).collect();
+    let mut lost = Vec::new();
+    for (job, mut child) in (0..).zip(children) {
+        let status = child.wait().unwrap();
+        match fs::read_to_string(report(job)) {
+            Ok(text) => lost.extend(text.split('\0').skip(1).map(str::to_owned)),
+            Err(_) => lost.push(format!(
+                "a process ended with {status}: run fewer histories\n"
+            )),
+        }
+    }
+    for text in lost.iter().take(5) {
+        println!("{text}");
+    }
+    if !lost.is_empty() {
+        println!("`cargo test -p class --test histories -- --seed NUMBER` repeats one");
+    }
+    let result = format!("histories {}, lost {}", in_thousands(count), lost.len());
+    println!("{result}");
+    result
+}

@@ -1,0 +1,143 @@
+//! What is known about a folder with results, and what the next run may make of it.
+
+use std::collections::BTreeMap;
+
+use crate::observed::{Files, Keys, Observed, ScoreId};
+
+/// The model of a folder in which a class is graded.
+#[derive(Debug, Default)]
+pub struct Model {
+    /// The folder as it was last seen.
+    pub observed: Observed,
+    /// The cache keys that were seen in this course.
+    pub keys: Keys,
+    /// The last score that each entry was stamped with, and its round. It must not get lost before
+    /// there is another one.
+    kept: BTreeMap<String, (u64, ScoreId)>,
+    /// The scores that the current round is compared with.
+    before: BTreeMap<String, ScoreId>,
+    /// The last scores of entries in which there was nothing to grade later on. If reading such an entry
+    /// has failed since, a regrade may be compared with this score.
+    dropped: BTreeMap<String, ScoreId>,
+}
+
+impl Model {
+    /// Compares the folder after a command with what the model allows, and remembers it.
+    pub fn update(&mut self, now: Observed) -> Result<(), String> {
+        let was = &self.observed;
+        if now.round() < was.round() || was.run.is_some() && now.run.is_none() {
+            return Err(format!(
+                "round {} became round {}",
+                was.round(),
+                now.round()
+            ));
+        }
+        for id in was.entries.keys() {
+            if !now.entries.contains_key(id) {
+                return Err(format!("the files of {id} are gone"));
+            }
+        }
+        if now.round() > was.round() && was.is_unfinished_regrade() {
+            // The scores of an abandoned regrade are given up.
+            let before = self.before.iter();
+            self.kept = before
+                .map(|(id, score)| (id.clone(), (0, *score)))
+                .collect();
+        } else if now.round() > was.round() {
+            let kept = self.kept.iter();
+            self.before = kept.map(|(id, (_, score))| (id.clone(), *score)).collect();
+        }
+        for (id, files) in &now.entries {
+            self.update_entry(id, files, now.round())?;
+        }
+        if now.is_finished() {
+            check_finished(&now)?;
+        }
+        self.observed = now;
+        Ok(())
+    }
+
+    fn update_entry(&mut self, id: &str, files: &Files, round: u64) -> Result<(), String> {
+        let was = self.kept.get(id).copied();
+        if let Some((stamped_in, score)) = was {
+            let places = [files.score, files.replaced, files.previous];
+            if !places.contains(&Some(score)) {
+                return Err(format!("{score:?} of {id} is lost: {files:?}"));
+            }
+            let now = files.graded();
+            let is_replaced = now.is_some_and(|now| now != score);
+            if is_replaced && stamped_in == round && files.replaced != Some(score) {
+                return Err(format!(
+                    "{score:?} of {id} was replaced, and not kept: {files:?}"
+                ));
+            }
+        }
+        match (files.graded(), files.state()) {
+            (Some(score), _) => {
+                let stamped_in = files.round().unwrap_or_default();
+                self.kept.insert(id.to_owned(), (stamped_in, score));
+            }
+            // Staff have been told that there is nothing to grade.
+            (None, Some("no_submission")) => {
+                let dropped = self
+                    .kept
+                    .remove(id)
+                    .map(|(_, score)| (id.to_owned(), score));
+                self.dropped.extend(dropped);
+            }
+            (None, _) => {}
+        }
+        Ok(())
+    }
+
+    /// Compares a folder in which a command has ended well with the model. `class` has the scores
+    /// that its entries must have; `None` if there is nothing to grade.
+    pub fn check_success(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Result<(), String> {
+        if !self.observed.is_finished() {
+            return Err("the run ended well, and is not marked as finished".to_owned());
+        }
+        for (id, expected) in class {
+            let files = self.observed.entries.get(*id).cloned().unwrap_or_default();
+            if files.graded() != *expected {
+                return Err(format!("{id} has {files:?} instead of {expected:?}"));
+            }
+            if files.stamp.is_none() {
+                return Err(format!("{id} has no stamp"));
+            }
+            let is_regrade = self.observed.round() > 1;
+            let before = self.before.get(*id).copied().filter(|_| is_regrade);
+            let is_dropped = before.is_none() && files.previous == self.dropped.get(*id).copied();
+            if is_regrade && files.previous != before && !is_dropped {
+                return Err(format!(
+                    "{id} is compared with {files:?} instead of {before:?}"
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the ids of the entries whose score a regrade has changed, among those of the class.
+    pub fn drifts(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Vec<(String, ScoreId)> {
+        let ids = class.keys().copied();
+        let entries = &self.observed.entries;
+        let before = ids.filter_map(|id| Some((id.to_owned(), entries.get(id)?.previous?)));
+        before
+            .filter(|(id, was)| class[id.as_str()] != Some(*was))
+            .collect()
+    }
+}
+
+/// Checks that every entry of a finished run is done.
+fn check_finished(observed: &Observed) -> Result<(), String> {
+    let run = observed.run.as_ref().expect("it is finished");
+    for id in run["entries"].as_array().into_iter().flatten() {
+        let id = id.as_str().unwrap_or_default();
+        let files = observed.entries.get(id);
+        if files.and_then(|files| files.stamp.as_ref()).is_none() {
+            return Err(format!(
+                "the run is marked as finished, but {id} is not done"
+            ));
+        }
+    }
+    Ok(())
+}

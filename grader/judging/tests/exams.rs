@@ -1,0 +1,257 @@
+//! Tests of exams as data, with the practice exam: numbers of elements, what is refused, and the
+//! mistake behind an answer.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::LazyLock;
+
+use glam::Vec3;
+use judging::assignment::{RAYS, Task};
+use judging::exam::{Exam, Key};
+use judging::exam_file;
+use judging::judge::{Failure, judge};
+use judging::recognise::Observations;
+use protocol::{Answer, ElementOutcome, Interval, Ray};
+use serde_json::{Value, json};
+
+const PRACTICE: &str = include_str!("../../exams/practice.json");
+
+static EXAM: LazyLock<Exam> = LazyLock::new(|| parse(PRACTICE).unwrap());
+
+fn parse(text: &str) -> Result<Exam, String> {
+    let file = exam_file::parse(Path::new("exam.json"), text.as_bytes(), &RAYS);
+    file.map(|file| file.exam)
+        .map_err(|error| error.to_string())
+}
+
+#[test]
+fn the_elements_of_an_item_are_numbered_without_gaps() {
+    for item in &EXAM.items {
+        let counts = item
+            .questions
+            .iter()
+            .map(|question| question.question.count());
+        let all = counts.clone().enumerate();
+        let all =
+            all.flat_map(|(question, count)| (0..count).map(move |element| (question, element)));
+        assert_eq!(item.count(), counts.sum::<usize>());
+        for (number, (question, element)) in (1..).zip(all) {
+            assert_eq!(
+                item.element(number),
+                Some((question, element)),
+                "{}",
+                item.id
+            );
+            assert_eq!(item.number(question, element), number, "{}", item.id);
+        }
+        assert_eq!(item.element(0), None);
+        assert_eq!(item.element(item.count() + 1), None);
+        let last = item.questions.len() - 1;
+        assert_eq!(
+            item.number(last, usize::MAX),
+            item.count(),
+            "of a picture's pixels"
+        );
+    }
+}
+
+#[test]
+fn tasks_are_found_by_their_ids_and_those_of_their_items() {
+    for (index, task) in RAYS.tasks.iter().enumerate() {
+        let found = RAYS.find(task.id).unwrap();
+        assert_eq!(found.title, task.title);
+        assert_eq!(RAYS.task_of(&format!("{}.any", task.id)), Some(task.task()));
+        assert_eq!(RAYS.id_list().split(", ").nth(index), Some(task.id));
+    }
+    assert_eq!(RAYS.find("light").map(|task| task.id), None);
+    for none in ["sphere", "light.any"] {
+        assert_eq!(RAYS.task_of(none), None);
+    }
+    assert_eq!(
+        Task::in_id("light.any").as_ref().map(Task::id),
+        Some("light")
+    );
+}
+
+#[test]
+fn a_part_of_the_exam_has_the_items_that_it_needs() {
+    let mut items = EXAM.items.iter();
+    let item = items.find(|item| !item.needs.is_empty()).unwrap();
+    let part = EXAM.with_needed_items(|other| other.id == item.id);
+    let ids: BTreeSet<&str> = part.items.iter().map(|item| item.id.as_str()).collect();
+    let needed = item.needs.iter().chain([&item.id]);
+    assert_eq!(ids, needed.map(String::as_str).collect());
+}
+
+#[test]
+fn an_exam_is_read_as_it_was_written() {
+    let text = serde_json::to_string(&*EXAM).unwrap();
+    assert!(!text.contains("\"assignment\""), "`rays` is the default");
+    assert_eq!(serde_json::to_string(&parse(&text).unwrap()).unwrap(), text);
+    let other = Exam {
+        assignment: "light".to_owned(),
+        ..EXAM.clone()
+    };
+    let text = serde_json::to_string(&other).unwrap();
+    assert!(
+        parse(&text)
+            .unwrap_err()
+            .contains("for the assignment `light`")
+    );
+}
+
+#[test]
+fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
+    let exam: Value = serde_json::from_str(PRACTICE).unwrap();
+    let first = |id: &str| {
+        let items = exam["items"].as_array().unwrap();
+        items.iter().position(|item| item["id"] == id).unwrap()
+    };
+    let camera = first("camera.corners");
+    let picture = first("camera.picture");
+    let sphere = first("sphere.near_side");
+    let count = EXAM.items[camera].count();
+    let item = |path: &str| format!("/items/{camera}/{path}");
+    for (path, value, problem) in [
+        ("/schema".to_owned(), json!(99), "its format is version 99"),
+        ("/items".to_owned(), json!([]), "it has no items"),
+        (
+            item("id"),
+            json!("sphere.corners"),
+            "does not start with `camera.`",
+        ),
+        (
+            item("task"),
+            json!("light"),
+            "there is no task `light`; the tasks are camera",
+        ),
+        (item("points"), json!(0), "no points or no questions"),
+        (item("questions"), json!([]), "no points or no questions"),
+        (
+            item("needs"),
+            json!(["sphere.near_side"]),
+            "which must come before it",
+        ),
+        (
+            item("signatures/elements/0"),
+            json!(count),
+            "signatures refer to",
+        ),
+        (
+            item("signatures/elements"),
+            json!([0]),
+            "signatures refer to",
+        ),
+        (
+            item("signatures/mistake_answers/0/mistakes/0"),
+            json!(60_000),
+            "signatures refer to",
+        ),
+        (
+            format!("/items/{picture}/id"),
+            json!("camera.corners"),
+            "another item has the same id",
+        ),
+        (
+            format!("/items/{picture}/questions/0/question/camera/camera/film"),
+            json!([100_000, 2]),
+            "asks for 100000 x 2 pixels",
+        ),
+        (
+            format!("/items/{sphere}/questions/0/key"),
+            exam["items"][camera]["questions"][0]["key"].clone(),
+            "are of different kinds",
+        ),
+        (
+            item("questions/0/key"),
+            exam["items"][picture]["questions"][0]["key"].clone(),
+            "elements, but its key has",
+        ),
+    ] {
+        let mut changed = exam.clone();
+        let (around, key) = path.rsplit_once('/').unwrap();
+        let around = changed.pointer_mut(around);
+        let around = around.unwrap_or_else(|| panic!("the exam has no {path}"));
+        if let Value::Array(list) = around {
+            list[key.parse::<usize>().unwrap()] = value;
+        } else {
+            around[key] = value;
+        }
+        let error = parse(&changed.to_string()).unwrap_err();
+        assert!(error.contains(problem), "{path}: {error}");
+    }
+    parse(&exam.to_string()).unwrap();
+}
+
+/// Returns the answers of a camera that maps each right direction to another.
+fn camera_answers(exam: &Exam, change: impl Fn(Vec3) -> Vec3) -> Observations {
+    let mut observations = Observations::default();
+    for item in exam.items.iter().filter(|item| item.task.id() == "camera") {
+        let answer = |key: &Key| {
+            let Key::Rays { directions, .. } = key else {
+                panic!("the camera is asked for rays, not for {key:?}");
+            };
+            let rays = directions.iter().map(|&dir| Ray {
+                origin: Vec3::ZERO,
+                dir: change(dir),
+                range: Interval::AHEAD,
+            });
+            Answer::Rays(rays.map(ElementOutcome::Value).collect())
+        };
+        let answers: Vec<Answer> = item
+            .questions
+            .iter()
+            .map(|question| answer(&question.key))
+            .collect();
+        observations.record(item, Ok(&answers));
+    }
+    observations
+}
+
+#[test]
+fn a_known_mistake_is_recognised_by_its_answers_and_right_answers_have_none() {
+    let flipped = camera_answers(&EXAM, |dir| Vec3::new(dir.x, -dir.y, dir.z));
+    let mirrored = camera_answers(&EXAM, |dir| Vec3::new(-dir.x, dir.y, dir.z));
+    let right = camera_answers(&EXAM, |dir| dir);
+    let item = EXAM
+        .items
+        .iter()
+        .find(|item| item.id == "camera.corners")
+        .unwrap();
+    let explain = |observations: &Observations| -> Vec<String> {
+        let mistakes = observations.explain(&EXAM, item);
+        mistakes.iter().map(|mistake| mistake.id.clone()).collect()
+    };
+    assert_eq!(explain(&flipped), ["camera.upside_down"]);
+    assert_eq!(explain(&mirrored), ["camera.mirrored"]);
+    assert_eq!(explain(&right), [""; 0]);
+}
+
+#[test]
+fn a_failure_counts_all_wrong_elements_and_names_the_first() {
+    let item = EXAM
+        .items
+        .iter()
+        .find(|item| item.id == "camera.corners")
+        .unwrap();
+    let question = &item.questions[0];
+    let Key::Rays { directions, .. } = &question.key else {
+        panic!("the camera is asked for rays");
+    };
+    let wrong = [1, 3];
+    let ray = |(index, &dir): (usize, &Vec3)| Ray {
+        origin: Vec3::ZERO,
+        dir: if wrong.contains(&index) { -dir } else { dir },
+        range: Interval::AHEAD,
+    };
+    let rays = directions
+        .iter()
+        .enumerate()
+        .map(ray)
+        .map(ElementOutcome::Value);
+    let failure = judge(question, &Answer::Rays(rays.collect())).failure;
+    let Some(Failure { element, count, .. }) = failure else {
+        panic!("two rays are wrong");
+    };
+    assert_eq!((element, count), (1, Some((2, directions.len()))));
+}

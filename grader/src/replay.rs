@@ -7,14 +7,14 @@ use judging::describe;
 use judging::exam::{Exam, ExamQuestion, Item, question_subset};
 use judging::judge::{element_error, judge};
 use judging::sanitize::sanitize;
-use protocol::{Answer, ElementOutcome, Question};
+use protocol::{Answer, ElementOutcome, Question, Shape};
 
 use crate::build::Builder;
 use crate::error::Error;
 use crate::grade::{collect, source_paths};
 use crate::nearest_name::suggestion;
 use crate::options::GradeOptions;
-use crate::probe::{Budget, Culprit, Fault, Launcher};
+use crate::probe::{Budget, Crash, Culprit, Fault, Launcher, smallest_overflow};
 use crate::question_ref::QuestionRef;
 use crate::select_isolation::with_requested_level;
 use crate::verdict::file_message;
@@ -139,6 +139,8 @@ struct Replayed {
     position: (usize, usize),
     answer: Result<Answer, Fault>,
     printed: String,
+    /// The fewest primitives on which the build still overflows the stack, if it does.
+    smallest: Option<Vec<Shape>>,
 }
 
 impl Replayed {
@@ -152,8 +154,20 @@ impl Replayed {
             question_subset(&item.questions[question].question, element..element + 1);
         let mut probe = launcher.start(budget.total_cpu())?;
         let answers = probe.ask([&question_alone], budget.single_item());
+        let overflowed = matches!(answers, Err(Fault::Crashed(Crash::StackOverflow)));
+        let smallest = if overflowed
+            && let Question::Build {
+                shapes,
+                max_leaf_size,
+            } = &question_alone
+        {
+            smallest_overflow(launcher, shapes, *max_leaf_size, budget)?
+        } else {
+            None
+        };
         Ok(Replayed {
             position: (question, element),
+            smallest,
             answer: answers.and_then(|answers| {
                 let answer = answers.into_iter().next();
                 answer.ok_or_else(|| Fault::Protocol("no answer".to_owned()))
@@ -177,8 +191,19 @@ impl Replayed {
             ("printed", printed),
         ];
         let number = item.number(question, element);
-        let rows = rows.map(|(label, text)| format!("{label:<8} {text}\n"));
-        format!("{}#{number}\n{}", item.id, rows.concat())
+        let smallest = self.smallest.as_ref().map(|shapes| {
+            let text = format!(
+                "overflows even with {} of them: {}",
+                shapes.len(),
+                describe::each_shape(shapes)
+            );
+            ("smallest", text)
+        });
+        let rows = rows.into_iter().chain(smallest);
+        let rows: String = rows
+            .map(|(label, text)| format!("{label:<8} {text}\n"))
+            .collect();
+        format!("{}#{number}\n{rows}", item.id)
     }
 
     fn got(&self) -> String {

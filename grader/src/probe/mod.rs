@@ -6,6 +6,7 @@ mod culprit;
 mod fault;
 mod interrupt;
 mod limits;
+mod shrink;
 mod streams;
 
 use std::io;
@@ -31,6 +32,7 @@ pub use culprit::Culprit;
 pub use fault::{Crash, Fault, TimeLimit};
 pub use interrupt::Interrupt;
 pub use limits::{ItemLimits, TimeUsed};
+pub use shrink::smallest_overflow;
 
 /// Maximum size of a submission's output that is stored, in bytes.
 const MAX_OUTPUT_BYTES: usize = 64 << 10;

@@ -225,6 +225,22 @@ fn replay_tells_an_answer_that_depends_on_earlier_calls() {
     assert!(replay.contains("distance; the error is"), "{replay}");
 }
 
+#[test]
+fn replay_names_the_fewest_primitives_that_overflow_the_stack() {
+    let submission = Submission::reference("endless").with_replaced(
+        "bvh.rs",
+        "return items.len() / 2; // All",
+        "return 0; // All",
+    );
+    let replay = replay(&submission, "build.coincident");
+    let smallest = replay.lines().find(|line| line.starts_with("smallest"));
+    let smallest = smallest.unwrap_or_else(|| panic!("nothing was left out: {replay}"));
+    // One primitive more than a leaf may hold.
+    let few = "smallest overflows even with 2 of them: triangle (";
+    assert!(smallest.starts_with(few), "{replay}");
+    assert_eq!(smallest.matches("; triangle (").count(), 1, "{replay}");
+}
+
 fn replay(submission: &Submission, question: &str) -> String {
     let output = grader()
         .arg(submission.path())

@@ -157,6 +157,16 @@ fn nth_ray(rays: &Rays, element: usize) -> String {
     }
 }
 
+/// Describes each of a few shapes in full. For more, returns only their number.
+pub fn each_shape(shapes: &[Shape]) -> String {
+    const FEW: usize = 6;
+    if shapes.len() > FEW {
+        return shapes_text(shapes);
+    }
+    let texts: Vec<String> = shapes.iter().map(shape_text).collect();
+    texts.join("; ")
+}
+
 /// Describes a single shape in full. For several shapes, returns only their number.
 fn shapes_text(shapes: &[Shape]) -> String {
     match shapes {

@@ -1,0 +1,56 @@
+//! Finds the fewest primitives on which a build still overflows the stack, so that the recursion can
+//! be followed by hand.
+
+use std::io;
+
+use protocol::{Question, Shape};
+
+use super::{Budget, Crash, Fault, Launcher};
+
+/// The maximum number of programs that are started. Each ends in some milliseconds.
+const MAX_ATTEMPTS: usize = 100;
+
+/// Leaves out primitives for as long as the build of the others overflows the stack. Returns what is
+/// left, or `None` if not even all of them do.
+///
+/// The method is delta debugging (Zeller and Hildebrandt, "Simplifying and Isolating Failure-Inducing
+/// Input", IEEE Transactions on Software Engineering 28, 2002): first large parts are left out, then
+/// smaller ones, at last single primitives.
+pub fn smallest_overflow(
+    launcher: &Launcher,
+    shapes: &[Shape],
+    max_leaf_size: u32,
+    budget: Budget,
+) -> io::Result<Option<Vec<Shape>>> {
+    let mut attempts = 0;
+    let mut overflows = |shapes: &[Shape]| -> io::Result<bool> {
+        attempts += 1;
+        let question = Question::Build {
+            shapes: shapes.to_vec(),
+            max_leaf_size,
+        };
+        let mut probe = launcher.start(budget.total_cpu())?;
+        let answer = probe.ask([&question], budget.single_item());
+        let overflowed = matches!(answer, Err(Fault::Crashed(Crash::StackOverflow)));
+        Ok(overflowed && attempts <= MAX_ATTEMPTS)
+    };
+    if !overflows(shapes)? {
+        return Ok(None);
+    }
+    let mut left = shapes.to_vec();
+    let mut length = left.len() / 2;
+    while length > 0 {
+        let mut start = 0;
+        while start < left.len() {
+            let end = left.len().min(start + length);
+            let others = [&left[..start], &left[end..]].concat();
+            if !others.is_empty() && overflows(&others)? {
+                left = others;
+            } else {
+                start = end;
+            }
+        }
+        length /= 2;
+    }
+    Ok(Some(left))
+}

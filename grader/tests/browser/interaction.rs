@@ -9,10 +9,11 @@ const FLICKER: &str = "document.querySelector('#triangle\\\\.picture .flicker')"
 const CLIP_PATH: &str =
     "document.querySelector('#triangle\\\\.picture .stage .got').style.clipPath";
 
-/// Opens the page on which all pictures are wrong.
+/// Opens the page on which all pictures are wrong, with all items unfolded.
 fn open_noisy_page(chromium: &Chromium, reader: Viewer) -> Tab {
     let mut tab = chromium.tab();
     tab.load(&pages::NOISY, reader);
+    tab.eval(pages::OPEN_ALL);
     tab
 }
 

@@ -7,6 +7,10 @@ use std::sync::LazyLock;
 
 use grader::handed_out::RAYS;
 
+/// Unfolds everything on a page. Of each task, only the first failed item is unfolded at first.
+pub const OPEN_ALL: &str =
+    "for (const details of document.querySelectorAll('details')) details.open = true; 0";
+
 /// The page of a submission in which everything is correct.
 pub static PERFECT: LazyLock<PathBuf> = LazyLock::new(|| page("perfect", |_| {}));
 

@@ -56,10 +56,10 @@ fn the_practice_exam_by_heart_earns_nothing_in_final_exams() {
 fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
     let recognition = recognise(&SOLUTIONS, &practice_exam()).unwrap();
     println!("{recognition}");
-    assert!(recognition.recognised_share() >= 0.95, "{recognition}");
-    // Many of these hints fit both mistakes, because the mistakes differ only in degree.
+    // The others give no answers at all, which says little about the cause.
+    assert!(recognition.recognised_share() >= 0.9, "{recognition}");
     assert!(
-        recognition.confused_when_unknown.len() * 10 <= SOLUTIONS.mistakes.len(),
+        recognition.confused_when_unknown.len() * 100 <= SOLUTIONS.mistakes.len(),
         "{recognition}"
     );
 }

@@ -10,11 +10,12 @@ use super::schema::{Schema, parse_yaml};
 use super::{assert_exam_and_policy, recipe};
 use crate::harness::workspace;
 
-/// The recipe, the workflow that students get, and the one that tests this repository.
-const WORKFLOWS: [&str; 3] = [
+/// The recipe, the workflow that students get, and those that test this repository and the bundle.
+const WORKFLOWS: [&str; 4] = [
     "grader/class/recipes/github-matrix.yml",
     "reference/author/src/bundle/templates/grade.yml",
     ".github/workflows/ci.yml",
+    ".github/workflows/bundle.yml",
 ];
 
 fn read(path: &str) -> String {

@@ -8,14 +8,23 @@ use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, Group, item, meshes, ray};
 use crate::oracle::{Ray64, scan};
 use crate::seed::{Rng, Seed};
+use crate::tree::traversal::{Traversal, TraversalRule};
 use crate::tree::{Tree, construction};
 
 pub(super) fn closest_hit(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.closest_hit");
+    // At least half of the hits are found after a farther one.
+    let kind = |rng: &mut Rng, tree: &Tree| {
+        let any = rng.coin();
+        rng.retry(|rng| {
+            let ray = ray_from_around(rng, tree);
+            (any || replaces_a_hit(tree, &Ray64::from(&ray))).then_some(ray)
+        })
+    };
     // With large triangles, the boxes of siblings overlap considerably.
     let mut question = || {
         let tree = soup_tree(&mut rng, 40, 1.6, 1);
-        question_without_decoys(&mut rng, tree, [24, 8], ray_from_around)
+        question_without_decoys(&mut rng, tree, [24, 8], kind)
     };
     let questions = vec![question(), dust(question())];
     item(
@@ -31,6 +40,18 @@ pub(super) fn closest_hit(seed: Seed) -> DeclaredItem {
         },
         questions,
     )
+}
+
+/// Returns whether every correct traversal finds a farther hit before the closest one.
+fn replaces_a_hit(tree: &Tree, ray64: &Ray64) -> bool {
+    let closest = tree.expected_hit(ray64);
+    TraversalRule::ALL.into_iter().all(|rule| {
+        let tested = Traversal::correct(tree, ray64, rule).tested_primitives;
+        let mut hits = tested
+            .into_iter()
+            .filter_map(|primitive| scan::intersect(ray64, &tree.shapes[primitive]));
+        hits.next().is_some_and(|first| Some(first) != closest)
+    })
 }
 
 pub(super) fn first_box_empty(seed: Seed) -> DeclaredItem {

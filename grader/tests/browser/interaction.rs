@@ -9,11 +9,17 @@ const FLICKER: &str = "document.querySelector('#triangle\\\\.picture .flicker')"
 const CLIP_PATH: &str =
     "document.querySelector('#triangle\\\\.picture .stage .got').style.clipPath";
 
-/// Opens the page on which all pictures are wrong, with all items unfolded.
+/// Opens the page on which all pictures are wrong, with all pictures unfolded.
 fn open_noisy_page(chromium: &Chromium, reader: Viewer) -> Tab {
     let mut tab = chromium.tab();
     tab.load(&pages::NOISY, reader);
-    tab.eval(pages::OPEN_ALL);
+    tab.eval(
+        "for (const picture of document.querySelectorAll('.picture')) {
+            for (let up = picture.closest('details'); up; up = up.parentElement.closest('details')) {
+                up.open = true;
+            }
+        } 0",
+    );
     tab
 }
 

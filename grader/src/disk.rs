@@ -1,7 +1,7 @@
-//! The seam between the grader and the disk: whoever installs a [`Disk`] is asked before every
-//! operation on the files of submissions, reports and classes, and can make it fail. Tests install
-//! one that is full, or that stands still as if the process had been killed. A grader for people
-//! installs none.
+//! The seam between the grader and the disk. An installed [`Disk`] is asked before every operation on
+//! the files of submissions, reports and classes, and can make it fail. Tests install one that is
+//! full, or that fails every operation from some point on, as if the process had been killed. Outside
+//! of tests, none is installed.
 //!
 //! What the compiler, its sandbox and the probes do with files is not asked about: they are separate
 //! processes, and a fault in them is one of a process.

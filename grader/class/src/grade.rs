@@ -225,7 +225,7 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
     Ok(run)
 }
 
-/// Saves the scores from before a regrade, unless that has been done. The round has already begun in
+/// Saves the scores from before a regrade, unless that has been done. The round has already started in
 /// `run.json`, so that a run killed here cannot be resumed as the last round, whose comparison with the
 /// one before it would be lost.
 fn save_previous_scores(store: &Store, run: Run) -> Result<Run, StoreError> {

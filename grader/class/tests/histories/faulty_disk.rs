@@ -7,7 +7,7 @@ use std::sync::Mutex;
 
 use grader::disk::{self, Disk, Operation};
 
-/// What goes wrong on the disk. The numbers count the operations of a step, from 1.
+/// A fault of the disk. The numbers count the operations of a step, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DiskFault {
     /// Nothing.

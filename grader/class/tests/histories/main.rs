@@ -70,8 +70,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs histories in this process. The commands print as they do for people, so whoever starts this
-/// process ignores its output.
+/// Runs histories in this process. The commands print as they do for people, so the process
+/// that starts this one ignores its output.
 fn run_here(seeds: Range<u64>, report: &Path) -> ExitCode {
     faulty_disk::install();
     let lost = seeds.filter_map(|seed| Some((seed, history::run(seed).err()?)));

@@ -1,4 +1,4 @@
-//! What is known about a folder with results, and what the next run may make of it.
+//! The model: facts about a folder with results, and the results that the next run may have.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What is in a folder with results: read here without the class's own code, and checked for what must
+//! The content of a folder with results, read without the class's own code, and the checks of what must
 //! be true of it at any time, however the last run ended.
 
 use std::collections::BTreeMap;
@@ -76,7 +76,7 @@ impl Observed {
         self.flag("finished")
     }
 
-    /// Returns whether a regrade has begun, and has never ended normally.
+    /// Returns whether a regrade has started, and has never ended normally.
     pub fn is_unfinished_regrade(&self) -> bool {
         let run = self.run.as_ref();
         run.is_some_and(|run| !run["before"].is_null()) && !self.flag("was_finished")

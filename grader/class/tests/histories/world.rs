@@ -56,7 +56,7 @@ pub struct World {
 /// The end of a command.
 #[derive(Debug)]
 pub struct Ended {
-    /// What the command returned.
+    /// The result of the command.
     pub result: Result<Completion, Error>,
     /// The number of operations on files.
     pub operations: u64,

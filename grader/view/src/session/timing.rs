@@ -52,7 +52,7 @@ impl Timing {
     /// stopped.
     pub(super) fn rays_per_second(&self) -> f64 {
         let (rays, time) = match (self.recent.front(), self.recent.back()) {
-            // The first request has begun before the window.
+            // The first request started before the window.
             (Some((first, _)), Some((last, _))) if first < last => {
                 let rays = self.recent.iter().skip(1).map(|(_, rays)| rays).sum();
                 (rays, last.saturating_duration_since(*first))

@@ -193,18 +193,19 @@ fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
     tab.wait_until(IS_COMPLETE, TEXT);
     tab.eval("document.getElementById('load-tree').click(); 0");
     tab.wait_until("!document.getElementById('tree-content').hidden", TEXT);
-    let point = |tab: &mut Tab, canvas: &str, x: f64, y: f64| {
-        tab.eval(&format!(
+    // Pointed at again until the page reacts, since it draws a canvas some time after it shows it.
+    let point = |canvas: &str, x: f64, y: f64| {
+        format!(
             "(() => {{ const at = document.getElementById('{canvas}').getBoundingClientRect(); \
              document.getElementById('{canvas}').dispatchEvent(new PointerEvent('pointermove', \
-             {{ clientX: at.x + {x} * at.width, clientY: at.y + {y} * at.height }})); return 0; }})()"
-        ));
+             {{ clientX: at.x + {x} * at.width, clientY: at.y + {y} * at.height }})); return true; }})()"
+        )
     };
     // The highest row of the strip is the root.
-    point(&mut tab, "strip", 0.5, 0.01);
     let names =
         |start: &str| format!("document.getElementById('node').innerText.startsWith('{start}')");
-    tab.wait_until(&names("Node 0, level 0"), TEXT);
+    let root = point("strip", 0.5, 0.01);
+    tab.wait_until(&format!("{root} && {}", names("Node 0, level 0")), TEXT);
     // The boxes of level 1 are drawn over the picture.
     tab.eval(
         "document.getElementById('level').value = 1; \
@@ -214,9 +215,9 @@ fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
         "document.getElementById('boxes-count').innerText !== ''",
         TEXT,
     );
-    point(&mut tab, "lines", 0.5, 0.5);
     let is_named = "document.getElementById('node').innerText.includes(', level 1: ')";
-    tab.wait_until(is_named, TEXT);
+    let middle = point("lines", 0.5, 0.5);
+    tab.wait_until(&format!("{middle} && {is_named}"), TEXT);
 
     let saved = tab.eval(
         "(async () => { const image = new Image(); image.src = document.getElementById('save').href; \

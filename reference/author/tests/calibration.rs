@@ -26,7 +26,7 @@ fn all_margins_are_wide_enough_for_one_seed() {
 }
 
 #[test]
-fn the_committed_table_covers_200_seeds() {
+fn the_committed_table_covers_twenty_seeds() {
     let table = table();
-    assert!(table.contains("of 200 seeds (0 to 199)"), "{table}");
+    assert!(table.contains("of 20 seeds (0 to 19)"), "{table}");
 }

@@ -3,7 +3,7 @@
 //! full, or that fails every operation from some point on, as if the process had been killed. Outside
 //! of tests, none is installed.
 //!
-//! What the compiler, its sandbox and the probes do with files is not asked about: they are separate
+//! It is not asked about the files of the compiler, its sandbox and the probes: they are separate
 //! processes, and a fault in them is one of a process.
 
 use std::io;

@@ -176,7 +176,7 @@ fn numbers<'a>((kind, name): (&str, &str), words: &[&'a str]) -> Result<Vec<&'a 
     Ok(words.iter().copied().chain(missing).take(used).collect())
 }
 
-/// Which of uv and normal the corners of a face have.
+/// Flags for the data that the corners of a face have: uv, a normal, or both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct CornerForm {
     has_uv: bool,

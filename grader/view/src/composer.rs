@@ -106,9 +106,12 @@ fn snapshot(session: &Session) -> Snapshot {
 }
 
 fn hits(session: &Session, mode: ViewMode) -> Values {
-    // As the integrator: the distance below which two positions cannot be distinguished.
-    let epsilon = 1e-4 * session.subject.extent;
-    Values::Hits(session.hits.clone(), mode, session.tree.clone(), epsilon)
+    Values::Hits(
+        session.hits.clone(),
+        mode,
+        session.tree.clone(),
+        session.subject.extent,
+    )
 }
 
 impl Snapshot {
@@ -125,7 +128,7 @@ impl Snapshot {
                     })
                 })
             }
-            Values::Hits(layer, mode, tree, epsilon) => {
+            Values::Hits(layer, mode, tree, extent) => {
                 let pixels = self.pixels().map(|pixel| match layer.shown(pixel) {
                     Some(Shown::Value(hit, _)) => hit,
                     Some(Shown::Panicked) | None => None,
@@ -133,7 +136,7 @@ impl Snapshot {
                 let pixels: Vec<Option<Trace>> = pixels.collect();
                 let nothing = Tree::default();
                 let tree = tree.as_ref().map_or(&nothing, |model| &model.tree);
-                let colours = view::picture(*mode, &pixels, tree, *epsilon);
+                let colours = view::picture(*mode, &pixels, tree, *extent);
                 self.each(|pixel| match layer.shown(pixel)? {
                     Shown::Value(..) => {
                         let index = pixel.y * self.film.x + pixel.x;

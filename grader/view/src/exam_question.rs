@@ -146,8 +146,11 @@ fn subject(
         about: title.to_owned(),
         camera,
         environment: Vec3::splat(0.8),
-        materials: materials(&shapes),
-        shapes,
+        materials: vec![Material::Lambertian {
+            albedo: Vec3::splat(0.7),
+        }],
+        shape_materials: vec![0; shapes.len()],
+        shapes: numbered(shapes),
         max_leaf_size: leaf as usize,
     };
     let mut data = SceneData::new(&scene, aim(&camera, settings));
@@ -208,11 +211,14 @@ fn camera(viewpoint: &Viewpoint) -> Camera {
     }
 }
 
-/// Returns a grey material for each number that the shapes use.
-fn materials(shapes: &[Shape]) -> Vec<Material> {
-    let most = shapes.iter().map(Shape::material).max().unwrap_or(0);
-    // Exams number their shapes, so that there are about as many materials as shapes.
-    let count = (most as usize + 1).min(shapes.len().max(1));
-    let albedo = Vec3::splat(0.7);
-    vec![Material::Lambertian { albedo }; count]
+/// Returns the shapes with their index as material, like those of a scene.
+fn numbered(mut shapes: Vec<Shape>) -> Vec<Shape> {
+    for (index, shape) in (0..).zip(&mut shapes) {
+        match shape {
+            Shape::Triangle { material, .. }
+            | Shape::FlatTriangle { material, .. }
+            | Shape::Sphere { material, .. } => *material = index,
+        }
+    }
+    shapes
 }

@@ -19,9 +19,14 @@ pub enum ViewMode {
     Bvh,
 }
 
+/// How far a hit can be from the box of its primitive, relative to the largest coordinate: formulas
+/// differ in their rounding.
+const RELATIVE_TOLERANCE: f32 = 1e-4;
+
 /// Computes the colour of each pixel from its first hit. Pixels without a hit, or with a value that
-/// is not finite, are black. For `Shaded`, all pixels are black.
-pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, epsilon: f32) -> Vec<Vec3> {
+/// is not finite, are black. For `Shaded`, all pixels are black. `extent` is the largest coordinate in
+/// the scene.
+pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, extent: f32) -> Vec<Vec3> {
     let each = |colour: &dyn Fn(&Trace) -> Vec3| {
         let pixel = |hit: &Option<Trace>| hit.as_ref().map_or(Vec3::ZERO, colour);
         let pixels = hits.iter().map(pixel);
@@ -43,11 +48,12 @@ pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, epsilon: f32
             each(&|hit| Vec3::splat(1.0 - 0.95 * (hit.distance - near) / span))
         }
         ViewMode::Bvh => {
+            let tolerance = RELATIVE_TOLERANCE * extent;
             let locations: Vec<TreeLocation> = hits
                 .iter()
                 .map(|hit| {
                     hit.map_or(TreeLocation::default(), |hit| {
-                        locate(tree, hit.position, epsilon)
+                        locate(tree, hit.position, tolerance)
                     })
                 })
                 .collect();
@@ -92,9 +98,9 @@ struct TreeLocation {
     leaf: u32,
 }
 
-/// Finds the boxes that contain `point`, with the tolerance `epsilon`. This does not trace a ray,
+/// Finds the boxes that contain `point`, with this tolerance. This does not trace a ray,
 /// which is the submission's task. If the tree is invalid, the result covers only part of it.
-fn locate(tree: &Tree, point: Vec3, epsilon: f32) -> TreeLocation {
+fn locate(tree: &Tree, point: Vec3, tolerance: f32) -> TreeLocation {
     let mut found = TreeLocation::default();
     let mut stack = vec![tree.root];
     // A valid tree has each node once. The limit ends the loop if the tree has a cycle.
@@ -103,8 +109,8 @@ fn locate(tree: &Tree, point: Vec3, epsilon: f32) -> TreeLocation {
         let Some(node) = tree.nodes.get(index as usize) else {
             continue;
         };
-        let below = point.cmplt(node.min - epsilon);
-        let above = point.cmpgt(node.max + epsilon);
+        let below = point.cmplt(node.min - tolerance);
+        let above = point.cmpgt(node.max + tolerance);
         if (below | above).any() {
             continue;
         }

@@ -14,16 +14,18 @@ pub struct SceneData {
     pub environment: Vec3,
     /// The materials.
     pub materials: Vec<SceneMaterial>,
-    /// All shapes.
+    /// All shapes, numbered like those of a [`Scene`].
     pub shapes: Vec<Shape>,
+    /// For each shape, the index of its material.
+    pub shape_materials: Vec<u32>,
     /// The maximum number of primitives in a leaf.
     pub max_leaf_size: u32,
     /// The tree to traverse.
     pub tree: TreeSource,
     /// The first camera.
     pub aim: Aim,
-    /// Whether each primitive gets its index as material, so that a recorded test names it.
-    pub numbered: bool,
+    /// Whether the rays and tests are recorded.
+    pub is_recorded: bool,
 }
 
 /// The tree to traverse.
@@ -59,46 +61,29 @@ impl SceneData {
             environment: scene.environment,
             materials: scene.materials.iter().copied().map(SceneMaterial).collect(),
             shapes: scene.shapes.clone(),
+            shape_materials: scene.shape_materials.clone(),
             max_leaf_size: u32::try_from(scene.max_leaf_size).unwrap_or(u32::MAX),
             tree: TreeSource::Build,
             aim,
-            numbered: false,
+            is_recorded: false,
         }
     }
 
-    /// Converts the data to a scene. If the shapes are numbered, each has a material of its own.
+    /// Converts the data to a scene.
     pub(crate) fn into_scene(self) -> Scene {
-        let mut materials: Vec<Material> =
-            self.materials.iter().map(|material| material.0).collect();
-        let mut shapes = self.shapes;
-        if self.numbered {
-            // A shape with an unknown material keeps one: an index beyond the end of the list.
-            let of_shape = |shape: &Shape| materials.get(shape.material() as usize).copied();
-            let missing = Material::Lambertian { albedo: Vec3::ZERO };
-            materials = shapes
-                .iter()
-                .map(|shape| of_shape(shape).unwrap_or(missing))
-                .collect();
-            for (number, shape) in (0..).zip(&mut shapes) {
-                set_material(shape, number);
-            }
-        }
         Scene {
             about: String::new(),
             camera: self.aim.camera(),
             environment: self.environment,
-            materials,
-            shapes,
+            materials: self
+                .materials
+                .into_iter()
+                .map(|material| material.0)
+                .collect(),
+            shapes: self.shapes,
+            shape_materials: self.shape_materials,
             max_leaf_size: self.max_leaf_size as usize,
         }
-    }
-}
-
-fn set_material(shape: &mut Shape, number: u32) {
-    match shape {
-        Shape::Triangle { material, .. }
-        | Shape::FlatTriangle { material, .. }
-        | Shape::Sphere { material, .. } => *material = number,
     }
 }
 

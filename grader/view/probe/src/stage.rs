@@ -1,5 +1,7 @@
 //! An open scene: the submission's camera and tree, and the parts that are not written yet.
 
+use std::borrow::Cow;
+
 use framework::attempt::attempt;
 use framework::scene::Scene;
 use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission, World};
@@ -24,23 +26,26 @@ impl<'a> Stage<'a> {
     /// Opens a scene. Shapes whose `hit` is not written yet are left out, so that the others can be
     /// seen. Returns no stage if the tree cannot be built.
     pub(crate) fn open(submission: &'a dyn Submission, data: SceneData) -> (Opened, Option<Self>) {
-        let (aim, numbered, source) = (data.aim, data.numbered, data.tree.clone());
-        let mut scene = data.into_scene();
+        let (aim, is_recorded, source) = (data.aim, data.is_recorded, data.tree.clone());
+        let scene = data.into_scene();
         let missing = missing_parts(submission, &scene);
         let has = |part| missing.iter().all(|(known, _)| *known != part);
-        // A tree of the exam refers to all shapes.
-        if !matches!(source, TreeSource::Prebuilt(_)) {
-            scene.shapes.retain(|shape| match shape {
-                Shape::Triangle { .. } | Shape::FlatTriangle { .. } => has(Part::Triangle),
-                Shape::Sphere { .. } => has(Part::Sphere),
-            });
-        }
+        let is_written = |shape: &&Shape| match shape {
+            Shape::Triangle { .. } | Shape::FlatTriangle { .. } => has(Part::Triangle),
+            Shape::Sphere { .. } => has(Part::Sphere),
+        };
+        let shapes: Cow<[Shape]> = if has(Part::Triangle) && has(Part::Sphere) {
+            Cow::Borrowed(&scene.shapes)
+        } else {
+            Cow::Owned(scene.shapes.iter().filter(is_written).copied().collect())
+        };
         let build = || match &source {
-            TreeSource::Build => submission.build(&scene.shapes, scene.max_leaf_size),
+            TreeSource::Build => submission.build(&shapes, scene.max_leaf_size),
+            // A tree of the exam refers to all shapes.
             TreeSource::Prebuilt(tree) => {
                 submission.prebuilt_tree(&scene.shapes, &tree.nodes, tree.root as usize)
             }
-            TreeSource::List => Box::new(List(submission.primitive_list(&scene.shapes))),
+            TreeSource::List => Box::new(List(submission.primitive_list(&shapes))),
         };
         let has_camera = has(Part::Camera);
         let (tree, world) = match attempt(|| {
@@ -50,7 +55,7 @@ impl<'a> Stage<'a> {
                 nodes: TreeNode::saturating_index(tree.node_count()),
                 primitives: TreeNode::saturating_index(tree.primitive_count()),
             };
-            let tree: Box<dyn Hierarchy> = if numbered {
+            let tree: Box<dyn Hierarchy> = if is_recorded {
                 Box::new(Recorded(tree))
             } else {
                 tree

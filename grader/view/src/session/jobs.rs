@@ -168,9 +168,9 @@ impl Session {
     }
 
     /// Returns the data of the scene for the program that records.
-    pub fn numbered(data: &SceneData) -> SceneData {
+    pub fn recorded(data: &SceneData) -> SceneData {
         SceneData {
-            numbered: true,
+            is_recorded: true,
             ..data.clone()
         }
     }

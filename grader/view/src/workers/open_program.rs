@@ -23,13 +23,18 @@ pub(super) struct OpenProgram {
 impl OpenProgram {
     /// Makes sure that the program has the scene and the camera of the work. Returns whether it
     /// has; reasons why it has not are reported.
-    pub(super) fn prepare<J>(&mut self, studio: &Studio, work: &Work<J>, numbered: bool) -> bool {
+    pub(super) fn prepare<J>(
+        &mut self,
+        studio: &Studio,
+        work: &Work<J>,
+        is_recorded: bool,
+    ) -> bool {
         let key = work.key;
         if self.key.program != key.program {
             self.probe = None;
         }
         let has_scene = self.probe.is_some() && self.key.scene == key.scene;
-        if !has_scene && !self.open(studio, work, numbered) {
+        if !has_scene && !self.open(studio, work, is_recorded) {
             self.probe = None;
             return false;
         }
@@ -53,7 +58,7 @@ impl OpenProgram {
         true
     }
 
-    fn open<J>(&mut self, studio: &Studio, work: &Work<J>, numbered: bool) -> bool {
+    fn open<J>(&mut self, studio: &Studio, work: &Work<J>, is_recorded: bool) -> bool {
         if self.probe.is_none() {
             match Probe::start(&work.program) {
                 Ok(probe) => self.probe = Some(probe),
@@ -65,8 +70,8 @@ impl OpenProgram {
         }
         let mut data = SceneData::clone(&work.subject.data);
         data.aim = work.aim;
-        if numbered {
-            data = Session::numbered(&data);
+        if is_recorded {
+            data = Session::recorded(&data);
         }
         self.key = work.key;
         self.aim = None;

@@ -112,7 +112,7 @@ fn run(submission: &dyn Submission, options: &Options, events: &Events) -> Resul
     let (world, tree) = &stages::build(submission, scene)?;
     stages::try_methods(submission, scene, world, tree)?;
     if let Some(pixel) = options.pixel {
-        return pixel::print(pixel, options, submission, scene, &names, world);
+        return pixel::print(pixel, options, scene, &names, world);
     }
     // Traces one ray first, so that if the submission still has a stub, the stub's panic is the
     // only message.
@@ -162,10 +162,9 @@ fn render(job: &Job, events: &Events) -> Result<(Film, RenderStats), RenderError
     let first = |pixel, stats: &mut RenderStats| first_hit(scene, world, pixel, stats);
     let (hits, stats) = job.pool.render(&progress, first)?;
     let raw = image_file::holds_numbers(job.out).then(|| view::raw_values(options.view, &hits));
-    let epsilon = integrator.epsilon();
     let pixels = raw
         .flatten()
-        .unwrap_or_else(|| view::picture(options.view, &hits, job.tree, epsilon));
+        .unwrap_or_else(|| view::picture(options.view, &hits, job.tree, scene.extent()));
     Ok((Film { size, pixels }, stats))
 }
 

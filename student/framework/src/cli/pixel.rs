@@ -6,20 +6,19 @@ use glam::{UVec2, Vec3};
 use protocol::{Shape, Trace};
 
 use super::error::RenderError;
+use super::first_hit;
 use super::options::Options;
 use super::parallel::value_or_error;
-use super::{first_hit, stages};
 use crate::attempt::attempt;
 use crate::integrator::{Integrator, RenderStats};
 use crate::scene::{Material, Scene};
-use crate::submission::{Submission, World};
+use crate::submission::World;
 
 /// Prints the hit and the radiance of one pixel, and renders nothing else. This is useful in a
 /// debugger.
 pub(super) fn print(
     pixel: UVec2,
     options: &Options,
-    submission: &dyn Submission,
     scene: &Scene,
     names: &[String],
     world: &World,
@@ -29,19 +28,9 @@ pub(super) fn print(
         return Err(RenderError::PixelOutsideFilm { pixel, size });
     }
     let mut stats = RenderStats::default();
-    let hit_by = |scene: &Scene, world: &World, stats: &mut RenderStats| {
-        value_or_error(
-            attempt(|| first_hit(scene, world, pixel, stats)),
-            Some(pixel),
-        )
-    };
-    let hit = hit_by(scene, world, &mut stats)?;
-    // The same ray in a scene whose shapes have their own number as their material.
-    let numbered = numbered(scene);
-    let (numbered_world, _) = stages::build(submission, &numbered)?;
-    let number = hit_by(&numbered, &numbered_world, &mut RenderStats::default())?;
-    let number = number.map(|hit| hit.material as usize);
-    print!("{}", description(pixel, scene, names, hit.as_ref(), number));
+    let hit = attempt(|| first_hit(scene, world, pixel, &mut stats));
+    let hit = value_or_error(hit, Some(pixel))?;
+    print!("{}", description(pixel, scene, names, hit.as_ref()));
 
     let integrator = Integrator::new(scene, world, options.settings(size));
     let light = attempt(|| integrator.pixel_radiance(pixel, &mut stats));
@@ -54,45 +43,14 @@ pub(super) fn print(
     Ok(())
 }
 
-fn numbered(scene: &Scene) -> Scene {
-    let with_number = |(number, shape): (usize, &Shape)| {
-        let number = number as u32;
-        match *shape {
-            Shape::Triangle { vertices, .. } => Shape::Triangle {
-                vertices,
-                material: number,
-            },
-            Shape::FlatTriangle { corners, .. } => Shape::FlatTriangle {
-                corners,
-                material: number,
-            },
-            Shape::Sphere { center, radius, .. } => Shape::Sphere {
-                center,
-                radius,
-                material: number,
-            },
-        }
-    };
-    Scene {
-        shapes: scene.shapes.iter().enumerate().map(with_number).collect(),
-        ..scene.clone()
-    }
-}
-
-/// Returns the lines about the hit at a pixel's centre. `number` is the index of the shape.
-fn description(
-    pixel: UVec2,
-    scene: &Scene,
-    names: &[String],
-    hit: Option<&Trace>,
-    number: Option<usize>,
-) -> String {
+/// Returns the lines about the hit at a pixel's centre.
+fn description(pixel: UVec2, scene: &Scene, names: &[String], hit: Option<&Trace>) -> String {
     let mut text = format!("pixel {pixel}, at its centre:\n");
     let Some(hit) = hit else {
         return text + "  nothing is hit, so the environment is visible\n";
     };
     let rows = [
-        ("shape", shape_name(scene, number)),
+        ("shape", shape_name(scene, hit.material)),
         ("material", material_name(scene, names, hit.material)),
         ("distance", hit.distance.to_string()),
         ("position", hit.position.to_string()),
@@ -109,9 +67,8 @@ fn description(
     text
 }
 
-fn shape_name(scene: &Scene, number: Option<usize>) -> String {
-    let found = number.and_then(|number| Some((number, scene.shapes.get(number)?)));
-    let Some((number, shape)) = found else {
+fn shape_name(scene: &Scene, number: u32) -> String {
+    let Some(shape) = scene.shapes.get(number as usize) else {
         return "unknown, because the hit's material is not that of a shape".to_owned();
     };
     let name = match shape {
@@ -131,10 +88,12 @@ fn shape_name(scene: &Scene, number: Option<usize>) -> String {
     format!("{name}, number {} of {}", number + 1, scene.shapes.len())
 }
 
-fn material_name(scene: &Scene, names: &[String], material: u32) -> String {
-    let index = material as usize;
-    let (Some(name), Some(material)) = (names.get(index), scene.materials.get(index)) else {
-        return format!("{material}, which the scene does not define");
+/// Returns the name and the kind of the material of the shape with this number.
+fn material_name(scene: &Scene, names: &[String], shape: u32) -> String {
+    let index = scene.shape_materials.get(shape as usize);
+    let name = index.and_then(|&index| names.get(index as usize));
+    let (Some(name), Some(material)) = (name, scene.material_of(shape)) else {
+        return "unknown, like the shape".to_owned();
     };
     let kind = match material {
         Material::Lambertian { .. } => "matte",

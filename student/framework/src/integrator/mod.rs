@@ -5,6 +5,7 @@
 //! depends only on its use (see [`sampler`](crate::sampler)). So a picture has the same bytes on
 //! every machine and with any number of threads.
 
+mod offset;
 mod optics;
 mod path;
 
@@ -54,34 +55,18 @@ pub struct Integrator<'a> {
     world: &'a World,
     lights: Lights,
     settings: RenderSettings,
-    /// The start of every ray's range. It is greater than zero, so that a ray does not hit the
-    /// surface that it leaves: see [`Integrator::new`].
-    epsilon: f32,
 }
 
 impl<'a> Integrator<'a> {
     /// Creates a path tracer. `world` must be made from `scene`, and the film of `scene` must have
     /// the size `settings.film`.
-    ///
-    /// A ray that leaves a surface must not hit the surface again at its start. An `f32` has 24
-    /// significant bits, so a position is known to within 6e-8 of the scene's largest coordinate.
-    /// At grazing angles, the formulas for triangles and spheres lose about a hundred times as
-    /// much. So rays start 1e-4 of that coordinate away, which is too little to be visible in a
-    /// picture.
     pub fn new(scene: &'a Scene, world: &'a World, settings: RenderSettings) -> Self {
         Integrator {
             scene,
             world,
             lights: Lights::of(scene),
             settings,
-            epsilon: 1e-4 * scene.extent(),
         }
-    }
-
-    /// Returns the distance below which two positions cannot be distinguished.
-    #[cfg(feature = "cli")]
-    pub(crate) fn epsilon(&self) -> f32 {
-        self.epsilon
     }
 
     /// Returns the mean radiance of all paths through a pixel.

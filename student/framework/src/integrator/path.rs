@@ -1,8 +1,9 @@
 //! Traces one path, starting at the camera.
 
 use glam::{UVec2, Vec2, Vec3};
-use protocol::{Interval, Ray};
+use protocol::{Interval, Ray, Shape};
 
+use super::offset;
 use super::optics::{interface, reflect};
 use super::{Integrator, RenderStats};
 use crate::frame::{Frame, sample_cosine_hemisphere};
@@ -14,7 +15,10 @@ use crate::scene::{Material, checker};
 pub(super) struct InvalidSample;
 
 /// The surface at the point where a path hits it.
-struct Surface {
+struct Surface<'a> {
+    shape: &'a Shape,
+    /// The origin of the ray that hits it.
+    eye: Vec3,
     position: Vec3,
     /// The normal, of length one, on the side that the ray comes from.
     normal: Vec3,
@@ -77,7 +81,7 @@ impl Integrator<'_> {
             if throughput == Vec3::ZERO || last && direct_light_sampled && dark {
                 break;
             }
-            ray = self.ray_from(&surface, scattered.direction, f32::INFINITY);
+            ray = surface.leave(scattered.direction, f32::INFINITY);
         }
         if light.is_finite() {
             Ok(light)
@@ -105,7 +109,10 @@ impl Integrator<'_> {
         };
         let cosine = sample.direction.dot(surface.normal);
         // The ray ends just before the light, so that the light does not block itself.
-        let shadow = self.ray_from(surface, sample.direction, sample.distance - self.epsilon);
+        let light = &self.scene.shapes[sample.shape as usize];
+        let on_light = surface.position + sample.distance * sample.direction;
+        let end = offset::along_ray(light, surface.position, on_light, sample.direction);
+        let shadow = surface.leave(sample.direction, sample.distance - end);
         if cosine <= 0.0 || shadow.range.is_empty() {
             return Ok(Vec3::ZERO);
         }
@@ -115,20 +122,12 @@ impl Integrator<'_> {
         }
     }
 
-    fn ray_from(&self, surface: &Surface, dir: Vec3, max: f32) -> Ray {
-        Ray {
-            origin: surface.position,
-            dir,
-            range: Interval::new(self.epsilon, max),
-        }
-    }
-
     /// Traces a ray with the submission's code, and checks the result before it is used.
     fn intersect(
         &self,
         ray: &Ray,
         stats: &mut RenderStats,
-    ) -> Result<Option<Surface>, InvalidSample> {
+    ) -> Result<Option<Surface<'_>>, InvalidSample> {
         stats.rays += 1;
         if !ray.origin.is_finite() || !ray.dir.is_finite() {
             return Err(InvalidSample);
@@ -136,8 +135,11 @@ impl Integrator<'_> {
         let Some(trace) = self.world.hit(ray) else {
             return Ok(None);
         };
-        let material = self.scene.materials.get(trace.material as usize);
-        let (Some(&material), Some(normal)) = (material, trace.normal.try_normalize()) else {
+        // The material of a scene's shape is the index of the shape.
+        let shape = self.scene.shapes.get(trace.material as usize);
+        let material = self.scene.material_of(trace.material);
+        let normal = trace.normal.try_normalize();
+        let (Some(shape), Some(&material), Some(normal)) = (shape, material, normal) else {
             return Err(InvalidSample);
         };
         if !trace.position.is_finite() || !trace.uv.is_finite() {
@@ -145,6 +147,8 @@ impl Integrator<'_> {
         }
         let outside = ray.dir.dot(normal) < 0.0;
         Ok(Some(Surface {
+            shape,
+            eye: ray.origin,
             position: trace.position,
             normal: if outside { normal } else { -normal },
             outside,
@@ -154,7 +158,18 @@ impl Integrator<'_> {
     }
 }
 
-impl Surface {
+impl Surface<'_> {
+    /// Returns the ray that leaves the surface in direction `dir` and ends at distance `max`. It
+    /// starts far enough away not to hit the surface itself.
+    fn leave(&self, dir: Vec3, max: f32) -> Ray {
+        let min = offset::along_ray(self.shape, self.eye, self.position, dir);
+        Ray {
+            origin: self.position,
+            dir,
+            range: Interval::new(min, max),
+        }
+    }
+
     /// Returns the albedo of a matte surface, or `None` for other materials.
     fn albedo(&self) -> Option<Vec3> {
         match self.material {

@@ -1,13 +1,13 @@
 //! Analytic checks that any correct path tracer passes. The scenes contain only spheres, because
 //! `sphere_submission` intersects no other shapes.
 
-use glam::{Vec3, uvec2, vec2, vec3};
-use protocol::Trace;
+use glam::{UVec2, Vec2, Vec3, uvec2, vec2, vec3};
+use protocol::{Ray, Trace};
 
 use super::{Integrator, RenderSettings, RenderStats, render};
 use crate::scene::Scene;
 use crate::sphere_submission::{CORRECT, SphereSubmission};
-use crate::submission::World;
+use crate::submission::{CameraRays, Submission, World};
 
 fn scene(environment: f32, materials: &str, shapes: &str) -> Scene {
     let text = format!(
@@ -56,6 +56,65 @@ fn glass_is_invisible_in_a_white_furnace() {
     let scene = scene(1.0, GLASS, &sphere(-3.0, 2.0, "glass"));
     let pixels = render(&CORRECT, &scene, &settings(4, 200));
     assert!(pixels.iter().all(|pixel| *pixel == Vec3::ONE), "{pixels:?}");
+}
+
+/// A camera at the origin that looks down −z and sees `half_width` at distance 1 to each side.
+struct Zoomed {
+    half_width: f32,
+    film: UVec2,
+}
+
+impl CameraRays for Zoomed {
+    fn ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
+        let position = (pixel.as_vec2() + offset) / self.film.as_vec2() * 2.0 - 1.0;
+        let dir = (self.half_width * position).extend(-1.0).normalize();
+        Ray::new(Vec3::ZERO, dir)
+    }
+}
+
+/// Returns the mean radiance around the point where a white ball and a white sphere touch, in a
+/// white furnace. They touch at this distance in front of the camera.
+fn contact_in_a_furnace(ball: f32, ground: f32, distance: f32) -> f32 {
+    let side = |radius: f32| {
+        format!(
+            r#"{{ "sphere": {{ "center": [{radius}, 0, {}], "radius": {}, "material": "white" }} }}"#,
+            -distance,
+            radius.abs()
+        )
+    };
+    let shapes = [side(ball), side(-ground)].join(",");
+    let scene = scene(1.0, WHITE, &shapes);
+    let film = uvec2(32, 32);
+    let settings = RenderSettings {
+        film,
+        ..settings(64, 200)
+    };
+    let zoomed = Zoomed {
+        half_width: 0.5 * ball / distance,
+        film,
+    };
+    let world = World::from_parts(Box::new(zoomed), CORRECT.build(&scene.shapes, 1));
+    let integrator = Integrator::new(&scene, &world, settings);
+    let pixels = (0..film.y).flat_map(|y| (0..film.x).map(move |x| uvec2(x, y)));
+    let light = pixels.map(|pixel| {
+        integrator
+            .pixel_radiance(pixel, &mut RenderStats::default())
+            .x
+    });
+    light.sum::<f32>() / (film.x * film.y) as f32
+}
+
+#[test]
+fn a_ball_on_a_large_sphere_is_invisible_in_a_white_furnace() {
+    // Rays that start too far from a surface begin inside the other sphere and are lost there. With
+    // an offset of 1e-4 of the scene, a ball of radius 0.5 on a sphere of radius 1000 loses 41 %.
+    for (ball, ground, distance) in [(0.5, 1000.0, 3.0), (0.1, 1000.0, 1.0), (0.5, 0.5, 30.0)] {
+        let mean = contact_in_a_furnace(ball, ground, distance);
+        assert!(
+            (mean - 1.0).abs() < 0.01,
+            "{ball} on {ground} at {distance}: {mean}"
+        );
+    }
 }
 
 #[test]

@@ -29,24 +29,32 @@ pub struct LightSample {
     pub distance: f32,
     /// The light's radiance divided by the probability density of this direction, per solid angle.
     pub radiance: Vec3,
+    /// The index of the light's shape in the scene.
+    pub shape: u32,
 }
 
 struct AreaLight {
     radiance: Vec3,
     shape: LightShape,
+    /// The index of the shape in the scene.
+    index: u32,
 }
 
 impl Lights {
     /// Collects the lights among the scene's shapes.
     pub fn of(scene: &Scene) -> Self {
         let light = |shape: &Shape| {
-            let material = scene.materials.get(shape.material() as usize)?;
-            let radiance = material.emitted()?;
+            let index = shape.material();
+            let radiance = scene.material_of(index)?.emitted()?;
             let shape = LightShape::of(shape);
             // A light without power must not be picked. If all lights had no power, their
             // probabilities would be 0 / 0.
             let has_power = radiance != Vec3::ZERO && shape.area() > 0.0;
-            has_power.then_some(AreaLight { radiance, shape })
+            has_power.then_some(AreaLight {
+                radiance,
+                shape,
+                index,
+            })
         };
         let lights: Vec<AreaLight> = scene.shapes.iter().filter_map(light).collect();
         let sum = |total: &mut f32, light: &AreaLight| {
@@ -90,6 +98,7 @@ impl Lights {
             direction: sample.direction,
             distance: sample.distance,
             radiance: light.radiance * (sample.solid_angle / probability),
+            shape: light.index,
         })
     }
 }

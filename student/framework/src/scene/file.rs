@@ -44,6 +44,17 @@ pub(super) enum ShapeEntry {
     Mesh(MeshEntry),
 }
 
+impl ShapeEntry {
+    /// Returns the name of the material.
+    pub(super) fn material(&self) -> &str {
+        match self {
+            ShapeEntry::Sphere { material, .. } => material,
+            ShapeEntry::Polygon(polygon) => &polygon.material,
+            ShapeEntry::Mesh(mesh) => &mesh.material,
+        }
+    }
+}
+
 /// A mesh. It is scaled, rotated about the x-, y- and z-axes in this order, and then translated.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -28,12 +28,12 @@ pub(super) struct Face {
 }
 
 impl Mesh {
-    /// Returns the mesh's triangles, transformed as `entry` specifies. Triangles without area are
-    /// left out, because they have no normal and no ray can hit them.
+    /// Returns the mesh's triangles, transformed as `entry` specifies and numbered from `first`.
+    /// Triangles without area are left out, because they have no normal and no ray can hit them.
     pub(super) fn shapes(
         &self,
         entry: &MeshEntry,
-        material: u32,
+        first: u32,
     ) -> Result<Vec<Shape>, SceneErrorKind> {
         let rotation = rotation(entry.rotate);
         let transform = |p: Vec3| rotation * (p * entry.scale) + entry.translate;
@@ -42,7 +42,7 @@ impl Mesh {
         if !positions.iter().all(is_in_range) {
             return Err(SceneErrorKind::MeshTooLarge);
         }
-        let shape = |face: &Face| {
+        let vertices = |face: &Face| {
             let corners = face.corners.map(|corner| positions[corner]);
             let flat = cross(corners).try_normalize()?;
             let normals = match face.normals {
@@ -50,12 +50,11 @@ impl Mesh {
                 None => [flat; 3],
             };
             let vertex = |i: usize| Vertex::new(corners[i], normals[i], face.uv[i]);
-            Some(Shape::Triangle {
-                vertices: [vertex(0), vertex(1), vertex(2)],
-                material,
-            })
+            Some([vertex(0), vertex(1), vertex(2)])
         };
-        let shapes: Vec<Shape> = self.faces.iter().filter_map(shape).collect();
+        let numbered = self.faces.iter().filter_map(vertices).zip(first..);
+        let shape = |(vertices, material)| Shape::Triangle { vertices, material };
+        let shapes: Vec<Shape> = numbered.map(shape).collect();
         if shapes.is_empty() {
             return Err(SceneErrorKind::MeshWithoutArea);
         }

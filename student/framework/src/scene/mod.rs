@@ -51,10 +51,13 @@ pub struct Scene {
     pub camera: Camera,
     /// The radiance of the environment, which is visible where no shape is.
     pub environment: Vec3,
-    /// The materials, indexed by `Shape::material`.
+    /// The materials, indexed by `shape_materials`.
     pub materials: Vec<Material>,
-    /// All shapes, in world space. Meshes are converted to triangles.
+    /// All shapes, in world space. Meshes are converted to triangles. The `material` of each shape is
+    /// its index in this list, so that a hit tells which shape it is on.
     pub shapes: Vec<Shape>,
+    /// For each shape, the index of its material.
+    pub shape_materials: Vec<u32>,
     /// The `max_leaf_size` to pass to `Bvh::build`.
     pub max_leaf_size: usize,
 }
@@ -101,6 +104,12 @@ impl Scene {
             camera: self.camera.on_film(film),
             ..self.clone()
         }
+    }
+
+    /// Returns the material of the shape with this index, or `None` if there is no such shape.
+    pub fn material_of(&self, shape: u32) -> Option<&Material> {
+        let material = *self.shape_materials.get(shape as usize)?;
+        self.materials.get(material as usize)
     }
 
     /// Returns the largest absolute value of any coordinate in the scene.

@@ -19,13 +19,14 @@ pub(super) struct Polygon {
 }
 
 impl Polygon {
-    /// Returns a triangle fan around the first point.
-    pub(super) fn shapes(&self, material: u32) -> impl Iterator<Item = Shape> {
+    /// Returns a triangle fan around the first point. The triangles are numbered from `number`.
+    pub(super) fn shapes(&self, number: u32) -> impl Iterator<Item = Shape> {
         let (first, others) = self
             .vertices
             .split_first()
             .expect("a polygon has three or more vertices");
-        others.windows(2).map(move |pair| Shape::Triangle {
+        let fan = others.windows(2).zip(number..);
+        fan.map(|(pair, material)| Shape::Triangle {
             vertices: [*first, pair[0], pair[1]],
             material,
         })
@@ -166,8 +167,8 @@ mod tests {
                 .iter()
                 .all(|vertex| vertex.normal == Vec3::Z)
         );
-        assert_eq!(square.shapes(3).count(), 2);
-        assert!(square.shapes(3).all(|shape| shape.material() == 3));
+        let numbers: Vec<u32> = square.shapes(3).map(|shape| shape.material()).collect();
+        assert_eq!(numbers, [3, 4]);
     }
 
     #[test]

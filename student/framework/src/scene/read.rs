@@ -33,29 +33,26 @@ pub(super) fn scene(
     };
 
     let mut shapes = Vec::new();
-    for shape in &file.shapes {
-        match shape {
-            ShapeEntry::Sphere {
-                center,
-                radius,
-                material,
-            } => shapes.push(Shape::Sphere {
+    let mut shape_materials = Vec::new();
+    for entry in &file.shapes {
+        let material = index_of(entry.material())?;
+        let first = shapes.len() as u32;
+        match entry {
+            ShapeEntry::Sphere { center, radius, .. } => shapes.push(Shape::Sphere {
                 center: *center,
                 radius: *radius,
-                material: index_of(material)?,
+                material: first,
             }),
-            ShapeEntry::Polygon(polygon) => {
-                shapes.extend(polygon.shapes(index_of(&polygon.material)?));
-            }
+            ShapeEntry::Polygon(polygon) => shapes.extend(polygon.shapes(first)),
             ShapeEntry::Mesh(entry) => {
-                let material = index_of(&entry.material)?;
                 let failed =
                     |kind| SceneError::new(TextPosition::of_value(text, "file", &entry.file), kind);
                 let mesh = load(&entry.file).and_then(|mesh| subdivide_mesh(mesh, entry));
-                let mesh = mesh.and_then(|mesh| mesh.shapes(entry, material));
+                let mesh = mesh.and_then(|mesh| mesh.shapes(entry, first));
                 shapes.extend(mesh.map_err(failed)?);
             }
         }
+        shape_materials.resize(shapes.len(), material);
     }
     let scene = Scene {
         about: file.about,
@@ -63,6 +60,7 @@ pub(super) fn scene(
         environment: file.environment,
         materials,
         shapes,
+        shape_materials,
         max_leaf_size: MAX_LEAF_SIZE,
     };
     Ok((scene, names))

@@ -1,0 +1,57 @@
+//! How far rays start from the surface that they leave, so that they do not hit it again.
+//!
+//! Formulas for hits round, so a position is a little off the surface. How far depends on the shape
+//! and on where it is seen from, and not on the size of the scene: a ball on a sphere that is a
+//! thousand times as large gets the offset of a ball. The estimates follow the error terms in Pharr,
+//! Jakob and Humphreys, *Physically Based Rendering*, 4th edition, section 6.8 "Managing Rounding
+//! Error", and, for the sphere seen from far away, Haines et al., "Precision Improvements for
+//! Ray/Sphere Intersection", *Ray Tracing Gems*, 2019.
+
+use glam::Vec3;
+use protocol::Shape;
+
+/// The error of a formula, relative to its largest term: 16 roundings of an `f32`.
+const RELATIVE_ERROR: f32 = 8.0 * f32::EPSILON;
+
+/// The least cosine that is told apart from zero. A ray that leaves a surface along it would have to
+/// start infinitely far away.
+const MIN_COSINE: f32 = 1e-3;
+
+/// Returns the distance along a ray of direction `dir` within which the ray cannot be told from the
+/// surface of `shape`. `position` is a point on the shape, found by a ray from `eye`, and either end
+/// of the ray.
+pub(super) fn along_ray(shape: &Shape, eye: Vec3, position: Vec3, dir: Vec3) -> f32 {
+    let (normal, term) = match *shape {
+        Shape::Triangle { vertices, .. } => {
+            triangle(vertices.map(|vertex| vertex.position), eye, position)
+        }
+        Shape::FlatTriangle { corners, .. } => triangle(corners, eye, position),
+        Shape::Sphere { center, radius, .. } => {
+            // The formula subtracts r² from the squared distance to the centre, and the result
+            // changes by 2r for each unit of distance.
+            let distance = eye.distance(center).max(radius);
+            let normal = (position - center) / radius;
+            (normal, distance * distance / radius)
+        }
+    };
+    let coordinates = eye.abs().max(position.abs()).max_element();
+    let error = RELATIVE_ERROR * (coordinates + term);
+    error / normal.dot(dir).abs().max(MIN_COSINE)
+}
+
+/// Returns the normal of a triangle, and the largest term in the formulas for its hits.
+fn triangle(corners: [Vec3; 3], eye: Vec3, position: Vec3) -> (Vec3, f32) {
+    let [p0, p1, p2] = corners;
+    let cross = (p1 - p0).cross(p2 - p0);
+    // The determinants are products of the edges and of the vector to a corner. In a narrow triangle,
+    // they are larger than the area by which they are divided.
+    let edges = (p1 - p0).length() * (p2 - p0).length();
+    let reach = corners.map(|corner| corner.distance(eye).max(corner.distance(position)));
+    let reach = reach.into_iter().fold(0.0, f32::max);
+    let area = cross.length();
+    if area > 0.0 {
+        (cross / area, reach * edges / area)
+    } else {
+        (Vec3::ZERO, reach)
+    }
+}

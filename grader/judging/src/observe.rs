@@ -9,7 +9,7 @@ use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Trace};
 use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Item, Key, RayCheck};
 use crate::judge::measure::{DIRECTION, LENGTH, UV};
 use crate::judge::{FailureKind, judge, scale};
-use crate::signatures::{NoAnswerReason, ObservedAnswer};
+use crate::signatures::{NoAnswerReason, ObservedAnswer, PanicKind};
 
 /// Reduces the answers to an item to observations, one for each element.
 pub fn observe(item: &Item, answers: &[Answer]) -> Vec<ObservedAnswer> {
@@ -104,10 +104,17 @@ fn observe_each<T>(
     outcomes: &[ElementOutcome<T>],
     see: impl Fn(usize, &T) -> ObservedAnswer,
 ) -> Vec<ObservedAnswer> {
+    let panics = outcomes.iter().filter_map(|outcome| match outcome {
+        ElementOutcome::Panicked(panic) => Some(PanicKind::of(&panic.message)),
+        ElementOutcome::Value(_) | ElementOutcome::Skipped => None,
+    });
+    let last_panic = panics.last();
     let outcomes = outcomes.iter().enumerate();
     let observed = outcomes.map(|(element, outcome)| match outcome {
         ElementOutcome::Value(value) => see(element, value),
-        ElementOutcome::Panicked(_) | ElementOutcome::Skipped => ObservedAnswer::Panicked,
+        ElementOutcome::Panicked(panic) => ObservedAnswer::Panicked(PanicKind::of(&panic.message)),
+        // Elements are skipped after panics.
+        ElementOutcome::Skipped => ObservedAnswer::Panicked(last_panic.unwrap_or(PanicKind::Other)),
     });
     observed.collect()
 }
@@ -220,7 +227,9 @@ fn observe_tree(question: &ExamQuestion, answer: &Answer) -> ObservedAnswer {
             let found = format!("{what}: {}", words.join(" "));
             ObservedAnswer::Tree(Some((found, amount.unwrap_or(0.0))))
         }
-        Some(FailureKind::Panicked(_)) => ObservedAnswer::Panicked,
+        Some(FailureKind::Panicked(panic)) => {
+            ObservedAnswer::Panicked(PanicKind::of(&panic.message))
+        }
         Some(FailureKind::Protocol(_)) => ObservedAnswer::NoAnswer(NoAnswerReason::Other),
     }
 }

@@ -68,7 +68,7 @@ pub enum ObservedAnswer {
     /// The defect of a tree and its amount, which may be 0. `None` for a correct tree.
     Tree(Option<(String, f32)>),
     /// The code panicked.
-    Panicked,
+    Panicked(PanicKind),
     /// The whole item has no answer.
     NoAnswer(NoAnswerReason),
 }
@@ -86,6 +86,39 @@ pub enum NoAnswerReason {
     Other,
 }
 
+/// The kind of error that a panic reports. Different code with the same mistake panics with different
+/// messages and numbers, but of the same kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum PanicKind {
+    /// An index or a range outside of a list.
+    Index,
+    /// An overflow of integers, or a division of integers by zero.
+    Arithmetic,
+    /// `unwrap` or `expect` without a value.
+    NoValue,
+    /// Any other message.
+    Other,
+}
+
+impl PanicKind {
+    /// Returns the kind of a panic with this message of the standard library.
+    pub fn of(message: &str) -> Self {
+        let kinds = [
+            ("index out of bounds", PanicKind::Index),
+            ("range start index", PanicKind::Index),
+            ("range end index", PanicKind::Index),
+            ("slice index starts at", PanicKind::Index),
+            ("mid > len", PanicKind::Index),
+            ("attempt to", PanicKind::Arithmetic),
+            ("called `Option::unwrap()`", PanicKind::NoValue),
+            ("called `Result::unwrap()`", PanicKind::NoValue),
+        ];
+        let mut known = kinds.into_iter();
+        let found = known.find(|(start, _)| message.starts_with(start));
+        found.map_or(PanicKind::Other, |(_, kind)| kind)
+    }
+}
+
 impl ObservedAnswer {
     /// Maximum difference between the amounts of two tree defects, such as SAH costs, that may come
     /// from the same mistake, relative or absolute below 1. It is larger because builders with the
@@ -95,7 +128,7 @@ impl ObservedAnswer {
     /// Returns whether the answer says nothing about the cause, only that there is no result.
     pub fn is_uninformative(&self) -> bool {
         match self {
-            ObservedAnswer::Panicked | ObservedAnswer::NoAnswer(_) => true,
+            ObservedAnswer::Panicked(_) | ObservedAnswer::NoAnswer(_) => true,
             ObservedAnswer::Numbers(_) | ObservedAnswer::NoHit | ObservedAnswer::Tree(_) => false,
         }
     }
@@ -142,7 +175,7 @@ impl ObservedAnswer {
             ObservedAnswer::Numbers(numbers) => Some(numbers),
             ObservedAnswer::NoHit
             | ObservedAnswer::Tree(_)
-            | ObservedAnswer::Panicked
+            | ObservedAnswer::Panicked(_)
             | ObservedAnswer::NoAnswer(_) => None,
         }
     }
@@ -153,7 +186,7 @@ impl ObservedAnswer {
             ObservedAnswer::Tree(defect) => defect.as_ref().map(|(name, _)| name.as_str()),
             ObservedAnswer::Numbers(_)
             | ObservedAnswer::NoHit
-            | ObservedAnswer::Panicked
+            | ObservedAnswer::Panicked(_)
             | ObservedAnswer::NoAnswer(_) => None,
         }
     }
@@ -169,13 +202,13 @@ impl ObservedAnswer {
             }
             (ObservedAnswer::Tree(a), ObservedAnswer::Tree(b)) => a.is_none() && b.is_none(),
             (ObservedAnswer::NoAnswer(a), ObservedAnswer::NoAnswer(b)) => a == b,
-            (ObservedAnswer::NoHit, ObservedAnswer::NoHit)
-            | (ObservedAnswer::Panicked, ObservedAnswer::Panicked) => true,
+            (ObservedAnswer::Panicked(a), ObservedAnswer::Panicked(b)) => a == b,
+            (ObservedAnswer::NoHit, ObservedAnswer::NoHit) => true,
             (
                 ObservedAnswer::Numbers(_)
                 | ObservedAnswer::NoHit
                 | ObservedAnswer::Tree(_)
-                | ObservedAnswer::Panicked
+                | ObservedAnswer::Panicked(_)
                 | ObservedAnswer::NoAnswer(_),
                 _,
             ) => false,

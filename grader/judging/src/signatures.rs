@@ -133,6 +133,17 @@ impl ObservedAnswer {
         }
     }
 
+    /// Returns whether the answer is a panic of a kind that few mistakes lead to.
+    pub fn is_telling_panic(&self) -> bool {
+        match self {
+            ObservedAnswer::Panicked(kind) => *kind != PanicKind::Other,
+            ObservedAnswer::Numbers(_)
+            | ObservedAnswer::NoHit
+            | ObservedAnswer::Tree(_)
+            | ObservedAnswer::NoAnswer(_) => false,
+        }
+    }
+
     /// Returns whether the answer may come from a submission with several mistakes, given the correct
     /// answer and those of the mistakes that change it. If several do, anything can come out, except
     /// for numbers that at most one of them changes.

@@ -5,6 +5,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::exam::{Exam, Item};
 use crate::signatures::ObservedAnswer;
 
+/// The number of items that a mistake must fail if it gives no answers at all.
+const MIN_FAILED_ITEMS: usize = 3;
+/// The same for a mistake beside others.
+const MIN_FAILED_ITEMS_OF_SEVERAL: usize = 5;
+
 /// The answers to the items of a task, beside those that known mistakes give.
 pub(super) struct Evidence<'a> {
     exam: &'a Exam,
@@ -39,24 +44,38 @@ impl<'a> Evidence<'a> {
 
     /// Returns the mistakes to name.
     pub(super) fn causes(&self) -> Vec<usize> {
-        let mut causes = self.sole_causes();
-        if causes.is_empty() {
-            causes = self.causes_in_pairs();
+        let sole = self.with_enough_failures(self.sole_causes(), MIN_FAILED_ITEMS);
+        if !sole.is_empty() {
+            return sole;
         }
-        if causes.is_empty() {
-            causes = self.partial_causes();
-        }
-        if causes.is_empty() {
-            causes = self.dominant_causes();
-        }
-        causes.retain(|&mistake| self.is_informative(mistake));
-        causes
+        let of_several: [fn(&Self) -> Vec<usize>; 3] = [
+            Self::causes_in_pairs,
+            Self::partial_causes,
+            Self::dominant_causes,
+        ];
+        let found = of_several.iter().map(|causes| causes(self));
+        let first = found.into_iter().find(|causes| !causes.is_empty());
+        self.with_enough_failures(first.unwrap_or_default(), MIN_FAILED_ITEMS_OF_SEVERAL)
     }
 
     /// Returns whether a mistake changes any answer to an item.
     pub(super) fn affects(&self, mistake: usize, item: &Item) -> bool {
         let mut items = self.items.iter();
         items.any(|other| other.item.id == item.id && other.wrong.contains_key(&mistake))
+    }
+
+    /// Returns the mistakes that give wrong answers. Too many mistakes end in a panic or an overflow,
+    /// so one that does nothing else must do so in this many items, and be the only one. If it panics
+    /// in a way that few others do, one item less suffices.
+    fn with_enough_failures(&self, mut causes: Vec<usize>, min_items: usize) -> Vec<usize> {
+        let hints: BTreeSet<&str> = causes.iter().map(|&mistake| self.hint(mistake)).collect();
+        causes.retain(|&mistake| {
+            let mut answers = self.wrong_answers(mistake);
+            let is_telling_panic = answers.any(|answer| answer.is_telling_panic());
+            let items = self.affected(mistake).count() + usize::from(is_telling_panic);
+            self.is_informative(mistake) || hints.len() == 1 && items >= min_items
+        });
+        causes
     }
 
     /// Returns the mistakes that explain all answers.
@@ -107,54 +126,66 @@ impl<'a> Evidence<'a> {
     }
 
     /// Returns the mistakes that explain every item that they affect, several and most of the wrong
-    /// ones, while no mistake with another hint does.
+    /// ones, while no mistake with another hint explains these and every item that it affects itself.
     fn partial_causes(&self) -> Vec<usize> {
         let wrong = self.items.iter().filter(|item| item.is_wrong()).count();
         let is_cause = |mistake: usize| {
             let affected: Vec<_> = self.affected(mistake).collect();
             let explains = |mistake| affected.iter().all(|item| item.is_explained_by(&[mistake]));
+            let is_rival = |other| {
+                let has_other_hint = self.hint(other) != self.hint(mistake);
+                has_other_hint
+                    && explains(other)
+                    && self.explained(other) == self.affected(other).count()
+            };
             let mut others = self.mistakes.iter().copied();
             affected.len() >= 2
                 && self.is_telling(mistake)
                 && 2 * affected.len() > wrong
                 && explains(mistake)
                 && !self.has_same_defect_elsewhere(mistake)
-                && !others.any(|other| self.hint(other) != self.hint(mistake) && explains(other))
+                && !others.any(is_rival)
         };
         let mistakes = self.mistakes.iter().copied();
         mistakes.filter(|&mistake| is_cause(mistake)).collect()
     }
 
     /// Returns the mistakes that explain most of the wrong items, and nearly all answers to those that
-    /// they affect, while no mistake with another hint comes close. A second mistake can change the
-    /// few answers that are left, in a way that depends on both.
+    /// they affect, while no mistake with another hint comes close in both. A second mistake can change
+    /// the few answers that are left, in a way that depends on both.
     fn dominant_causes(&self) -> Vec<usize> {
         let wrong = self.items.iter().filter(|item| item.is_wrong()).count();
-        let explained = |mistake| {
-            let affected = self.affected(mistake);
-            affected
-                .filter(|item| item.is_explained_by(&[mistake]))
-                .count()
-        };
         let is_cause = |mistake: usize| {
-            let items = explained(mistake);
+            let (items, affected) = (self.explained(mistake), self.affected(mistake).count());
             let (agreeing, differing) = self.agreement(mistake);
+            // Where a single item differs, more of its answers may.
+            let per_difference = if 10 * items >= 9 * affected { 2 } else { 4 };
+            let is_rival = |other| {
+                self.hint(other) != self.hint(mistake)
+                    && 2 * self.explained(other) > items
+                    && 2 * self.agreement(other).0 > agreeing
+            };
             let mut others = self.mistakes.iter().copied();
             items >= 3
                 && 2 * items > wrong
-                && 4 * items >= 3 * self.affected(mistake).count()
-                && agreeing >= 3.max(4 * differing)
-                && !others.any(|other| {
-                    self.hint(other) != self.hint(mistake) && 2 * explained(other) > items
-                })
+                && 4 * items >= 3 * affected
+                && agreeing >= 3.max(per_difference * differing)
+                && !others.any(is_rival)
         };
         let mistakes = self.mistakes.iter().copied();
         mistakes.filter(|&mistake| is_cause(mistake)).collect()
     }
 
+    /// Returns the number of the items that a mistake affects and explains.
+    fn explained(&self, mistake: usize) -> usize {
+        let affected = self.affected(mistake);
+        affected
+            .filter(|item| item.is_explained_by(&[mistake]))
+            .count()
+    }
+
     /// Returns how many wrong answers are those of a mistake, and how many answers to the items that
-    /// it affects differ from it. Misses and answers that are not given do not count as evidence: too
-    /// many mistakes lead to them.
+    /// it affects differ from it. Misses do not count as evidence: too many mistakes lead to them.
     fn agreement(&self, mistake: usize) -> (usize, usize) {
         let (mut agreeing, mut differing) = (0, 0);
         for item in self.affected(mistake) {
@@ -162,8 +193,7 @@ impl<'a> Evidence<'a> {
             for (element, (answer, correct)) in item.answers.iter().zip(correct).enumerate() {
                 let wrong = item.wrong[&mistake].get(&element);
                 if answer.matches(wrong.unwrap_or(&correct)) {
-                    let is_telling = !answer.is_miss() && !answer.is_uninformative();
-                    agreeing += usize::from(wrong.is_some() && is_telling);
+                    agreeing += usize::from(wrong.is_some() && !answer.is_miss());
                 } else {
                     differing += 1;
                 }
@@ -175,9 +205,7 @@ impl<'a> Evidence<'a> {
     /// Returns whether an item that a mistake leaves correct has a tree with the same defect as one
     /// that it affects. Then the defect has another cause.
     fn has_same_defect_elsewhere(&self, mistake: usize) -> bool {
-        let wrong = self
-            .affected(mistake)
-            .flat_map(|item| item.wrong[&mistake].values());
+        let wrong = self.wrong_answers(mistake);
         let defects: BTreeSet<&str> = wrong.filter_map(|answer| answer.tree_defect()).collect();
         let others = self
             .items
@@ -191,12 +219,9 @@ impl<'a> Evidence<'a> {
         })
     }
 
-    /// Returns whether a mistake gives wrong answers, and not only none at all: too many mistakes end
-    /// in a panic or an overflow.
+    /// Returns whether a mistake gives wrong answers, and not only none at all.
     fn is_informative(&self, mistake: usize) -> bool {
-        let mut wrong = self
-            .affected(mistake)
-            .flat_map(|item| item.wrong[&mistake].values());
+        let mut wrong = self.wrong_answers(mistake);
         wrong.any(|answer| !answer.is_uninformative())
     }
 
@@ -211,6 +236,11 @@ impl<'a> Evidence<'a> {
                 || correct
                     .any(|(element, answer)| !answer.is_miss() && !wrong.contains_key(&element))
         })
+    }
+
+    fn wrong_answers(&self, mistake: usize) -> impl Iterator<Item = &'a ObservedAnswer> {
+        let affected = self.affected(mistake);
+        affected.flat_map(move |item| item.wrong[&mistake].values().copied())
     }
 
     fn affected(&self, mistake: usize) -> impl Iterator<Item = &Observed<'a>> {

@@ -1,6 +1,7 @@
 //! Recognises the known mistakes behind wrong answers.
 //!
-//! A false hint is worse than none, so a mistake is named only in four cases:
+//! A false hint is worse than none, so a mistake is named only in four cases. If it gives no answers at
+//! all, several items must fail as they do with it.
 //!
 //! 1. It alone explains all answers in the task.
 //! 2. It explains them together with one other mistake, and no other pair does without it.

@@ -238,14 +238,8 @@ impl Replayed {
 /// Returns the expected answer as text, with alternatives on separate lines. A path-traced picture
 /// is not printed.
 fn expected_text(question: &ExamQuestion, element: usize) -> String {
-    match question.question {
-        Question::Radiance { .. } => "the reference's picture".to_owned(),
-        Question::Camera { .. }
-        | Question::Shapes { .. }
-        | Question::BBox { .. }
-        | Question::Build { .. }
-        | Question::Traverse { .. }
-        | Question::BuildAndTraverse { .. }
-        | Question::Done => describe::answer::wanted(question, element).join(", or\n         "),
+    if let Question::Radiance { .. } = question.question {
+        return "the reference's picture".to_owned();
     }
+    describe::answer::wanted(question, element).join(", or\n         ")
 }

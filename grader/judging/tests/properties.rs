@@ -10,7 +10,7 @@ use judging::exam::{Exam, ExamQuestion, ExpectedHit, Key, RayCheck, Surface};
 use judging::exam_file;
 use judging::judge::{Credit, judge, measure, mismatches};
 use proptest::prelude::*;
-use protocol::{Answer, ElementOutcome, Interval, Panic, Question, Ray, Trace};
+use protocol::{Answer, ElementOutcome, Interval, Panic, Ray, Trace};
 
 static PRACTICE: LazyLock<Exam> = LazyLock::new(|| {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../exams/practice.json");
@@ -52,16 +52,10 @@ fn keys_answer(question: &ExamQuestion) -> Option<Answer> {
             Answer::Rays(values(directions.iter().map(ray)))
         }
         Key::Hits { hits, .. } => {
-            let rays = match &question.question {
-                Question::Shapes { rays, .. }
-                | Question::Traverse { rays, .. }
-                | Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
-                Question::Camera { .. }
-                | Question::BBox { .. }
-                | Question::Build { .. }
-                | Question::Radiance { .. }
-                | Question::Done => unreachable!("the key is that of another question"),
-            };
+            let rays = question.question.rays();
+            let rays = rays
+                .expect("the key is that of a question with rays")
+                .to_vec();
             let trace = |(hit, ray): (&ExpectedHit, &Ray)| Trace {
                 distance: hit.distance,
                 position: hit.position,

@@ -20,28 +20,22 @@ fn trees(exam: &Exam) -> Vec<(&str, Tree, Vec<Ray>)> {
         questions.map(move |question| (&*item.id, question))
     });
     questions
-        .filter_map(|(id, question)| match &question.question {
-            Question::Traverse {
+        .filter_map(|(id, question)| {
+            let Question::Traverse {
                 shapes,
                 nodes,
                 root,
                 rays: Rays::List(rays),
-            } => {
-                let tree = Tree {
-                    shapes: shapes.clone(),
-                    nodes: nodes.clone(),
-                    root: *root as usize,
-                };
-                Some((id, tree, rays.clone()))
-            }
-            Question::Traverse { .. }
-            | Question::Camera { .. }
-            | Question::Shapes { .. }
-            | Question::BBox { .. }
-            | Question::Build { .. }
-            | Question::BuildAndTraverse { .. }
-            | Question::Radiance { .. }
-            | Question::Done => None,
+            } = &question.question
+            else {
+                return None;
+            };
+            let tree = Tree {
+                shapes: shapes.clone(),
+                nodes: nodes.clone(),
+                root: *root as usize,
+            };
+            Some((id, tree, rays.clone()))
         })
         .collect()
 }

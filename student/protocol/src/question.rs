@@ -106,6 +106,20 @@ impl Question {
         }
     }
 
+    /// Returns the rays of a question that asks for the hits of rays.
+    pub fn rays(&self) -> Option<&Rays> {
+        match self {
+            Question::Shapes { rays, .. }
+            | Question::Traverse { rays, .. }
+            | Question::BuildAndTraverse { rays, .. } => Some(rays),
+            Question::Camera { .. }
+            | Question::BBox { .. }
+            | Question::Build { .. }
+            | Question::Radiance { .. }
+            | Question::Done => None,
+        }
+    }
+
     /// Returns the maximum number of nodes in a tree over this many primitives. A binary tree with
     /// one primitive per leaf has `2n - 1`; the limit is higher to allow for unused nodes.
     pub fn max_nodes(primitives: usize) -> usize {

@@ -14,6 +14,7 @@ pub static RAYS: Assignment = Assignment {
         "reference",
         "author",
         "substitution",
+        "variants",
     ],
     tasks: &[
         TaskInfo {

@@ -3,7 +3,7 @@
 mod caption;
 
 use glam::{DVec2, DVec3};
-use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Trace};
+use protocol::{Answer, ElementOutcome, Interval, Ray, Trace};
 
 use judging::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, Surface};
 
@@ -62,7 +62,7 @@ impl HitComparison {
         element: usize,
         answer: Option<&Answer>,
     ) -> Option<HitComparison> {
-        let ray = *rays(&question.question)?.get(element)?;
+        let ray = *question.question.rays()?.to_vec().get(element)?;
         let has_direction = ray.dir.is_finite() && ray.dir.length() > 0.0;
         if !(ray.origin.is_finite() && has_direction) {
             return None;
@@ -119,19 +119,6 @@ impl HitComparison {
     /// Returns the range of the ray, or `None` if the range is everything ahead of the origin.
     pub(in crate::drawing) fn limited_range(&self) -> Option<Interval> {
         (self.ray.range != Interval::AHEAD).then_some(self.ray.range)
-    }
-}
-
-fn rays(question: &Question) -> Option<Vec<Ray>> {
-    match question {
-        Question::Shapes { rays, .. }
-        | Question::Traverse { rays, .. }
-        | Question::BuildAndTraverse { rays, .. } => Some(rays.to_vec()),
-        Question::Camera { .. }
-        | Question::BBox { .. }
-        | Question::Build { .. }
-        | Question::Radiance { .. }
-        | Question::Done => None,
     }
 }
 

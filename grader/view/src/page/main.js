@@ -29,9 +29,9 @@ function show(state) {
   showErrors(state);
   showNotes(state);
   get("stage").classList.toggle("stale", state.is_stale || state.build === "failed");
-  get("waiting").hidden = state.picture > 0 && state.build !== "compiling" && !state.loading;
-  get("waiting").textContent = state.loading ? `Loading ${state.loading} …` : state.build === "compiling" ? "Compiling …"
-    : state.build === "failed" ? "No picture yet: see the errors." : "Drawing …";
+  const waiting = waitingFor(state);
+  get("waiting").hidden = waiting === "";
+  setText("waiting", waiting);
   stage.showPicture(state);
   overlay.setCamera(state);
   pixel.showExplanation(state);
@@ -39,6 +39,17 @@ function show(state) {
   document.body.dataset.version = state.version;
   document.body.dataset.complete = state.is_picture_complete;
   last = state;
+}
+
+/** Returns what the picture waits for, or an empty text. */
+function waitingFor(state) {
+  if (state.loading) return `Loading ${state.loading} …`;
+  if (state.build === "compiling") return "Compiling …";
+  if (state.build === "failed") return state.picture > 0 ? "" : "No picture yet: see the errors.";
+  if (state.has_stopped && state.is_stale) return "The picture of your last version: the new one has stopped, see below.";
+  if (state.is_opening) return "Building the tree …";
+  if (state.picture > 0) return "";
+  return state.has_stopped ? "No picture yet: see below." : "Drawing …";
 }
 
 function setText(id, text) {

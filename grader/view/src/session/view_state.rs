@@ -179,6 +179,9 @@ impl Session {
         {
             return Some("The pixel is explained as soon as your files compile.".to_owned());
         }
+        if let (Some(_), None) = (&self.fault, &self.opened) {
+            return Some("The pixel is explained as soon as the scene can be opened.".to_owned());
+        }
         match &self.recording {
             Some(BuildState::Failed(errors)) => Some(recording_failed(errors)),
             Some(BuildState::Broken(why)) => Some(why.clone()),

@@ -449,7 +449,7 @@ fn axe_finds_nothing_while_the_code_panics_or_does_not_compile() {
         }
     };
     check(
-        "/10 samples of pixels, first .3, \\d.: column 3 .camera.rs:\\d+/.test(document.getElementById('notes').innerText)",
+        "/10 samples, the first in pixel .3, \\d.: column 3 .camera.rs:\\d+/.test(document.getElementById('notes').innerText)",
     );
     submission.write("camera.rs", &format!("{correct}\nlet oops\n"));
     check(

@@ -211,6 +211,8 @@ fn an_endless_build_ends_at_its_limit_and_can_be_fixed() {
     );
     assert_eq!(stopped["is_opening"], false);
     assert_eq!(stopped["is_stale"], true);
+    let why = stopped["explanation_fault"].as_str().unwrap();
+    assert!(why.contains("as soon as the scene can be opened"), "{why}");
     assert!(viewer.picture() == picture, "the last picture stays");
 
     submission.write("bvh.rs", &correct);

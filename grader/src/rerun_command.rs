@@ -9,6 +9,8 @@ pub struct RerunCommand {
     pub submission: Option<PathBuf>,
     /// The path of the exam file, or `None` for the practice exam.
     pub exam: Option<PathBuf>,
+    /// Whether the submission runs in a sandbox only.
+    pub is_untrusted: bool,
 }
 
 impl RerunCommand {
@@ -22,12 +24,14 @@ impl RerunCommand {
         self.command(&format!("--task {task}"))
     }
 
-    /// Returns the command that shows the tree or the shapes of one question in the viewer, for one's
-    /// own work and the practice exam. Questions about the camera have neither.
+    /// Returns the command that shows the tree or the shapes of one question in the viewer, which
+    /// accepts only the practice exam. Questions about the camera have neither.
     pub fn view(&self, item: &str, number: usize) -> Option<String> {
-        let is_own = self.submission.is_none() && self.exam.is_none();
-        let has_scene = !item.starts_with("camera.");
-        (is_own && has_scene).then(|| format!("cargo view --item {item}#{number}"))
+        let has_scene = self.exam.is_none() && !item.starts_with("camera.");
+        let submission = self.submission.iter();
+        let words = submission.flat_map(|path| ["--submission".to_owned(), shell_word(path)]);
+        let question = format!("--item {item}#{number}");
+        has_scene.then(|| self.join("cargo view", words, question))
     }
 
     fn command(&self, what: &str) -> String {
@@ -36,12 +40,14 @@ impl RerunCommand {
             .exam
             .iter()
             .flat_map(|path| ["--exam".to_owned(), shell_word(path)]);
-        let words = ["cargo grade".to_owned()].into_iter();
-        let words: Vec<String> = words
-            .chain(submission)
-            .chain(exam)
-            .chain([what.to_owned()])
-            .collect();
+        self.join("cargo grade", submission.chain(exam), what.to_owned())
+    }
+
+    /// Returns a command that treats the submission as before.
+    fn join(&self, start: &str, words: impl Iterator<Item = String>, end: String) -> String {
+        let untrusted = self.is_untrusted.then(|| "--untrusted".to_owned());
+        let all = [start.to_owned()].into_iter().chain(words);
+        let words: Vec<String> = all.chain(untrusted).chain([end]).collect();
         words.join(" ")
     }
 }
@@ -74,11 +80,29 @@ mod tests {
         let others = RerunCommand {
             submission: Some("handed in/O'Hara".into()),
             exam: Some("final.json".into()),
+            is_untrusted: false,
         };
         assert_eq!(
             others.task("sphere"),
             r"cargo grade 'handed in/O'\''Hara' --exam final.json --task sphere"
         );
-        assert_eq!(others.view("sphere.uv", 7), None);
+        assert_eq!(others.view("sphere.uv", 7), None, "a final exam");
+    }
+
+    #[test]
+    fn an_untrusted_submission_stays_untrusted() {
+        let others = RerunCommand {
+            submission: Some("alice.zip".into()),
+            exam: None,
+            is_untrusted: true,
+        };
+        assert_eq!(
+            others.replay("bbox.through", 3),
+            "cargo grade alice.zip --untrusted --replay bbox.through#3"
+        );
+        assert_eq!(
+            others.view("bbox.through", 3).as_deref(),
+            Some("cargo view --submission alice.zip --untrusted --item bbox.through#3")
+        );
     }
 }

@@ -30,6 +30,7 @@ use crate::rerun_command::RerunCommand;
 use crate::run_exam::run_exam;
 use crate::sandbox::Isolation;
 use crate::score::Score;
+use crate::select_isolation::IsolationRequest;
 use crate::select_isolation::with_requested_level;
 use crate::source_paths::SourcePaths;
 use crate::submission::Submission;
@@ -242,6 +243,10 @@ impl<'a> Grader<'a> {
         score.rerun_command = RerunCommand {
             submission: self.options.submission.clone(),
             exam: self.options.exam.option().map(Path::to_owned),
+            is_untrusted: match self.options.isolation {
+                IsolationRequest::OwnWork | IsolationRequest::Level(Isolation::None) => false,
+                IsolationRequest::Untrusted | IsolationRequest::Level(_) => true,
+            },
         };
         score.book = Book::find(&self.workspace);
         score.isolation = built.build.isolation();

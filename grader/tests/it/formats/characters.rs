@@ -28,6 +28,7 @@ fn score_with(text: &str) -> (Exam, Score) {
     score.rerun_command = RerunCommand {
         submission: Some(text.into()),
         exam: Some(text.into()),
+        is_untrusted: false,
     };
     score.build.notes.push(text.to_owned());
     score.build.not_compiled.push(FileReport {

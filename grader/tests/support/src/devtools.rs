@@ -131,11 +131,22 @@ impl Tab {
 
     /// Presses and releases a key. `code` is its Windows virtual key code.
     pub fn press(&mut self, key: &str, code: u32) {
+        self.press_with_modifiers(key, code, 0);
+    }
+
+    /// Presses and releases a key while Shift is held down.
+    pub fn press_with_shift(&mut self, key: &str, code: u32) {
+        const SHIFT: u32 = 8;
+        self.press_with_modifiers(key, code, SHIFT);
+    }
+
+    fn press_with_modifiers(&mut self, key: &str, code: u32, modifiers: u32) {
         // Without a character, Enter would not open anything.
         let text = if key == "Enter" { "\r" } else { "" };
         for kind in ["keyDown", "keyUp"] {
             let arguments = json!({
                 "type": kind, "key": key, "code": key, "text": text, "windowsVirtualKeyCode": code,
+                "modifiers": modifiers,
             });
             self.call("Input.dispatchKeyEvent", arguments);
         }

@@ -15,6 +15,11 @@ export function element(name, attributes, ...children) {
   return made;
 }
 
+/** Returns a text with `code` between backticks as nodes. */
+export function prose(text) {
+  return text.split("`").map((part, i) => i % 2 === 1 ? element("code", {}, part) : part);
+}
+
 /** Formats a number with at most five digits. */
 export function number(x) {
   if (x === null || !Number.isFinite(x)) return String(x ?? "∞");
@@ -29,9 +34,9 @@ function show(state) {
   showErrors(state);
   showNotes(state);
   get("stage").classList.toggle("stale", state.is_stale || state.build === "failed");
-  get("waiting").hidden = state.picture > 0 && state.build !== "compiling" && !state.loading;
-  get("waiting").textContent = state.loading ? `Loading ${state.loading} …` : state.build === "compiling" ? "Compiling …"
-    : state.build === "failed" ? "No picture yet: see the errors." : "Drawing …";
+  const waiting = waitingFor(state);
+  get("waiting").hidden = waiting === "";
+  setText("waiting", waiting);
   stage.showPicture(state);
   overlay.setCamera(state);
   pixel.showExplanation(state);
@@ -39,6 +44,17 @@ function show(state) {
   document.body.dataset.version = state.version;
   document.body.dataset.complete = state.is_picture_complete;
   last = state;
+}
+
+/** Returns what the picture waits for, or an empty text. */
+function waitingFor(state) {
+  if (state.loading) return `Loading ${state.loading} …`;
+  if (state.build === "compiling") return "Compiling …";
+  if (state.build === "failed") return state.picture > 0 ? "" : "No picture yet: see the errors.";
+  if (state.has_stopped && state.is_stale) return "The picture of your last version: the new one has stopped, see below.";
+  if (state.is_opening) return "Building the tree …";
+  if (state.picture > 0) return "";
+  return state.has_stopped ? "No picture yet: see below." : "Drawing …";
 }
 
 function setText(id, text) {
@@ -62,10 +78,10 @@ function showTexts(state) {
     normals: "x, y and z of the normal, from −1 to 1, as red, green and blue",
     depth: "distance: the nearest hit is white, the farthest almost black",
     uv: "u and v as red and green",
-    bvh: "number of boxes around the hit, from blue (few) to red (many)",
   };
-  if (state.view === "tests") {
-    get("legend").replaceChildren("tests for the pixel: few", element("span", { class: "ramp" }), `many (${state.most_tests ?? "…"})`);
+  if (state.view === "tests" || state.view === "bvh") {
+    const [what, most] = state.view === "tests" ? ["tests for the pixel", ` (${state.most_tests ?? "…"})`] : ["boxes around the hit", ""];
+    get("legend").replaceChildren(`${what}: few`, element("span", { class: "ramp" }), `many${most}`);
   } else {
     setText("legend", legends[state.view] ?? "");
   }
@@ -129,15 +145,16 @@ function showErrors(state) {
 
 function showNotes(state) {
   const list = get("notes");
-  const key = JSON.stringify([state.notes, state.panics]);
+  const key = JSON.stringify([state.notes, state.panics, state.has_stopped]);
   if (list.dataset.key === key) return;
   list.dataset.key = key;
   const at = (location) => location ? ` (${location})` : "";
-  const pixels = (n) => n === 1 ? "1 pixel" : `${n.toLocaleString("en")} samples of pixels`;
+  const samples = (n) => n === 1 ? "Pixel" : `${n.toLocaleString("en")} samples, the first in pixel`;
   list.replaceChildren(
-    ...state.notes.map((note) => element("li", {}, note.text + at(note.location))),
-    ...state.panics.map((panic) => element("li", {},
-      `${pixels(panic.count)}, first (${panic.pixel.join(", ")}): ${panic.message}${at(panic.location)}`)));
+    ...state.notes.map((note, i) => element("li", state.has_stopped && i === 0 ? { class: "fault" } : {},
+      ...prose(note.text), at(note.location))),
+    ...state.panics.map((panic) => element("li", { class: "panic" },
+      `${samples(panic.count)} (${panic.pixel.join(", ")}): ${panic.message}${at(panic.location)}`)));
 }
 
 function listen() {

@@ -1,7 +1,7 @@
 // One pixel explained: the tests of its rays as a table, and step by step in the picture.
 import { load } from "./server.js";
 import { boxLines, COLOURS, setLines } from "./overlay.js";
-import { element, number } from "./main.js";
+import { element, number, prose } from "./main.js";
 
 const content = document.getElementById("explanation");
 const FIRST_ROWS = 400;
@@ -10,7 +10,7 @@ const FIRST_ROWS = 400;
 const OUTCOMES = {
   entered: "hit from AT: entered",
   not_entered: "hit from AT: not entered",
-  skipped_beyond: "hit from AT: skipped, since it begins beyond the closest hit",
+  skipped_beyond: "hit from AT: not entered, since it begins beyond the closest hit",
   outside_times: "hit from AT, but not within the times that were passed: skipped",
   missed: "missed",
   closest: "hit at AT: the closest so far",
@@ -65,7 +65,7 @@ function show(explanation, state) {
   if (panic) content.append(element("p", { class: "rule" }, `Panicked: ${panic[0]} (${panic[1]})`));
   // All rays of a path are in the picture, whichever of them is stepped through.
   setLines("path", rays.length > 1 ? rays.map((ray) => rayLine(ray, 1)) : []);
-  if (rays.length === 0) content.append(element("p", {}, "No ray was passed to `Bvh::hit`."));
+  if (rays.length === 0) content.append(element("p", {}, ...prose("No ray was passed to `Bvh::hit`.")));
   rays.forEach((ray, i) => {
     const parent = rays.length === 1 ? content
       : content.appendChild(element("details", i === 0 ? { open: "" } : {}));
@@ -93,7 +93,7 @@ function fill(parent, ray, index) {
   const at = (list) => `(${list.map(number).join(", ")})`;
   const range = ray.range.map((end) => end === null ? "∞" : number(end)).join(" to ");
   parent.append(element("p", {}, `From ${at(ray.origin)} in direction ${at(ray.dir)}, range ${range}.`));
-  for (const note of ray.notes) parent.append(element("p", { class: "note" }, note));
+  for (const note of ray.notes) parent.append(element("p", { class: "note" }, ...prose(note)));
   const marked = ray.rows.flatMap((row, i) => row.marks.map(([rule, node]) => [i, RULES[rule](node)]));
   if (marked.length > 0) {
     const list = element("ul", { class: "marked" });
@@ -154,7 +154,10 @@ function fill(parent, ray, index) {
 }
 
 function outcomeOf(row) {
-  return OUTCOMES[row.outcome].replace("AT", row.at.map(number).join(" to "));
+  // The closest hit after this test, so a nearer one may have been found before the node's turn.
+  const isLater = row.outcome === "skipped_beyond" && !(row.closest !== null && row.closest < row.at[0]);
+  const text = isLater ? "hit from AT: put off, then not entered, since a hit before it was found" : OUTCOMES[row.outcome];
+  return text.replace("AT", row.at.map(number).join(" to "));
 }
 
 function subject(row) {

@@ -87,6 +87,13 @@ impl Session {
         self.numbers
     }
 
+    /// Returns whether a result with this key is still wanted from a program. As soon as the files
+    /// are compiled again, it is not: a program that hangs must not compete with the compiler.
+    pub fn is_wanted(&self, key: Key) -> bool {
+        let is_ready = matches!(self.drawing, BuildState::Ready(_));
+        is_ready && (key.program, key.scene) == (self.numbers.program, self.numbers.scene)
+    }
+
     /// Returns work for the drawing program with this index, if there is some.
     pub fn next_drawing(&mut self, worker: usize, now: Instant) -> Option<Work<DrawJob>> {
         let BuildState::Ready(program) = self.drawing.clone() else {

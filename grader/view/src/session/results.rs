@@ -35,7 +35,9 @@ impl Session {
     /// Reports that a program could not open the scene.
     pub fn opening_ended(&mut self, key: Key, why: &str) {
         if (key.program, key.scene) == (self.numbers.program, self.numbers.scene) {
-            self.stop(format!("Building the tree: {why}"));
+            self.stop(format!(
+                "Opening the scene, which calls `Bvh::build`, and each `hit` once: {why}"
+            ));
         }
     }
 

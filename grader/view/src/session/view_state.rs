@@ -24,6 +24,10 @@ pub struct ViewState {
     own_film: [u32; 2],
     camera: CameraState,
     build: &'static str,
+    /// Whether the tree is being built.
+    is_opening: bool,
+    /// Whether drawing has ended because the program failed.
+    has_stopped: bool,
     errors: Vec<FileError>,
     notes: Vec<Note>,
     panics: Vec<PanicNote>,
@@ -116,6 +120,8 @@ impl Session {
                 is_own: self.viewpoint == self.subject.viewpoint,
             },
             build,
+            is_opening: build == "ready" && self.opened.is_none() && self.fault.is_none(),
+            has_stopped: build == "ready" && self.fault.is_some(),
             errors,
             notes: self.notes(),
             panics: self.panics.clone(),
@@ -172,6 +178,9 @@ impl Session {
             (&self.drawing, &self.explanation)
         {
             return Some("The pixel is explained as soon as your files compile.".to_owned());
+        }
+        if let (Some(_), None) = (&self.fault, &self.opened) {
+            return Some("The pixel is explained as soon as the scene can be opened.".to_owned());
         }
         match &self.recording {
             Some(BuildState::Failed(errors)) => Some(recording_failed(errors)),

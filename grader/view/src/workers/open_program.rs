@@ -110,10 +110,7 @@ impl OpenProgram {
         limit: Duration,
     ) -> Option<Result<Response, Fault>> {
         let probe = self.probe.as_mut()?;
-        let is_abandoned = || {
-            let key = studio.read(|session, _| session.key());
-            (key.program, key.scene) != (work.key.program, work.key.scene)
-        };
+        let is_abandoned = || !studio.read(|session, _| session.is_wanted(work.key));
         let response = probe.ask(request, limit, is_abandoned);
         if response.is_err() {
             self.probe = None;

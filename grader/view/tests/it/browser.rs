@@ -1,10 +1,11 @@
 //! The page in a browser, used like a student does.
 
 use browser_support::{Chromium, DESKTOP, Tab, Viewer as Reader, violations};
-use glam::{UVec2, uvec2};
-use serde_json::json;
+use glam::{UVec2, Vec3, uvec2};
+use serde_json::{Value, json};
 
 use crate::expected_tests::Expected;
+use crate::explanations::TESTS_TWICE;
 use crate::harness::{Submission, Viewer};
 
 const IS_COMPLETE: &str = "document.body.dataset.complete === 'true'";
@@ -182,6 +183,104 @@ fn the_keyboard_alone_explains_a_pixel_and_shows_the_tree() {
     assert_eq!(count, format!("{rows} boxes"));
 }
 
+/// Returns the camera's position and its direction backward.
+fn position_and_backward(state: &Value) -> [Vec3; 2] {
+    let camera = &state["camera"];
+    [&camera["position"], &camera["axes"][2]]
+        .map(|vector| serde_json::from_value(vector.clone()).unwrap())
+}
+
+#[test]
+fn a_primitive_that_is_tested_twice_is_noted_in_the_table() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let submission = Submission::reference();
+    submission.replace_traversal(TESTS_TWICE);
+    let viewer = Viewer::start(&submission, &["flat", "--size", "16x16", "--samples", "1"]);
+    let mut tab = open(&viewer, &chromium, DESKTOP);
+    tab.wait_until(IS_COMPLETE, TEXT);
+    explain(&mut tab, &viewer, uvec2(8, 8));
+    let rows = tab.eval(
+        "[...document.querySelectorAll('#explanation tbody tr')].map((row) => row.innerText)",
+    );
+    let rows: Vec<String> = serde_json::from_value(rows).unwrap();
+    let (first, second) = rows.split_at(rows.len() / 2);
+    let is_noted = |row: &String| row.contains("(tested before)");
+    assert!(!first.iter().any(is_noted), "{first:?}");
+    assert!(
+        !second.is_empty() && second.iter().all(is_noted),
+        "{second:?}"
+    );
+}
+
+#[test]
+fn keys_alone_move_the_camera_in_every_way() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let arguments = ["flat", "--size", "16x12", "--samples", "1"];
+    let viewer = Viewer::start(&Submission::reference(), &arguments);
+    let mut tab = open(&viewer, &chromium, DESKTOP);
+    tab.wait_until(IS_COMPLETE, TEXT);
+    // The picture is reached with the Tab key.
+    let mut tabs = 0;
+    while tab.eval("document.activeElement.id") != "stage" {
+        tab.press("Tab", 9);
+        tabs += 1;
+        assert!(tabs < 50, "the picture has no focus");
+    }
+    let state = viewer.wait_for_picture();
+    let own = state["camera"].clone();
+    let [position, backward] = position_and_backward(&state);
+    let right: Vec3 = serde_json::from_value(own["axes"][0].clone()).unwrap();
+    let up = backward.cross(right);
+
+    // Each movement begins at the scene's camera. It returns the change of the position, and the
+    // direction backward.
+    let mut movement = |key: &str, code: u32, with_shift: bool| {
+        if with_shift {
+            tab.press_with_shift(key, code);
+        } else {
+            tab.press(key, code);
+        }
+        let moved = viewer.wait_for(|state| state["camera"] != own);
+        tab.press("Home", 36);
+        viewer.wait_for(|state| state["camera"] == own);
+        let [there, backward] = position_and_backward(&moved);
+        (there - position, backward)
+    };
+    let is_along = |(moved, now): (Vec3, Vec3), direction: Vec3| {
+        moved.normalize().distance(direction) < 1e-3 && now.distance(backward) < 1e-5
+    };
+    for (key, code, direction) in [
+        ("ArrowLeft", 37, -right),
+        ("ArrowUp", 38, up),
+        ("ArrowRight", 39, right),
+        ("ArrowDown", 40, -up),
+    ] {
+        let pan = movement(key, code, true);
+        assert!(is_along(pan, direction), "Shift with {key}: {pan:?}");
+        let (moved, now) = movement(key, code, false);
+        assert!(moved.dot(direction).abs() > 1e-3, "{key}: {moved}");
+        assert!(now.distance(backward) > 1e-3, "{key} does not turn");
+    }
+    for (key, code, direction) in [
+        ("+", 187, -backward),
+        ("-", 189, backward),
+        ("w", 87, -backward),
+        ("s", 83, backward),
+    ] {
+        let straight = movement(key, code, false);
+        assert!(is_along(straight, direction), "{key}: {straight:?}");
+    }
+    for (key, code, direction) in [("a", 65, -right), ("d", 68, right)] {
+        let (moved, now) = movement(key, code, false);
+        assert_eq!(moved, Vec3::ZERO, "{key}");
+        assert!((backward - now).dot(direction) > 1e-3, "{key}: {now}");
+    }
+}
+
 #[test]
 fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
     let Some(chromium) = Chromium::start() else {
@@ -308,10 +407,54 @@ fn axe_finds_nothing_in_light_and_dark_mode_and_on_a_phone() {
         let width = tab.eval("document.documentElement.scrollWidth");
         assert!(width.as_u64() <= Some(reader.width.into()), "{width}");
     }
-    submission.write("bvh.rs", "not Rust");
-    let mut tab = open(&viewer, &chromium, dark);
-    tab.wait_until("!document.getElementById('errors').hidden", TEXT);
-    assert_eq!(violations(&mut tab), [""; 0]);
+}
+
+#[test]
+fn axe_finds_nothing_while_the_code_panics_or_does_not_compile() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let submission = Submission::reference();
+    let correct = submission.read("camera.rs");
+    let signature = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
+    let panic = "assert!(pixel.x != 3, \"column {}\", pixel.x);";
+    submission.replace("camera.rs", signature, &format!("{signature} {panic}"));
+    let viewer = Viewer::start(&submission, &["flat", "--size", "20x10", "--samples", "1"]);
+    viewer.wait_for_picture();
+    let phone = Reader {
+        width: 390,
+        ..DESKTOP
+    };
+    let readers = [DESKTOP, phone].map(|reader| {
+        [
+            reader,
+            Reader {
+                dark: true,
+                ..reader
+            },
+        ]
+    });
+    let readers = readers.as_flattened();
+    let check = |is_shown: &str| {
+        for reader in readers {
+            let mut tab = open(&viewer, &chromium, *reader);
+            tab.wait_until(is_shown, TEXT);
+            let name = format!("width {}, dark: {}", reader.width, reader.dark);
+            assert_eq!(violations(&mut tab), [""; 0], "{name}");
+            let width = tab.eval("document.documentElement.scrollWidth");
+            assert!(
+                width.as_u64() <= Some(reader.width.into()),
+                "{name}: {width}"
+            );
+        }
+    };
+    check(
+        "/10 samples, the first in pixel .3, \\d.: column 3 .camera.rs:\\d+/.test(document.getElementById('notes').innerText)",
+    );
+    submission.write("camera.rs", &format!("{correct}\nlet oops\n"));
+    check(
+        "!document.getElementById('errors').hidden && document.getElementById('stage').className === 'stale'",
+    );
 }
 
 #[test]

@@ -92,3 +92,27 @@ fn a_traversal_without_boxes_says_so() {
     let note = explanation["rays"][0]["notes"][0].as_str().unwrap();
     assert!(note.contains("tested no box"), "{note}");
 }
+
+/// A traversal that calls `Primitive::hit` for the same primitives twice, and is otherwise correct.
+pub const TESTS_TWICE: &str = "    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let all = || self.primitives.iter().map(|primitive| primitive.hit(ray));
+        all().chain(all()).fold(None, Trace::nearer)
+    }
+";
+
+#[test]
+fn a_primitive_that_is_tested_twice_is_noted() {
+    let submission = Submission::reference();
+    submission.replace_traversal(TESTS_TWICE);
+    let viewer = Viewer::start(&submission, &["flat", "--size", "16x16", "--samples", "1"]);
+    let explanation = viewer.explain([8, 8], None);
+    let ray = &explanation["rays"][0];
+    let rows = ray["rows"].as_array().unwrap();
+    assert!(rows.len() > 2 && rows.len().is_multiple_of(2), "{rows:?}");
+    let (first, second) = rows.split_at(rows.len() / 2);
+    assert!(first.iter().all(|row| row["again"] == false), "{first:?}");
+    assert!(second.iter().all(|row| row["again"] == true), "{second:?}");
+    let note = format!("{} tests repeat earlier ones", second.len());
+    let notes = ray["notes"].to_string();
+    assert!(notes.contains(&note), "{notes}");
+}

@@ -166,19 +166,11 @@ fn a_hang_ends_and_its_pixel_is_found() {
 fn a_stack_overflow_while_building_is_reported_and_can_be_fixed() {
     let submission = Submission::reference();
     let correct = submission.read("bvh.rs");
-    let recursion =
-        "if primitives.len() < usize::MAX { return Self::build(primitives, max_leaf_size); }";
-    let signature = correct
-        .lines()
-        .find(|line| line.contains("pub fn build("))
-        .unwrap();
-    submission.replace("bvh.rs", signature, &format!("{signature} {recursion}"));
+    submission.insert_into_build(
+        "if primitives.len() < usize::MAX { return Self::build(primitives, max_leaf_size); }",
+    );
     let viewer = Viewer::start(&submission, &["flat", "--size", "8x8", "--samples", "1"]);
-    let state = viewer.wait_for(|state| {
-        state["notes"]
-            .as_array()
-            .is_some_and(|notes| !notes.is_empty())
-    });
+    let state = viewer.wait_for(|state| state["has_stopped"] == true);
     let notes = notes(&state);
     // The recursion may have been compiled to a loop.
     assert!(
@@ -190,20 +182,61 @@ fn a_stack_overflow_while_building_is_reported_and_can_be_fixed() {
     assert_eq!(state["notes"], json!([]));
 }
 
+/// Makes `Bvh::build` endless.
+fn make_build_endless(submission: &Submission) {
+    submission.insert_into_build("while max_leaf_size > 0 { std::hint::black_box(()); }");
+}
+
+#[test]
+fn an_endless_build_ends_at_its_limit_and_can_be_fixed() {
+    let submission = Submission::reference();
+    let correct = submission.read("bvh.rs");
+    let viewer = Viewer::start(&submission, &["flat", "--size", "24x20", "--samples", "1"]);
+    viewer.wait_for_picture();
+    assert_eq!(
+        viewer.send(&json!({ "move": { "orbit": [0.3, 0.1] } })),
+        204
+    );
+    viewer.explain([12, 10], None);
+    let before = viewer.wait_for_picture();
+    let picture = viewer.picture();
+
+    make_build_endless(&submission);
+    viewer.wait_for(|state| state["is_opening"] == true && state["is_stale"] == true);
+    let stopped = viewer.wait_for(|state| state["has_stopped"] == true);
+    let notes = notes(&stopped);
+    assert!(
+        notes.contains("`Bvh::build`") && notes.contains("it took too long"),
+        "{notes}"
+    );
+    assert_eq!(stopped["is_opening"], false);
+    assert_eq!(stopped["is_stale"], true);
+    let why = stopped["explanation_fault"].as_str().unwrap();
+    assert!(why.contains("as soon as the scene can be opened"), "{why}");
+    assert!(viewer.picture() == picture, "the last picture stays");
+
+    submission.write("bvh.rs", &correct);
+    let after =
+        viewer.wait_for(|state| state["is_stale"] == false && state["is_picture_complete"] == true);
+    assert_eq!(after["notes"], json!([]));
+    assert_eq!(after["camera"], before["camera"]);
+    assert!(viewer.picture() == picture);
+    assert_eq!(viewer.explanation()["pixel"], json!([12, 10]));
+}
+
 #[test]
 fn a_panic_while_building_names_its_line_and_the_page_survives() {
     let submission = Submission::reference();
     let correct = submission.read("bvh.rs");
-    let signature = correct
-        .lines()
-        .find(|line| line.contains("pub fn build("))
-        .unwrap();
-    let panic = "assert!(primitives.is_empty(), \"not today\");";
-    submission.replace("bvh.rs", signature, &format!("{signature} {panic}"));
+    submission.insert_into_build("assert!(primitives.is_empty(), \"not today\");");
     let viewer = Viewer::start(&submission, &["flat", "--size", "8x8", "--samples", "1"]);
     let state = viewer.wait_for(|state| state["notes"] != json!([]));
     let notes = notes(&state);
-    let line = correct.lines().position(|line| line == signature).unwrap() + 1;
+    let mut lines = correct.lines();
+    let line = lines
+        .position(|line| line.contains("pub fn build("))
+        .unwrap()
+        + 1;
     assert!(
         notes.contains("panicked: not today") && notes.contains(&format!("bvh.rs:{line}")),
         "{notes}"
@@ -251,4 +284,22 @@ fn a_killed_viewer_leaves_no_program_running_even_one_that_hangs() {
         assert!(Instant::now() < deadline, "{programs:?} are still running");
         std::thread::sleep(Duration::from_millis(10));
     }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_save_ends_programs_that_hang_before_their_limit() {
+    let submission = Submission::reference();
+    make_build_endless(&submission);
+    let viewer = Viewer::start(&submission, &["flat", "--size", "8x8"]);
+    viewer.wait_for(|state| state["is_opening"] == true);
+    submission.write("bvh.rs", "not Rust");
+    viewer.wait_for(|state| state["build"] == "failed");
+    let deadline = Instant::now() + Duration::from_secs(120);
+    while !children(viewer.process()).is_empty() {
+        assert!(Instant::now() < deadline, "a program is still running");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let state: Value = serde_json::from_slice(&viewer.get("/state?after=0").body).unwrap();
+    assert_eq!(state["notes"], json!([]), "a program ran until its limit");
 }

@@ -79,6 +79,14 @@ impl Submission {
         self.write("bvh.rs", &format!("{before}{hit}{after}"));
     }
 
+    /// Inserts a statement at the beginning of `Bvh::build`.
+    pub fn insert_into_build(&self, statement: &str) {
+        let text = self.read("bvh.rs");
+        let signature = text.lines().find(|line| line.contains("pub fn build("));
+        let signature = signature.unwrap();
+        self.replace("bvh.rs", signature, &format!("{signature} {statement}"));
+    }
+
     /// Replaces text in a file, and panics if the file does not contain it.
     pub fn replace(&self, file: &str, from: &str, to: &str) {
         let text = self.read(file);

@@ -4,6 +4,11 @@ use std::collections::BTreeSet;
 use std::env;
 use std::io::Write;
 
+use grader::grade::grade;
+use grader::handed_out::RAYS;
+use grader::options::GradeOptions;
+use grader::report::text::report;
+use grader::task_selection::TaskSelection;
 use serde_json::{Value, json};
 
 use crate::expected_tests::{Expected, listed_tests};
@@ -73,6 +78,44 @@ fn in_a_tree_with_decoys_exactly_the_wrong_steps_of_the_slides_pseudo_code_are_m
         }
     }
     assert!(wrong_steps >= 4, "{wrong_steps}");
+}
+
+#[test]
+fn the_command_in_a_report_opens_the_wrong_question() {
+    let submission = Submission::reference();
+    submission.replace(
+        "bvh.rs",
+        "if second_begins <= ray.range.max {",
+        "if second_begins <= f32::MAX {",
+    );
+    let options = GradeOptions {
+        submission: Some(submission.path().to_owned()),
+        tasks: TaskSelection::parse("traverse", RAYS.assignment).unwrap(),
+        ..GradeOptions::default()
+    };
+    let graded = grade(&options).unwrap();
+    let report = report(&graded.score, &options.tasks, options.hints);
+    let report = anstream::adapter::strip_str(&report).to_string();
+    let mut lines = report.lines().map(|line| line.trim().split_once(' '));
+    let command = lines.find_map(|line| line.filter(|(label, _)| *label == "view"));
+    let command = command.unwrap_or_else(|| panic!("{report}")).1.trim();
+    let words = command.strip_prefix("cargo view ").unwrap().split(' ');
+    let question = command.rsplit_once(' ').unwrap().1;
+    assert!(question.starts_with("traverse.prunes#"), "{command}");
+
+    let mut viewer = Viewer::run(view().args(words)).unwrap();
+    viewer.visit();
+    let state = viewer.wait_for_picture();
+    assert_eq!(state["subject"], question);
+    let ray = &viewer.explanation()["rays"][0];
+    let marks: Vec<&Value> = ray["rows"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .flat_map(|row| row["marks"].as_array().unwrap())
+        .map(|mark| &mark[0])
+        .collect();
+    assert!(marks.contains(&&json!("beyond_closest_hit")), "{marks:?}");
 }
 
 #[test]

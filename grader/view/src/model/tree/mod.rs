@@ -233,7 +233,8 @@ impl TreeModel {
         nodes
     }
 
-    /// Returns the bars of the strip. Bars that are narrower than `narrowest` are left out.
+    /// Returns the bars of the strip. Of the bars that are narrower than `narrowest`, one is returned
+    /// for each such width, so that there are not more than can be seen.
     pub fn strip(&self, narrowest: f32) -> Vec<Bar> {
         let total = self
             .counts
@@ -243,6 +244,9 @@ impl TreeModel {
             .max(1) as f32;
         let mut bars = Vec::new();
         let mut starts = vec![0; self.tree.nodes.len()];
+        // The right ends of each level's bars so far. The order is depth-first, so it is from left to
+        // right in each level.
+        let mut ends = vec![0.0; self.levels() as usize];
         for index in self.order.iter().copied() {
             let node = &self.tree.nodes[index as usize];
             let start = starts[index as usize];
@@ -253,12 +257,16 @@ impl TreeModel {
                     }
                 }
             }
+            let level = self.levels[index as usize].unwrap_or(0);
+            let start = start as f32 / total;
             let width = self.count(index) as f32 / total;
-            if width >= narrowest {
+            let end = &mut ends[level as usize];
+            if width >= narrowest || start >= *end {
+                *end = start + width.max(narrowest);
                 bars.push(Bar {
                     node: index,
-                    level: self.levels[index as usize].unwrap_or(0),
-                    start: start as f32 / total,
+                    level,
+                    start,
                     width,
                     leaf: node.is_leaf(),
                 });

@@ -58,6 +58,19 @@ fn bars_are_beside_each_other() {
 }
 
 #[test]
+fn of_narrow_bars_one_is_kept_for_each_width_that_can_be_seen() {
+    let model = TreeModel::new(tree());
+    let in_level = |narrowest, level| {
+        let bars = model.strip(narrowest).into_iter();
+        let starts = bars.filter(|bar| bar.level == level).map(|bar| bar.start);
+        starts.collect::<Vec<f32>>()
+    };
+    assert_eq!(in_level(0.0, 2), in_level(0.2, 2));
+    assert_eq!(in_level(0.3, 1), [0.0, 0.75], "each is seen");
+    assert_eq!(in_level(0.9, 1), [0.0], "the second bar is not seen");
+}
+
+#[test]
 fn invalid_trees_are_shown_as_far_as_they_are_trees() {
     let mut cyclic = tree();
     cyclic.nodes[1].r = 3;

@@ -10,6 +10,7 @@ use judging::sanitize::sanitize;
 use protocol::{Answer, ElementOutcome, Question, Shape};
 
 use crate::build::Builder;
+use crate::clue;
 use crate::error::Error;
 use crate::grade::{collect, source_paths};
 use crate::nearest_name::suggestion;
@@ -229,7 +230,8 @@ impl Replayed {
             (None, None) => "right".to_owned(),
             (None, Some(error)) => format!(
                 "right when asked alone, but not together with the item's other questions: \
-                 {error}. Does your code keep a value from one call to the next?"
+                 {error}. {}",
+                clue::KEPT_STATE
             ),
         }
     }

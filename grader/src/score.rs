@@ -108,6 +108,9 @@ pub struct ItemScore {
     /// For students: where to look. Only for failed items.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub look: Option<String>,
+    /// For students: what to look for instead, if the way in which the item failed tells it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clue: Option<String>,
     /// For students: the section of the handout to read, such as `boxes.md#zero-and-minus-zero`.
     /// Only for failed items.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -298,6 +301,11 @@ pub struct Timings {
 }
 
 impl ItemScore {
+    /// Returns where to look: what this failure tells, or else what the item tells.
+    pub fn where_to_look(&self) -> Option<&String> {
+        self.clue.as_ref().or(self.look.as_ref())
+    }
+
     /// Returns the command that runs the item again: only the question of its evidence or, if there
     /// is no evidence, the whole task.
     pub fn rerun_command(&self, command: &RerunCommand) -> String {

@@ -13,6 +13,7 @@ use protocol::Answer;
 
 use crate::alone::{alone, beside_others};
 use crate::build::{Build, Control};
+use crate::kept_state::is_right_alone;
 use crate::probe::{Allowance, Crash, Culprit, Fault, ItemLimits, Launcher, Probe};
 use crate::verdict::{ItemOutcome, NotRun};
 
@@ -102,11 +103,19 @@ impl<'a> TaskSession<'a> {
                 self.observations.record(item, Ok(&answers));
                 let judgements = item.questions.iter().zip(&answers);
                 let judgements = judgements.map(|(question, answer)| judge(question, answer));
-                let outcome = ItemOutcome::Answered(judgements.collect());
+                let mut outcome = ItemOutcome::answered(judgements.collect());
+                self.spent.judging += started_at.elapsed();
                 if outcome.is_pass() {
                     allowance.passed(used.cpu);
+                } else if let ItemOutcome::Answered {
+                    judgements,
+                    right_alone,
+                } = &mut outcome
+                {
+                    let started_at = Instant::now();
+                    *right_alone = is_right_alone(&launcher, item, judgements, allowance)?;
+                    self.spent.asking += started_at.elapsed();
                 }
-                self.spent.judging += started_at.elapsed();
                 Ok((outcome, answers))
             }
             Err(fault) => {

@@ -11,6 +11,7 @@ use judging::signatures::KnownMistake;
 
 use crate::build::NotCompiled;
 use crate::bundle_version::bundle_version;
+use crate::clue;
 use crate::handed_out::HandedOut;
 use crate::probe::Fault;
 use crate::rerun_command::RerunCommand;
@@ -42,8 +43,13 @@ pub enum ItemOutcome<'a> {
     },
     /// The item was not run.
     NotRun(NotRun),
-    /// Every question has an answer. Holds the judgements of these answers.
-    Answered(Vec<Judgement>),
+    /// Every question has an answer.
+    Answered {
+        /// The judgements of the answers.
+        judgements: Vec<Judgement>,
+        /// Whether the first wrong answer is right when its question is asked alone.
+        right_alone: bool,
+    },
 }
 
 /// The reason why an item was not run.
@@ -58,10 +64,18 @@ pub enum NotRun {
 }
 
 impl ItemOutcome<'_> {
+    /// Returns the outcome with these judgements, of questions that were not asked alone.
+    pub fn answered(judgements: Vec<Judgement>) -> Self {
+        ItemOutcome::Answered {
+            judgements,
+            right_alone: false,
+        }
+    }
+
     /// Returns whether all answers are right.
     pub fn is_pass(&self) -> bool {
         match self {
-            ItemOutcome::Answered(judgements) => judgements
+            ItemOutcome::Answered { judgements, .. } => judgements
                 .iter()
                 .all(|judgement| judgement.credit == Credit::FULL),
             ItemOutcome::Pending
@@ -130,6 +144,7 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
         message: String::new(),
         at: None,
         look: None,
+        clue: None,
         section: None,
         hints: Vec::new(),
         evidence: None,
@@ -146,6 +161,7 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
         ItemOutcome::Fault { fault, culprit } => {
             score.verdict = verdict_of(fault);
             score.message = fault.to_string();
+            score.clue = Some(clue::of_fault(fault, handed_out.assignment.info(item.task)));
             score.section = item.section.clone();
             score.evidence = culprit.map(|(question, element)| Evidence {
                 number: item.number(question, element),
@@ -162,8 +178,14 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
             score.message = not_run_message(why).to_owned();
             score.section = item.section.clone();
         }
-        ItemOutcome::Answered(judgements) => {
-            score_answers(item, judgements, &mut score, handed_out)
+        ItemOutcome::Answered {
+            judgements,
+            right_alone,
+        } => {
+            score_answers(item, judgements, &mut score, handed_out);
+            if *right_alone {
+                score.clue = Some(clue::KEPT_STATE.to_owned());
+            }
         }
     }
     score
@@ -279,6 +301,7 @@ fn score_answers(
                 MAX_TEXT_CHARS,
             );
             score.at = CodeLocation::from_panic(&panic.location, handed_out);
+            score.clue = clue::of_panic(message).map(str::to_owned);
             let panicked = partial(Verdict::Panicked);
             (panicked, "a panic".to_owned(), "an answer".to_owned())
         }
@@ -338,6 +361,7 @@ pub fn blocked_score(by: &str, line: ItemScore) -> ItemScore {
         message: format!("depends on {by}: fix that first"),
         at: None,
         look: None,
+        clue: None,
         section: None,
         evidence: None,
         ..line

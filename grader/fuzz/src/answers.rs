@@ -54,7 +54,7 @@ fn grade(item: &Item, answers: Vec<Answer>) {
     for (question, answer) in answered_questions(item, &answers) {
         let _ = (measure(question, answer), mismatches(question, answer));
     }
-    let mut scored = item_score(item, &ItemOutcome::Answered(judgements), &RAYS);
+    let mut scored = item_score(item, &ItemOutcome::answered(judgements), &RAYS);
     let is_right = scored.points == scored.max_points;
     assert_eq!(is_right, scored.verdict == Verdict::Pass, "{scored:?}");
 

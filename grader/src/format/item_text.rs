@@ -20,7 +20,7 @@ pub fn item_text(view: &StudentView, item: &ItemScore, context: &FormatContext) 
         ("asked", evidence.map(|evidence| evidence.asked.clone())),
         ("got", evidence.map(|evidence| evidence.got.clone())),
         ("wanted", evidence.map(|evidence| evidence.wanted.clone())),
-        ("look", item.look.clone()),
+        ("look", item.where_to_look().cloned()),
         ("hint", hint_text(&item.hints, context)),
         ("read", item.section.as_ref().map(Section::location)),
         (

@@ -97,6 +97,8 @@ pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]
         message: sentence,
         at: None,
         look: item.look.clone().filter(|_| has_wrong_answer),
+        // The program can choose which of them it gets.
+        clue: None,
         section: item.section.clone(),
         hints: item.hints.clone(),
         evidence: None,
@@ -155,6 +157,7 @@ fn redact_to_points(item: &ItemScore) -> ItemScore {
         message: String::new(),
         at: None,
         look: None,
+        clue: None,
         section: None,
         hints: Vec::new(),
         evidence: None,

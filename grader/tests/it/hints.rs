@@ -73,3 +73,36 @@ fn recognises_two_mistakes_in_one_task() {
         assert!(staff.contains(&format!("answers like {known}")), "{known}");
     }
 }
+
+/// Returns the clues of all items of a score.
+fn clues(graded: &GradeRun) -> Vec<String> {
+    let score = graded.score();
+    let tasks = score["tasks"].as_array().unwrap().iter();
+    let items = tasks.flat_map(|task| task["items"].as_array().unwrap());
+    items
+        .filter_map(|item| item["clue"].as_str().map(str::to_owned))
+        .collect()
+}
+
+#[test]
+fn an_answer_that_is_right_when_asked_alone_is_said_to_hang_on_earlier_calls() {
+    let with_distance = |distance: &str| {
+        let graded = Submission::reference("state")
+            .with_replaced("sphere.rs", "distance: t,", distance)
+            .grade();
+        assert!(graded.points()[2] < 15);
+        clues(&graded)
+    };
+    let kept = with_distance(
+        "distance: {
+            static CALLS: std::sync::atomic::AtomicU32 = std::sync::atomic::AtomicU32::new(0);
+            t + CALLS.fetch_add(1, std::sync::atomic::Ordering::Relaxed) as f32
+        },",
+    );
+    assert!(!kept.is_empty());
+    for clue in kept {
+        assert_eq!(clue, grader::clue::KEPT_STATE);
+    }
+    // The same answers, without state.
+    assert_eq!(with_distance("distance: t + 1.0,"), [""; 0]);
+}

@@ -139,7 +139,7 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> (String, String, String) 
 /// Renders where to look in the code, and what to read, with a link if there is a book.
 fn look(score: &ItemScore, book: Option<&Book>) -> Markup {
     html! {
-        @if let Some(look) = &score.look {
+        @if let Some(look) = score.where_to_look() {
             p .look { strong { "Look: " } (prose(look)) }
         }
         @if let Some(section) = &score.section {

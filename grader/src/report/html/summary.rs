@@ -7,6 +7,7 @@ use super::counted;
 use super::elements::{command, plain_text};
 use super::pictures;
 use super::prose::prose;
+use crate::report::failing_items::most_telling_first;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
@@ -87,11 +88,11 @@ pub(super) fn next_step(
     answers: &ReportAnswers,
     rerun: Option<&RerunCommand>,
 ) -> Markup {
-    let fails = |item: &&ItemScore| item.points < item.max_points;
+    let first_of = |task| most_telling_first(task).first().copied();
     html! {
         section aria-labelledby="next" {
             h2 #next { "What to do next" }
-            @match score.items().find(fails) {
+            @match score.tasks.iter().find_map(first_of) {
                 None => {
                     (all_passed(score))
                     (pictures::beside_the_references(exam, answers))
@@ -129,7 +130,7 @@ fn first_failure(item: &ItemScore, rerun: Option<&RerunCommand>) -> Markup {
             VerdictKind::Passed | VerdictKind::Failed | VerdictKind::NoAnswer
             | VerdictKind::Blocked => p { (plain_text(&item.message)) },
         }
-        @if let Some(look) = &item.look {
+        @if let Some(look) = item.where_to_look() {
             p { (prose(look)) }
         }
         @if let Some(rerun) = rerun {

@@ -6,6 +6,7 @@ use maud::{Markup, html};
 use super::elements::plain_text;
 use super::item;
 use crate::book::Book;
+use crate::report::failing_items::most_telling_first;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore};
@@ -40,9 +41,9 @@ pub(super) fn section(
     rerun: Option<&RerunCommand>,
     book: Option<&Book>,
 ) -> Markup {
-    let is_failing = |item: &&ItemScore| item.points < item.max_points;
-    let (failing, passed): (Vec<&ItemScore>, Vec<&ItemScore>) =
-        task.items.iter().partition(is_failing);
+    let failing = most_telling_first(task);
+    let is_passed = |item: &&ItemScore| item.points == item.max_points;
+    let passed: Vec<&ItemScore> = task.items.iter().filter(is_passed).collect();
     let exam_item = |score: &ItemScore| exam.items.iter().find(|item| item.id == score.id);
     html! {
         section aria-labelledby=(task.id) {

@@ -39,7 +39,7 @@ pub(super) fn write_item(
             "wanted",
             item.evidence.as_ref().map(|evidence| &evidence.wanted),
         ),
-        ("look", item.look.as_ref()),
+        ("look", item.where_to_look()),
         ("hint", hint.as_ref()),
         ("read", section.as_ref()),
     ];

@@ -10,7 +10,7 @@ use anstream::adapter::strip_str;
 use anstyle::{AnsiColor, Style};
 use judging::sanitize::{sanitize, sanitize_line};
 
-use crate::report::shared_hints::{explained_items, with_something_new};
+use crate::report::failing_items::{explained_items, most_telling_first, with_something_new};
 use crate::report::text::item::{write_command, write_hidden_count, write_item, write_printed};
 use crate::sandbox::Isolation;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
@@ -142,10 +142,7 @@ fn write_failing_items(
     selection: &TaskSelection,
     hints: HintDetail,
 ) -> fmt::Result {
-    let failing = task.items.iter();
-    let failing: Vec<&ItemScore> = failing
-        .filter(|item| item.points < item.max_points)
-        .collect();
+    let failing = most_telling_first(task);
     // The first failing item of each task is enough to start with. A report on selected tasks also
     // has the other items that have evidence, and tells more than the first.
     let shown = if selection.is_all() {

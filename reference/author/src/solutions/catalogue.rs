@@ -55,6 +55,15 @@ pub struct Mistake {
     pub changes: Vec<Change>,
 }
 
+impl Mistake {
+    /// Returns whether the code keeps something from one call to the next.
+    pub fn keeps_state(&self) -> bool {
+        self.changes
+            .iter()
+            .any(|change| change.now.contains("static "))
+    }
+}
+
 /// A replacement of a text that occurs exactly once in a file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -74,7 +74,7 @@ pub fn channels() -> Vec<Channel> {
             record_failure(score, item, FailureKind::Protocol(bits.to_string()), None);
         }),
         channel("answer with the reference's parts", |score, item, bits| {
-            let outcome = ItemOutcome::Answered(vec![failed(wrong("uv", &bits.to_string()), None)]);
+            let outcome = ItemOutcome::answered(vec![failed(wrong("uv", &bits.to_string()), None)]);
             let line = item_score(item, &outcome, &RAYS);
             // The program's own answer and the one with the reference's parts may both carry bits.
             let own = ItemScore {
@@ -138,7 +138,7 @@ fn record_failure(
     record(
         score,
         item,
-        &ItemOutcome::Answered(vec![failed(kind, count)]),
+        &ItemOutcome::answered(vec![failed(kind, count)]),
     );
 }
 

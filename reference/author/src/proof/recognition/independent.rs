@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt;
 
+use grader::clue::KEPT_STATE;
 use indicatif::ParallelProgressIterator;
 use judging::exam::Exam;
 use rayon::prelude::*;
@@ -31,12 +32,25 @@ pub struct RecognisedIndependent {
     pub name: String,
     /// The hints that are true of it.
     pub true_hints: BTreeSet<String>,
+    /// Whether it keeps state and the report says so, or neither.
+    pub state: StateNamed,
     /// The hints that are false.
     pub false_hints: BTreeSet<String>,
     /// If it is not recognised, the items that it answers unlike the same mistake in the reference.
     pub unlike: Vec<String>,
     /// A message if the code loses no points in its task, or points in another task.
     pub problems: Vec<String>,
+}
+
+/// Whether the report names state that is kept between calls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StateNamed {
+    /// The code keeps state, and the report says so.
+    Rightly,
+    /// The code keeps none, but the report says so.
+    Wrongly,
+    /// The report does not say so.
+    No,
 }
 
 /// Grades every independent mistake, and determines its hints.
@@ -74,6 +88,12 @@ fn recognise_one(
         id, variant, also, ..
     } = independent;
     let graded = grade_mistake(&solutions.workbench, mistake, sources, exam)?;
+    let mut clues = graded.score.items().filter_map(|item| item.clue.as_deref());
+    let state = match (clues.any(|clue| clue == KEPT_STATE), mistake.keeps_state()) {
+        (true, true) => StateNamed::Rightly,
+        (true, false) => StateNamed::Wrongly,
+        (false, _) => StateNamed::No,
+    };
     let problems = graded.task_problems().into_iter();
     let is_true = |hint: &String| {
         let mut made = std::iter::once(id).chain(also);
@@ -93,15 +113,23 @@ fn recognise_one(
             .collect(),
         name: independent.name(),
         true_hints,
+        state,
         false_hints,
         unlike,
     })
 }
 
 impl RecognisedIndependent {
-    /// Returns whether the mistake gets a hint that is true, and none that is false.
+    /// Returns whether the report says something about the mistake that is true, and nothing that is
+    /// false.
     pub fn is_recognised(&self) -> bool {
-        !self.true_hints.is_empty() && self.false_hints.is_empty()
+        let is_named = !self.true_hints.is_empty() || self.state == StateNamed::Rightly;
+        is_named && !self.is_misled()
+    }
+
+    /// Returns whether the report says something false about the mistake.
+    pub fn is_misled(&self) -> bool {
+        !self.false_hints.is_empty() || self.state == StateNamed::Wrongly
     }
 }
 
@@ -124,9 +152,7 @@ impl IndependentRecognition {
     /// Returns the number of mistakes with a false hint.
     pub fn with_false_hint(&self) -> usize {
         let results = self.results.iter();
-        results
-            .filter(|result| !result.false_hints.is_empty())
-            .count()
+        results.filter(|result| result.is_misled()).count()
     }
 
     /// Returns the result as one line.
@@ -150,7 +176,9 @@ impl fmt::Display for IndependentRecognition {
             let name = &result.name;
             if !result.false_hints.is_empty() {
                 writeln!(f, "{name}: false hint {}", list(&result.false_hints))?;
-            } else if result.true_hints.is_empty() {
+            } else if result.state == StateNamed::Wrongly {
+                writeln!(f, "{name}: said to keep state, which it does not")?;
+            } else if !result.is_recognised() {
                 let unlike = result.unlike.join(", ");
                 writeln!(f, "{name}: no hint; unlike in the reference: {unlike}")?;
             } else {

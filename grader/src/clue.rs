@@ -1,0 +1,55 @@
+//! Clues: what to look for where the way in which an item failed tells more than the item itself.
+
+use judging::assignment::TaskInfo;
+use judging::signatures::PanicKind;
+
+use crate::probe::{Crash, Fault};
+
+/// The clue for a question that is answered correctly when it is asked alone.
+pub const KEPT_STATE: &str = "The same question is answered correctly when it is asked alone, so your \
+    code keeps something from one call to the next, in a `static` or a `Cell` for example. An answer \
+    must depend only on the arguments of its call.";
+
+/// Returns the clue for an item without an answer.
+pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
+    let TaskInfo { file, method, .. } = task;
+    match fault {
+        Fault::TimedOut(_) => format!(
+            "Find the loop or the recursion that `{method}` in {file} does not leave with this \
+             question: what changes from one round to the next, and what ends it?"
+        ),
+        Fault::OutOfMemory => format!(
+            "Find the list that grows in each round of `{method}` in {file}, and what should end its \
+             growth."
+        ),
+        Fault::Crashed(Crash::StackOverflow) => format!(
+            "Find the call in {file} that can get the same arguments as its caller. If a tree is built, \
+             `--replay` names the fewest primitives that still overflow the stack."
+        ),
+        Fault::Crashed(Crash::Exited(_)) => {
+            format!("Look in {file} for `std::process::exit`: a method must return or panic.")
+        }
+        Fault::Crashed(Crash::Signal(_) | Crash::Killed) | Fault::Protocol(_) => format!(
+            "Run this question by itself, with `--replay`, and see what `{method}` in {file} does last."
+        ),
+    }
+}
+
+/// Returns the clue for a panic with this message, if the kind of panic has one.
+pub fn of_panic(message: &str) -> Option<&'static str> {
+    match PanicKind::of(message) {
+        PanicKind::Index => Some(
+            "Read the index and the length in the message: is it one too far, is the list empty, or is \
+             the number one that means something else, such as the index of a node?",
+        ),
+        PanicKind::Arithmetic => Some(
+            "Whole numbers have no value below zero (`usize`, `u32`) and no result when divided by \
+             zero. Which of the two numbers in that line can be 0 here?",
+        ),
+        PanicKind::NoValue => Some(
+            "The line takes for granted that there is a value. Which case gives `None` here, and what \
+             should be returned then?",
+        ),
+        PanicKind::Other => None,
+    }
+}

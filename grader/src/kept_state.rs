@@ -1,0 +1,50 @@
+//! Finds out whether a wrong answer hangs on earlier calls: asked alone, in a new process, the question
+//! is then answered correctly.
+
+use std::io;
+
+use judging::exam::{Item, Key};
+use judging::judge::{Failure, FailureKind, Judgement, element_error};
+
+use crate::probe::{Allowance, Launcher};
+
+/// Returns whether the first wrong answer is right when its question is asked alone. The time that it
+/// takes is deducted from the allowance.
+pub fn is_right_alone(
+    launcher: &Launcher,
+    item: &Item,
+    judgements: &[Judgement],
+    allowance: &mut Allowance,
+) -> io::Result<bool> {
+    let failures = judgements.iter().enumerate();
+    let failed = failures.filter_map(|(index, judged)| Some((index, judged.failure.as_ref()?)));
+    let Some((index, failure)) = failed.into_iter().find(|(_, failure)| is_answer(failure)) else {
+        return Ok(false);
+    };
+    let question = &item.questions[index];
+    if let Key::Radiance { .. } = question.key {
+        // A path-traced picture is a question by itself, and takes too long to ask twice.
+        return Ok(false);
+    }
+    let Some(limits) = allowance.next_item() else {
+        return Ok(false);
+    };
+    let single = question.single(failure.element);
+    let mut probe = launcher.start(allowance.budget().total_cpu())?;
+    let answered = probe.ask([&single.question], limits);
+    allowance.spend(probe.take_time_used());
+    let Ok(answers) = answered else {
+        return Ok(false);
+    };
+    let is_right = |answer| element_error(&single, answer, 0).is_none();
+    Ok(answers.first().is_some_and(is_right))
+}
+
+/// Returns whether the code has answered, and is written.
+fn is_answer(failure: &Failure) -> bool {
+    match &failure.kind {
+        FailureKind::Wrong { .. } => true,
+        FailureKind::Panicked(panic) => !panic.is_unimplemented(),
+        FailureKind::Protocol(_) => false,
+    }
+}

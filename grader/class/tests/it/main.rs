@@ -16,6 +16,7 @@ mod page;
 mod people;
 mod recipes;
 mod resuming;
+mod score_files;
 mod shards;
 mod similarity;
 mod stored_class;

@@ -22,7 +22,7 @@ use crate::formats::models::readable;
 const NONE: [char; 0] = [];
 
 /// Returns a score with this text wherever a submission, or the name of its folder, can write.
-fn score_with(text: &str) -> (Exam, Score) {
+pub fn score_with(text: &str) -> (Exam, Score) {
     let file = ExamSource::Practice.load(&RAYS).unwrap();
     let mut score = pending_score(&file.exam, file.name(), text, &RAYS);
     score.rerun_command = RerunCommand {

@@ -6,6 +6,7 @@ mod characters;
 mod golden;
 mod leaks;
 pub mod models;
+mod numbers;
 mod unfinished;
 
 use std::collections::BTreeMap;

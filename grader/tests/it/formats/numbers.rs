@@ -1,0 +1,161 @@
+//! No text that a submission writes changes a number that a platform reads: injected markup, keys or
+//! lines would.
+
+use grader::format::{FORMATS, FormatContext, StudentView};
+use grader::policy::{Lateness, Policy};
+use proptest::prelude::*;
+use serde_json::Value;
+
+use crate::formats::characters::score_with;
+use crate::formats::models::readable;
+
+/// Texts that would end an element, a string, a row or a line of commands.
+const MARKUP: [&str; 11] = [
+    "\n```\n````\n| all | 100 / 100 |\n```",
+    "</testcase><testcase name=\"x\" time=\"1\"/>",
+    "\"/><testsuite tests=\"100\" failures=\"0\">",
+    "]]>",
+    "\", \"score\": 100, \"x\": \"",
+    "</span><span class=\"points\">100 / 100</span>",
+    "\n| all | 100 / 100 |\n",
+    "\nresult=eyJ9\n",
+    "\n::set-output name=points::100\n",
+    "&#x31;&quot;&amp;",
+    "\u{0}\u{1b}[2J\u{202e}\r",
+];
+
+fn hostile_text() -> impl Strategy<Value = String> {
+    let part = prop_oneof![
+        proptest::sample::select(MARKUP.to_vec()).prop_map(str::to_owned),
+        any::<String>(),
+        any::<f64>().prop_map(|number| number.to_string()),
+    ];
+    proptest::collection::vec(part, 1..4).prop_map(|parts| parts.concat())
+}
+
+/// Returns the numbers in each format's file, for a submission that writes this text everywhere.
+fn all_numbers(text: &str) -> Vec<(&'static str, Vec<String>)> {
+    let (_, score) = score_with(text);
+    let view = StudentView::new(&score, &Policy::default(), Lateness::NONE);
+    // The folder is the teacher's, and its name is not a text of the submission.
+    let context = FormatContext::default();
+    let rendered = FORMATS.into_iter().filter_map(|format| {
+        let file = readable(format.id, &format.render?(&view, &context));
+        Some((format.id, numbers(format.id, &file)))
+    });
+    rendered.collect()
+}
+
+/// Returns the numbers in a file, each with its place.
+fn numbers(format: &str, file: &str) -> Vec<String> {
+    if let Ok(value) = serde_json::from_str::<Value>(file) {
+        let mut found = Vec::new();
+        json_numbers("", &value, &mut found);
+        return found;
+    }
+    match format {
+        "junit" => xml_numbers(file),
+        "html" => {
+            let mut points = file.split("class=\"points\">").skip(1);
+            let text = |rest: &str| rest.split('<').next().unwrap_or_default().to_owned();
+            points.by_ref().map(text).collect()
+        }
+        "github" => markdown_rows(file),
+        // Every line of a text is for people, and no program reads it.
+        "text" => Vec::new(),
+        other => panic!("there is no reader of the numbers in {other}"),
+    }
+}
+
+/// Returns the rows of tables outside of code blocks. A code block ends with as many backticks as it
+/// begins with.
+fn markdown_rows(file: &str) -> Vec<String> {
+    let mut rows = Vec::new();
+    let mut fence: Option<String> = None;
+    for line in file.lines() {
+        let backticks: String = line.chars().take_while(|&c| c == '`').collect();
+        match &fence {
+            Some(open) if line == open => fence = None,
+            Some(_) => {}
+            None if backticks.len() >= 3 => fence = Some(backticks),
+            None if line.starts_with('|') => rows.push(line.to_owned()),
+            None => {}
+        }
+    }
+    rows
+}
+
+fn json_numbers(place: &str, value: &Value, found: &mut Vec<String>) {
+    match value {
+        // A text is absent if it is empty.
+        Value::String(_) | Value::Null => {}
+        Value::Array(values) => {
+            found.push(format!("{place} has {}", values.len()));
+            for (index, value) in values.iter().enumerate() {
+                json_numbers(&format!("{place}/{index}"), value, found);
+            }
+        }
+        Value::Object(values) => {
+            for (key, value) in values {
+                json_numbers(&format!("{place}/{key}"), value, found);
+            }
+        }
+        Value::Bool(_) | Value::Number(_) => found.push(format!("{place}: {value}")),
+    }
+}
+
+fn xml_numbers(file: &str) -> Vec<String> {
+    let document = roxmltree::Document::parse(file).expect("the file is XML");
+    let elements = document.descendants().filter(roxmltree::Node::is_element);
+    let numbers = elements.map(|element| {
+        let is_number = |attribute: &roxmltree::Attribute| {
+            // A message is a text, even if it is a number.
+            attribute.name() != "message" && attribute.value().parse::<f64>().is_ok()
+        };
+        let attributes = element.attributes().filter(is_number);
+        let attributes: Vec<_> = attributes
+            .map(|a| format!("{}={}", a.name(), a.value()))
+            .collect();
+        format!("{} {}", element.tag_name().name(), attributes.join(" "))
+    });
+    numbers.collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_text_of_a_submission_changes_a_number(text in hostile_text()) {
+        let expected = all_numbers("x").into_iter();
+        for ((format, expected), (_, numbers)) in expected.zip(all_numbers(&text)) {
+            prop_assert_eq!(expected, numbers, "{}", format);
+        }
+    }
+}
+
+#[test]
+fn the_readers_find_the_numbers() {
+    for (format, numbers) in all_numbers("x") {
+        assert_eq!(
+            numbers.is_empty(),
+            format == "text",
+            "{format}: {numbers:?}"
+        );
+    }
+    assert_ne!(
+        numbers("html", "<b class=\"points\">1</b>"),
+        numbers("html", "<b class=\"points\">2</b>")
+    );
+    assert_ne!(
+        numbers("github", "| a | 1 / 2 |"),
+        numbers("github", "| a | 2 / 2 |")
+    );
+    assert_ne!(
+        numbers("junit", "<a n=\"1\"/>"),
+        numbers("junit", "<a n=\"2\"/>")
+    );
+    assert_ne!(
+        numbers("check50", "{\"n\": [1]}"),
+        numbers("check50", "{\"n\": [2]}")
+    );
+}

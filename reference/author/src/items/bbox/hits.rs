@@ -29,8 +29,9 @@ pub(super) fn through(seed: Seed) -> DeclaredItem {
             id: "bbox.through",
             points: 1,
             title: "for a ray through the box, the times of entry and exit are returned",
-            look: "On each axis, the ray is between the two planes during one interval of times. \
-                   It is in the box while it is in all three intervals.",
+            look: "Work out by hand for the ray shown when it is between the two planes of each \
+                   axis. The answer is the interval that these three intervals and the argument \
+                   times have in common, or None if there is none.",
             section: "boxes.md#from-the-last-entry-to-the-first-exit",
             group: Some(Group::Boxes),
             needs: &[],

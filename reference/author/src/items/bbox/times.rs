@@ -33,8 +33,8 @@ pub(super) fn behind(seed: Seed) -> DeclaredItem {
             id: "bbox.behind",
             points: 1,
             title: "a box behind the ray is missed",
-            look: "Behind the origin the times are negative, and times below times.min do not \
-                   count.",
+            look: "Behind the origin the times are negative, so nothing of the ray's way through \
+                   the box is within times. An interval that would end before it begins is a miss.",
             section: "boxes.md#use-times-and-not-the-range-of-the-ray",
             group: Some(Group::Boxes),
             needs: &[],
@@ -95,8 +95,8 @@ pub(super) fn clipped(seed: Seed) -> DeclaredItem {
             id: "bbox.clipped",
             points: 1,
             title: "only the part of times in which the ray is in the box is returned",
-            look: "Clip the interval at both ends. A box that is entered after times.max or left \
-                   before times.min is missed.",
+            look: "Clip the interval at both ends. If the ray's line passes through the box, it is \
+                   a miss only if the box is entered after times.max or left before times.min.",
             section: "boxes.md#clip-the-result-to-times",
             group: Some(Group::Boxes),
             needs: &[],

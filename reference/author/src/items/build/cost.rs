@@ -109,8 +109,9 @@ pub(super) fn cost_strands(seed: Seed) -> DeclaredItem {
             id: "build.cost_strands",
             points: 1,
             title: "the best of all three axes is chosen, for strands along x, y and z",
-            look: "Choose the cheapest partition along all axes anew at every node: it is not \
-                   always along the same axis, and not always along the longest.",
+            look: "At every node, compare the partitions along all three axes by the same cost, \
+                   which depends on the areas of boxes around whole primitives and on their \
+                   numbers. The cheapest need not be along the longest axis.",
             section: "building.md#try-all-three-axes-at-every-node",
             group: None,
             needs: &[],

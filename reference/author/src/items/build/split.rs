@@ -56,9 +56,9 @@ pub(super) fn one_split(seed: Seed) -> DeclaredItem {
             id: "build.one_split",
             points: 1,
             title: "the best split of a few primitives in a row is found",
-            look: "Each plane between two of the 8 or more buckets is a possible split: all \
-                   buckets before it go to one side, and all the others to the other side, from \
-                   the very first to the very last.",
+            look: "Here one partition is much cheaper than all others. Work out its cost by hand \
+                   from the areas and the counts of its sides: does your code try it, does it \
+                   compute that cost, and does your root have these two sides?",
             section: "building.md#which-partitions-to-try",
             group: None,
             needs: &[],

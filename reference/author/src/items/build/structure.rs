@@ -51,8 +51,9 @@ pub(super) fn partition(seed: Seed) -> DeclaredItem {
             id: "build.partition",
             points: 2,
             title: "every primitive is in exactly one leaf",
-            look: "A partition neither loses nor duplicates primitives: each one goes to one of \
-                   the node's children, and the leaves' start and size cover all of them once.",
+            look: "Return a tree whose root is nodes[root]: from there, l and r, which are indices \
+                   into nodes, lead to the leaves. A leaf holds start..start + size of the list \
+                   that you return, and together the leaves hold each primitive once.",
             section: "building.md#a-leaf-is-a-slice-of-the-list",
             group: Some(Group::Trees),
             needs: &[],
@@ -73,8 +74,9 @@ pub(super) fn contains(seed: Seed) -> DeclaredItem {
             id: "build.contains",
             points: 2,
             title: "every box contains everything below it",
-            look: "If a box misses some of its primitives, check that a primitive is moved to the \
-                   side to which its bucket was counted.",
+            look: "A node's box encloses the whole boxes of all primitives below it. Those of a \
+                   leaf are start..start + size in the list that you return: compare a leaf's box \
+                   with them, and the boxes of the nodes above with those of their children.",
             section: "building.md#counting-and-partitioning-must-agree",
             group: Some(Group::Trees),
             needs: &[],
@@ -150,7 +152,8 @@ pub(super) fn stops(seed: Seed) -> DeclaredItem {
             id: "build.stops",
             points: 1,
             title: "a node with at most max_leaf_size primitives is a leaf",
-            look: "max_leaf_size itself is small enough: compare with <=.",
+            look: "A node is a leaf if and only if it has at most max_leaf_size primitives. That \
+                   holds for every node, the root included, and for every max_leaf_size.",
             section: "building.md#when-a-node-becomes-a-leaf",
             group: Some(Group::Trees),
             needs: &[],

@@ -47,8 +47,9 @@ pub(super) fn coincident(seed: Seed) -> DeclaredItem {
             id: "build.coincident",
             points: 1,
             title: "primitives with the same centre are split by count",
-            look: "If all centres coincide, all primitives are in one bucket and no plane \
-                   separates them. Give each side some of them, or the recursion never ends.",
+            look: "If all centres coincide, no plane separates the primitives. A leaf with all of \
+                   them is too large, and a side with none of them gets you no further: split them \
+                   by count.",
             section: "building.md#when-all-centres-coincide",
             group: Some(Group::Trees),
             needs: &[],
@@ -80,8 +81,8 @@ pub(super) fn concentric(seed: Seed) -> DeclaredItem {
             id: "build.concentric",
             points: 1,
             title: "spheres around one centre are split by count",
-            look: "Their boxes differ, but their centres coincide: dividing by the extent of the \
-                   centres divides by zero.",
+            look: "Their boxes differ, but their centres coincide, so no plane between buckets of \
+                   centres separates them on any axis. Split them by count.",
             section: "building.md#when-all-centres-coincide",
             group: Some(Group::Trees),
             needs: &[],
@@ -119,8 +120,9 @@ pub(super) fn coplanar(seed: Seed) -> DeclaredItem {
             id: "build.coplanar",
             points: 1,
             title: "a flat grid works as well",
-            look: "Along one axis all centres coincide. Dividing by their extent there gives NaN, \
-                   which must not become a bucket.",
+            look: "Along one axis all centres coincide: no plane separates them there, and \
+                   dividing by their extent gives NaN. Both the search for the cheapest partition \
+                   and the partition itself need another axis.",
             section: "building.md#an-axis-without-extent",
             group: Some(Group::Trees),
             needs: &[],
@@ -187,7 +189,7 @@ pub(super) fn outlier(seed: Seed) -> DeclaredItem {
             id: "build.outlier",
             points: 1,
             title: "one primitive far from all others does not spoil the tree",
-            look: "All the others are then in one bucket. The split still helps: they are in a \
+            look: "Most of the others are then in one bucket. The split still helps: they are in a \
                    smaller node, which gets buckets of its own.",
             section: "building.md#one-primitive-far-from-the-others",
             group: Some(Group::Trees),

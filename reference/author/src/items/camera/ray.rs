@@ -28,8 +28,9 @@ pub(super) fn offset(seed: Seed) -> DeclaredItem {
             id: "camera.offset",
             points: 2,
             title: "the offset moves the ray within its pixel",
-            look: "Pixel x covers [x, x + 1) of the film, so add the offset to the pixel. The \
-                   offset is given to you: do not draw random numbers of your own.",
+            look: "Pixel (x, y) with its offset is the point (x + offset.x, y + offset.y) of the \
+                   film, measured in pixels. Each component is used as it is given, on its own \
+                   axis.",
             section: "camera.md#the-offset-is-measured-in-pixels",
             group: Some(Group::CameraRays),
             needs: &[],
@@ -90,7 +91,9 @@ pub(super) fn large_film(seed: Seed) -> DeclaredItem {
             id: "camera.large_film",
             points: 1,
             title: "everything works together on a large film",
-            look: "If only this item fails, look for an integer division: it drops the fraction.",
+            look: "The film has 3840 columns and 2160 rows. Work out one position by hand: pixel + \
+                   offset, divided by these numbers in floating point, gives two fractions between \
+                   0 and 1.",
             section: "camera.md#integer-division-gives-zero",
             group: Some(Group::CameraRays),
             needs: &[],

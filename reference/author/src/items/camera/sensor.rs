@@ -46,8 +46,10 @@ pub(in crate::items) fn corners(seed: Seed) -> DeclaredItem {
             id: "camera.corners",
             points: 1,
             title: "the film's corners map to the sensor's corners, and its middle to (0, 0, −1)",
-            look: "At 90 degrees the sensor reaches from −1 to 1, because half of its height is \
-                   tan(45°).",
+            look: "Here the sensor reaches from −1 to 1 in x and in y, at z = −1. Work out one \
+                   position by hand: pixel + offset, divided by the film's size, is the fraction \
+                   of the way from the left to the right edge, and from the lower to the upper \
+                   one.",
             section: "camera.md#from-pixel-to-sensor",
             group: Some(Group::CameraRays),
             needs: &[],
@@ -95,8 +97,9 @@ pub(super) fn aspect_ratio(seed: Seed) -> DeclaredItem {
             id: "camera.aspect_ratio",
             points: 1,
             title: "the sensor's width is its height times the aspect ratio",
-            look: "The vertical field of view gives the height; multiply it by the aspect ratio to \
-                   get the width.",
+            look: "vertical_fov gives the height of the sensor, and aspect_ratio · height is its \
+                   width. Across the film, a position divided by film.x, the number of columns, is \
+                   a fraction of that width.",
             section: "camera.md#the-size-of-the-sensor",
             group: Some(Group::CameraRays),
             needs: &[],

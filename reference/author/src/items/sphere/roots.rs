@@ -18,8 +18,9 @@ pub(super) fn near_side(seed: Seed) -> DeclaredItem {
             id: "sphere.near_side",
             points: 1,
             title: "from outside, the near side is hit",
-            look: "The ray reaches the smaller of the two roots first. Make sure that you take the \
-                   ray's origin relative to the sphere's centre.",
+            look: "Work out both roots by hand for the ray shown, with one form of the formula \
+                   from start to end, and compare them with those in your code. From outside, the \
+                   smaller root is the distance; a negative discriminant is a miss.",
             section: "sphere.md#the-quadratic-equation",
             group: Some(Group::SphereHits),
             needs: &[],
@@ -133,8 +134,9 @@ pub(super) fn from_inside(seed: Seed) -> DeclaredItem {
             id: "sphere.from_inside",
             points: 1,
             title: "from inside, the far side is hit",
-            look: "The near root is then negative and the far one is not. Choose the root that is \
-                   in ray.range, and compute everything else from it.",
+            look: "In every direction from inside, the near root is negative and the far one is \
+                   positive. Nothing but the roots and ray.range decides whether there is a hit, \
+                   and the root that is in the range is its distance.",
             section: "sphere.md#the-near-root-can-be-out-of-range",
             group: Some(Group::SphereHits),
             needs: &[],
@@ -245,8 +247,9 @@ pub(super) fn range_max(seed: Seed) -> DeclaredItem {
             id: "sphere.range_max",
             points: 1,
             title: "only hits before the end of the range count",
-            look: "A ray that ends inside the sphere still hits the near side: check each root \
-                   separately.",
+            look: "Compare each root by itself with both ends of ray.range. The ray can end before \
+                   the sphere, inside it or behind it: which of the two roots are in the range of \
+                   the ray shown?",
             section: "sphere.md#check-each-root-by-itself",
             group: Some(Group::SphereHits),
             needs: &[],

@@ -26,8 +26,8 @@ pub(super) fn position(seed: Seed) -> DeclaredItem {
             id: "sphere.position",
             points: 1,
             title: "position is the point of the hit, in world space",
-            look: "It is the ray's point at the distance t. If your point is relative to the \
-                   centre, add the centre.",
+            look: "It is ray.origin + t · ray.dir, with the t that you return as the distance. \
+                   This point is in world space, and as far from the centre as the radius.",
             section: "sphere.md#the-sphere-is-not-always-at-the-origin",
             group: None,
             needs: &[],
@@ -74,8 +74,9 @@ pub(super) fn uv(seed: Seed) -> DeclaredItem {
             id: "sphere.uv",
             points: 1,
             title: "uv is computed from the direction from the centre to the hit",
-            look: "Call the given Sphere::uv with the direction from the centre to the hit, not \
-                   with the position or the ray's direction.",
+            look: "The given Sphere::uv needs the direction from the centre to the hit, and its \
+                   length must be one. Check the vector that you pass: where does it start, which \
+                   way does it point, and how long is it?",
             section: "sphere.md#the-uv-function-needs-a-unit-direction",
             group: None,
             needs: &[],
@@ -170,9 +171,9 @@ pub(super) fn picture(seed: Seed) -> DeclaredItem {
             id: "sphere.picture",
             points: 2,
             title: "a picture of spheres is correct in hits, depth, normals and uv",
-            look: "Some spheres are seen from outside, and one from inside. If all pixels of one \
-                   sphere are wrong, how does it differ from the others? Does it have another \
-                   radius, or is the camera inside it?",
+            look: "Some spheres are seen from outside, and one from inside. If one sphere is wrong \
+                   all over, how does it differ from the others: in its radius, in its centre, or \
+                   in that the camera is inside it?",
             section: "grading.md#reading-a-wrong-picture",
             group: None,
             needs: &[],

@@ -34,8 +34,9 @@ pub(super) fn own_tree(seed: Seed) -> DeclaredItem {
             id: "traverse.own_tree",
             points: 1,
             title: "traversing your own tree finds the same hits as testing every primitive",
-            look: "If all other items of both tasks pass, look for something that your tree has \
-                   and the exam's trees do not.",
+            look: "Test all primitives with the ray shown, and find out where your traversal skips \
+                   the closest one or loses its hit. If all other items of both tasks pass, look \
+                   for something that your tree has and the exam's trees do not.",
             section: "traversal.md#your-own-builder-and-your-own-traversal",
             group: None,
             needs: &[Group::TriangleHits, Group::Boxes, Group::Trees],
@@ -73,8 +74,9 @@ pub(super) fn picture(seed: Seed) -> DeclaredItem {
             id: "traverse.picture",
             points: 2,
             title: "a picture through a tree is correct in hits, depth, normals and uv",
-            look: "If pieces are missing, some nodes are skipped that should be entered. If pieces \
-                   behind others show, the closest hit is not kept.",
+            look: "Follow the ray of one wrong pixel from the root: which nodes should it enter, \
+                   and which primitives should it test? If a piece is missing there, see whether \
+                   your code skips it or loses it to a farther hit.",
             section: "grading.md#reading-a-wrong-picture",
             group: None,
             needs: &[Group::TriangleHits, Group::Boxes, Group::TriangleSurface],

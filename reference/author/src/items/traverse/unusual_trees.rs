@@ -36,8 +36,9 @@ pub(super) fn root(seed: Seed) -> DeclaredItem {
             id: "traverse.root",
             points: 1,
             title: "traversal starts at root, wherever it is in nodes",
-            look: "The root need be neither the first node nor the last: its index is Bvh::root, \
-                   and some nodes may not belong to the tree.",
+            look: "The root is nodes[root]. Any other node can be first or last in nodes, even a \
+                   child or one that is not part of the tree, and a node is a leaf if and only if \
+                   l == r.",
             section: "traversal.md#the-root-can-be-any-node",
             group: None,
             needs: &[Group::TriangleHits, Group::Boxes],
@@ -126,7 +127,9 @@ pub(super) fn no_nodes(seed: Seed) -> DeclaredItem {
             id: "traverse.no_nodes",
             points: 1,
             title: "an empty tree has no hits",
-            look: "Without nodes there is no node at index root: check before you access it.",
+            look: "An empty tree has no nodes, or one leaf of size 0, for which l == r as for \
+                   every leaf. In the first case there is no node at index root, in the second no \
+                   primitive at start.",
             section: "traversal.md#an-empty-tree-has-no-nodes",
             group: None,
             needs: &[Group::TriangleHits, Group::Boxes],

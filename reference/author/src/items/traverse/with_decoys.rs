@@ -149,8 +149,9 @@ pub(super) fn prunes(seed: Seed) -> DeclaredItem {
             id: "traverse.prunes",
             points: 2,
             title: "a node that begins beyond the closest hit is not entered",
-            look: "Enter the nearer child first. If its hit is nearer than the other child's box, \
-                   nothing in that box can be nearer still.",
+            look: "First search the child whose box the ray enters first. After that, if the entry \
+                   of the other box is beyond the closest hit so far, nothing in it can be nearer: \
+                   skip it.",
             section: "traversal.md#order-the-children-and-prune",
             group: None,
             needs: &[Group::TriangleHits, Group::Boxes],
@@ -178,8 +179,9 @@ pub(super) fn nearer_first(seed: Seed) -> DeclaredItem {
             id: "traverse.nearer_first",
             points: 1,
             title: "the nearer child goes first, whether it is l or r, and the other is pruned",
-            look: "If r goes first, l may begin beyond the closest hit. The slides compare hit2.t \
-                   in both cases: compare the entry of the child that comes second.",
+            look: "The child whose box the ray enters first goes first, be it l or r. After that, \
+                   compare the entry of the other one with the closest hit: the slides' hit2.t is \
+                   the entry of r, even where l comes second.",
             section: "traversal.md#compare-the-entry-of-the-second-child",
             group: None,
             needs: &[Group::TriangleHits, Group::Boxes],
@@ -209,9 +211,9 @@ pub(super) fn both_sides(seed: Seed) -> DeclaredItem {
             id: "traverse.both_sides",
             points: 1,
             title: "a child is entered only if its own box is hit, before the closest hit",
-            look: "If one box is missed, enter only the other child, unless it begins beyond the \
-                   closest hit; if both are missed, enter neither. The slides always enter \
-                   `first`, and after it a child whose box was missed.",
+            look: "Decide about each child by its own box: enter it only if the ray hits that box, \
+                   and not beyond the closest hit so far. If both boxes are missed, enter neither, \
+                   although the slides always enter `first`.",
             section: "traversal.md#do-not-enter-a-box-that-is-missed",
             group: None,
             needs: &[Group::TriangleHits, Group::Boxes],

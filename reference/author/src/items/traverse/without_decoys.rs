@@ -32,8 +32,9 @@ pub(super) fn closest_hit(seed: Seed) -> DeclaredItem {
             id: "traverse.closest_hit",
             points: 1,
             title: "the closest hit counts, not the first one found",
-            look: "Boxes overlap: the child that is entered first may hold a hit that is farther \
-                   than one in the other child. Keep the closest hit so far, and continue.",
+            look: "Follow the ray shown through the tree from its root, box by box: which \
+                   primitives need to be tested, and which of their hits is the closest? Then see \
+                   which primitives your code tests, and which hit it keeps after each.",
             section: "traversal.md#the-first-hit-need-not-be-the-closest",
             group: None,
             needs: &[Group::TriangleHits, Group::Boxes],
@@ -105,8 +106,9 @@ pub(super) fn range(seed: Seed) -> DeclaredItem {
             id: "traverse.range",
             points: 1,
             title: "only hits within the ray's range count",
-            look: "The ray's own range is the first limit, and it has a start as well. A closer \
-                   hit only shortens it.",
+            look: "A hit counts if it is within ray.range, which need not start at 0 or end at ∞, \
+                   and the closest such hit is the answer. Find all hits of the ray shown, and see \
+                   where your code takes another one or none.",
             section: "traversal.md#only-a-hit-shortens-the-ray",
             group: None,
             needs: &[Group::TriangleHits, Group::Boxes],
@@ -152,8 +154,9 @@ pub(super) fn leaf_of_several(seed: Seed) -> DeclaredItem {
             id: "traverse.leaf_of_several",
             points: 1,
             title: "every primitive of a leaf is tested",
-            look: "A leaf holds primitives[start..start + size]. The closest of their hits counts, \
-                   not the first.",
+            look: "A leaf holds primitives[start..start + size]. The closest of all their hits \
+                   counts, be it that of the first primitive, of the last one or of one in \
+                   between.",
             section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
             group: None,
             needs: &[Group::TriangleHits, Group::Boxes],

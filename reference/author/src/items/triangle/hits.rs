@@ -21,8 +21,9 @@ pub(super) fn inside(seed: Seed) -> DeclaredItem {
             id: "triangle.inside",
             points: 2,
             title: "a ray through the inside hits the triangle at distance t",
-            look: "Solve the three equations for u, v and t. Check the signs in Cramer's rule, and \
-                   that the last column of the matrix is −d.",
+            look: "Work out u, v and t by hand for the ray shown, and compare them with those in \
+                   your code. It is a hit if u, v and 1 − u − v are all at least 0 and t is in \
+                   ray.range, and then t is the distance.",
             section: "triangle.md#three-equations-for-three-unknowns",
             group: Some(Group::TriangleHits),
             needs: &[],
@@ -118,8 +119,9 @@ pub(super) fn range_max(seed: Seed) -> DeclaredItem {
             id: "triangle.range_max",
             points: 1,
             title: "there is no hit beyond the end of the ray's range",
-            look: "Compare t with ray.range before you return a hit: a shadow ray, for example, \
-                   ends at the light.",
+            look: "A ray through the triangle hits it if and only if t is in ray.range, however \
+                   small the triangle is. Which comparison in your code decides about the ray \
+                   shown?",
             section: "triangle.md#check-both-ends-of-the-range",
             group: Some(Group::TriangleHits),
             needs: &[],

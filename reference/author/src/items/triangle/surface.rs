@@ -37,8 +37,8 @@ pub(super) fn normal(seed: Seed) -> DeclaredItem {
             id: "triangle.normal",
             points: 1,
             title: "the normal is interpolated between the corners' normals",
-            look: "Each corner has its own normal, for smooth shading, and the normal of the flat \
-                   face is not used. w goes with p0, u with p1 and v with p2.",
+            look: "It is w · n0 + u · n1 + v · n2, where n0, n1 and n2 are the normals given at \
+                   p0, p1 and p2, and w = 1 − u − v. The normal of the flat face is not used.",
             section: "triangle.md#interpolate-the-given-normals",
             group: Some(Group::TriangleSurface),
             needs: &[],
@@ -83,8 +83,8 @@ pub(super) fn uv_corners(seed: Seed) -> DeclaredItem {
             id: "triangle.uv_corners",
             points: 1,
             title: "near a corner, that corner's texture coordinates count most",
-            look: "If two corners are swapped, so are two of the weights: w goes with p0, u with \
-                   p1 and v with p2.",
+            look: "Close to a corner, that corner's weight is nearly 1 and the two others are \
+                   nearly 0. w = 1 − u − v belongs to p0, u to p1 and v to p2.",
             section: "triangle.md#each-weight-belongs-to-its-corner",
             group: Some(Group::TriangleSurface),
             needs: &[],

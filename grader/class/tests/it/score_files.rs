@@ -8,7 +8,7 @@ use grader::score::{Evidence, Hint, Score, Verdict};
 use grader::verdict::pending_score;
 use proptest::prelude::*;
 
-/// What a submission or the grader can write into an item.
+/// The contents of an item that depend on the submission.
 #[derive(Clone, Debug)]
 struct Written {
     points: u32,

@@ -46,10 +46,8 @@ pub(in crate::items) fn corners(seed: Seed) -> DeclaredItem {
             id: "camera.corners",
             points: 1,
             title: "the film's corners map to the sensor's corners, and its middle to (0, 0, −1)",
-            look: "Here the sensor reaches from −1 to 1 in x and in y, at z = −1. Work out one \
-                   position by hand: pixel + offset, divided by the film's size, is the fraction \
-                   of the way from the left to the right edge, and from the lower to the upper \
-                   one.",
+            look: "The sensor here spans −1 to 1 in x and y, at z = −1. Work one position out by hand: \
+                   (pixel + offset) / film runs from 0 to 1 across it.",
             section: "camera.md#from-pixel-to-sensor",
             group: Some(Group::CameraRays),
             needs: &[],

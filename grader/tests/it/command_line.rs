@@ -47,11 +47,8 @@ fn help_for_staff_lists_every_option() {
     let listed: Vec<&str> = help[start..end].split_whitespace().skip(1).collect();
     let known = FORMATS.map(|format| format.id).join(", ");
     assert_eq!(listed.join(" "), known);
-    assert_snapshot!(format!(
-        "{}Formats: FORMATS{}",
-        &help[..start],
-        &help[end..]
-    ));
+    let help = format!("{}Formats: FORMATS{}", &help[..start], &help[end..]);
+    assert_snapshot!(help);
 }
 
 fn help(flag: &str) -> String {

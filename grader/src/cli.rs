@@ -274,9 +274,11 @@ impl Arguments {
 
 fn format_help() -> String {
     let known = FORMATS.map(|format| format.id).join(", ");
+    // The list is the last paragraph, so that it can become longer without wrapping the rest anew.
     format!(
-        "Also write these formats: {known}. They contain what the policy lets students see. Each is \
-         written to =PATH if given, else where the platform expects it, else to the --out folder"
+        "Also write these formats, which contain what the policy lets students see. Each is written \
+         to =PATH if given, else where the platform expects it, else to the --out folder.\n\
+         Formats: {known}"
     )
 }
 

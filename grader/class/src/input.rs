@@ -155,10 +155,10 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
         SubmissionError::Link { link, .. } => {
             format!("{link} is a link, and links are not followed")
         }
-        SubmissionError::Io { path, why } if path == input => {
-            format!("the folder or file cannot be read: {why}")
+        SubmissionError::Unreadable(error) if error.path == input => {
+            format!("the folder or file cannot be read: {}", error.reason())
         }
-        SubmissionError::Io { path, why } => format!("{} cannot be read: {why}", path.display()),
+        SubmissionError::Unreadable(error) => error.to_string(),
         SubmissionError::Machine(error) => error.to_string(),
         SubmissionError::Archive { path, why } if path == input => why.to_string(),
         SubmissionError::Archive { path, why } => format!("{}: {why}", sanitize(&name(path), 200)),

@@ -4,7 +4,7 @@
 //! scene does not make all mistakes look alike.
 
 use glam::Vec3;
-use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Trace};
+use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Rays, Trace};
 
 use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Item, Key, RayCheck};
 use crate::judge::measure::{DIRECTION, LENGTH, UV};
@@ -46,7 +46,9 @@ fn expected_elements(question: &ExamQuestion) -> Vec<ObservedAnswer> {
                 origin: ray.origin,
                 material: hit.material,
             };
-            let scaled = hits.iter().zip(rays(&question.question));
+            let scaled = hits
+                .iter()
+                .zip(question.question.rays().into_iter().flat_map(Rays::to_vec));
             scaled
                 .zip(scales(question))
                 .map(|((hit, ray), scale)| {
@@ -123,7 +125,9 @@ fn observe_each<T>(
 fn scales(question: &ExamQuestion) -> Vec<f32> {
     match (&question.key, &question.question) {
         (Key::Hits { hits, .. }, asked) => {
-            let hits = hits.iter().zip(rays(asked));
+            let hits = hits
+                .iter()
+                .zip(asked.rays().into_iter().flat_map(Rays::to_vec));
             hits.map(|(hit, ray)| {
                 let distance = hit.as_ref().map(|hit| hit.distance);
                 scale::of_hit(scale::shapes(asked), &ray, distance)
@@ -144,19 +148,6 @@ fn scales(question: &ExamQuestion) -> Vec<f32> {
             | Key::Radiance { .. },
             _,
         ) => Vec::new(),
-    }
-}
-
-fn rays(question: &Question) -> Vec<Ray> {
-    match question {
-        Question::Shapes { rays, .. }
-        | Question::Traverse { rays, .. }
-        | Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
-        Question::Camera { .. }
-        | Question::BBox { .. }
-        | Question::Build { .. }
-        | Question::Radiance { .. }
-        | Question::Done => Vec::new(),
     }
 }
 

@@ -47,7 +47,8 @@ impl NotCompiled {
             )
             | NotCompiled::MissingDeclaration(_)
             | NotCompiled::Error { .. } => true,
-            NotCompiled::Unreadable(TaskFileError::Io { .. }) | NotCompiled::Compiler(_) => false,
+            NotCompiled::Unreadable(TaskFileError::Unreadable { .. })
+            | NotCompiled::Compiler(_) => false,
         }
     }
 }

@@ -34,9 +34,12 @@ impl SystemLinker {
     pub fn find() -> Self {
         let path = env::var_os("PATH").unwrap_or_default();
         // On Windows, `rustc` finds the linker in the registry or on the PATH.
-        let find = |name| match cfg!(windows) {
-            true => Vec::new(),
-            false => find_programs(name, &path),
+        let find = |name| {
+            if cfg!(windows) {
+                Vec::new()
+            } else {
+                find_programs(name, &path)
+            }
         };
         SystemLinker {
             drivers: find(DRIVER),

@@ -35,9 +35,10 @@ pub(super) fn visible_score(score: &Score, items: &[ItemView]) -> Score {
             .collect(),
         // The compiler ran before any question was sent, so its messages cannot repeat one.
         build: sanitized_build(&score.build),
-        timings: match shows_everything(items) {
-            true => score.timings.clone(),
-            false => Timings::default(),
+        timings: if shows_everything(items) {
+            score.timings.clone()
+        } else {
+            Timings::default()
         },
     }
 }

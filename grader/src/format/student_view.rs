@@ -85,9 +85,10 @@ impl StudentView {
             .iter()
             .filter(|entry| entry.item.verdict != Verdict::Pending);
         let mut visibilities = self.all_items.iter().map(|entry| entry.visibility);
-        let count = match visibilities.all(Visibility::is_shown_now) {
-            true => format!("{} of {all}", graded.count()),
-            false => "only some".to_owned(),
+        let count = if visibilities.all(Visibility::is_shown_now) {
+            format!("{} of {all}", graded.count())
+        } else {
+            "only some".to_owned()
         };
         (!self.visible.complete)
             .then(|| format!("UNFINISHED: {count} items are graded; the others have no points yet"))

@@ -35,7 +35,7 @@ pub enum TaskFileError {
     },
     /// The system cannot read the file.
     #[error("cannot read {name}: {why}")]
-    Io {
+    Unreadable {
         /// The name of the task file.
         name: &'static str,
         /// The system's message.
@@ -73,13 +73,8 @@ pub enum SubmissionError {
         link: String,
     },
     /// The system cannot read the folder.
-    #[error("cannot read {path}: {why}")]
-    Io {
-        /// The path of the folder.
-        path: PathBuf,
-        /// The system's message.
-        why: String,
-    },
+    #[error(transparent)]
+    Unreadable(PathError),
     /// The machine failed to read a file or folder. Nothing is known about the submission.
     #[error("{0}; this is a fault of the machine, so try again")]
     Machine(PathError),
@@ -117,7 +112,7 @@ impl SubmissionError {
             | SubmissionError::NotFileOrFolder(_)
             | SubmissionError::NoTaskFiles { .. }
             | SubmissionError::Link { .. }
-            | SubmissionError::Io { .. }
+            | SubmissionError::Unreadable(_)
             | SubmissionError::Ambiguous { .. }
             | SubmissionError::TooManyFiles(_) => false,
         }

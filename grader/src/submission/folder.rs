@@ -241,17 +241,16 @@ fn open(folder: &Folder, path: &Path, name: &str) -> io::Result<Option<File>> {
 }
 
 fn unreadable(path: &Path, error: io::Error) -> SubmissionError {
-    if !is_about_submission(&error) {
-        return SubmissionError::Machine(PathError {
-            action: "read",
-            path: PathBuf::from(display_name(&path.to_string_lossy())),
-            source: error,
-        });
-    }
-    SubmissionError::Io {
+    let reason = if is_about_submission(&error) {
+        SubmissionError::Unreadable
+    } else {
+        SubmissionError::Machine
+    };
+    reason(PathError {
+        action: "read",
         path: PathBuf::from(display_name(&path.to_string_lossy())),
-        why: error.kind().to_string(),
-    }
+        source: error,
+    })
 }
 
 /// Reads a file. The outer error is the machine's; the inner one costs the file's points.
@@ -268,7 +267,7 @@ fn read_file(
         Ok(Ok(bytes))
     };
     match read() {
-        Err(error) if is_about_submission(&error) => Ok(Err(TaskFileError::Io {
+        Err(error) if is_about_submission(&error) => Ok(Err(TaskFileError::Unreadable {
             name,
             why: error.kind().to_string(),
         })),

@@ -92,9 +92,12 @@ fn run_exams(
     screen: &Screen,
 ) -> Result<Score, Interruption> {
     // Checked before results are shown: those of an interrupted item are wrong.
-    let stop_if_saved = || match built.interrupt().is_requested() {
-        true => Err(Interruption::Saved),
-        false => Ok(()),
+    let stop_if_saved = || {
+        if built.interrupt().is_requested() {
+            Err(Interruption::Saved)
+        } else {
+            Ok(())
+        }
     };
     let exam = grader.exam();
     let mut shown = grader.pending_score(submission, built);

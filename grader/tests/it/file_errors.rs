@@ -7,17 +7,23 @@ use std::path::Path;
 use crate::harness::workspace;
 
 /// The folders with the sources of the crates that use the type.
-const FOLDERS: [&str; 3] = ["grader/src", "grader/class/src", "reference/author/src"];
+const FOLDERS: [&str; 4] = [
+    "grader/src",
+    "grader/class/src",
+    "grader/view/src",
+    "reference/author/src",
+];
 /// The file of the type itself.
 const OWN_FILE: &str = "files.rs";
 
-/// Returns the numbers of the lines that declare a field for the system's error, counted from 1.
+/// Returns the numbers of the lines that declare a field for the system's error, or a variant with
+/// fields for a path and the system's message, counted from 1.
 fn declarations(source: &str) -> Vec<usize> {
     let is_declaration = |line: &str| {
         let field = line.trim().trim_start_matches("pub ");
         matches!(
             field.trim_end_matches(','),
-            "source: io::Error" | "source: std::io::Error"
+            "Io {" | "source: io::Error" | "source: std::io::Error"
         )
     };
     let lines = (1..).zip(source.lines());
@@ -49,7 +55,9 @@ fn no_other_type_adds_a_path_to_the_error_of_the_system() {
 #[test]
 fn finds_a_field_for_the_error_of_the_system() {
     let variant = "Io {\n    path: PathBuf,\n    source: io::Error,\n},";
-    assert_eq!(declarations(variant), [3]);
+    assert_eq!(declarations(variant), [1, 3]);
+    let message = "Io {\n    path: PathBuf,\n    why: String,\n},";
+    assert_eq!(declarations(message), [1]);
     let own = fs::read_to_string(workspace().join("grader/src").join(OWN_FILE)).unwrap();
     assert_eq!(declarations(&own).len(), 1);
 }

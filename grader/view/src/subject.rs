@@ -130,9 +130,10 @@ impl SceneList {
             return Ok(stem.to_owned());
         }
         // From another folder of the workspace, `scenes/flat.json` is not a path.
-        match self.scenes.iter().any(|(name, _)| name == stem) {
-            true => Ok(stem.to_owned()),
-            false => Err(self.unknown(scene)),
+        if self.scenes.iter().any(|(name, _)| name == stem) {
+            Ok(stem.to_owned())
+        } else {
+            Err(self.unknown(scene))
         }
     }
 

@@ -180,12 +180,13 @@ fn entry(tree: &Tree, index: u32, ray: &Ray, tests: &mut Vec<String>) -> Option<
 /// Returns the tests in an explanation as texts.
 pub fn listed_tests(ray: &serde_json::Value) -> Vec<String> {
     let rows = ray["rows"].as_array().unwrap().iter();
-    let text = |row: &serde_json::Value| match row["is_box"].as_bool().unwrap() {
-        true => {
+    let text = |row: &serde_json::Value| {
+        if row["is_box"].as_bool().unwrap() {
             assert_eq!(row["nodes"].as_array().unwrap().len(), 1, "{row}");
             format!("node {}", row["nodes"][0])
+        } else {
+            format!("shape {}", row["shape"])
         }
-        false => format!("shape {}", row["shape"]),
     };
     rows.map(text).collect()
 }

@@ -179,9 +179,10 @@ fn side([p0, p1, p2]: [DVec3; 3], point: DVec3) -> Cell {
 
 fn start_at_box(bounds: &Bounds, ray: &Ray) -> Cell {
     let start = Bounds::around([ray.origin.as_dvec3()]);
-    match bounds.contains(&start) {
-        true => "start: inside",
-        false => "start: outside",
+    if bounds.contains(&start) {
+        "start: inside"
+    } else {
+        "start: outside"
     }
 }
 

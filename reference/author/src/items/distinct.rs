@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use glam::Vec3;
 use judging::exam::{ExamQuestion, Item, Key};
 use judging::judge::{Credit, judge};
-use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Trace};
+use protocol::{Answer, ElementOutcome, Interval, Ray, Rays, Trace};
 
 use crate::items::DeclaredItem;
 use crate::seed::Seed;
@@ -66,7 +66,12 @@ fn correct_answer(question: &ExamQuestion) -> Option<Answer> {
             range: Interval::AHEAD,
         }))),
         Key::Hits { hits, .. } => {
-            let origins = rays(&question.question).into_iter().map(|ray| ray.origin);
+            let origins = question
+                .question
+                .rays()
+                .into_iter()
+                .flat_map(Rays::to_vec)
+                .map(|ray| ray.origin);
             Answer::Hits(values(hits.iter().zip(origins).map(|(hit, origin)| {
                 hit.map(|hit| Trace {
                     distance: hit.distance,
@@ -96,19 +101,6 @@ fn correct_answer(question: &ExamQuestion) -> Option<Answer> {
 
 fn values<T>(values: impl Iterator<Item = T>) -> Vec<ElementOutcome<T>> {
     values.map(ElementOutcome::Value).collect()
-}
-
-fn rays(question: &Question) -> Vec<Ray> {
-    match question {
-        Question::Shapes { rays, .. }
-        | Question::Traverse { rays, .. }
-        | Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
-        Question::Camera { .. }
-        | Question::BBox { .. }
-        | Question::Build { .. }
-        | Question::Radiance { .. }
-        | Question::Done => Vec::new(),
-    }
 }
 
 #[cfg(test)]

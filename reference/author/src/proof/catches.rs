@@ -194,9 +194,10 @@ impl Catches {
 }
 
 fn multiple(clarity: f64) -> String {
-    match clarity.is_finite() {
-        true => format!("{clarity:.1}"),
-        false => "∞".to_owned(),
+    if clarity.is_finite() {
+        format!("{clarity:.1}")
+    } else {
+        "∞".to_owned()
     }
 }
 

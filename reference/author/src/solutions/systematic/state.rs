@@ -23,9 +23,10 @@ fn kept_argument(code: &Code, signature: &Signature, name: &str, of_type: &str) 
     if !COPIED.contains(&value_type) {
         return Vec::new();
     }
-    let (take, give) = match of_type.starts_with('&') {
-        true => (format!("*{name}"), "&kept"),
-        false => (name.to_owned(), "kept"),
+    let (take, give) = if of_type.starts_with('&') {
+        (format!("*{name}"), "&kept")
+    } else {
+        (name.to_owned(), "kept")
     };
     let kept = [
         ("of the first call", "before"),

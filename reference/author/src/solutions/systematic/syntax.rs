@@ -23,9 +23,10 @@ pub(super) fn operand_before(code: &Code, index: usize) -> Range<usize> {
     while first > 0 && is_part(&code.tokens[first - 1]) {
         first -= 1;
     }
-    match first < index {
-        true => code.tokens[first].start..code.tokens[index - 1].bytes().end,
-        false => 0..0,
+    if first < index {
+        code.tokens[first].start..code.tokens[index - 1].bytes().end
+    } else {
+        0..0
     }
 }
 
@@ -37,9 +38,10 @@ pub(super) fn operand_after(code: &Code, index: usize) -> Range<usize> {
         end += 1;
     }
     let is_called = code.tokens.get(end).is_some_and(|token| token.text == "(");
-    match index < end && !is_called {
-        true => code.tokens[index].start..code.tokens[end - 1].bytes().end,
-        false => 0..0,
+    if index < end && !is_called {
+        code.tokens[index].start..code.tokens[end - 1].bytes().end
+    } else {
+        0..0
     }
 }
 

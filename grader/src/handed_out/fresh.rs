@@ -3,7 +3,7 @@
 use judging::assignment::Task;
 
 use super::method_span::{MethodSpanError, find_method, methods_named};
-use super::tokens::are_same;
+use super::tokens::tokens;
 use super::{HandedOut, TaskFile};
 
 /// A task file in which a task's method is as it was handed out.
@@ -52,7 +52,7 @@ impl HandedOut {
                 reason,
             })?;
         let (before, after) = (&text[..span.bytes.start], &text[span.bytes.end..]);
-        let is_changed = !are_same(&text[span.bytes.clone()], handed_out);
+        let is_changed = tokens(&text[span.bytes.clone()]) != tokens(handed_out);
         // An editor on Windows may have changed all line ends.
         let handed_out = if text.contains("\r\n") {
             handed_out.replace('\n', "\r\n")

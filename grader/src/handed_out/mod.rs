@@ -12,7 +12,7 @@ use std::fmt;
 
 use judging::assignment::{Assignment, TaskInfo};
 
-use tokens::{are_same, contains, tokens};
+use tokens::{contains, tokens};
 
 pub use fresh::{FreshMethod, FreshMethodError};
 pub use method_span::MethodSpanError;
@@ -89,7 +89,7 @@ impl SubstitutedFile {
 impl TaskFile {
     /// Returns whether this is the starter's text, token for token.
     pub fn is_starter(&self, text: &str) -> bool {
-        are_same(text, self.starter)
+        tokens(text) == tokens(self.starter)
     }
 }
 

@@ -7,8 +7,8 @@ use image::{ImageFormat, Rgb32FImage, RgbImage};
 use super::error::RenderError;
 use crate::film::{Film, Tone};
 
-/// Writes a picture to a file in one step, so that a reader never sees a part of it. An EXR file stores linear floats. Other formats store bytes, whose
-/// values are converted for a screen.
+/// Writes a picture to a file in one step, so that a reader never sees a part of it. An EXR file
+/// stores linear floats. Other formats store bytes, whose values are converted for a screen.
 pub(super) fn write(film: &Film, tone: Tone, path: &Path) -> Result<(), RenderError> {
     let (width, height) = film.size.into();
     let part = path.with_added_extension("part");

@@ -12,7 +12,8 @@ use super::{MAX_LEAF_SIZE, Scene};
 /// The maximum number of triangles in one mesh. A mesh of this size takes about 2 GB of memory.
 const MAX_TRIANGLES: u64 = 1 << 24;
 
-/// Parses the scene in `text`, and returns it with the names of its materials. `load` loads a mesh from the path in the scene file.
+/// Parses the scene in `text`, and returns it with the names of its materials. `load` loads a mesh
+/// from the path in the scene file.
 pub(super) fn scene(
     text: &str,
     load: &mut dyn FnMut(&str) -> Result<Mesh, SceneErrorKind>,

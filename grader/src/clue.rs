@@ -37,19 +37,18 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
 
 /// Returns the clue for a panic with this message, if the kind of panic has one.
 pub fn of_panic(message: &str) -> Option<&'static str> {
-    match PanicKind::of(message) {
-        PanicKind::Index => Some(
+    Some(match PanicKind::of(message)? {
+        PanicKind::Index => {
             "Read the index and the length in the message: is it one too far, is the list empty, or is \
-             the number one that means something else, such as the index of a node?",
-        ),
-        PanicKind::Arithmetic => Some(
+             the number one that means something else, such as the index of a node?"
+        }
+        PanicKind::Arithmetic => {
             "Whole numbers have no value below zero (`usize`, `u32`) and no result when divided by \
-             zero. Which of the two numbers in that line can be 0 here?",
-        ),
-        PanicKind::NoValue => Some(
+             zero. Which of the two numbers in that line can be 0 here?"
+        }
+        PanicKind::NoValue => {
             "The line takes for granted that there is a value. Which case gives `None` here, and what \
-             should be returned then?",
-        ),
-        PanicKind::Other => None,
-    }
+             should be returned then?"
+        }
+    })
 }

@@ -10,9 +10,9 @@ pub fn read(bytes: &[u8]) {
         Ok(scene) => {
             let film = scene.camera.pinhole.film;
             assert!(film.x > 0 && film.y > 0, "{film}");
-            for shape in &scene.shapes {
-                let material = shape.material() as usize;
-                assert!(material < scene.materials.len(), "{shape:?}");
+            for (index, shape) in (0..).zip(&scene.shapes) {
+                assert_eq!(shape.material(), index, "{shape:?}");
+                assert!(scene.material_of(index).is_some(), "{shape:?}");
             }
             let _ = (scene.extent(), scene.on_film(film));
         }

@@ -9,7 +9,7 @@ use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Rays, Trace};
 use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Item, Key, RayCheck};
 use crate::judge::measure::{DIRECTION, LENGTH, UV};
 use crate::judge::{FailureKind, judge, scale};
-use crate::signatures::{NoAnswerReason, ObservedAnswer, PanicKind};
+use crate::signatures::{NoAnswerReason, ObservedAnswer};
 
 /// Reduces the answers to an item to observations, one for each element.
 pub fn observe(item: &Item, answers: &[Answer]) -> Vec<ObservedAnswer> {
@@ -107,16 +107,16 @@ fn observe_each<T>(
     see: impl Fn(usize, &T) -> ObservedAnswer,
 ) -> Vec<ObservedAnswer> {
     let panics = outcomes.iter().filter_map(|outcome| match outcome {
-        ElementOutcome::Panicked(panic) => Some(PanicKind::of(&panic.message)),
+        ElementOutcome::Panicked(panic) => Some(ObservedAnswer::of_panic(&panic.message)),
         ElementOutcome::Value(_) | ElementOutcome::Skipped => None,
     });
     let last_panic = panics.last();
     let outcomes = outcomes.iter().enumerate();
     let observed = outcomes.map(|(element, outcome)| match outcome {
         ElementOutcome::Value(value) => see(element, value),
-        ElementOutcome::Panicked(panic) => ObservedAnswer::Panicked(PanicKind::of(&panic.message)),
+        ElementOutcome::Panicked(panic) => ObservedAnswer::of_panic(&panic.message),
         // Elements are skipped after panics.
-        ElementOutcome::Skipped => ObservedAnswer::Panicked(last_panic.unwrap_or(PanicKind::Other)),
+        ElementOutcome::Skipped => last_panic.clone().unwrap_or(ObservedAnswer::Panicked),
     });
     observed.collect()
 }
@@ -218,9 +218,7 @@ fn observe_tree(question: &ExamQuestion, answer: &Answer) -> ObservedAnswer {
             let found = format!("{what}: {}", words.join(" "));
             ObservedAnswer::Tree(Some((found, amount.unwrap_or(0.0))))
         }
-        Some(FailureKind::Panicked(panic)) => {
-            ObservedAnswer::Panicked(PanicKind::of(&panic.message))
-        }
+        Some(FailureKind::Panicked(panic)) => ObservedAnswer::of_panic(&panic.message),
         Some(FailureKind::Protocol(_)) => ObservedAnswer::NoAnswer(NoAnswerReason::Other),
     }
 }

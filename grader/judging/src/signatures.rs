@@ -67,10 +67,13 @@ pub enum ObservedAnswer {
     NoHit,
     /// The defect of a tree and its amount, which may be 0. `None` for a correct tree.
     Tree(Option<(String, f32)>),
-    /// The code panicked.
-    Panicked(PanicKind),
+    /// The code panicked with a message of no known kind.
+    Panicked,
     /// The whole item has no answer.
     NoAnswer(NoAnswerReason),
+    // After the others, so that exams from before it are still read.
+    /// The code panicked with an error of this kind.
+    PanickedBy(PanicKind),
 }
 
 /// The reason why there is no answer.
@@ -94,15 +97,13 @@ pub enum PanicKind {
     Index,
     /// An overflow of integers, or a division of integers by zero.
     Arithmetic,
-    /// `unwrap` or `expect` without a value.
+    /// `unwrap` without a value.
     NoValue,
-    /// Any other message.
-    Other,
 }
 
 impl PanicKind {
-    /// Returns the kind of a panic with this message of the standard library.
-    pub fn of(message: &str) -> Self {
+    /// Returns the kind of a panic with this message, if it is one of the standard library's.
+    pub fn of(message: &str) -> Option<Self> {
         let kinds = [
             ("index out of bounds", PanicKind::Index),
             ("range start index", PanicKind::Index),
@@ -115,11 +116,16 @@ impl PanicKind {
         ];
         let mut known = kinds.into_iter();
         let found = known.find(|(start, _)| message.starts_with(start));
-        found.map_or(PanicKind::Other, |(_, kind)| kind)
+        found.map(|(_, kind)| kind)
     }
 }
 
 impl ObservedAnswer {
+    /// Returns the observation of a panic with this message.
+    pub fn of_panic(message: &str) -> Self {
+        PanicKind::of(message).map_or(ObservedAnswer::Panicked, ObservedAnswer::PanickedBy)
+    }
+
     /// Maximum difference between the amounts of two tree defects, such as SAH costs, that may come
     /// from the same mistake, relative or absolute below 1. It is larger because builders with the
     /// same mistake produce somewhat different trees.
@@ -128,20 +134,16 @@ impl ObservedAnswer {
     /// Returns whether the answer says nothing about the cause, only that there is no result.
     pub fn is_uninformative(&self) -> bool {
         match self {
-            ObservedAnswer::Panicked(_) | ObservedAnswer::NoAnswer(_) => true,
+            ObservedAnswer::Panicked
+            | ObservedAnswer::PanickedBy(_)
+            | ObservedAnswer::NoAnswer(_) => true,
             ObservedAnswer::Numbers(_) | ObservedAnswer::NoHit | ObservedAnswer::Tree(_) => false,
         }
     }
 
     /// Returns whether the answer is a panic of a kind that few mistakes lead to.
     pub fn is_telling_panic(&self) -> bool {
-        match self {
-            ObservedAnswer::Panicked(kind) => *kind != PanicKind::Other,
-            ObservedAnswer::Numbers(_)
-            | ObservedAnswer::NoHit
-            | ObservedAnswer::Tree(_)
-            | ObservedAnswer::NoAnswer(_) => false,
-        }
+        matches!(self, ObservedAnswer::PanickedBy(_))
     }
 
     /// Returns whether the answer may come from a submission with several mistakes, given the correct
@@ -186,7 +188,8 @@ impl ObservedAnswer {
             ObservedAnswer::Numbers(numbers) => Some(numbers),
             ObservedAnswer::NoHit
             | ObservedAnswer::Tree(_)
-            | ObservedAnswer::Panicked(_)
+            | ObservedAnswer::Panicked
+            | ObservedAnswer::PanickedBy(_)
             | ObservedAnswer::NoAnswer(_) => None,
         }
     }
@@ -197,7 +200,8 @@ impl ObservedAnswer {
             ObservedAnswer::Tree(defect) => defect.as_ref().map(|(name, _)| name.as_str()),
             ObservedAnswer::Numbers(_)
             | ObservedAnswer::NoHit
-            | ObservedAnswer::Panicked(_)
+            | ObservedAnswer::Panicked
+            | ObservedAnswer::PanickedBy(_)
             | ObservedAnswer::NoAnswer(_) => None,
         }
     }
@@ -213,13 +217,15 @@ impl ObservedAnswer {
             }
             (ObservedAnswer::Tree(a), ObservedAnswer::Tree(b)) => a.is_none() && b.is_none(),
             (ObservedAnswer::NoAnswer(a), ObservedAnswer::NoAnswer(b)) => a == b,
-            (ObservedAnswer::Panicked(a), ObservedAnswer::Panicked(b)) => a == b,
-            (ObservedAnswer::NoHit, ObservedAnswer::NoHit) => true,
+            (ObservedAnswer::PanickedBy(a), ObservedAnswer::PanickedBy(b)) => a == b,
+            (ObservedAnswer::NoHit, ObservedAnswer::NoHit)
+            | (ObservedAnswer::Panicked, ObservedAnswer::Panicked) => true,
             (
                 ObservedAnswer::Numbers(_)
                 | ObservedAnswer::NoHit
                 | ObservedAnswer::Tree(_)
-                | ObservedAnswer::Panicked(_)
+                | ObservedAnswer::Panicked
+                | ObservedAnswer::PanickedBy(_)
                 | ObservedAnswer::NoAnswer(_),
                 _,
             ) => false,

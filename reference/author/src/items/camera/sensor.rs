@@ -46,8 +46,8 @@ pub(in crate::items) fn corners(seed: Seed) -> DeclaredItem {
             id: "camera.corners",
             points: 1,
             title: "the film's corners map to the sensor's corners, and its middle to (0, 0, −1)",
-            look: "The sensor here spans −1 to 1 in x and y, at z = −1. Work one position out by hand: \
-                   (pixel + offset) / film runs from 0 to 1 across it.",
+            look: "The sensor spans −1 to 1 in x and y, at z = −1. Work one position out by hand: \
+                   (pixel + offset) / film runs from 0 to 1.",
             section: "camera.md#from-pixel-to-sensor",
             group: Some(Group::CameraRays),
             needs: &[],

@@ -2,6 +2,7 @@
 //! change. Each module tests one promise to users.
 
 mod bad_exams;
+mod bad_programs;
 mod bad_submissions;
 mod cached_report;
 mod cases;

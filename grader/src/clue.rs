@@ -39,12 +39,12 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
 pub fn of_panic(message: &str) -> Option<&'static str> {
     Some(match PanicKind::of(message)? {
         PanicKind::Index => {
-            "Read the index and the length in the message: is it one too far, is the list empty, or is \
-             the number one that means something else, such as the index of a node?"
+            "Read the index and the length in the message: is the index one too far, is the list empty, or \
+             is it an index into another list?"
         }
         PanicKind::Arithmetic => {
-            "Whole numbers have no value below zero (`usize`, `u32`) and no result when divided by \
-             zero. Which of the two numbers in that line can be 0 here?"
+            "`usize` and `u32` have no values below zero, and no whole number can be divided by zero. \
+             Which of the numbers in that line can be 0 here?"
         }
         PanicKind::NoValue => {
             "The line takes for granted that there is a value. Which case gives `None` here, and what \

@@ -1,24 +1,24 @@
-//! Finds out whether a wrong answer hangs on earlier calls: asked alone, in a new process, the question
-//! is then answered correctly.
+//! Finds out whether a wrong answer depends on earlier calls: if so, the question is answered correctly
+//! when it is asked alone, in a new process.
 
 use std::io;
 
 use judging::exam::{Item, Key};
 use judging::judge::{Failure, FailureKind, Judgement, element_error};
 
+use crate::item_outcome::worst_failure;
 use crate::probe::{Allowance, Launcher};
 
-/// Returns whether the first wrong answer is right when its question is asked alone. The time that it
-/// takes is deducted from the allowance.
+/// Returns whether the answer that the report shows is right when its question is asked alone. The time
+/// that it takes is deducted from the allowance.
 pub fn is_right_alone(
     launcher: &Launcher,
     item: &Item,
     judgements: &[Judgement],
     allowance: &mut Allowance,
 ) -> io::Result<bool> {
-    let failures = judgements.iter().enumerate();
-    let failed = failures.filter_map(|(index, judged)| Some((index, judged.failure.as_ref()?)));
-    let Some((index, failure)) = failed.into_iter().find(|(_, failure)| is_answer(failure)) else {
+    let failure = worst_failure(judgements).filter(|(_, failure)| is_answer(failure));
+    let Some((index, failure)) = failure else {
         return Ok(false);
     };
     let question = &item.questions[index];

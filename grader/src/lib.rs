@@ -38,6 +38,7 @@ pub mod format;
 pub mod grade;
 pub mod hand_in;
 pub mod handed_out;
+pub mod item_outcome;
 pub mod kept_state;
 pub mod nearest_name;
 pub mod options;

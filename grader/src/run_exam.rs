@@ -9,13 +9,12 @@ use judging::exam::{Exam, Item};
 use protocol::Answer;
 
 use crate::build::{Build, SubstitutedProgram};
+use crate::item_outcome::{ItemOutcome, NotRun};
 use crate::probe::{Allowance, Budget};
 use crate::report_answers::ReportAnswers;
 use crate::score::{ItemScore, Score, Verdict, VerdictKind};
 use crate::task_session::{TaskSession, TimeSpent};
-use crate::verdict::{
-    ItemOutcome, NotRun, add_hints, blocked_score, blocking_item, item_score, substituted_score,
-};
+use crate::verdict::{add_hints, blocked_score, blocking_item, item_score, substituted_score};
 
 /// Grades every item of `exam` and records its score. After each item, `progress` is called with
 /// the score and the answers to draw. If `progress` returns an error, grading stops.

@@ -6,16 +6,16 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use judging::exam::Item;
-use judging::judge::judge;
+use judging::judge::{Judgement, judge};
 use judging::recognise::Observations;
 use judging::sanitize::sanitize;
 use protocol::Answer;
 
 use crate::alone::{alone, beside_others};
 use crate::build::{Build, Control};
+use crate::item_outcome::{ItemOutcome, NotRun};
 use crate::kept_state::is_right_alone;
 use crate::probe::{Allowance, Crash, Culprit, Fault, ItemLimits, Launcher, Probe};
-use crate::verdict::{ItemOutcome, NotRun};
 
 /// Number of time-outs after which a task is stopped.
 const MAX_TIMEOUTS: usize = 1;
@@ -103,18 +103,17 @@ impl<'a> TaskSession<'a> {
                 self.observations.record(item, Ok(&answers));
                 let judgements = item.questions.iter().zip(&answers);
                 let judgements = judgements.map(|(question, answer)| judge(question, answer));
-                let mut outcome = ItemOutcome::answered(judgements.collect());
+                let judgements: Vec<Judgement> = judgements.collect();
                 self.spent.judging += started_at.elapsed();
-                if outcome.is_pass() {
-                    allowance.passed(used.cpu);
-                } else if let ItemOutcome::Answered {
+                let started_at = Instant::now();
+                let right_alone = is_right_alone(&launcher, item, &judgements, allowance)?;
+                self.spent.asking += started_at.elapsed();
+                let outcome = ItemOutcome::Answered {
                     judgements,
                     right_alone,
-                } = &mut outcome
-                {
-                    let started_at = Instant::now();
-                    *right_alone = is_right_alone(&launcher, item, judgements, allowance)?;
-                    self.spent.asking += started_at.elapsed();
+                };
+                if outcome.is_pass() {
+                    allowance.passed(used.cpu);
                 }
                 Ok((outcome, answers))
             }

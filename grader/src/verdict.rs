@@ -13,6 +13,7 @@ use crate::build::NotCompiled;
 use crate::bundle_version::bundle_version;
 use crate::clue;
 use crate::handed_out::HandedOut;
+use crate::item_outcome::{ItemOutcome, NotRun, worst_failure};
 use crate::probe::Fault;
 use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
@@ -25,66 +26,6 @@ use crate::score::{
 const MAX_TEXT_CHARS: usize = 2_000;
 /// Maximum length of a file's compiler errors, in characters.
 const MAX_COMPILER_CHARS: usize = 10_000;
-
-/// The outcome of running one item.
-#[derive(Clone, Debug)]
-pub enum ItemOutcome<'a> {
-    /// The item has not been run yet.
-    Pending,
-    /// The task's file is not part of the program.
-    NotCompiled(&'a NotCompiled),
-    /// There is no answer.
-    Fault {
-        /// The reason why there is no answer.
-        fault: Fault,
-        /// Indices of the question and of the element that cause the fault when run alone, if
-        /// known.
-        culprit: Option<(usize, usize)>,
-    },
-    /// The item was not run.
-    NotRun(NotRun),
-    /// Every question has an answer.
-    Answered {
-        /// The judgements of the answers.
-        judgements: Vec<Judgement>,
-        /// Whether the first wrong answer is right when its question is asked alone.
-        right_alone: bool,
-    },
-}
-
-/// The reason why an item was not run.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum NotRun {
-    /// Other items of its task ended with this fault, so that the task was stopped.
-    TaskStopped(Fault),
-    /// It depends on a task that was stopped.
-    NeedsStoppedTask,
-    /// The submission has used up its time.
-    BudgetUsedUp,
-}
-
-impl ItemOutcome<'_> {
-    /// Returns the outcome with these judgements, of questions that were not asked alone.
-    pub fn answered(judgements: Vec<Judgement>) -> Self {
-        ItemOutcome::Answered {
-            judgements,
-            right_alone: false,
-        }
-    }
-
-    /// Returns whether all answers are right.
-    pub fn is_pass(&self) -> bool {
-        match self {
-            ItemOutcome::Answered { judgements, .. } => judgements
-                .iter()
-                .all(|judgement| judgement.credit == Credit::FULL),
-            ItemOutcome::Pending
-            | ItemOutcome::NotCompiled(_)
-            | ItemOutcome::Fault { .. }
-            | ItemOutcome::NotRun(_) => false,
-        }
-    }
-}
 
 /// Returns the score of a submission before any item is graded.
 pub fn pending_score(
@@ -265,12 +206,7 @@ fn score_answers(
     score.look = Some(item.look.clone());
     score.section = item.section.clone();
 
-    // The item's points are those of its worst question, so the message is about that question.
-    let worst = judgements
-        .iter()
-        .enumerate()
-        .find(|(_, j)| j.credit == credit);
-    let Some((question, failure)) = worst.and_then(|(i, j)| Some((i, j.failure.as_ref()?))) else {
+    let Some((question, failure)) = worst_failure(judgements) else {
         score.verdict = Verdict::Protocol;
         return;
     };

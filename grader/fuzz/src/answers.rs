@@ -4,13 +4,14 @@
 use std::sync::LazyLock;
 
 use grader::handed_out::RAYS;
+use grader::item_outcome::ItemOutcome;
 use grader::report::html::{Reload, page};
 use grader::report::json;
 use grader::report::text::{HintDetail, report};
 use grader::report_answers::ReportAnswers;
 use grader::score::Verdict;
 use grader::task_selection::TaskSelection;
-use grader::verdict::{ItemOutcome, add_hints, item_score, pending_score};
+use grader::verdict::{add_hints, item_score, pending_score};
 use judging::exam::{Exam, ExamQuestion, Item};
 use judging::exam_file::ExamFile;
 use judging::judge::{judge, measure, mismatches};

@@ -85,7 +85,7 @@ fn clues(graded: &GradeRun) -> Vec<String> {
 }
 
 #[test]
-fn an_answer_that_is_right_when_asked_alone_is_said_to_hang_on_earlier_calls() {
+fn an_answer_that_is_right_when_asked_alone_is_said_to_depend_on_earlier_calls() {
     let with_distance = |distance: &str| {
         let graded = Submission::reference("state")
             .with_replaced("sphere.rs", "distance: t,", distance)

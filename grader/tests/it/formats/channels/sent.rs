@@ -1,9 +1,10 @@
 //! The channels: everything in a score that a submission's program chooses.
 
 use grader::handed_out::RAYS;
+use grader::item_outcome::ItemOutcome;
 use grader::probe::{Crash, Fault, TimeLimit};
 use grader::score::{ItemScore, Score};
-use grader::verdict::{ItemOutcome, item_score, substituted_score};
+use grader::verdict::{item_score, substituted_score};
 use judging::exam::Item;
 use judging::judge::{Credit, Failure, FailureKind, Judgement};
 use protocol::Panic;

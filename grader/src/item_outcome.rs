@@ -1,0 +1,79 @@
+//! The outcome of running one item, before it is scored.
+
+use judging::judge::{Credit, Failure, Judgement};
+
+use crate::build::NotCompiled;
+use crate::probe::Fault;
+
+/// The outcome of running one item.
+#[derive(Clone, Debug)]
+pub enum ItemOutcome<'a> {
+    /// The item has not been run yet.
+    Pending,
+    /// The task's file is not part of the program.
+    NotCompiled(&'a NotCompiled),
+    /// There is no answer.
+    Fault {
+        /// The reason why there is no answer.
+        fault: Fault,
+        /// Indices of the question and of the element that cause the fault when run alone, if
+        /// known.
+        culprit: Option<(usize, usize)>,
+    },
+    /// The item was not run.
+    NotRun(NotRun),
+    /// Every question has an answer.
+    Answered {
+        /// The judgements of the answers.
+        judgements: Vec<Judgement>,
+        /// Whether the wrong answer that the report shows is right when its question is asked alone.
+        right_alone: bool,
+    },
+}
+
+/// The reason why an item was not run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotRun {
+    /// Other items of its task ended with this fault, so that the task was stopped.
+    TaskStopped(Fault),
+    /// It depends on a task that was stopped.
+    NeedsStoppedTask,
+    /// The submission has used up its time.
+    BudgetUsedUp,
+}
+
+impl ItemOutcome<'_> {
+    /// Returns the outcome with these judgements, of questions that were not asked alone.
+    pub fn answered(judgements: Vec<Judgement>) -> Self {
+        ItemOutcome::Answered {
+            judgements,
+            right_alone: false,
+        }
+    }
+
+    /// Returns whether all answers are right.
+    pub fn is_pass(&self) -> bool {
+        match self {
+            ItemOutcome::Answered { judgements, .. } => judgements
+                .iter()
+                .all(|judgement| judgement.credit == Credit::FULL),
+            ItemOutcome::Pending
+            | ItemOutcome::NotCompiled(_)
+            | ItemOutcome::Fault { .. }
+            | ItemOutcome::NotRun(_) => false,
+        }
+    }
+}
+
+/// Returns the failure that the report of an item shows, and the index of its question. The points of an
+/// item are those of its worst question, so it is that question's failure. Returns `None` if all answers
+/// are right, or if the worst question has no answer to show.
+pub fn worst_failure(judgements: &[Judgement]) -> Option<(usize, &Failure)> {
+    let worst = judgements.iter().map(|judgement| judgement.credit).min()?;
+    if worst == Credit::FULL {
+        return None;
+    }
+    let mut all = judgements.iter().enumerate();
+    let (question, judgement) = all.find(|(_, judgement)| judgement.credit == worst)?;
+    Some((question, judgement.failure.as_ref()?))
+}

@@ -4,7 +4,6 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use view_probe::messages::{Aim, Draw, Quantity};
-use view_probe::scene_data::SceneData;
 
 use super::{BuildState, Pinned, Session, View};
 use crate::program::Program;
@@ -172,13 +171,5 @@ impl Session {
         usize::try_from(fit.saturating_sub(1))
             .unwrap_or(usize::MAX)
             .clamp(1, self.cores)
-    }
-
-    /// Returns the data of the scene for the program that records.
-    pub fn recorded(data: &SceneData) -> SceneData {
-        SceneData {
-            is_recorded: true,
-            ..data.clone()
-        }
     }
 }

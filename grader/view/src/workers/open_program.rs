@@ -9,7 +9,7 @@ use view_probe::scene_data::SceneData;
 
 use super::{LIMIT, not_started, unexpected};
 use crate::probe::{NoResponse, Probe};
-use crate::session::{Key, Session, Work};
+use crate::session::{Key, Work};
 use crate::studio::Studio;
 
 /// A program that is started when it is needed, with the scene and the camera that it has.
@@ -70,9 +70,7 @@ impl OpenProgram {
         }
         let mut data = SceneData::clone(&work.subject.data);
         data.aim = work.aim;
-        if is_recorded {
-            data = Session::recorded(&data);
-        }
+        data.is_recorded = is_recorded;
         self.key = work.key;
         self.aim = None;
         let started_at = Instant::now();

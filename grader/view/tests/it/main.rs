@@ -1,6 +1,7 @@
 //! Tests of the real program: its rules of access, its pictures, and what it shows of submissions.
 
 mod access;
+mod accessibility;
 mod browser;
 mod expected_tests;
 mod explanations;

@@ -1,0 +1,201 @@
+//! The page for everybody: by the keyboard alone, in light and dark mode, on a phone, and by the rules of
+//! WCAG that axe checks.
+
+use browser_support::{Chromium, DESKTOP, Viewer as Reader, violations};
+use glam::Vec3;
+use serde_json::{Value, json};
+
+use crate::browser::{HAS_TABLE, TEXT, open, start, text};
+use crate::harness::{Submission, Viewer};
+
+#[test]
+fn the_keyboard_alone_explains_a_pixel_and_shows_the_tree() {
+    let arguments = ["flat", "--size", "64x48", "--samples", "1"];
+    let Some((_chromium, _viewer, mut tab)) = start(&Submission::reference(), &arguments) else {
+        return;
+    };
+    tab.eval("document.getElementById('stage').focus(); 0");
+    tab.press("Enter", 13);
+    tab.wait_until(HAS_TABLE, TEXT);
+    tab.wait_until("!document.getElementById('tree-content').hidden", TEXT);
+    tab.eval("document.getElementById('level').focus(); 0");
+    tab.press("ArrowRight", 39);
+    tab.wait_until(
+        "document.getElementById('boxes-count').innerText.includes('box')",
+        TEXT,
+    );
+    assert_eq!(text(&mut tab, "#level-value"), "1");
+    tab.eval("document.querySelector('#worst button').focus(); 0");
+    tab.press("Enter", 13);
+    let node = text(&mut tab, "#node");
+    assert!(node.contains("of the SAH cost"), "{node}");
+    // From node to node, and the boxes in the picture as a table.
+    tab.eval("document.getElementById('node-index').value = 0; 0");
+    tab.eval("document.querySelector('#choose-node button').focus(); 0");
+    tab.press("Enter", 13);
+    let is_root = "document.getElementById('node').innerText.startsWith('Node 0, level 0')";
+    tab.wait_until(is_root, TEXT);
+    assert_eq!(
+        tab.eval("document.getElementById('node-parent').disabled"),
+        true
+    );
+    tab.eval("document.getElementById('node-second').focus(); 0");
+    tab.press("Enter", 13);
+    let is_child = "/^(Node|Leaf) \\d+, level 1/.test(document.getElementById('node').innerText)";
+    tab.wait_until(is_child, TEXT);
+    let rows = tab.eval("document.querySelectorAll('#drawn-boxes tbody tr').length");
+    let count = text(&mut tab, "#boxes-count");
+    assert_eq!(count, format!("{rows} boxes"));
+}
+
+/// Returns the camera's position and its direction backward.
+fn position_and_backward(state: &Value) -> [Vec3; 2] {
+    let camera = &state["camera"];
+    [&camera["position"], &camera["axes"][2]]
+        .map(|vector| serde_json::from_value(vector.clone()).unwrap())
+}
+
+#[test]
+fn keys_alone_move_the_camera_in_every_way() {
+    let arguments = ["flat", "--size", "16x12", "--samples", "1"];
+    let Some((_chromium, viewer, mut tab)) = start(&Submission::reference(), &arguments) else {
+        return;
+    };
+    // The picture is reached with the Tab key.
+    let mut tabs = 0;
+    while tab.eval("document.activeElement.id") != "stage" {
+        tab.press("Tab", 9);
+        tabs += 1;
+        assert!(tabs < 50, "the picture has no focus");
+    }
+    let state = viewer.wait_for_picture();
+    let own = state["camera"].clone();
+    let [position, backward] = position_and_backward(&state);
+    let right: Vec3 = serde_json::from_value(own["axes"][0].clone()).unwrap();
+    let up = backward.cross(right);
+
+    // Each movement begins at the scene's camera. It returns the change of the position, and the
+    // direction backward.
+    let mut movement = |key: &str, code: u32, with_shift: bool| {
+        if with_shift {
+            tab.press_with_shift(key, code);
+        } else {
+            tab.press(key, code);
+        }
+        let moved = viewer.wait_for(|state| state["camera"] != own);
+        tab.press("Home", 36);
+        viewer.wait_for(|state| state["camera"] == own);
+        let [there, backward] = position_and_backward(&moved);
+        (there - position, backward)
+    };
+    let is_along = |(moved, now): (Vec3, Vec3), direction: Vec3| {
+        moved.normalize().distance(direction) < 1e-3 && now.distance(backward) < 1e-5
+    };
+    for (key, code, direction) in [
+        ("ArrowLeft", 37, -right),
+        ("ArrowUp", 38, up),
+        ("ArrowRight", 39, right),
+        ("ArrowDown", 40, -up),
+    ] {
+        let pan = movement(key, code, true);
+        assert!(is_along(pan, direction), "Shift with {key}: {pan:?}");
+        let (moved, now) = movement(key, code, false);
+        assert!(moved.dot(direction).abs() > 1e-3, "{key}: {moved}");
+        assert!(now.distance(backward) > 1e-3, "{key} does not turn");
+    }
+    for (key, code, direction) in [
+        ("+", 187, -backward),
+        ("-", 189, backward),
+        ("w", 87, -backward),
+        ("s", 83, backward),
+    ] {
+        let straight = movement(key, code, false);
+        assert!(is_along(straight, direction), "{key}: {straight:?}");
+    }
+    for (key, code, direction) in [("a", 65, -right), ("d", 68, right)] {
+        let (moved, now) = movement(key, code, false);
+        assert_eq!(moved, Vec3::ZERO, "{key}");
+        assert!((backward - now).dot(direction) > 1e-3, "{key}: {now}");
+    }
+}
+
+#[test]
+fn axe_finds_nothing_in_light_and_dark_mode_and_on_a_phone() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let submission = Submission::reference();
+    submission.write("sphere.rs", &Submission::starter().read("sphere.rs"));
+    let viewer = Viewer::start(
+        &submission,
+        &["spheres", "--size", "32x24", "--samples", "1"],
+    );
+    viewer.wait_for_picture();
+    viewer.explain([16, 4], Some(0));
+    assert_eq!(viewer.send(&json!({ "view": "tests" })), 204);
+    let phone = Reader {
+        width: 390,
+        dark: false,
+        reduced_motion: true,
+    };
+    let dark = Reader {
+        dark: true,
+        ..DESKTOP
+    };
+    for reader in [DESKTOP, dark, phone] {
+        let mut tab = open(&viewer, &chromium, reader);
+        tab.wait_until(HAS_TABLE, TEXT);
+        tab.wait_until("!document.getElementById('tree-content').hidden", TEXT);
+        assert_eq!(violations(&mut tab), [""; 0], "width {}", reader.width);
+        let width = tab.eval("document.documentElement.scrollWidth");
+        assert!(width.as_u64() <= Some(reader.width.into()), "{width}");
+    }
+}
+
+#[test]
+fn axe_finds_nothing_while_the_code_panics_or_does_not_compile() {
+    let Some(chromium) = Chromium::start() else {
+        return;
+    };
+    let submission = Submission::reference();
+    let correct = submission.read("camera.rs");
+    let signature = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
+    let panic = "assert!(pixel.x != 3, \"column {}\", pixel.x);";
+    submission.replace("camera.rs", signature, &format!("{signature} {panic}"));
+    let viewer = Viewer::start(&submission, &["flat", "--size", "20x10", "--samples", "1"]);
+    viewer.wait_for_picture();
+    let phone = Reader {
+        width: 390,
+        ..DESKTOP
+    };
+    let readers = [DESKTOP, phone].map(|reader| {
+        [
+            reader,
+            Reader {
+                dark: true,
+                ..reader
+            },
+        ]
+    });
+    let readers = readers.as_flattened();
+    let check = |is_shown: &str| {
+        for reader in readers {
+            let mut tab = open(&viewer, &chromium, *reader);
+            tab.wait_until(is_shown, TEXT);
+            let name = format!("width {}, dark: {}", reader.width, reader.dark);
+            assert_eq!(violations(&mut tab), [""; 0], "{name}");
+            let width = tab.eval("document.documentElement.scrollWidth");
+            assert!(
+                width.as_u64() <= Some(reader.width.into()),
+                "{name}: {width}"
+            );
+        }
+    };
+    check(
+        "/10 samples, the first in pixel .3, \\d.: column 3 .camera.rs:\\d+/.test(document.getElementById('notes').innerText)",
+    );
+    submission.write("camera.rs", &format!("{correct}\nlet oops\n"));
+    check(
+        "!document.getElementById('errors').hidden && document.getElementById('stage').className === 'stale'",
+    );
+}

@@ -121,15 +121,15 @@ impl PanicKind {
 }
 
 impl ObservedAnswer {
-    /// Returns the observation of a panic with this message.
-    pub fn of_panic(message: &str) -> Self {
-        PanicKind::of(message).map_or(ObservedAnswer::Panicked, ObservedAnswer::PanickedBy)
-    }
-
     /// Maximum difference between the amounts of two tree defects, such as SAH costs, that may come
     /// from the same mistake, relative or absolute below 1. It is larger because builders with the
     /// same mistake produce somewhat different trees.
     const COST: f32 = 0.08;
+
+    /// Returns the observation of a panic with this message.
+    pub fn of_panic(message: &str) -> Self {
+        PanicKind::of(message).map_or(ObservedAnswer::Panicked, ObservedAnswer::PanickedBy)
+    }
 
     /// Returns whether the answer says nothing about the cause, only that there is no result.
     pub fn is_uninformative(&self) -> bool {

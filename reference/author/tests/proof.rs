@@ -72,7 +72,7 @@ fn mistakes_in_other_solutions_cost_points_and_most_are_recognised() {
     assert!(recognition.results.len() >= 60, "{recognition}");
     let (recognised, count) = (recognition.recognised(), recognition.results.len());
     assert!(recognised * 100 >= count * 90, "{recognition}");
-    assert!(recognition.with_false_hint() == 0, "{recognition}");
+    assert!(recognition.misled() == 0, "{recognition}");
 }
 
 #[test]

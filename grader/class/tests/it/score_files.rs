@@ -82,9 +82,8 @@ proptest! {
                 prop_assert_eq!((&read.id, &read.title), (&item.id, &item.title));
                 prop_assert_eq!((read.points, read.max_points), (item.points, item.max_points));
                 prop_assert_eq!(&read.message, &item.message);
-                let hints = |list: &[Hint]| list.iter().map(|hint| hint.hint.clone()).collect::<Vec<_>>();
-                let read_hints: Vec<_> = read.hints.iter().map(|hint| hint.hint.clone()).collect();
-                prop_assert_eq!(read_hints, hints(&item.hints));
+                let read_hints = read.hints.iter().map(|hint| &hint.hint);
+                prop_assert!(read_hints.eq(item.hints.iter().map(|hint| &hint.hint)));
                 let verdict = serde_json::to_value(&item.verdict).expect("verdicts are JSON");
                 prop_assert_eq!(&serde_json::Value::from(read.verdict.clone()), &verdict["verdict"]);
             }

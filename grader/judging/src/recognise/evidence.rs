@@ -53,8 +53,8 @@ impl<'a> Evidence<'a> {
             Self::partial_causes,
             Self::dominant_causes,
         ];
-        let found = of_several.iter().map(|causes| causes(self));
-        let first = found.into_iter().find(|causes| !causes.is_empty());
+        let mut found = of_several.iter().map(|causes| causes(self));
+        let first = found.find(|causes| !causes.is_empty());
         self.with_enough_failures(first.unwrap_or_default(), MIN_FAILED_ITEMS_OF_SEVERAL)
     }
 
@@ -151,8 +151,9 @@ impl<'a> Evidence<'a> {
     }
 
     /// Returns the mistakes that explain most of the wrong items, and nearly all answers to those that
-    /// they affect, while no mistake with another hint comes close in both. A second mistake can change
-    /// the few answers that are left, in a way that depends on both.
+    /// they affect, while no mistake with another hint comes close in the number of items and
+    /// of answers. A second mistake can change the few answers that are left, in a way that depends on
+    /// both.
     fn dominant_causes(&self) -> Vec<usize> {
         let wrong = self.items.iter().filter(|item| item.is_wrong()).count();
         let is_cause = |mistake: usize| {

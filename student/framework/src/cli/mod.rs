@@ -154,8 +154,8 @@ fn render(job: &Job, events: &Events) -> Result<(Film, RenderStats), RenderError
         ..
     } = *job;
     let size = scene.camera.pinhole.film;
-    let integrator = Integrator::new(scene, world, options.settings(size));
     if options.view == ViewMode::Shaded {
+        let integrator = Integrator::new(scene, world, options.settings(size));
         return render_light(job, &integrator, events);
     }
     let progress = Progress::new(u64::from(size.y));

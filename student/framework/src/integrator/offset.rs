@@ -13,13 +13,14 @@ use protocol::Shape;
 /// The error of a formula, relative to its largest term: 16 roundings of an `f32`.
 const RELATIVE_ERROR: f32 = 8.0 * f32::EPSILON;
 
-/// The least cosine that is told apart from zero. A ray that leaves a surface along it would have to
-/// start infinitely far away.
+/// The smallest cosine to divide by. A ray along the surface itself, with a cosine of 0, would start
+/// infinitely far away.
 const MIN_COSINE: f32 = 1e-3;
 
-/// Returns the distance along a ray of direction `dir` within which the ray cannot be told from the
-/// surface of `shape`. `position` is a point on the shape, found by a ray from `eye`, and either end
-/// of the ray.
+/// Returns how far a ray that leaves `shape` at `position` in direction `dir` must start from there, or
+/// how far before `position` a ray that arrives in this direction must end. Closer than that, rounding
+/// can put the ray on either side of the surface. `eye` is the origin of the ray by which `position` was
+/// found.
 pub(super) fn along_ray(shape: &Shape, eye: Vec3, position: Vec3, dir: Vec3) -> f32 {
     let (normal, term) = match *shape {
         Shape::Triangle { vertices, .. } => {

@@ -149,8 +149,8 @@ impl IndependentRecognition {
         results.filter(|result| result.is_recognised()).count()
     }
 
-    /// Returns the number of mistakes with a false hint.
-    pub fn with_false_hint(&self) -> usize {
+    /// Returns the number of mistakes about which the report says something false.
+    pub fn misled(&self) -> usize {
         let results = self.results.iter();
         results.filter(|result| result.is_misled()).count()
     }
@@ -158,12 +158,12 @@ impl IndependentRecognition {
     /// Returns the result as one line.
     pub fn summary_line(&self) -> String {
         let (recognised, count) = (self.recognised(), self.results.len());
-        let with_false = self.with_false_hint();
+        let misled = self.misled();
         format!(
             "mistakes in other solutions: {recognised} of {count} recognised ({:.0} %), {} get no \
-             hint, {with_false} a false one",
+             hint, {misled} a false one",
             100.0 * recognised as f64 / count.max(1) as f64,
-            count - recognised - with_false,
+            count - recognised - misled,
         )
     }
 }

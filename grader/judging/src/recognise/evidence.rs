@@ -203,21 +203,29 @@ impl<'a> Evidence<'a> {
         (agreeing, differing)
     }
 
-    /// Returns whether an item that a mistake leaves correct has a tree with the same defect as one
-    /// that it affects. Then the defect has another cause.
+    /// Returns whether items that a mistake leaves correct fail like those that it affects: a tree has
+    /// the same defect, or several items have no answer for the same reason. Then that has another
+    /// cause. In a single item, the same mistake in other code may give no answer.
     fn has_same_defect_elsewhere(&self, mistake: usize) -> bool {
-        let wrong = self.wrong_answers(mistake);
-        let defects: BTreeSet<&str> = wrong.filter_map(|answer| answer.tree_defect()).collect();
-        let others = self
-            .items
+        let wrong: Vec<_> = self.wrong_answers(mistake).collect();
+        let has_same_defect = |answer: &ObservedAnswer| {
+            let is_same = |defect| {
+                wrong
+                    .iter()
+                    .any(|other| other.tree_defect() == Some(defect))
+            };
+            answer.tree_defect().is_some_and(is_same)
+        };
+        let is_missing_alike = |answer: &ObservedAnswer| {
+            answer.is_uninformative() && wrong.iter().any(|other| answer.matches(other))
+        };
+        let items = self.items.iter();
+        let elsewhere = items.filter(|item| !item.wrong.contains_key(&mistake));
+        let elsewhere: Vec<_> = elsewhere.map(|item| item.answers).collect();
+        let missing = elsewhere
             .iter()
-            .filter(|item| !item.wrong.contains_key(&mistake));
-        let mut elsewhere = others.flat_map(|item| item.answers);
-        elsewhere.any(|answer| {
-            answer
-                .tree_defect()
-                .is_some_and(|defect| defects.contains(defect))
-        })
+            .filter(|answers| answers.iter().any(is_missing_alike));
+        missing.count() > 1 || elsewhere.into_iter().flatten().any(has_same_defect)
     }
 
     /// Returns whether a mistake gives wrong answers, and not only none at all.

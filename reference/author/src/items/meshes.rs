@@ -3,6 +3,7 @@
 use glam::{DVec3, dvec3};
 use protocol::Shape;
 
+use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
 /// Returns the flat triangle with these corners.
@@ -36,10 +37,22 @@ pub fn number_shapes(shapes: impl IntoIterator<Item = Shape>) -> Vec<Shape> {
 /// Returns a flat triangle around `center` in a random orientation. It has no sharp angles, and
 /// fits in a ball of radius `size` around `center`.
 pub fn random_flat_triangle(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
+    let corners = random_corners(rng, size);
+    flat_triangle(corners.map(|corner| center + corner), 0)
+}
+
+/// Returns such a triangle whose bounding box has the given centre.
+pub fn random_triangle_with_box_around(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
+    let corners = random_corners(rng, size);
+    let middle = Bounds::around(corners).center();
+    flat_triangle(corners.map(|corner| center + corner - middle), 0)
+}
+
+fn random_corners(rng: &mut Rng, size: f64) -> [DVec3; 3] {
     let across = rng.direction();
     let up = rng.perpendicular_to(across);
-    let corner = |x: f64, y: f64| center + size * (x * across + y * up);
-    flat_triangle([corner(-0.8, -0.5), corner(0.8, -0.5), corner(0.0, 0.9)], 0)
+    let corner = |x: f64, y: f64| size * (x * across + y * up);
+    [corner(-0.8, -0.5), corner(0.8, -0.5), corner(0.0, 0.9)]
 }
 
 /// Returns `count` flat triangles of half to full `size`, with centres distributed at random in

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use protocol::{Interval, Ray};
 
-use super::{bbox_question, hits_and_misses, random_box, ray_from_around};
+use super::{Query, bbox_question, hits_and_misses, random_box, ray_from_around};
 use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, Group, item, ray};
 use crate::oracle::Ray64;
@@ -71,22 +71,43 @@ pub(super) fn from_inside(seed: Seed) -> DeclaredItem {
     )
 }
 
+fn random_query(rng: &mut Rng, bounds: &Bounds) -> Query {
+    let (ray, latest) = if rng.coin() {
+        let from = random_point_in(rng, bounds).as_vec3();
+        (Ray::new(from, rng.direction().as_vec3()), 0.5)
+    } else {
+        (ray_from_around(rng, bounds), 9.0)
+    };
+    let min = rng.uniform(0.0, latest);
+    // Half of the intervals are so short that many end inside the box.
+    let longest = if rng.coin() { 1.5 } else { 6.0 };
+    let times = (min as f32, (min + rng.uniform(0.3, longest)) as f32);
+    (ray, Interval::new(times.0, times.1))
+}
+
+/// Returns whether the times of a query begin and whether they end inside the box, or `None` if the
+/// query misses it.
+fn ends_inside(bounds: &Bounds, (ray, times): &Query) -> Option<(bool, bool)> {
+    let (enter, leave) = bounds.span(&Ray64::from(ray).within(*times))?;
+    Some((enter == f64::from(times.min), leave == f64::from(times.max)))
+}
+
 pub(super) fn clipped(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("bbox.clipped");
     let mut question = || {
         let bounds = random_box(&mut rng);
+        // Hits begin inside the box, end inside it, do both, and do neither, in turn.
+        let mut count = 0;
         let queries = hits_and_misses(&mut rng, &bounds, |rng| {
-            let (ray, latest) = if rng.coin() {
-                let from = random_point_in(rng, &bounds).as_vec3();
-                (Ray::new(from, rng.direction().as_vec3()), 0.5)
-            } else {
-                (ray_from_around(rng, &bounds), 9.0)
-            };
-            let min = rng.uniform(0.0, latest);
-            // Half of the intervals are so short that many end inside the box.
-            let longest = if rng.coin() { 1.5 } else { 6.0 };
-            let times = (min as f32, (min + rng.uniform(0.3, longest)) as f32);
-            (ray, Interval::new(times.0, times.1))
+            rng.retry(|rng| {
+                let query = random_query(rng, &bounds);
+                let Some(inside) = ends_inside(&bounds, &query) else {
+                    return Some(query);
+                };
+                let is_in_turn = inside == (count % 2 == 0, count / 2 % 2 == 0);
+                count += usize::from(is_in_turn);
+                is_in_turn.then_some(query)
+            })
         });
         bbox_question(bounds, queries)
     };

@@ -17,38 +17,60 @@ use crate::seed::{Rng, Seed};
 /// together do not.
 const MAX_LEAF_SIZE: u32 = 8;
 
-/// Clumps of primitives along a row of length one: the start and end of each clump, and its number
-/// of primitives.
-type Layout = &'static [(f64, f64, usize)];
+/// Clumps of primitives along a row of length one.
+struct Layout {
+    /// The start and end of each clump, and its number of primitives.
+    clumps: &'static [(f64, f64, usize)],
+    /// The size of the primitives in the first clump. All others are of size [`SMALL`].
+    first_size: f64,
+}
+
+const SMALL: f64 = 0.05;
 
 /// Three clumps, two of them near each other. A builder that forgets the outermost bucket ignores
 /// the clump at that end, so splitting between the two near clumps can seem best to it.
-const CLUMPS: Layout = &[(0.0, 0.02, 4), (0.74, 0.8, 4), (0.98, 1.0, 4)];
+const CLUMPS: Layout = Layout {
+    clumps: &[(0.0, 0.02, 4), (0.74, 0.8, 4), (0.98, 1.0, 4)],
+    first_size: SMALL,
+};
 /// Clumps with a gap from just above one quarter to just below one half. A builder with four
 /// buckets has no plane in this gap.
-const GAP: Layout = &[
-    (0.0, 0.2, 4),
-    (0.262, 0.27, 2),
-    (0.485, 0.493, 2),
-    (0.51, 1.0, 4),
-];
+const GAP: Layout = Layout {
+    clumps: &[
+        (0.0, 0.2, 4),
+        (0.262, 0.27, 2),
+        (0.485, 0.493, 2),
+        (0.51, 1.0, 4),
+    ],
+    first_size: SMALL,
+};
 
 /// Clumps of which the first is the largest. If a builder counts the primitives of other buckets than
 /// those that it encloses, it does not count this one, and splits at the other gap.
-const HEAVY_END: Layout = &[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)];
+const HEAVY_END: Layout = Layout {
+    clumps: &[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)],
+    first_size: SMALL,
+};
+
+/// Clumps of which the first is of large primitives, so that it is best left alone. The wider gap is
+/// the other one: a builder that takes a primitive for a point splits there.
+const LARGE_END: Layout = Layout {
+    clumps: &[(0.0, 0.02, 4), (0.42, 0.44, 4), (0.98, 1.0, 4)],
+    first_size: 1.2,
+};
 
 pub(super) fn one_split(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("build.one_split");
     let mut questions = Vec::new();
-    for layout in [CLUMPS, GAP, HEAVY_END] {
+    for layout in [CLUMPS, GAP, HEAVY_END, LARGE_END] {
         for axis in 0..3 {
             for is_mirrored in [false, true] {
-                questions.push(question(&mut rng, layout, axis, is_mirrored));
+                questions.push(question(&mut rng, &layout, axis, is_mirrored));
             }
         }
     }
     for axis in 0..3 {
-        questions.push(dust(question(&mut rng, CLUMPS, axis, false)));
+        questions.push(dust(question(&mut rng, &CLUMPS, axis, false)));
     }
     item(
         seed,
@@ -67,7 +89,7 @@ pub(super) fn one_split(seed: Seed) -> DeclaredItem {
     )
 }
 
-fn question(rng: &mut Rng, layout: Layout, axis: usize, is_mirrored: bool) -> ExamQuestion {
+fn question(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> ExamQuestion {
     let shapes = rng.retry(|rng| {
         let shapes = row(rng, layout, axis, is_mirrored);
         is_unambiguous(&shapes, axis).then_some(shapes)
@@ -76,11 +98,12 @@ fn question(rng: &mut Rng, layout: Layout, axis: usize, is_mirrored: bool) -> Ex
 }
 
 /// Returns triangles in a row along an axis, evenly spaced in each clump.
-fn row(rng: &mut Rng, layout: Layout, axis: usize, is_mirrored: bool) -> Vec<Shape> {
+fn row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Vec<Shape> {
     let start = rng.point(3.0);
     let length = rng.uniform(8.0, 12.0);
     let mut triangles = Vec::new();
-    for &(from, to, count) in layout {
+    for (clump, &(from, to, count)) in layout.clumps.iter().enumerate() {
+        let size = if clump == 0 { layout.first_size } else { SMALL };
         for i in 0..count {
             let position = from + (to - from) * i as f64 / (count - 1) as f64;
             let position = if is_mirrored {
@@ -90,7 +113,7 @@ fn row(rng: &mut Rng, layout: Layout, axis: usize, is_mirrored: bool) -> Vec<Sha
             };
             let offset = rng.point(0.05);
             let center = start + offset + (length * position - offset[axis]) * DVec3::AXES[axis];
-            triangles.push(meshes::random_flat_triangle(rng, center, 0.05));
+            triangles.push(meshes::random_triangle_with_box_around(rng, center, size));
         }
     }
     meshes::number_shapes(rng.shuffled(triangles))

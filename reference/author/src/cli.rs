@@ -102,6 +102,9 @@ pub enum Command {
         /// Whether to write or to check the lists and the table.
         #[command(flatten)]
         check: CheckArgs,
+        /// Whether to record the result.
+        #[command(flatten)]
+        record: RecordArgs,
     },
     /// Write the table of which sentences of the contract the exam asks, and where
     Coverage(CheckArgs),
@@ -122,6 +125,9 @@ pub enum Command {
         /// one of them costs nothing
         #[arg(long, conflicts_with_all = ["seeds", "pairs"])]
         independent: bool,
+        /// Whether to record the result.
+        #[command(flatten)]
+        record: RecordArgs,
     },
     /// List the mutants that cargo-mutants generates from the reference, and grade each of them
     Mutants {
@@ -131,6 +137,9 @@ pub enum Command {
         /// Whether to write or to check the list.
         #[command(flatten)]
         check: CheckArgs,
+        /// Whether to record the result.
+        #[command(flatten)]
+        record: RecordArgs,
     },
     /// Make systematic mistakes from the reference (epsilons, confused names, dropped properties,
     /// kept state), and grade each of them
@@ -138,6 +147,9 @@ pub enum Command {
         /// Grade only a fixed sample of the mistakes
         #[arg(long)]
         fast: bool,
+        /// Whether to record the result.
+        #[command(flatten)]
+        record: RecordArgs,
     },
     /// Grade every variant with the exams of all seeds, and every mistake with the exams of the
     /// first few seeds
@@ -149,11 +161,11 @@ pub enum Command {
         #[arg(long, default_value_t = 10)]
         mistakes: u64,
         /// Grade only this variant, such as bvh.wide, and no mistakes
-        #[arg(long, value_name = "ID", conflicts_with_all = ["mistakes", "write"])]
+        #[arg(long, value_name = "ID", conflicts_with_all = ["mistakes", "record"])]
         variant: Option<String>,
-        /// Record the result, with the date and the commit
-        #[arg(long)]
-        write: bool,
+        /// Whether to record the result.
+        #[command(flatten)]
+        record: RecordArgs,
     },
     /// Grade a submission that answers the practice exam by heart with the final exams of all seeds,
     /// in which it must earn nothing
@@ -164,9 +176,9 @@ pub enum Command {
         /// Write the submission's files to this folder
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
-        /// Record the result
-        #[arg(long)]
-        write: bool,
+        /// Whether to record the result.
+        #[command(flatten)]
+        record: RecordArgs,
     },
     /// Measure how far correct answers and mistakes are from every threshold of the exam
     Calibrate {
@@ -180,6 +192,9 @@ pub enum Command {
         /// Change nothing and use only a few seeds; fail if a margin is too small
         #[arg(long)]
         check: bool,
+        /// Whether to record the result.
+        #[command(flatten)]
+        record: RecordArgs,
     },
 }
 
@@ -214,6 +229,14 @@ pub struct CheckArgs {
     /// Change nothing; fail if a file differs from what would be written
     #[arg(long)]
     pub check: bool,
+}
+
+/// The `--record` flag of commands that take long.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct RecordArgs {
+    /// Write the result into the table of long runs, with the date and the commit
+    #[arg(long)]
+    pub record: bool,
 }
 
 impl CheckArgs {

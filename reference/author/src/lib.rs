@@ -17,7 +17,7 @@
 //! | additions to an exam | [`hints`], [`drawing_data`] |
 //! | an exam's items; solutions, and how they are built and run | [`items`], [`solutions`] |
 //! | trees with decoys; other generated files | [`tree`], [`starter`], [`scenes`] |
-//! | correct answers, random numbers, files | [`oracle`], [`seed`], [`generated_file`] |
+//! | correct answers, random numbers, files | [`oracle`], [`seed`], [`generated_file`], [`long_runs`] |
 
 pub mod bundle;
 pub mod cli;
@@ -28,6 +28,7 @@ pub mod generated_file;
 pub mod handout;
 pub mod hints;
 pub mod items;
+pub mod long_runs;
 pub mod oracle;
 pub mod package;
 pub mod proof;

@@ -2,15 +2,17 @@
 //! lists all commands.
 
 use std::io::{self, Write};
+use std::ops::Range;
 use std::path::Path;
 use std::process::ExitCode;
 use std::slice;
 
 use author::bundle::secrets::Secrets;
 use author::bundle::{self, Bundle, archive};
-use author::cli::{Cli, Command, book_folder};
+use author::cli::{Cli, Command, RecordArgs, book_folder};
 use author::coverage::coverage;
 use author::generated_file::{GeneratedFile, Mode, write_or_check};
+use author::long_runs;
 use author::package::{self, Course, Platform, trial};
 use author::proof::by_heart::grade_by_heart;
 use author::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, calibrate, table};
@@ -34,6 +36,8 @@ use judging::exam::Exam;
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 /// The assignment of all commands.
 const HANDED_OUT: &HandedOut = &RAYS;
+/// What the table of long runs says instead of seeds.
+const PRACTICE: &str = "practice";
 
 fn main() -> ExitCode {
     match run(Cli::parse().command) {
@@ -100,11 +104,18 @@ fn run(command: Command) -> CommandResult {
             let practice = exams::load_practice(root)?;
             write_table_of_mistakes(&solutions()?, &practice, Mode::Write)
         }
-        Command::Mistakes { seeds, check, .. } => run_mistakes(root, seeds, check.mode()),
-        Command::Mutants { fast, check } => {
-            run_mutants(root, MutantSelection::new(fast), check.mode())
-        }
-        Command::Systematic { fast } => run_systematic(MutantSelection::new(fast)),
+        Command::Mistakes {
+            seeds,
+            check,
+            record,
+            ..
+        } => run_mistakes(root, seeds, check.mode(), record),
+        Command::Mutants {
+            fast,
+            check,
+            record,
+        } => run_mutants(root, MutantSelection::new(fast), check.mode(), record),
+        Command::Systematic { fast, record } => run_systematic(MutantSelection::new(fast), record),
         Command::Coverage(check) => {
             let practice = exams::load_practice(root)?;
             let coverage = coverage(root, HANDED_OUT, &practice)?;
@@ -112,70 +123,93 @@ fn run(command: Command) -> CommandResult {
             report(&coverage.problems, &coverage.summary_line())
         }
         Command::Hints {
-            independent: true, ..
+            independent: true,
+            record,
+            ..
         } => {
             let practice = exams::load_practice(root)?;
             let recognition = recognise_independent(&solutions()?, &practice)?;
+            record_result(
+                record,
+                "hints --independent",
+                PRACTICE,
+                &recognition.summary_line(),
+            )?;
             report(&recognition.problems(), &recognition.to_string())
         }
-        Command::Hints { seeds, pairs, .. } => {
-            let solutions = solutions()?;
-            match (seeds, pairs) {
-                (Some(seeds), _) => println!("{}", recognise_with_seeds(&solutions, seeds)?),
-                (None, Some(count)) => {
-                    let practice = exams::load_practice(root)?;
-                    let reference = Sources::reference(root, HANDED_OUT)?;
-                    println!(
-                        "{}",
-                        recognise_pairs(&solutions, &practice, &reference, count)?
-                    );
-                }
-                (None, None) => {
-                    println!("{}", recognise(&solutions, &exams::load_practice(root)?)?)
-                }
-            }
-            Ok(())
+        Command::Hints {
+            seeds: Some(seeds),
+            record,
+            ..
+        } => {
+            let recognition = recognise_with_seeds(&solutions()?, seeds.clone())?;
+            println!("{recognition}");
+            record_result(
+                record,
+                "hints",
+                &written(&seeds),
+                &recognition.summary_line(),
+            )
+        }
+        Command::Hints {
+            pairs: Some(count),
+            record,
+            ..
+        } => {
+            let practice = exams::load_practice(root)?;
+            let reference = Sources::reference(root, HANDED_OUT)?;
+            let recognition = recognise_pairs(&solutions()?, &practice, &reference, count)?;
+            println!("{recognition}");
+            record_result(
+                record,
+                "hints --pairs",
+                PRACTICE,
+                &recognition.summary_line(),
+            )
+        }
+        Command::Hints { record, .. } => {
+            let recognition = recognise(&solutions()?, &exams::load_practice(root)?)?;
+            println!("{recognition}");
+            record_result(record, "hints", PRACTICE, &recognition.summary_line())
         }
         Command::Prove {
             seeds,
             mistakes,
             variant,
-            write,
+            record,
         } => {
             let selected = match variant {
                 Some(id) => solutions()?.only_variant(&id)?,
                 None => solutions()?,
             };
-            let summary = prove(&selected, seeds, mistakes)?;
-            if write {
-                let record = summary.record(&today(), &commit(root)?);
-                generate(&[record], Mode::Write, "prove")?;
-            }
+            let summary = prove(&selected, seeds.clone(), mistakes)?;
+            record_result(record, "prove", &written(&seeds), &summary.summary_line())?;
             for note in summary.notes() {
                 eprintln!("{note}");
             }
             report(&summary.problems(), &summary.summary_line())
         }
-        Command::ByHeart { seeds, out, write } => {
-            let result = grade_by_heart(&solutions()?, &exams::load_practice(root)?, seeds)?;
+        Command::ByHeart { seeds, out, record } => {
+            let practice = exams::load_practice(root)?;
+            let result = grade_by_heart(&solutions()?, &practice, seeds.clone())?;
             if let Some(folder) = out {
                 result.sources.write(&folder)?;
             }
-            if write {
-                generate(&[result.record()], Mode::Write, "by-heart")?;
-            }
+            record_result(record, "by-heart", &written(&seeds), &result.summary_line())?;
             report(&result.problems(), &result.summary_line())
         }
         Command::Calibrate {
             seeds,
             mistakes,
             check,
+            record,
         } => {
             if check {
                 table::check(root)?;
             }
             let default = if check { FEW_SEEDS } else { MANY_SEEDS };
-            let calibration = calibrate(&solutions()?, seeds.unwrap_or(default), mistakes)?;
+            let seeds = seeds.unwrap_or(default);
+            let calibration = calibrate(&solutions()?, seeds.clone(), mistakes)?;
             if !check {
                 generate(
                     &[table::generated_file(&calibration)],
@@ -183,7 +217,9 @@ fn run(command: Command) -> CommandResult {
                     "calibrate",
                 )?;
             }
-            report(&calibration.margins.problems(), &calibration.summary_line())
+            let line = calibration.summary_line();
+            record_result(record, "calibrate", &written(&seeds), &line)?;
+            report(&calibration.margins.problems(), &line)
         }
     }
 }
@@ -300,7 +336,7 @@ fn write_package(
 
 /// Writes the lists of the items that each mistake fails and the table of the practice exam, or
 /// checks them.
-fn run_mistakes(root: &Path, seeds: Option<u64>, mode: Mode) -> CommandResult {
+fn run_mistakes(root: &Path, seeds: Option<u64>, mode: Mode, record: RecordArgs) -> CommandResult {
     let mut solutions = solutions()?;
     let practice = exams::load_practice(root)?;
     let default = match mode {
@@ -332,6 +368,7 @@ fn run_mistakes(root: &Path, seeds: Option<u64>, mode: Mode) -> CommandResult {
         failed.fails.len(),
         failed.seeds
     );
+    record_result(record, "mistakes", &written(&(0..seeds)), &line)?;
     report(&thin, &line)
 }
 
@@ -341,24 +378,27 @@ fn write_table_of_mistakes(solutions: &Solutions, practice: &Exam, mode: Mode) -
     generate(&[table], mode, "mistakes")
 }
 
-fn run_mutants(root: &Path, selection: MutantSelection, mode: Mode) -> CommandResult {
+fn run_mutants(
+    root: &Path,
+    selection: MutantSelection,
+    mode: Mode,
+    record: RecordArgs,
+) -> CommandResult {
     let list = mutants::list(HANDED_OUT, root, mode)?;
     generate(&[list.generated_file()], mode, "mutants")?;
     let findings = mutants::run(HANDED_OUT, &list, selection)?;
     println!("{}", selection.description());
-    report(
-        &findings.problems(),
-        &format!("mutants: {}", findings.summary_line()),
-    )
+    let line = format!("mutants: {}", findings.summary_line());
+    record_result(record, "mutants of the reference", PRACTICE, &line)?;
+    report(&findings.problems(), &line)
 }
 
-fn run_systematic(selection: MutantSelection) -> CommandResult {
+fn run_systematic(selection: MutantSelection, record: RecordArgs) -> CommandResult {
     let findings = mutants::run_systematic(HANDED_OUT, selection)?;
     println!("{}", selection.description());
-    report(
-        &findings.problems(),
-        &format!("systematic mistakes: {}", findings.summary_line()),
-    )
+    let line = format!("systematic mistakes: {}", findings.summary_line());
+    record_result(record, "systematic", PRACTICE, &line)?;
+    report(&findings.problems(), &line)
 }
 
 /// Prints the problems and the summary line. Fails if there are problems.
@@ -374,15 +414,15 @@ fn report(problems: &[String], line: &str) -> CommandResult {
     }
 }
 
-fn today() -> String {
-    jiff::Timestamp::now().strftime("%F").to_string()
+/// Writes the result of a run into the table of long runs, if that is wanted.
+fn record_result(wanted: RecordArgs, run: &str, exams: &str, line: &str) -> CommandResult {
+    if wanted.record {
+        long_runs::record(Path::new(ROOT), run, exams, line)?;
+    }
+    Ok(())
 }
 
-/// Returns the checked-out commit, with `-dirty` appended if there are uncommitted changes.
-fn commit(root: &Path) -> io::Result<String> {
-    let git = std::process::Command::new("git")
-        .args(["describe", "--always", "--dirty", "--abbrev=12"])
-        .current_dir(root)
-        .output()?;
-    Ok(String::from_utf8_lossy(&git.stdout).trim().to_owned())
+/// Returns seeds as they are written on the command line.
+fn written(seeds: &Range<u64>) -> String {
+    format!("{}..{}", seeds.start, seeds.end)
 }

@@ -8,16 +8,12 @@ use judging::exam::Exam;
 use rayon::prelude::*;
 
 use crate::exams;
-use crate::generated_file::GeneratedFile;
 use crate::proof::ProofError;
 use crate::proof::progress::progress_bar;
 use crate::seed::Seed;
 use crate::solutions::Solutions;
 use crate::solutions::by_heart::by_heart;
 use crate::solutions::sources::Sources;
-
-/// The path of the result, relative to the workspace's root.
-const PATH: &str = "reference/by-heart.md";
 
 /// The points that the submission earns.
 #[derive(Debug)]
@@ -84,21 +80,5 @@ impl ByHeart {
             self.earned.len(),
             end - start,
         )
-    }
-
-    /// Returns the file that records the result.
-    pub fn record(&self) -> GeneratedFile {
-        let Range { start, end } = self.seeds;
-        let mut text = format!(
-            "# The practice exam by heart\n\n\
-             Written by `cargo author by-heart --seeds {start}..{end} --write`. A submission that \
-             only looks up the practice exam's questions in a table of their keys was graded with \
-             the practice exam and with final exams. Path-traced pictures are not in the table, \
-             because no method of a submission returns a pixel.\n\n\
-             > {}\n",
-            self.summary_line()
-        );
-        text.extend(self.problems().iter().map(|line| format!("\n- {line}")));
-        GeneratedFile::new(PATH, text)
     }
 }

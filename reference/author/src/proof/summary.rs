@@ -5,7 +5,6 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use crate::generated_file::GeneratedFile;
 use crate::solutions::failed_items;
 
 /// The result of a proof for one seed.
@@ -115,25 +114,6 @@ impl ProofSummary {
         names.sort();
         names.dedup();
         names
-    }
-
-    /// Returns the file that records the proof, with its date and commit.
-    pub fn record(&self, date: &str, commit: &str) -> GeneratedFile {
-        let mut text = format!(
-            "# The latest proof\n\n\
-             Written by `cargo author prove --seeds {}..{} --write` on {date}, at commit {commit}. \
-             Every correct solution in `reference/variants` was graded with the exams of these \
-             seeds, and every mistake in `reference/mistakes` with the first few of them.\n\n\
-             > {}\n",
-            self.seeds.start,
-            self.seeds.end,
-            self.summary_line()
-        );
-        if !self.is_proven() {
-            text += "\n";
-            text.extend(self.problems().iter().map(|line| format!("- {line}\n")));
-        }
-        GeneratedFile::new("reference/variants/proof.md", text)
     }
 }
 

@@ -96,6 +96,19 @@ fn recognise_pair(
     }
 }
 
+impl PairRecognition {
+    /// Returns a one-line summary.
+    pub fn summary_line(&self) -> String {
+        format!(
+            "pairs: {} get a true hint, {} no hint, {} a false one; {} change the same code",
+            self.with_true_hint,
+            self.without_hint.len(),
+            self.false_hints.len(),
+            self.impossible,
+        )
+    }
+}
+
 impl fmt::Display for PairRecognition {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         for pair in &self.without_hint {
@@ -105,13 +118,6 @@ impl fmt::Display for PairRecognition {
             let hints = Vec::from_iter(hints.iter().cloned()).join(" or ");
             writeln!(f, "{pair} get the false hint {hints}")?;
         }
-        let with_false = self.false_hints.len();
-        write!(
-            f,
-            "pairs: {} get a true hint, {} no hint, {with_false} a false one; {} change the same code",
-            self.with_true_hint,
-            self.without_hint.len(),
-            self.impossible,
-        )
+        f.write_str(&self.summary_line())
     }
 }

@@ -177,12 +177,7 @@ impl Probe {
         let mut answers = Vec::with_capacity(nonces.len());
         for nonce in nonces {
             let frame = self.next_frame(stopwatch, printed_before)?;
-            if frame.nonce != nonce {
-                return Err(Fault::Protocol(
-                    "an answer that belongs to no question".to_owned(),
-                ));
-            }
-            answers.push(frame.answer().map_err(protocol_fault)?);
+            answers.push(answer_to(nonce, &frame)?);
         }
         match answers.pop() {
             Some(Answer::Done) => Ok(answers),
@@ -284,6 +279,16 @@ fn nonces(count: usize) -> Vec<u64> {
         .iter()
         .map(|nonce| u64::from_le_bytes(*nonce))
         .collect()
+}
+
+/// Returns the answer in a frame, which must be the one to the question with this nonce.
+fn answer_to(nonce: u64, frame: &Frame) -> Result<Answer, Fault> {
+    if frame.nonce != nonce {
+        return Err(Fault::Protocol(
+            "an answer that belongs to no question".to_owned(),
+        ));
+    }
+    frame.answer().map_err(protocol_fault)
 }
 
 fn protocol_fault(error: WireError) -> Fault {

@@ -130,3 +130,95 @@ fn read(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io;
+    use std::iter;
+
+    use proptest::prelude::*;
+    use protocol::{Answer, ElementOutcome, Interval};
+
+    use super::*;
+    use crate::probe::answer_to;
+
+    /// Returns an answer with this number of elements.
+    fn answer(elements: usize) -> Answer {
+        let times = ElementOutcome::Value(Some(Interval::new(1.0, 2.0)));
+        Answer::Spans(vec![times; elements])
+    }
+
+    /// Returns the frames that arrive in order, if the program writes `bytes` in pieces of these sizes
+    /// and lets other threads run after each, and the questions were sent in batches of these sizes.
+    fn received(
+        bytes: Vec<u8>,
+        limits: &[usize],
+        batches: &[usize],
+        pieces: Vec<usize>,
+    ) -> Vec<Frame> {
+        let (stdout, mut program) = io::pipe().unwrap();
+        let mut streams = Streams::open(io::sink(), stdout);
+        let mut unsent = limits;
+        for &size in batches.iter().cycle() {
+            let (limits, rest) = unsent.split_at(size.min(unsent.len()));
+            let (frames, limits) = (Vec::new(), limits.to_vec());
+            streams.send(Batch { frames, limits });
+            unsent = rest;
+            if unsent.is_empty() {
+                break;
+            }
+        }
+        let writer = thread::spawn(move || {
+            let mut rest = bytes.as_slice();
+            for size in pieces.into_iter().cycle() {
+                let (piece, after) = rest.split_at(size.min(rest.len()));
+                program.write_all(piece).unwrap();
+                thread::yield_now();
+                rest = after;
+                if rest.is_empty() {
+                    break;
+                }
+            }
+        });
+        let next = || streams.next(Duration::from_secs(60)).unwrap().ok();
+        let frames = iter::from_fn(next).take(limits.len()).collect();
+        writer.join().unwrap();
+        frames
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn answers_do_not_depend_on_pieces_batches_and_threads(
+            sizes in prop::collection::vec(0usize..3000, 1..40),
+            batches in prop::collection::vec(1usize..9, 1..9),
+            pieces in prop::collection::vec(1usize..20_000, 1..20),
+        ) {
+            let answers: Vec<Answer> = sizes.into_iter().map(answer).collect();
+            let bodies = answers.iter().map(|answer| wire::encode(0, answer).unwrap().len());
+            let limits: Vec<usize> = bodies.collect();
+            let append = |bytes, (nonce, answer): (u64, &Answer)| {
+                wire::append(bytes, nonce, answer).unwrap()
+            };
+            let bytes = (0..).zip(&answers).fold(Vec::new(), append);
+            let frames = received(bytes, &limits, &batches, pieces);
+            let found: Result<Vec<Answer>, _> =
+                (0..).zip(&frames).map(|(nonce, frame)| answer_to(nonce, frame)).collect();
+            prop_assert_eq!(found.unwrap(), answers);
+        }
+
+        #[test]
+        fn answers_in_another_order_are_a_fault(
+            order in Just(Vec::from_iter(0u64..9)).prop_shuffle(),
+        ) {
+            let frames = order.iter().map(|&nonce| {
+                let frame = wire::encode(nonce, &answer(1)).unwrap();
+                wire::read(&mut frame.as_slice(), frame.len()).unwrap()
+            });
+            let answered: Result<Vec<Answer>, _> =
+                (0..).zip(frames).map(|(nonce, frame)| answer_to(nonce, &frame)).collect();
+            prop_assert_eq!(answered.is_ok(), order.is_sorted());
+        }
+    }
+}

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
-use std::process::{Child, ChildStdout, Stdio};
+use std::process::{Child, ChildStdout, Command, Stdio};
 
 use crate::harness::{Submission, grader};
 
@@ -14,14 +14,18 @@ struct WatchProcess {
 
 impl WatchProcess {
     fn start(submission: &Submission) -> Self {
-        let mut child = grader()
+        Self::start_with(submission, |command| command)
+    }
+
+    fn start_with(submission: &Submission, add: impl Fn(&mut Command) -> &mut Command) -> Self {
+        let mut command = grader();
+        command
             .arg("--watch")
             .arg(submission.path())
             .args(["--no-reference", "--out"])
             .arg(submission.path().join("out"))
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
+            .stdout(Stdio::piped());
+        let mut child = add(&mut command).spawn().unwrap();
         let lines = BufReader::new(child.stdout.take().unwrap());
         WatchProcess { child, lines }
     }
@@ -78,6 +82,46 @@ fn grades_every_save_and_updates_the_score_file() {
     assert!(report.contains("sphere.rs is missing"), "{report}");
     fs::rename(&aside, &sphere).unwrap();
     assert!(watching.report().contains("100 / 100"));
+}
+
+/// Runs on Linux only, where the program that opens a page is found by its name.
+#[cfg(target_os = "linux")]
+#[test]
+fn opens_the_page_once_and_from_then_on_the_page_reloads_itself() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let submission = Submission::starter("alice");
+    let programs = submission.path().join("programs");
+    let opened = submission.path().join("opened.txt");
+    let script = format!("#!/bin/sh\necho \"$1\" >> '{}'\n", opened.display());
+    fs::create_dir(&programs).unwrap();
+    fs::write(programs.join("xdg-open"), script).unwrap();
+    fs::set_permissions(programs.join("xdg-open"), fs::Permissions::from_mode(0o755)).unwrap();
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let folders = [programs].into_iter().chain(std::env::split_paths(&path));
+    let path = std::env::join_paths(folders).unwrap();
+
+    let mut watching = WatchProcess::start_with(&submission, |command| {
+        command
+            .arg("--open")
+            .env("DISPLAY", ":99")
+            .env("PATH", &path)
+    });
+    watching.report();
+    // Twice, so that a page that is opened after every grading has been opened when we look.
+    for comment in ["// one save", "// another save"] {
+        let sphere = submission.path().join("sphere.rs");
+        let code = fs::read_to_string(&sphere).unwrap();
+        fs::write(&sphere, format!("{code}{comment}\n")).unwrap();
+        watching.report();
+    }
+    let page = submission.path().join("out/report.html");
+    assert_eq!(
+        fs::read_to_string(opened).unwrap(),
+        format!("{}\n", page.display())
+    );
+    let page = fs::read_to_string(page).unwrap();
+    assert!(page.contains("<body data-reload>"));
 }
 
 #[test]

@@ -36,7 +36,7 @@ use judging::exam::Exam;
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 /// The assignment of all commands.
 const HANDED_OUT: &HandedOut = &RAYS;
-/// What the table of long runs says instead of seeds.
+/// The entry of the table of long runs in place of seeds.
 const PRACTICE: &str = "practice";
 
 fn main() -> ExitCode {
@@ -210,6 +210,8 @@ fn run(command: Command) -> CommandResult {
             let default = if check { FEW_SEEDS } else { MANY_SEEDS };
             let seeds = seeds.unwrap_or(default);
             let calibration = calibrate(&solutions()?, seeds.clone(), mistakes)?;
+            let line = calibration.summary_line();
+            record_result(record, "calibrate", &written(&seeds), &line)?;
             if !check {
                 generate(
                     &[table::generated_file(&calibration)],
@@ -217,8 +219,6 @@ fn run(command: Command) -> CommandResult {
                     "calibrate",
                 )?;
             }
-            let line = calibration.summary_line();
-            record_result(record, "calibrate", &written(&seeds), &line)?;
             report(&calibration.margins.problems(), &line)
         }
     }
@@ -345,6 +345,15 @@ fn run_mistakes(root: &Path, seeds: Option<u64>, mode: Mode, record: RecordArgs)
     };
     let seeds = seeds.unwrap_or(default);
     let (failed, catches) = failures::failed_items(&solutions, &practice, seeds)?;
+    let thin = catches.problems();
+    let caught = failed.fails.len() - thin.len();
+    let line = format!(
+        "mistakes {}, clearly caught {caught}, seeds {}",
+        failed.fails.len(),
+        failed.seeds
+    );
+    // Before the files are written, so that they do not count as changes of the commit.
+    record_result(record, "mistakes", &written(&(0..seeds)), &line)?;
     let committed = FailedItems::load(root, HANDED_OUT)?;
     if mode == Mode::Check {
         let mut problems = failures::problems(&committed, &failed);
@@ -361,14 +370,6 @@ fn run_mistakes(root: &Path, seeds: Option<u64>, mode: Mode, record: RecordArgs)
         solutions.set_failed_items(&failed);
     }
     write_table_of_mistakes(&solutions, &practice, mode)?;
-    let thin = catches.problems();
-    let caught = failed.fails.len() - thin.len();
-    let line = format!(
-        "mistakes {}, clearly caught {caught}, seeds {}",
-        failed.fails.len(),
-        failed.seeds
-    );
-    record_result(record, "mistakes", &written(&(0..seeds)), &line)?;
     report(&thin, &line)
 }
 

@@ -141,7 +141,7 @@ pub struct CodeLocation {
 }
 
 impl CodeLocation {
-    /// Parses the location of a panic, such as `sphere.rs:34`. `None` if it is not in a task file.
+    /// Parses the location of a panic, such as `sphere.rs:34:9`. `None` if it is not in a task file.
     pub fn from_panic(location: &str, handed_out: &HandedOut) -> Option<Self> {
         let mut parts = location.split(':');
         let file = handed_out.task_file(parts.next()?)?;

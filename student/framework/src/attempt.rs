@@ -23,7 +23,12 @@ pub fn keep_panics_quiet() {
             return previous_hook(panic);
         }
         let text = panic.location().map_or(String::new(), |location| {
-            format!("{}:{}", location.file(), location.line())
+            format!(
+                "{}:{}:{}",
+                location.file(),
+                location.line(),
+                location.column()
+            )
         });
         LOCATION.with(|cell| *cell.borrow_mut() = text);
     }));

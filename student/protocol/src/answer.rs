@@ -44,7 +44,8 @@ pub enum ElementOutcome<T> {
 pub struct Panic {
     /// The panic message, truncated to [`Panic::MAX_TEXT_BYTES`].
     pub message: String,
-    /// The file and line of the panic, such as `sphere.rs:34`, truncated to the same length.
+    /// The file, line and column of the panic, such as `sphere.rs:34:9`, truncated to the same
+    /// length.
     #[serde(alias = "place")]
     pub location: String,
 }

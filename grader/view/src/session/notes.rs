@@ -13,7 +13,7 @@ use crate::program::FileError;
 pub struct Note {
     /// The text.
     pub text: String,
-    /// The file and line, such as `sphere.rs:72`.
+    /// The file, line and column, such as `sphere.rs:72:9`.
     pub location: Option<String>,
 }
 

@@ -102,7 +102,7 @@ mod tests {
     fn message(message: &str) -> String {
         let panic = Panic {
             message: message.to_owned(),
-            location: "student/src/camera.rs:47".to_owned(),
+            location: "student/src/camera.rs:47:9".to_owned(),
         };
         SubmissionPanic { panic, pixel: None }.to_string()
     }
@@ -113,11 +113,11 @@ mod tests {
             message("not yet implemented: task 1, camera: which ray of Camera { film: [1] }?");
         assert_eq!(
             line,
-            "task 1, camera: not written yet (student/src/camera.rs:47)"
+            "task 1, camera: not written yet (student/src/camera.rs:47:9)"
         );
         assert_eq!(
             message("not yet implemented"),
-            "this part: not written yet (student/src/camera.rs:47)"
+            "this part: not written yet (student/src/camera.rs:47:9)"
         );
     }
 
@@ -125,7 +125,7 @@ mod tests {
     fn reports_the_message_of_any_other_panic() {
         assert_eq!(
             message("index out of bounds"),
-            "panicked: index out of bounds (student/src/camera.rs:47)"
+            "panicked: index out of bounds (student/src/camera.rs:47:9)"
         );
     }
 }

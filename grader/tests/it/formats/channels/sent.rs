@@ -46,7 +46,7 @@ pub fn channels() -> Vec<Channel> {
         }),
         channel("message of a panic", |score, item, bits| {
             let message = bits.to_string();
-            record_failure(score, item, panic(message, "sphere.rs:34"), None);
+            record_failure(score, item, panic(message, "sphere.rs:34:9"), None);
         }),
         channel("location of a panic", |score, item, bits| {
             let location = format!("sphere.rs:{bits}:{bits}");

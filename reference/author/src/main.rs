@@ -83,10 +83,12 @@ fn run(command: Command) -> CommandResult {
             check,
         } => {
             let mut bundle = Bundle::collect(root, HANDED_OUT, book.as_deref())?;
+            // With the students' files: what their starter contains is no secret.
+            let secrets = Secrets::gather(root, HANDED_OUT, &bundle)?;
             if update {
                 bundle = bundle.without_students_files(HANDED_OUT);
             }
-            write_bundle(root, &bundle, out.as_deref(), check)
+            write_bundle(root, &bundle, &secrets, out.as_deref(), check)
         }
         Command::Package {
             platform,
@@ -261,8 +263,13 @@ fn solutions() -> Result<Solutions, SolutionsError> {
 }
 
 /// Writes the students' bundle. Fails if the bundle contains a secret.
-fn write_bundle(root: &Path, bundle: &Bundle, out: Option<&Path>, check: bool) -> CommandResult {
-    let secrets = Secrets::gather(root, HANDED_OUT, bundle)?;
+fn write_bundle(
+    root: &Path,
+    bundle: &Bundle,
+    secrets: &Secrets,
+    out: Option<&Path>,
+    check: bool,
+) -> CommandResult {
     let leaks = secrets.search(bundle);
     let mut problems: Vec<String> = leaks.iter().map(ToString::to_string).collect();
     if check && leaks.is_empty() {
@@ -321,7 +328,8 @@ fn write_package(
             }
         }
         Platform::Github => {
-            write_bundle(root, package, Some(out), false)?;
+            let secrets = Secrets::gather(root, HANDED_OUT, package)?;
+            write_bundle(root, package, &secrets, Some(out), false)?;
             if check {
                 report(
                     &trial::github::check(HANDED_OUT, root, package)?,

@@ -26,7 +26,7 @@ fn all_margins_are_wide_enough_for_one_seed() {
 }
 
 #[test]
-fn the_committed_table_covers_twenty_seeds() {
+fn the_committed_table_covers_a_hundred_seeds() {
     let table = table();
-    assert!(table.contains("of 20 seeds (0 to 19)"), "{table}");
+    assert!(table.contains("of 100 seeds (0 to 99)"), "{table}");
 }

@@ -198,7 +198,7 @@ fn refuses_to_write_into_a_folder_that_is_not_empty() {
     archive::write(&BUNDLE, folder.path()).expect("a new Git repository is accepted");
     assert!(folder.path().join(".github/workflows/grade.yml").is_file());
 
-    let output = write_to(folder.path());
+    let output = write_to(folder.path(), &[]);
     assert!(!output.status.success());
     let message = String::from_utf8(output.stderr).unwrap();
     assert!(

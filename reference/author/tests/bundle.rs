@@ -293,13 +293,14 @@ fn its_profiles_name_only_packages_that_it_has() {
 }
 
 #[test]
-fn the_first_stub_is_on_the_line_that_the_first_page_names() {
+fn the_first_stub_is_where_the_first_page_says() {
     let page = BUNDLE.text("handout/src/start.md").unwrap();
-    let line = page.split("(student/src/camera.rs:").nth(1).unwrap();
-    let line: usize = line.split(')').next().unwrap().parse().unwrap();
+    let place = page.split("(student/src/camera.rs:").nth(1).unwrap();
+    let (line, column) = place.split(')').next().unwrap().split_once(':').unwrap();
+    let [line, column] = [line, column].map(|number| number.parse::<usize>().unwrap() - 1);
     let camera = BUNDLE.text("student/src/camera.rs").unwrap();
-    let stub = camera.lines().nth(line - 1).unwrap();
-    assert!(stub.contains("todo!(\"task 1, camera:"), "{stub}");
+    let stub = &camera.lines().nth(line).unwrap()[column..];
+    assert!(stub.starts_with("todo!(\"task 1, camera:"), "{stub}");
 }
 
 #[test]

@@ -121,7 +121,7 @@ fn an_error_of_the_compiler_leaves_the_picture_until_it_is_fixed() {
 }
 
 #[test]
-fn a_panic_paints_its_pixels_and_names_its_line() {
+fn a_panic_paints_its_pixels_and_names_its_place() {
     let submission = Submission::reference();
     let signature = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
     let panic = "assert!(pixel.x != 3, \"column {}\", pixel.x);";
@@ -134,11 +134,13 @@ fn a_panic_paints_its_pixels_and_names_its_line() {
         (&note["message"], &note["count"]),
         (&json!("column 3"), &json!(10))
     );
-    let line = submission
-        .read("camera.rs")
-        .lines()
-        .position(|line| line.contains(panic));
-    let location = format!("camera.rs:{}", line.unwrap() + 1);
+    let code = submission.read("camera.rs");
+    let columns = code.lines().map(|line| line.find(panic));
+    let (line, column) = (1..)
+        .zip(columns)
+        .find_map(|(line, column)| Some((line, column? + 1)))
+        .unwrap();
+    let location = format!("camera.rs:{line}:{column}");
     assert_eq!(note["location"], location);
 }
 

@@ -22,15 +22,8 @@ pub fn keep_panics_quiet() {
         if !ATTEMPTING.get() {
             return previous_hook(panic);
         }
-        let text = panic.location().map_or(String::new(), |location| {
-            format!(
-                "{}:{}:{}",
-                location.file(),
-                location.line(),
-                location.column()
-            )
-        });
-        LOCATION.with(|cell| *cell.borrow_mut() = text);
+        let location = panic.location().map(ToString::to_string);
+        LOCATION.with(|cell| *cell.borrow_mut() = location.unwrap_or_default());
     }));
 }
 

@@ -2,7 +2,7 @@
 //! final points are rounded.
 
 /// Number of wrong positions that cost nothing even in a small picture: correct formulas may differ
-/// in the last bits.
+/// in the last bits, and so leave cracks between triangles.
 pub(super) const TOLERATED_POSITIONS: usize = 5;
 
 /// A fraction of an item's points.

@@ -172,7 +172,12 @@ fn run(command: Command) -> CommandResult {
         Command::Hints { record, .. } => {
             let recognition = recognise(&solutions()?, &exams::load_practice(root)?)?;
             println!("{recognition}");
-            record_result(record, "hints", PRACTICE, &recognition.summary_line())
+            record_result(
+                record,
+                "hints, one exam",
+                PRACTICE,
+                &recognition.summary_line(),
+            )
         }
         Command::Prove {
             seeds,
